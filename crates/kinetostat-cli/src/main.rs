@@ -1,0 +1,2 @@
+//! The kinetostat command.
+fn main() {}

@@ -1,0 +1,1 @@
+//! From a machining program and a robot model to deflections, corrections and a checked result.

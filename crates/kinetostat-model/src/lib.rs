@@ -1,0 +1,1 @@
+//! Model files of robots: TOML with units in the keys, presets, JSON Schema.

@@ -1,0 +1,1 @@
+//! Elastostatics of chains and mechanisms by virtual joint modelling.
