@@ -1,0 +1,530 @@
+//! The words from which a chain is written: offsets, actuators, passive joints, springs, links.
+
+use std::collections::HashSet;
+
+use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
+
+use crate::beam::BeamSection;
+use crate::chain::{
+    Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
+};
+use crate::error::{Error, Result};
+use crate::spatial::Pose;
+use crate::spring::{ParallelogramLaw, SpringBlock, SpringLaw};
+
+/// An actuator as the builder takes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActuatorSpec {
+    /// Prismatic or revolute.
+    pub kind: MotionKind,
+    /// Axis in the local frame; need not be normalised.
+    pub axis: Vector3<f64>,
+    /// Stiffness of the drive (N/m or N m/rad); `None` is a rigid drive.
+    pub stiffness: Option<f64>,
+    /// Deflection at rest, `theta0` (m or rad).
+    pub rest: f64,
+    /// Command from which inverse kinematics starts (m or rad).
+    pub home: f64,
+    /// Limits of the command (m or rad).
+    pub limits: Option<(f64, f64)>,
+}
+
+impl ActuatorSpec {
+    /// An actuator with an elastic drive, at home at zero, without limits.
+    #[must_use]
+    pub fn new(kind: MotionKind, axis: Vector3<f64>, stiffness: f64) -> Self {
+        Self {
+            kind,
+            axis,
+            stiffness: Some(stiffness),
+            rest: 0.0,
+            home: 0.0,
+            limits: None,
+        }
+    }
+}
+
+/// Directions of a 6-D virtual spring in the order of its motions: `x y z rx ry rz`.
+const SIX: [(MotionKind, usize); 6] = [
+    (MotionKind::Prismatic, 0),
+    (MotionKind::Prismatic, 1),
+    (MotionKind::Prismatic, 2),
+    (MotionKind::Revolute, 0),
+    (MotionKind::Revolute, 1),
+    (MotionKind::Revolute, 2),
+];
+const SIX_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+fn unit(axis: usize) -> Vector3<f64> {
+    let mut v = Vector3::zeros();
+    v[axis] = 1.0;
+    v
+}
+
+/// Builds a [`Chain`], base first. Mistakes are collected and reported by [`Self::build`].
+#[derive(Clone, Debug)]
+pub struct ChainBuilder {
+    chain: Chain,
+    mistake: Option<String>,
+}
+
+impl ChainBuilder {
+    pub(crate) fn new(name: impl Into<String>) -> Self {
+        Self {
+            chain: Chain {
+                name: name.into(),
+                elements: Vec::new(),
+                coordinates: Vec::new(),
+                actuators: Vec::new(),
+                springs: Vec::new(),
+                nodes: Vec::new(),
+                bodies: Vec::new(),
+                scale: Scale {
+                    length: 1.0,
+                    stiffness: 1.0,
+                },
+            },
+            mistake: None,
+        }
+    }
+
+    fn fault(&mut self, text: String) {
+        self.mistake.get_or_insert(text);
+    }
+
+    fn unit_axis(&mut self, name: &str, axis: Vector3<f64>) -> Unit<Vector3<f64>> {
+        Unit::try_new(axis, 1e-12)
+            .filter(|a| a.iter().all(|x| x.is_finite()))
+            .unwrap_or_else(|| {
+                self.fault(format!(
+                    "'{name}': the axis [{}, {}, {}] has no direction",
+                    axis.x, axis.y, axis.z
+                ));
+                Vector3::x_axis()
+            })
+    }
+
+    fn coordinate(&mut self, name: String, role: Role, kind: MotionKind, home: f64) -> usize {
+        if !home.is_finite() {
+            self.fault(format!("'{name}': the start value is {home}"));
+        }
+        self.chain.coordinates.push(Coordinate {
+            name,
+            role,
+            kind,
+            home,
+        });
+        self.chain.coordinates.len() - 1
+    }
+
+    fn motion(
+        &mut self,
+        kind: MotionKind,
+        axis: Unit<Vector3<f64>>,
+        coordinate: Option<Drive>,
+        command: Option<Drive>,
+    ) {
+        self.chain.elements.push(Element::Motion(Motion {
+            kind,
+            axis,
+            coordinate,
+            command,
+        }));
+    }
+
+    /// A constant offset.
+    #[must_use]
+    pub fn rigid(mut self, pose: Pose) -> Self {
+        if pose.to_homogeneous().iter().any(|x| !x.is_finite()) {
+            self.fault("a rigid offset holds a number that is not finite".into());
+        }
+        self.chain.elements.push(Element::Rigid(pose));
+        self
+    }
+
+    /// A constant translation, m.
+    #[must_use]
+    pub fn translation(self, offset: Vector3<f64>) -> Self {
+        self.rigid(Pose::translation(offset.x, offset.y, offset.z))
+    }
+
+    /// An actuator: its command plus, in series, the spring of its drive.
+    #[must_use]
+    pub fn actuator(mut self, name: &str, spec: ActuatorSpec) -> Self {
+        let axis = self.unit_axis(name, spec.axis);
+        let index = self.chain.actuators.len();
+        let coordinate = spec.stiffness.map(|k| {
+            let c = self.coordinate(name.to_owned(), Role::Spring, spec.kind, 0.0);
+            self.block(
+                name,
+                c,
+                vec![spec.rest],
+                SpringLaw::Linear(DMatrix::from_element(1, 1, k)),
+            );
+            c
+        });
+        if let Some((low, high)) = spec.limits
+            && !(low <= spec.home && spec.home <= high)
+        {
+            self.fault(format!(
+                "actuator '{name}': its home {} is outside its limits {low} .. {high}",
+                spec.home
+            ));
+        }
+        if !spec.home.is_finite() {
+            self.fault(format!("actuator '{name}': its home is {}", spec.home));
+        }
+        self.chain.actuators.push(Actuator {
+            name: name.to_owned(),
+            kind: spec.kind,
+            home: spec.home,
+            limits: spec.limits,
+            coordinate,
+        });
+        self.motion(
+            spec.kind,
+            axis,
+            coordinate.map(|index| Drive { index, ratio: 1.0 }),
+            Some(Drive { index, ratio: 1.0 }),
+        );
+        self
+    }
+
+    /// A passive joint of one degree of freedom. `home` (m or rad) starts inverse kinematics.
+    #[must_use]
+    pub fn passive(mut self, name: &str, kind: MotionKind, axis: Vector3<f64>, home: f64) -> Self {
+        let axis = self.unit_axis(name, axis);
+        let index = self.coordinate(name.to_owned(), Role::Passive, kind, home);
+        self.motion(kind, axis, Some(Drive { index, ratio: 1.0 }), None);
+        self
+    }
+
+    /// A universal joint: two passive rotations in this order, named `name.1`, `name.2`.
+    #[must_use]
+    pub fn passive_universal(self, name: &str, first: Vector3<f64>, second: Vector3<f64>) -> Self {
+        self.passive(&format!("{name}.1"), MotionKind::Revolute, first, 0.0)
+            .passive(&format!("{name}.2"), MotionKind::Revolute, second, 0.0)
+    }
+
+    /// A spherical joint: passive rotations about x, y, z in this order, named `name.x` ...
+    #[must_use]
+    pub fn passive_spherical(mut self, name: &str) -> Self {
+        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+            self = self.passive(
+                &format!("{name}.{letter}"),
+                MotionKind::Revolute,
+                unit(axis),
+                0.0,
+            );
+        }
+        self
+    }
+
+    /// One more motion driven by an existing coordinate: displacement `ratio * coordinate`. This is
+    /// how parallelograms and mimic joints are written.
+    #[must_use]
+    pub fn coupled(
+        mut self,
+        coordinate: &str,
+        kind: MotionKind,
+        axis: Vector3<f64>,
+        ratio: f64,
+    ) -> Self {
+        let axis = self.unit_axis(coordinate, axis);
+        match self.chain.coordinates.iter().position(|c| c.name == coordinate) {
+            Some(index) => self.motion(kind, axis, Some(Drive { index, ratio }), None),
+            None => self.fault(format!(
+                "a motion is coupled to '{coordinate}', but no coordinate of that name comes before it"
+            )),
+        }
+        self
+    }
+
+    /// A virtual spring of one degree of freedom: stiffness N/m or N m/rad, `rest` is `theta0`.
+    #[must_use]
+    pub fn spring(
+        mut self,
+        name: &str,
+        kind: MotionKind,
+        axis: Vector3<f64>,
+        stiffness: f64,
+        rest: f64,
+    ) -> Self {
+        let axis = self.unit_axis(name, axis);
+        let index = self.coordinate(name.to_owned(), Role::Spring, kind, 0.0);
+        self.block(
+            name,
+            index,
+            vec![rest],
+            SpringLaw::Linear(DMatrix::from_element(1, 1, stiffness)),
+        );
+        self.motion(kind, axis, Some(Drive { index, ratio: 1.0 }), None);
+        self
+    }
+
+    /// A 6-D virtual spring, translations before rotations ("TR"): `Tx Ty Tz Rx Ry Rz` with a full
+    /// symmetric 6 x 6 matrix (N/m, N/rad, N m/m, N m/rad) in local axes, and `theta0` (m, rad).
+    #[must_use]
+    pub fn spring6(self, name: &str, stiffness: &Matrix6<f64>, rest: [f64; 6]) -> Self {
+        let matrix = DMatrix::from_fn(6, 6, |i, j| stiffness[(i, j)]);
+        self.springs(
+            name,
+            &[0, 1, 2, 3, 4, 5],
+            SpringLaw::Linear(matrix),
+            rest.to_vec(),
+        )
+    }
+
+    /// Some of the six directions (0..6 = `x y z rx ry rz`, increasing) held by one law.
+    #[must_use]
+    pub fn springs(
+        mut self,
+        name: &str,
+        directions: &[usize],
+        law: SpringLaw,
+        rest: Vec<f64>,
+    ) -> Self {
+        if directions.is_empty()
+            || directions.windows(2).any(|w| w[0] >= w[1])
+            || directions.iter().any(|&d| d > 5)
+        {
+            self.fault(format!(
+                "spring '{name}': directions must increase and lie in 0..6"
+            ));
+            return self;
+        }
+        let first = self.chain.coordinates.len();
+        for &d in directions {
+            let (kind, axis) = SIX[d];
+            let index =
+                self.coordinate(format!("{name}.{}", SIX_NAMES[d]), Role::Spring, kind, 0.0);
+            self.motion(
+                kind,
+                Unit::new_unchecked(unit(axis)),
+                Some(Drive { index, ratio: 1.0 }),
+                None,
+            );
+        }
+        self.block(name, first, rest, law);
+        self
+    }
+
+    /// A straight elastic link along local x: the offset, then the spring at its far end [R 3.26].
+    #[must_use]
+    pub fn link(self, name: &str, section: &BeamSection, length: f64) -> Self {
+        if !(length.is_finite() && length > 0.0) {
+            let mut this = self;
+            this.fault(format!(
+                "link '{name}': its length is {length}, a positive number of metres is needed"
+            ));
+            return this;
+        }
+        self.translation(Vector3::new(length, 0.0, 0.0)).spring6(
+            name,
+            &section.cantilever(length),
+            [0.0; 6],
+        )
+    }
+
+    /// A bar parallelogram along local x that swings about local y: `Ry(q2) Tx(length) V5 Ry(-q2)`,
+    /// with the passive coordinate `name` and the spring `name.bars` (see [`ParallelogramLaw`]).
+    /// `bar` is the cantilever matrix of one bar, `width` the distance of the bars (m).
+    #[must_use]
+    pub fn parallelogram(
+        self,
+        name: &str,
+        length: f64,
+        width: f64,
+        bar: &Matrix6<f64>,
+        home: f64,
+    ) -> Self {
+        let axis = Vector3::y();
+        let mut this = self.passive(name, MotionKind::Revolute, axis, home);
+        let inclination = this.chain.coordinates.len() - 1;
+        if !(length > 0.0 && width > 0.0 && length.is_finite() && width.is_finite()) {
+            this.fault(format!(
+                "parallelogram '{name}': length {length} and width {width} must be positive"
+            ));
+        }
+        let law = SpringLaw::Parallelogram(ParallelogramLaw {
+            bar: *bar,
+            width,
+            inclination,
+        });
+        this.translation(Vector3::new(length, 0.0, 0.0))
+            .springs(&format!("{name}.bars"), &[0, 1, 3, 4, 5], law, vec![0.0; 5])
+            .coupled(name, MotionKind::Revolute, axis, -1.0)
+    }
+
+    /// Names the frame reached so far. The end of the chain is the node `tip` without being named.
+    #[must_use]
+    pub fn node(mut self, name: &str) -> Self {
+        self.chain
+            .elements
+            .push(Element::Node(self.chain.nodes.len()));
+        self.chain.nodes.push(name.to_owned());
+        self
+    }
+
+    /// A mass (kg) fixed to the frame reached so far: centre of mass (m, local) and inertia about
+    /// it (kg m^2, local axes). Its centre becomes a node named `name`.
+    #[must_use]
+    pub fn body(
+        mut self,
+        name: &str,
+        mass: f64,
+        centre_of_mass: Vector3<f64>,
+        inertia: Matrix3<f64>,
+    ) -> Self {
+        if !(mass.is_finite() && mass >= 0.0) {
+            self.fault(format!(
+                "body '{name}': its mass is {mass} kg, a number not below zero is needed"
+            ));
+        }
+        if centre_of_mass
+            .iter()
+            .chain(inertia.iter())
+            .any(|x| !x.is_finite())
+        {
+            self.fault(format!(
+                "body '{name}': centre of mass or inertia is not finite"
+            ));
+        }
+        let offset = Pose::translation(centre_of_mass.x, centre_of_mass.y, centre_of_mass.z);
+        self.chain.elements.push(Element::Rigid(offset));
+        let node = self.chain.nodes.len();
+        self = self.node(name);
+        self.chain.elements.push(Element::Rigid(offset.inverse()));
+        self.chain.bodies.push(Body {
+            name: name.to_owned(),
+            node,
+            mass,
+            inertia,
+        });
+        self
+    }
+
+    fn block(&mut self, name: &str, first: usize, rest: Vec<f64>, law: SpringLaw) {
+        let block = SpringBlock {
+            name: name.to_owned(),
+            first,
+            rest,
+            law,
+        };
+        if block.rest.iter().any(|x| !x.is_finite()) {
+            self.fault(format!("spring '{name}': its rest position is not finite"));
+        }
+        self.chain.springs.push(block);
+    }
+
+    fn check_spring(block: &SpringBlock) -> Option<String> {
+        let posture = vec![0.3; block.first + 6];
+        let k = block.stiffness_at(&posture);
+        let name = &block.name;
+        if k.nrows() != block.len() || k.ncols() != block.len() {
+            return Some(format!(
+                "spring '{name}': a {0} x {0} matrix is needed, {1} x {2} was given",
+                block.len(),
+                k.nrows(),
+                k.ncols()
+            ));
+        }
+        if k.iter().any(|x| !x.is_finite()) {
+            return Some(format!(
+                "spring '{name}': its stiffness holds a number that is not finite"
+            ));
+        }
+        // Balance the units so that metres and radians are judged alike.
+        let scale: Vec<f64> = (0..k.nrows())
+            .map(|i| k[(i, i)].abs().max(1e-300).sqrt())
+            .collect();
+        let balanced = DMatrix::from_fn(k.nrows(), k.nrows(), |i, j| {
+            k[(i, j)] / (scale[i] * scale[j])
+        });
+        if (&balanced - balanced.transpose()).amax() > 1e-9 {
+            return Some(format!(
+                "spring '{name}': its stiffness matrix is not symmetric"
+            ));
+        }
+        if let Some(i) = (0..k.nrows()).find(|&i| k[(i, i)] <= 0.0) {
+            return Some(format!(
+                "spring '{name}': its stiffness {} is not positive (diagonal entry {}); a free direction is a passive joint",
+                k[(i, i)],
+                i + 1
+            ));
+        }
+        let least = balanced.symmetric_eigenvalues().min();
+        (least <= 1e-12).then(|| {
+            format!("spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {least:.2e})")
+        })
+    }
+
+    /// Checks the description and freezes it.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for an axis without direction, a stiffness that is not symmetric and
+    /// positive definite, a name used twice, or a number that is not finite.
+    pub fn build(mut self) -> Result<Chain> {
+        let place = format!("chain '{}'", self.chain.name);
+        self = self.node("tip");
+        if let Some(reason) = self.mistake {
+            return Err(Error::model(place, reason));
+        }
+        let mut chain = self.chain;
+        for names in [
+            chain
+                .coordinates
+                .iter()
+                .map(|c| &c.name)
+                .collect::<Vec<_>>(),
+            chain.nodes.iter().collect(),
+            chain.actuators.iter().map(|a| &a.name).collect(),
+        ] {
+            let mut seen = HashSet::new();
+            if let Some(twice) = names.into_iter().find(|n| !seen.insert(n.as_str())) {
+                return Err(Error::model(
+                    place,
+                    format!("the name '{twice}' is used twice"),
+                ));
+            }
+        }
+        if let Some(reason) = chain.springs.iter().find_map(Self::check_spring) {
+            return Err(Error::model(place, reason));
+        }
+        chain.scale = natural_scale(&chain);
+        Ok(chain)
+    }
+}
+
+/// Length: sum of the rigid offsets. Stiffness: geometric mean of the springs, rotations referred
+/// to that length.
+fn natural_scale(chain: &Chain) -> Scale {
+    let length: f64 = chain
+        .elements
+        .iter()
+        .map(|e| match e {
+            Element::Rigid(pose) => pose.translation.vector.norm(),
+            _ => 0.0,
+        })
+        .sum();
+    let length = if length > 1e-9 { length } else { 1.0 };
+    let posture = chain.home_coordinates();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for block in &chain.springs {
+        let k = block.stiffness_at(&posture);
+        for i in 0..block.len() {
+            let unit = match chain.coordinates[block.first + i].kind {
+                MotionKind::Prismatic => 1.0,
+                MotionKind::Revolute => length * length,
+            };
+            sum += (k[(i, i)] / unit).ln();
+            count += 1.0;
+        }
+    }
+    let stiffness = if count > 0.0 {
+        (sum / count).exp()
+    } else {
+        1.0
+    };
+    Scale { length, stiffness }
+}

@@ -1,0 +1,117 @@
+//! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
+//! finding (singular, unstable, redundant) is a field of a result.
+
+use crate::spatial::{Pose, Wrench};
+
+/// Result of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Every variant says where, what was expected and what was found.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A list has the wrong length.
+    #[error("{place}: {what} needs {expected} values, {found} were given")]
+    Size {
+        /// Chain, limb or function.
+        place: String,
+        /// Which list.
+        what: &'static str,
+        /// Needed length.
+        expected: usize,
+        /// Length found.
+        found: usize,
+    },
+    /// A name is unknown.
+    #[error("{place}: there is no {what} named '{name}' (there are: {known})")]
+    UnknownName {
+        /// Chain or mechanism.
+        place: String,
+        /// Kind of thing: node, limb, platform.
+        what: &'static str,
+        /// Name asked for.
+        name: String,
+        /// Names that exist, comma separated.
+        known: String,
+    },
+    /// A description does not make a chain or mechanism.
+    #[error("{place}: {reason}")]
+    Model {
+        /// Chain, joint or spring.
+        place: String,
+        /// What is wrong and what was expected.
+        reason: String,
+    },
+    /// A number is not finite.
+    #[error("{place}: {what} is {value}, a finite number is needed")]
+    NotFinite {
+        /// Where.
+        place: String,
+        /// Which quantity.
+        what: String,
+        /// Value found.
+        value: f64,
+    },
+    /// An iteration did not converge; carries its last state so that it can be looked at.
+    #[error(
+        "{place}: no equilibrium found in {iterations} iterations (last converged share of the load {load_factor:.3}, residual: {residual_position_m:.3e} m, torque {residual_torque:.3e} of the applied)"
+    )]
+    NotConverged {
+        /// Chain or mechanism.
+        place: String,
+        /// Iterations spent.
+        iterations: usize,
+        /// Closure left over, m.
+        residual_position_m: f64,
+        /// Equilibrium residual, relative to the loads.
+        residual_torque: f64,
+        /// Largest share of the load for which an equilibrium was found.
+        load_factor: f64,
+        /// Last iterate of all coordinates.
+        last: Vec<f64>,
+    },
+    /// The actuators cannot bring the end there.
+    #[error(
+        "{place}: the target cannot be reached; nearest pose found is {distance_m:.4e} m and {angle_rad:.3e} rad away"
+    )]
+    Unreachable {
+        /// Limb or mechanism.
+        place: String,
+        /// Distance of the nearest pose found, m.
+        distance_m: f64,
+        /// Its angle, rad.
+        angle_rad: f64,
+        /// Nearest pose found.
+        nearest: Box<Pose>,
+    },
+    /// The platform is free to move under this wrench: no position is an equilibrium.
+    #[error(
+        "{place}: the wrench pushes in a free direction, so the platform has no equilibrium ({reason})"
+    )]
+    FreeDirection {
+        /// Mechanism.
+        place: String,
+        /// Which direction.
+        reason: String,
+        /// The wrench.
+        wrench: Box<Wrench>,
+    },
+}
+
+impl Error {
+    pub(crate) fn model(place: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self::Model {
+            place: place.into(),
+            reason: reason.into(),
+        }
+    }
+
+    /// The variants that mean "could not be answered" rather than "wrong input".
+    #[must_use]
+    pub fn is_unanswered(&self) -> bool {
+        matches!(
+            self,
+            Self::NotConverged { .. } | Self::Unreachable { .. } | Self::FreeDirection { .. }
+        )
+    }
+}

@@ -1,0 +1,263 @@
+//! A mechanism: a graph of platforms (rigid bodies in equilibrium; the first one, the base, is
+//! fixed) joined by limbs (chains) [R ch. 3, 6].
+//!
+//! Each limb keeps two geometries: the nominal one, from which the controller commands actuators,
+//! and the actual one, with its assembly and manufacturing errors, which decides where the machine
+//! goes.
+
+use std::collections::HashSet;
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::chain::Chain;
+use crate::error::{Error, Result};
+use crate::spatial::Pose;
+
+/// A rigid body of the graph.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Platform {
+    /// Name, unique.
+    pub name: String,
+    /// Pose at which the machine is at home, base from platform.
+    pub home: Pose,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass in the platform's frame, m.
+    pub centre_of_mass: Vector3<f64>,
+    /// Inertia about the centre of mass, kg m^2, platform axes (kept for dynamics).
+    pub inertia: Matrix3<f64>,
+}
+
+impl Platform {
+    /// A massless platform.
+    #[must_use]
+    pub fn new(name: impl Into<String>, home: Pose) -> Self {
+        Self {
+            name: name.into(),
+            home,
+            mass: 0.0,
+            centre_of_mass: Vector3::zeros(),
+            inertia: Matrix3::zeros(),
+        }
+    }
+}
+
+/// A chain between two platforms. Its base frame is the frame of `from`; its tip is fixed to `to`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limb {
+    /// Name, unique.
+    pub name: String,
+    /// Index of the platform where it starts.
+    pub from: usize,
+    /// Index of the platform where it ends.
+    pub to: usize,
+    /// Pose of the tip in the frame of `to`. A limb that ends at the platform's reference point
+    /// has the identity; elsewhere the lever arm's geometric stiffness is accounted for.
+    pub platform_from_tip: Pose,
+    /// Geometry that the controller believes in.
+    pub nominal: Chain,
+    /// Geometry that exists: same joints and springs, other rigid offsets.
+    pub actual: Chain,
+}
+
+/// Platforms, limbs and gravity. Never changes after [`MechanismBuilder::build`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mechanism {
+    pub(crate) name: String,
+    pub(crate) platforms: Vec<Platform>,
+    pub(crate) limbs: Vec<Limb>,
+    pub(crate) gravity: Vector3<f64>,
+    pub(crate) tool: usize,
+}
+
+impl Mechanism {
+    /// Starts a description; the base platform exists already and has index 0.
+    #[must_use]
+    pub fn builder(name: impl Into<String>) -> MechanismBuilder {
+        MechanismBuilder {
+            mechanism: Self {
+                name: name.into(),
+                platforms: vec![Platform::new("base", Pose::identity())],
+                limbs: Vec::new(),
+                gravity: Vector3::zeros(),
+                tool: 0,
+            },
+        }
+    }
+
+    /// A serial robot: one chain from the base to the platform `tool`.
+    ///
+    /// # Errors
+    /// As [`MechanismBuilder::build`].
+    pub fn serial(chain: Chain, home: Pose, gravity: Vector3<f64>) -> Result<Self> {
+        let name = chain.name.clone();
+        let mut builder = Self::builder(&name).gravity(gravity);
+        let tool = builder.platform(Platform::new("tool", home));
+        builder
+            .limb(Limb {
+                name,
+                from: 0,
+                to: tool,
+                platform_from_tip: Pose::identity(),
+                nominal: chain.clone(),
+                actual: chain,
+            })
+            .build()
+    }
+
+    /// Name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Platforms; index 0 is the fixed base.
+    #[must_use]
+    pub fn platforms(&self) -> &[Platform] {
+        &self.platforms
+    }
+
+    /// Limbs.
+    #[must_use]
+    pub fn limbs(&self) -> &[Limb] {
+        &self.limbs
+    }
+
+    /// Gravity, m/s^2, base axes.
+    #[must_use]
+    pub fn gravity(&self) -> Vector3<f64> {
+        self.gravity
+    }
+
+    /// Index of the platform that carries the tool: the last one.
+    #[must_use]
+    pub fn tool(&self) -> usize {
+        self.tool
+    }
+
+    /// Number of actuators of all limbs.
+    #[must_use]
+    pub fn actuator_count(&self) -> usize {
+        self.limbs.iter().map(|l| l.nominal.actuators.len()).sum()
+    }
+
+    /// `limb.actuator` of every actuator, in the order of [`crate::Posture::commands`].
+    #[must_use]
+    pub fn actuator_names(&self) -> Vec<String> {
+        let single = self.limbs.len() == 1;
+        self.limbs
+            .iter()
+            .flat_map(|l| {
+                l.nominal.actuators.iter().map(move |a| {
+                    if single {
+                        a.name.clone()
+                    } else {
+                        format!("{}.{}", l.name, a.name)
+                    }
+                })
+            })
+            .collect()
+    }
+}
+
+/// Builds a [`Mechanism`].
+#[derive(Clone, Debug)]
+pub struct MechanismBuilder {
+    mechanism: Mechanism,
+}
+
+impl MechanismBuilder {
+    /// Adds a moving platform and returns its index. The last one added carries the tool.
+    pub fn platform(&mut self, platform: Platform) -> usize {
+        self.mechanism.platforms.push(platform);
+        self.mechanism.tool = self.mechanism.platforms.len() - 1;
+        self.mechanism.tool
+    }
+
+    /// Adds a limb.
+    #[must_use]
+    pub fn limb(mut self, limb: Limb) -> Self {
+        self.mechanism.limbs.push(limb);
+        self
+    }
+
+    /// Gravity, m/s^2, base axes; zero if not called.
+    #[must_use]
+    pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
+        self.mechanism.gravity = gravity;
+        self
+    }
+
+    /// Checks the graph and freezes it.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for an unknown platform, a limb from a platform to itself, a name used
+    /// twice, a platform without limbs, or a nominal and an actual chain that differ in more than
+    /// rigid offsets.
+    pub fn build(self) -> Result<Mechanism> {
+        let m = self.mechanism;
+        let place = format!("mechanism '{}'", m.name);
+        let fault = |reason: String| Err(Error::model(place.clone(), reason));
+        if m.platforms.len() < 2 {
+            return fault("it has no moving platform".into());
+        }
+        if m.gravity.iter().any(|x| !x.is_finite()) {
+            return fault("gravity is not finite".into());
+        }
+        for names in [
+            m.platforms.iter().map(|p| &p.name).collect::<Vec<_>>(),
+            m.limbs.iter().map(|l| &l.name).collect(),
+        ] {
+            let mut seen = HashSet::new();
+            if let Some(twice) = names.into_iter().find(|n| !seen.insert(n.as_str())) {
+                return fault(format!("the name '{twice}' is used twice"));
+            }
+        }
+        for platform in &m.platforms {
+            let finite = platform.home.to_homogeneous().iter().all(|x| x.is_finite())
+                && platform.centre_of_mass.iter().all(|x| x.is_finite())
+                && platform.inertia.iter().all(|x| x.is_finite())
+                && platform.mass.is_finite();
+            if !finite || platform.mass < 0.0 {
+                return fault(format!(
+                    "platform '{}': home pose, mass and centre of mass must be finite, the mass not negative",
+                    platform.name
+                ));
+            }
+        }
+        for limb in &m.limbs {
+            let count = m.platforms.len();
+            if limb.from >= count || limb.to >= count || limb.from == limb.to {
+                return fault(format!(
+                    "limb '{}': it joins platforms {} and {} of {count}; two different ones are needed",
+                    limb.name, limb.from, limb.to
+                ));
+            }
+            if limb.to == 0 {
+                return fault(format!(
+                    "limb '{}': it ends at the base; write it from the base to the moving platform",
+                    limb.name
+                ));
+            }
+            let same = limb.nominal.coordinates == limb.actual.coordinates
+                && limb.nominal.actuators == limb.actual.actuators
+                && limb.nominal.nodes == limb.actual.nodes;
+            if !same {
+                return fault(format!(
+                    "limb '{}': nominal and actual chain must have the same joints, springs and nodes",
+                    limb.name
+                ));
+            }
+        }
+        if let Some(lonely) =
+            (1..m.platforms.len()).find(|&p| m.limbs.iter().all(|l| l.from != p && l.to != p))
+        {
+            return fault(format!(
+                "no limb holds platform '{}'",
+                m.platforms[lonely].name
+            ));
+        }
+        Ok(m)
+    }
+}
