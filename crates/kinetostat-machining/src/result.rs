@@ -1,0 +1,185 @@
+//! What a run tells: plain data, units in the names; the same structure that `--json` prints, the
+//! report draws and `points.csv` lists.
+
+use serde::{Deserialize, Serialize};
+
+/// Version of this structure; it changes when a name or a meaning changes.
+pub const RESULT_SCHEMA: u32 = 1;
+
+/// Result of a run over a program.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunResult {
+    /// [`RESULT_SCHEMA`].
+    pub schema: u32,
+    /// Version of kinetostat that made it.
+    pub kinetostat_version: String,
+    /// Figures of the whole run.
+    pub summary: Summary,
+    /// What was asked.
+    pub question: Question,
+    /// Places with the largest errors before compensation, worst first; at most ten.
+    pub worst_points: Vec<PointResult>,
+    /// Everything a person should know and did not ask for.
+    pub warnings: Vec<String>,
+    /// Points along the path, decimated to at most [`Self::MAX_POINTS`] for plots; `points.csv` has
+    /// all of them. The worst points are always among them.
+    pub points: Vec<PointResult>,
+}
+
+impl RunResult {
+    /// Most points that are kept for plots.
+    pub const MAX_POINTS: usize = 4000;
+}
+
+/// What was asked of the run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Name of the model.
+    pub model: String,
+    /// Where it came from: preset or file name.
+    pub model_source: String,
+    /// Deviations of the actual from the nominal geometry, one sentence each.
+    pub model_deviations: Vec<String>,
+    /// File name of the program.
+    pub program: String,
+    /// The load in words.
+    pub load: String,
+    /// Where the program lies, in words.
+    pub placement: String,
+    /// The tool in words.
+    pub tool: String,
+    /// Actuators in the order of the per-actuator lists.
+    pub actuators: Vec<ActuatorColumn>,
+    /// Tolerance of the corrected path, mm.
+    pub tolerance_mm: f64,
+    /// Tolerance of arcs divided into chords, mm.
+    pub chord_tolerance_mm: f64,
+    /// Decimals written.
+    pub decimals: u8,
+    /// Lower and upper corner of the feed path in program coordinates, mm.
+    pub box_min_mm: [f64; 3],
+    /// See `box_min_mm`.
+    pub box_max_mm: [f64; 3],
+    /// True if a compensated program was written.
+    pub compensated: bool,
+}
+
+/// One actuator of the per-actuator lists.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ActuatorColumn {
+    /// Name.
+    pub name: String,
+    /// `mm` or `deg`: unit of corrections.
+    pub motion_unit: String,
+    /// `N` or `N m`.
+    pub force_unit: String,
+}
+
+/// Figures of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Points of the path that were solved.
+    pub points: usize,
+    /// Blocks of the input program.
+    pub blocks: usize,
+    /// Blocks of the written program (0 if none was written).
+    pub blocks_out: usize,
+    /// Blocks that were divided.
+    pub blocks_split: usize,
+    /// Blocks carried over byte for byte.
+    pub blocks_unchanged: usize,
+    /// Bytes of the input program.
+    pub bytes_in: usize,
+    /// Bytes of the written program.
+    pub bytes_out: usize,
+    /// Straight pieces written for feed moves.
+    pub pieces: usize,
+    /// Moves at a corner that change only the correction.
+    pub corner_steps: usize,
+    /// Longest of them, mm.
+    pub largest_corner_step_mm: f64,
+    /// Shortest piece written, mm.
+    pub smallest_piece_mm: f64,
+    /// Most blocks per second at programmed feed.
+    pub blocks_per_second: f64,
+    /// Length of the feed path, mm.
+    pub feed_length_mm: f64,
+    /// Largest distance of the tool from its programmed place without compensation, mm.
+    pub max_position_error_before_mm: f64,
+    /// Root mean square of it over the points, mm.
+    pub rms_position_error_before_mm: f64,
+    /// The same for the written program, solved again from its file, mm.
+    pub max_position_error_after_mm: f64,
+    /// See `max_position_error_after_mm`.
+    pub rms_position_error_after_mm: f64,
+    /// Share of the after-error that comes from the decimals written, mm.
+    pub max_rounding_error_mm: f64,
+    /// Largest correction, mm.
+    pub max_correction_mm: f64,
+    /// Largest rotation of the tool that a program of positions cannot correct, deg.
+    pub max_residual_rotation_deg: f64,
+    /// Largest deviation of the tool's speed along the part from the programmed one, percent.
+    pub max_speed_deviation_percent: f64,
+    /// Smallest principal stiffness of the tool along the path, N/mm.
+    pub smallest_stiffness_n_per_mm: f64,
+    /// Largest buckling margin mu of any limb (1 is buckling); none for limbs without inner freedom.
+    pub largest_buckling_margin: Option<f64>,
+    /// Largest force or torque of each actuator (N or N m), in the order of `question.actuators`.
+    pub max_actuator_force: Vec<f64>,
+    /// Largest change of each actuator (mm or deg).
+    pub max_actuator_correction: Vec<f64>,
+    /// Every point converged.
+    pub converged: bool,
+    /// Every equilibrium is stable, shapes and platform.
+    pub stable: bool,
+}
+
+/// What happens at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PointKind {
+    /// On a cutting move.
+    #[default]
+    Feed,
+    /// At the end of a rapid.
+    Rapid,
+    /// On a corner step, where the load turns while the tool stands.
+    Corner,
+}
+
+/// One point of the path.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointResult {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Line of the written program, from 1 (0 if none).
+    pub output_line: usize,
+    /// Kind of move.
+    pub kind: PointKind,
+    /// Share of the move of this line, 0 to 1.
+    pub share: f64,
+    /// Length of the path up to here, mm.
+    pub path_mm: f64,
+    /// Where the tool should be, program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// Where the tool is without compensation minus where it should be, mm.
+    pub error_before_mm: [f64; 3],
+    /// The same for the written program.
+    pub error_after_mm: [f64; 3],
+    /// Correction written, mm.
+    pub correction_mm: [f64; 3],
+    /// Load on the tool in program axes: force N.
+    pub force_n: [f64; 3],
+    /// Rotation of the tool that stays, deg.
+    pub residual_rotation_deg: f64,
+    /// Force (N) or torque (N m) of every actuator.
+    pub actuator_force: Vec<f64>,
+    /// Change of every actuator by the compensation, mm or deg.
+    pub actuator_correction: Vec<f64>,
+    /// Smallest principal stiffness, N/mm.
+    pub smallest_stiffness_n_per_mm: f64,
+    /// Largest buckling margin mu.
+    pub buckling_margin: Option<f64>,
+    /// The equilibrium is stable.
+    pub stable: bool,
+}

@@ -1,0 +1,137 @@
+//! The target that must be commanded so that the tool is where it should be under load
+//! [R 7.7-7.13]: find `t0F` with `F = f(t_desired | t0F)`.
+//!
+//! The report's fixed point `t0F <- t0F + a (t_desired - f^-1(F | t0F))` solves one equilibrium per
+//! step. Here the tool is held at the desired place in the directions that the machine can
+//! correct, the nominal target becomes the unknown there, and one Newton iteration finds both.
+//! What the machine cannot correct stays as a reported residual.
+
+use crate::equilibrium::Residual;
+use crate::error::Result;
+use crate::mechanism::Mechanism;
+use crate::platform::{MechanismState, PlatformSolver, Unknowns};
+use crate::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::settings::Settings;
+use crate::spatial::{Pose, Twist, Wrench, pose_residual};
+
+/// A compensated target.
+#[derive(Clone, Debug)]
+pub struct Compensation<'m> {
+    /// Posture commanded for the modified target `t0F`.
+    pub posture: Posture<'m>,
+    /// From the desired pose to the modified target: what is added to the program.
+    pub correction: Twist,
+    /// From the desired pose to the pose reached under load: what was not corrected.
+    pub left_over: Twist,
+    /// The equilibrium at the modified target.
+    pub equilibrium: MechanismEquilibrium,
+}
+
+/// The modified target for one desired pose and one dead wrench at the tool's origin.
+///
+/// `directions` (base axes `x y z rx ry rz`) are corrected; a milling program of three axes
+/// corrects positions, `[true, true, true, false, false, false]`; see [`Posture::correctable`].
+///
+/// # Errors
+/// As [`Mechanism::posture`] and [`Posture::deflected_by`].
+pub fn compensate<'m>(
+    mechanism: &'m Mechanism,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    settings: &Settings,
+) -> Result<Compensation<'m>> {
+    let posture = mechanism.posture(desired)?.with_settings(*settings);
+    let start = posture.rest_state();
+    compensate_from(&posture, desired, wrench, directions, start)
+}
+
+/// As [`compensate`], starting from the posture and state of a neighbouring answer.
+///
+/// # Errors
+/// As [`compensate`].
+pub fn compensate_from<'m>(
+    near: &Posture<'m>,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    start: MechanismState,
+) -> Result<Compensation<'m>> {
+    let mechanism = near.mechanism();
+    let mut state = start;
+    let tool = mechanism.tool();
+    // Held directions start exactly where they must end.
+    let mut pose = *desired;
+    if !directions[3..].iter().any(|d| *d) {
+        pose.rotation = state.platforms[tool].rotation;
+    }
+    for k in 0..3 {
+        if !directions[k] {
+            pose.translation.vector[k] = state.platforms[tool].translation.vector[k];
+        }
+    }
+    state.platforms[tool] = pose;
+    let settings = *near.settings();
+    let mut solver = PlatformSolver::new(
+        mechanism,
+        settings,
+        near.limbs().to_vec(),
+        state,
+        Unknowns::Target(directions),
+    );
+    solver.wrench = *wrench;
+    solver.target = *near.target();
+    solver.refresh_rates();
+    let residual = match solver.solve(1.0, 0) {
+        Ok((iterations, balance)) => balance.residual(iterations),
+        Err(_) => fixed_point(&mut solver, desired, directions)?,
+    };
+    let equilibrium = conclude(&mut solver, *wrench, residual);
+    let posture = mechanism
+        .posture_from_joints(&solver.target, solver.posture.clone())?
+        .with_settings(settings);
+    Ok(Compensation {
+        correction: pose_residual(&solver.target, desired),
+        left_over: pose_residual(&equilibrium.tool, desired),
+        posture,
+        equilibrium,
+    })
+}
+
+/// The report's own iteration with `a = 1` [R 7.13], each step a robust equilibrium.
+fn fixed_point(
+    solver: &mut PlatformSolver<'_>,
+    desired: &Pose,
+    directions: [bool; 6],
+) -> Result<Residual> {
+    let mechanism = solver.mechanism;
+    let tool = mechanism.tool();
+    solver.unknowns = Unknowns::Pose;
+    let mut target = *desired;
+    let mut spent = 0;
+    let mut last = None;
+    for _ in 0..40 {
+        let posture = mechanism.posture(&target)?;
+        solver.target = target;
+        solver.posture = posture.limbs().to_vec();
+        solver.state = posture.rest_state();
+        let residual = solver.solve_robustly()?;
+        spent += residual.iterations;
+        last = Some(Residual {
+            iterations: spent,
+            ..residual
+        });
+        let mut miss = pose_residual(desired, &solver.state.platforms[tool]);
+        for k in 0..6 {
+            if !directions[k] {
+                miss.0[k] = 0.0;
+            }
+        }
+        let length = solver.scale().length;
+        if miss.linear().norm() + miss.angular().norm() * length < 1e-12 * length {
+            break;
+        }
+        target = crate::spatial::moved(&target, &miss);
+    }
+    last.ok_or_else(|| crate::error::Error::model(mechanism.name(), "no iteration was made"))
+}

@@ -1,0 +1,633 @@
+//! Equilibrium of one chain: for a prescribed end pose, a prescribed end wrench, or per direction
+//! a mixture of both [R 4.12-4.16].
+//!
+//! ```text
+//! J_q^T F + sum J_q,j^T G_j = 0,   J_theta^T F + sum J_theta,j^T G_j = K_theta (theta - theta0),
+//! pose(x) = (p*, R*)
+//! ```
+//!
+//! The iteration starts with the report's own step (loads lagged, `H = 0`), goes on with exact
+//! Newton on the bordered system under step control, and falls back on growing the load from an
+//! unloaded posture. A failure says up to which share of the load it came.
+
+use nalgebra::{DMatrix, Matrix6xX, Rotation3, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::chain::{Chain, MotionKind, Role};
+use crate::error::{Error, Result};
+use crate::kinematics::Kinematics;
+use crate::loading::{Load, NodeTangent};
+use crate::saddle::Saddle;
+use crate::settings::Settings;
+use crate::spatial::{Pose, Twist, Wrench, pose_residual};
+use crate::stability::{ShapeStability, shape_stability};
+use crate::stiffness::{ChainStiffness, chain_stiffness};
+
+/// What is prescribed in one direction of the end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Prescribed {
+    /// The pose: the wrench follows.
+    Pose,
+    /// The wrench: the motion follows.
+    Wrench,
+}
+
+/// Condition at the end of a chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndCondition {
+    /// Axes of the six directions, base from these axes.
+    pub axes: Rotation3<f64>,
+    /// Per direction `x y z rx ry rz` of those axes.
+    pub prescribed: [Prescribed; 6],
+    /// Target where the pose is prescribed, base from tip.
+    pub pose: Pose,
+    /// Wrench where it is prescribed: on the end, about its origin, base axes.
+    pub wrench: Wrench,
+}
+
+impl EndCondition {
+    /// The end is held at a pose.
+    #[must_use]
+    pub fn pose(pose: Pose) -> Self {
+        Self {
+            axes: Rotation3::identity(),
+            prescribed: [Prescribed::Pose; 6],
+            pose,
+            wrench: Wrench::zero(),
+        }
+    }
+
+    /// A dead wrench acts on the end.
+    #[must_use]
+    pub fn wrench(wrench: Wrench) -> Self {
+        Self {
+            axes: Rotation3::identity(),
+            prescribed: [Prescribed::Wrench; 6],
+            pose: Pose::identity(),
+            wrench,
+        }
+    }
+}
+
+/// Everything that decides the equilibrium of one chain.
+#[derive(Clone, Debug)]
+pub struct ChainProblem<'a> {
+    /// The chain.
+    pub chain: &'a Chain,
+    /// Pose of its base in the outer base.
+    pub base: Pose,
+    /// Actuator commands, m or rad.
+    pub commands: Vec<f64>,
+    /// Coordinates of the commanded, unloaded posture (m, rad): start of the iteration and the
+    /// place where posture-dependent springs are evaluated.
+    pub posture: Vec<f64>,
+    /// Loads on nodes.
+    pub loads: Vec<Load>,
+    /// Condition at the end.
+    pub end: EndCondition,
+}
+
+impl<'a> ChainProblem<'a> {
+    /// The chain at home, unloaded, with the given end condition.
+    #[must_use]
+    pub fn new(chain: &'a Chain, end: EndCondition) -> Self {
+        Self {
+            chain,
+            base: Pose::identity(),
+            commands: chain.home_commands(),
+            posture: chain.home_coordinates(),
+            loads: Vec::new(),
+            end,
+        }
+    }
+}
+
+/// How well the conditions of equilibrium hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Residual {
+    /// Closure of the end pose where it is prescribed, m (rotations at the natural length).
+    pub closure_m: f64,
+    /// Unbalanced torque as a share of the loads.
+    pub torque: f64,
+    /// Iterations spent.
+    pub iterations: usize,
+}
+
+/// A chain in equilibrium.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// Coordinates, m or rad, in the chain's order.
+    pub coordinates: Vec<f64>,
+    /// Wrench on the end, about its origin, base axes (N, N m).
+    pub wrench: Wrench,
+    /// Pose of the end, base from tip.
+    pub tip: Pose,
+    /// Poses of all nodes.
+    pub nodes: Vec<Pose>,
+    /// Torque of every coordinate's spring, N or N m (zero for passive joints).
+    pub spring_torques: Vec<f64>,
+    /// Energy stored in the springs, J.
+    pub energy: f64,
+    /// Tangent stiffness at the end, with what is free, rigid, negative and redundant.
+    pub stiffness: ChainStiffness,
+    /// Whether the chain keeps its shape while its end is held.
+    pub stability: ShapeStability,
+    /// How well the conditions hold.
+    pub residual: Residual,
+}
+
+/// Matrices and residuals of a chain at one state; buffers are reused between iterations.
+pub(crate) struct System {
+    pub kinematics: Kinematics,
+    /// 6 x (n + r \[+ 6\]) at the tip.
+    pub jacobian: Matrix6xX<f64>,
+    /// Generalised torque of all loads, the end wrench included.
+    pub torque: Vec<f64>,
+    /// Its derivative.
+    pub hessian: DMatrix<f64>,
+    /// Gradient of the springs' energy, n.
+    pub spring_torque: Vec<f64>,
+    /// Its derivative, n x n.
+    pub spring_tangent: DMatrix<f64>,
+    pub energy: f64,
+    wrenches: Vec<(usize, Wrench)>,
+    tangents: Vec<NodeTangent>,
+}
+
+impl System {
+    pub fn new(
+        chain: &Chain,
+        base: &Pose,
+        posture: &[f64],
+        commands: &[f64],
+        base_moves: bool,
+    ) -> Self {
+        let kinematics = Kinematics::new(chain, base, posture, commands, base_moves);
+        let (n, all) = (chain.coordinate_count(), kinematics.velocity_count());
+        Self {
+            jacobian: kinematics.jacobian(chain.tip()),
+            torque: vec![0.0; all],
+            hessian: DMatrix::zeros(all, all),
+            spring_torque: vec![0.0; n],
+            spring_tangent: DMatrix::zeros(n, n),
+            energy: 0.0,
+            wrenches: Vec::new(),
+            tangents: Vec::new(),
+            kinematics,
+        }
+    }
+
+    /// Evaluates at coordinates and end wrench; `factor` scales loads and preloads (1: as given).
+    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
+    pub fn evaluate(
+        &mut self,
+        chain: &Chain,
+        base: &Pose,
+        posture: &[f64],
+        commands: &[f64],
+        loads: &[Load],
+        coordinates: &[f64],
+        wrench: &Wrench,
+        factor: f64,
+    ) {
+        self.kinematics.update(chain, base, coordinates, commands);
+        self.jacobian = self.kinematics.jacobian(chain.tip());
+        self.wrenches.clear();
+        self.tangents.clear();
+        for load in loads {
+            load.add_wrenches(chain, &self.kinematics, factor, &mut self.wrenches);
+            load.add_tangents(&self.kinematics, factor, &mut self.tangents);
+        }
+        self.wrenches.push((chain.tip(), *wrench));
+        self.kinematics
+            .load_terms(&self.wrenches, &mut self.torque, &mut self.hessian);
+        self.kinematics
+            .add_tangents(&self.tangents, &mut self.hessian);
+        self.spring_torque.fill(0.0);
+        self.spring_tangent.fill(0.0);
+        self.energy = 0.0;
+        for block in chain.springs() {
+            self.energy += block.add(
+                coordinates,
+                posture,
+                factor,
+                &mut self.spring_torque,
+                &mut self.spring_tangent,
+            );
+        }
+    }
+
+    /// `[0 J; J^T H - K]` over the six wrench components and the `n` coordinates.
+    /// `with_hessian = false` gives the matrix of the report's iteration [R 4.15].
+    pub fn bordered(&self, with_hessian: bool) -> DMatrix<f64> {
+        let n = self.spring_torque.len();
+        let mut a = DMatrix::zeros(6 + n, 6 + n);
+        for j in 0..n {
+            for k in 0..6 {
+                a[(k, 6 + j)] = self.jacobian[(k, j)];
+                a[(6 + j, k)] = self.jacobian[(k, j)];
+            }
+            for i in 0..n {
+                let h = if with_hessian {
+                    self.hessian[(i, j)]
+                } else {
+                    0.0
+                };
+                a[(6 + i, 6 + j)] = h - self.spring_tangent[(i, j)];
+            }
+        }
+        a
+    }
+
+    /// Unbalanced torques, n.
+    pub fn unbalanced(&self, i: usize) -> f64 {
+        self.torque[i] - self.spring_torque[i]
+    }
+}
+
+/// Factors that make all unknowns of a bordered system comparable: six for the wrench, `n` for
+/// the coordinates; each has the unit of its unknown per square root of energy.
+pub(crate) fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
+    let scale = chain.scale();
+    let root = scale.stiffness.sqrt();
+    let mut factors = Vec::with_capacity(6 + chain.coordinate_count());
+    factors.extend([root; 3]);
+    factors.extend([root * scale.length; 3]);
+    let springs: Vec<f64> = {
+        let mut stiffness = vec![0.0; chain.coordinate_count()];
+        for block in chain.springs() {
+            let k = block.stiffness_at(posture);
+            for i in 0..block.len() {
+                stiffness[block.first + i] = k[(i, i)];
+            }
+        }
+        stiffness
+    };
+    factors.extend(
+        chain
+            .coordinates()
+            .iter()
+            .zip(springs)
+            .map(|(c, k)| match (c.role, c.kind) {
+                (Role::Spring, _) => 1.0 / k.sqrt(),
+                (Role::Passive, MotionKind::Prismatic) => 1.0 / root,
+                (Role::Passive, MotionKind::Revolute) => 1.0 / (root * scale.length),
+            }),
+    );
+    factors
+}
+
+/// Largest step that keeps rotations of joints below half a radian and slides below half the
+/// natural length: beyond that the linearisation says nothing.
+pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 {
+    let slide = 0.5 * chain.scale().length;
+    chain
+        .coordinates()
+        .iter()
+        .zip(step)
+        .fold(1.0_f64, |limit, (c, dx)| {
+            let most = match c.kind {
+                MotionKind::Revolute => 0.5,
+                MotionKind::Prismatic => slide,
+            };
+            limit.min(most / dx.abs().max(1e-300))
+        })
+}
+
+/// Residuals of a system in balanced units (square root of energy).
+pub(crate) struct Balance {
+    pub closure: f64,
+    pub torque: f64,
+    /// What torques are measured against.
+    pub loads: f64,
+}
+
+/// State of the chain iteration.
+struct Attempt<'p, 'a> {
+    problem: &'p ChainProblem<'a>,
+    settings: &'p Settings,
+    factors: Vec<f64>,
+    system: System,
+    /// Closure at the start, kept while the load grows.
+    offset: Twist,
+}
+
+impl Attempt<'_, '_> {
+    fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
+        let p = self.problem;
+        self.system.evaluate(
+            p.chain,
+            &p.base,
+            &p.posture,
+            &p.commands,
+            &p.loads,
+            x,
+            wrench,
+            share,
+        );
+        let tip = self.system.kinematics.tip_pose();
+        let closure = Twist(pose_residual(&p.end.pose, &tip).0 - self.offset.0 * (1.0 - share));
+        let lack = Wrench(p.end.wrench.0 * share - wrench.0);
+        (closure, lack)
+    }
+
+    /// Rows of the end condition: closure or missing wrench per direction, balanced.
+    fn end_rows(&self, closure: &Twist, lack: &Wrench) -> Vector6<f64> {
+        let end = &self.problem.end;
+        let inverse = end.axes.inverse();
+        let (e, f) = (closure.rotated(&inverse).0, lack.rotated(&inverse).0);
+        Vector6::from_fn(|k, _| match end.prescribed[k] {
+            Prescribed::Pose => e[k],
+            Prescribed::Wrench => f[k],
+        })
+    }
+
+    fn measure(&self, rows: &Vector6<f64>, wrench: &Wrench) -> Balance {
+        let (mut closure, mut torque, mut loads) = (0.0, 0.0, 0.0_f64);
+        for k in 0..6 {
+            let (s, pose) = (
+                self.factors[k],
+                self.problem.end.prescribed[k] == Prescribed::Pose,
+            );
+            if pose {
+                closure += (rows[k] * s).powi(2);
+            } else {
+                torque += (rows[k] / s).powi(2);
+            }
+            loads = loads.max((wrench.0[k] / s).abs());
+        }
+        for i in 0..self.system.spring_torque.len() {
+            let s = self.factors[6 + i];
+            torque += (self.system.unbalanced(i) * s).powi(2);
+            loads = loads
+                .max((self.system.torque[i] * s).abs())
+                .max((self.system.spring_torque[i] * s).abs());
+        }
+        Balance {
+            closure: closure.sqrt(),
+            torque: torque.sqrt(),
+            loads,
+        }
+    }
+
+    fn converged(&self, b: &Balance) -> bool {
+        let scale = self.problem.chain.scale();
+        let unit = scale.stiffness.sqrt() * scale.length;
+        b.closure <= self.settings.closure * unit
+            && b.torque <= self.settings.torque * b.loads + 1e-16 * unit
+    }
+
+    fn step(&self, rows: &Vector6<f64>, with_hessian: bool) -> DMatrix<f64> {
+        let n = self.system.spring_torque.len();
+        let end = &self.problem.end;
+        let mut a = self.system.bordered(with_hessian);
+        let turn = crate::spatial::turn_matrix(&end.axes);
+        let turned = turn.transpose() * &self.system.jacobian;
+        let mut row_scale = self.factors.clone();
+        let mut b = DMatrix::zeros(6 + n, 1);
+        for k in 0..6 {
+            b[(k, 0)] = rows[k];
+            match end.prescribed[k] {
+                Prescribed::Pose => {
+                    for j in 0..n {
+                        a[(k, 6 + j)] = turned[(k, j)];
+                    }
+                }
+                Prescribed::Wrench => {
+                    row_scale[k] = 1.0 / self.factors[k];
+                    for j in 0..n {
+                        a[(k, 6 + j)] = 0.0;
+                    }
+                    for j in 0..6 {
+                        a[(k, j)] = turn[(j, k)];
+                    }
+                }
+            }
+        }
+        for i in 0..n {
+            b[(6 + i, 0)] = -self.system.unbalanced(i);
+        }
+        Saddle::new(a, &row_scale, &self.factors).solve(&mut b);
+        b
+    }
+
+    /// Newton from `(x, wrench)` at one share of the load; updates them. Returns iterations and the
+    /// last residual, `Err` if it did not converge.
+    fn newton(
+        &mut self,
+        x: &mut Vec<f64>,
+        wrench: &mut Wrench,
+        share: f64,
+        picard: usize,
+    ) -> std::result::Result<(usize, Balance), (usize, Balance)> {
+        let (mut closure, mut lack) = self.evaluate(x, wrench, share);
+        let mut rows = self.end_rows(&closure, &lack);
+        let mut now = self.measure(&rows, wrench);
+        for iteration in 0..self.settings.iterations {
+            if self.converged(&now) && iteration > 0 {
+                return Ok((iteration, now));
+            }
+            let step = self.step(&rows, iteration >= picard);
+            if step.iter().any(|v| !v.is_finite()) {
+                return Err((iteration, now));
+            }
+            let mut length = step_limit(self.problem.chain, step.column(0).iter().skip(6).copied());
+            let merit = now.closure.powi(2) + now.torque.powi(2);
+            let (x0, w0) = (x.clone(), *wrench);
+            loop {
+                for (i, value) in x.iter_mut().enumerate() {
+                    *value = x0[i] + length * step[(6 + i, 0)];
+                }
+                wrench.0 = w0.0 + length * step.fixed_view::<6, 1>(0, 0);
+                (closure, lack) = self.evaluate(x, wrench, share);
+                rows = self.end_rows(&closure, &lack);
+                now = self.measure(&rows, wrench);
+                let better =
+                    now.closure.powi(2) + now.torque.powi(2) <= merit * (1.0 - 0.1 * length);
+                // The report's step is allowed to trade closure for torque.
+                if better || iteration < picard || self.converged(&now) {
+                    break;
+                }
+                length *= 0.5;
+                if length < 1e-3 {
+                    return Err((iteration, now));
+                }
+            }
+        }
+        if self.converged(&now) {
+            Ok((self.settings.iterations, now))
+        } else {
+            Err((self.settings.iterations, now))
+        }
+    }
+}
+
+/// Solves for the equilibrium of a chain.
+///
+/// # Errors
+/// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last
+/// iterate where no equilibrium was found.
+pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Equilibrium> {
+    let chain = problem.chain;
+    chain.check(&problem.posture, &problem.commands)?;
+    let numbers = problem
+        .end
+        .wrench
+        .0
+        .iter()
+        .chain(problem.end.pose.translation.vector.iter());
+    if let Some(value) = numbers.copied().find(|v| !v.is_finite()) {
+        return Err(Error::NotFinite {
+            place: format!("chain '{}'", chain.name()),
+            what: "the end condition".into(),
+            value,
+        });
+    }
+    let mut attempt = Attempt {
+        problem,
+        settings,
+        factors: balance(chain, &problem.posture),
+        system: System::new(
+            chain,
+            &problem.base,
+            &problem.posture,
+            &problem.commands,
+            false,
+        ),
+        offset: Twist::zero(),
+    };
+    let mut failure = None;
+    // As given; then slightly out of line, because a straight or flat posture has no linear answer.
+    for nudge in [0.0, 1e-3, 3e-2] {
+        let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
+        let mut wrench = Wrench::zero();
+        match attempt.newton(&mut x, &mut wrench, 1.0, settings.picard_steps) {
+            Ok((iterations, balance)) => return Ok(attempt.finish(x, wrench, iterations, &balance)),
+            Err((iterations, balance)) => {
+                failure.get_or_insert((iterations, balance, x));
+            }
+        }
+    }
+    let (spent, balance, last) = match grow_load(&mut attempt) {
+        Ok((x, wrench, iterations, balance)) => {
+            return Ok(attempt.finish(x, wrench, iterations, &balance));
+        }
+        Err(share) => {
+            let (spent, balance, last) = failure.unwrap_or((
+                0,
+                Balance {
+                    closure: f64::NAN,
+                    torque: f64::NAN,
+                    loads: 1.0,
+                },
+                problem.posture.clone(),
+            ));
+            ((spent, share), balance, last)
+        }
+    };
+    Err(Error::NotConverged {
+        place: format!("chain '{}'", chain.name()),
+        iterations: spent.0,
+        residual_position_m: balance.closure / chain.scale().stiffness.sqrt(),
+        residual_torque: balance.torque / balance.loads.max(f64::MIN_POSITIVE),
+        load_factor: spent.1,
+        last,
+    })
+}
+
+/// Loads, preloads and closure grow together from the unloaded posture.
+fn grow_load(
+    attempt: &mut Attempt<'_, '_>,
+) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), f64> {
+    let problem = attempt.problem;
+    let mut x = nudged(problem.chain, &problem.posture, 1e-3);
+    let mut wrench = Wrench::zero();
+    attempt.offset = Twist::zero();
+    let start =
+        Kinematics::new(problem.chain, &problem.base, &x, &problem.commands, false).tip_pose();
+    attempt.offset = pose_residual(&problem.end.pose, &start);
+    let (mut share, mut step, mut iterations) = (0.0_f64, 0.125_f64, 0);
+    let mut last = Balance {
+        closure: 0.0,
+        torque: 0.0,
+        loads: 1.0,
+    };
+    while share < 1.0 {
+        let next = (share + step).min(1.0);
+        let (mut trial, mut trial_wrench) = (x.clone(), wrench);
+        match attempt.newton(&mut trial, &mut trial_wrench, next, 0) {
+            Ok((spent, balance)) => {
+                iterations += spent;
+                (x, wrench, share, last) = (trial, trial_wrench, next, balance);
+                step *= 1.5;
+            }
+            Err((spent, _)) => {
+                iterations += spent;
+                step *= 0.5;
+                if step < attempt.settings.smallest_load_step {
+                    return Err(share);
+                }
+            }
+        }
+    }
+    Ok((x, wrench, iterations, last))
+}
+
+/// The posture with every passive coordinate moved by a fixed, irregular amount of size `size` rad.
+pub(crate) fn nudged(chain: &Chain, posture: &[f64], size: f64) -> Vec<f64> {
+    let length = chain.scale().length;
+    posture
+        .iter()
+        .zip(chain.coordinates())
+        .enumerate()
+        .map(|(i, (&x, c))| {
+            let golden = (i as f64 * 0.618_033_988_749_895 + 0.25).fract() - 0.5;
+            match c.kind {
+                MotionKind::Revolute => x + size * golden,
+                MotionKind::Prismatic if c.role == Role::Passive => x + size * golden * length,
+                MotionKind::Prismatic => x,
+            }
+        })
+        .collect()
+}
+
+impl Attempt<'_, '_> {
+    fn finish(
+        mut self,
+        x: Vec<f64>,
+        wrench: Wrench,
+        iterations: usize,
+        balance: &Balance,
+    ) -> Equilibrium {
+        self.offset = Twist::zero();
+        self.evaluate(&x, &wrench, 1.0);
+        let chain = self.problem.chain;
+        let stiffness = chain_stiffness(chain, &self.system, &self.factors);
+        let stability = shape_stability(chain, &self.system, &self.factors);
+        Equilibrium {
+            tip: self.system.kinematics.tip_pose(),
+            nodes: (0..chain.nodes().len())
+                .map(|i| self.system.kinematics.node_pose(i))
+                .collect(),
+            spring_torques: self.system.spring_torque.clone(),
+            energy: self.system.energy,
+            coordinates: x,
+            wrench,
+            stiffness,
+            stability,
+            residual: Residual {
+                closure_m: balance.closure / chain.scale().stiffness.sqrt(),
+                torque: balance.torque / balance.loads.max(f64::MIN_POSITIVE),
+                iterations,
+            },
+        }
+    }
+}
+
+/// Tip pose of the unloaded chain (all springs at zero, not at `theta0`) for given passive
+/// coordinates and commands.
+#[must_use]
+pub fn unloaded_tip(chain: &Chain, base: &Pose, coordinates: &[f64], commands: &[f64]) -> Pose {
+    Kinematics::new(chain, base, coordinates, commands, false).tip_pose()
+}

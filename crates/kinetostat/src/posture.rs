@@ -1,0 +1,643 @@
+//! A mechanism commanded for a target, and what it does there: `f(t | t0)`, `f^-1(F | t0)`,
+//! stiffness, assembly [R 6.1-6.30].
+//!
+//! The thing right of the bar is a [`Posture`]; the thing left of it is an argument.
+
+use nalgebra::{DMatrix, Matrix6, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::equilibrium::Residual;
+use crate::error::{Error, Result};
+use crate::inverse::{LimbPosture, blocked_motions, inverse_kinematics};
+use crate::mechanism::Mechanism;
+use crate::platform::{MechanismState, PlatformSolver, Unknowns};
+use crate::settings::Settings;
+use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual, shift_matrix};
+use crate::stability::{ShapeStability, shape_stability};
+use crate::stiffness::{
+    ChainStiffness, Direction, DirectionKind, chain_stiffness, directions, unloaded_stiffness,
+};
+
+/// A mechanism whose actuators are commanded for a nominal target of the tool.
+#[derive(Clone, Debug)]
+pub struct Posture<'m> {
+    mechanism: &'m Mechanism,
+    settings: Settings,
+    target: Pose,
+    limbs: Vec<LimbPosture>,
+}
+
+/// Whether the platform stays where it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlatformStability {
+    /// Every motion of the free platform costs energy, or (see `free`) none.
+    pub stable: bool,
+    /// Smallest principal stiffness, N/m (rotations referred to the natural length).
+    pub smallest_stiffness_n_per_m: f64,
+    /// Number of directions without stiffness.
+    pub free: usize,
+}
+
+/// What one limb does in an equilibrium.
+#[derive(Clone, Debug)]
+pub struct LimbEquilibrium {
+    /// Name of the limb.
+    pub name: String,
+    /// Wrench of the platform on the limb's tip, about it, base axes.
+    pub wrench: Wrench,
+    /// Coordinates, m or rad, in the chain's order.
+    pub coordinates: Vec<f64>,
+    /// Torque of every spring coordinate, N or N m; zero for passive joints.
+    pub spring_torques: Vec<f64>,
+    /// Energy in its springs, J.
+    pub energy: f64,
+    /// Force (N) or torque (N m) of the loads on every actuator.
+    pub actuator_forces: Vec<f64>,
+    /// Tangent stiffness at its tip.
+    pub stiffness: ChainStiffness,
+    /// Stability of its shape with the tip held.
+    pub stability: ShapeStability,
+}
+
+/// A mechanism in equilibrium.
+#[derive(Clone, Debug)]
+pub struct MechanismEquilibrium {
+    /// Pose of the tool platform.
+    pub tool: Pose,
+    /// From the nominal target to that pose.
+    pub displacement: Twist,
+    /// External wrench on the tool, about its origin, base axes: given (`f^-1`) or found (`f`).
+    pub wrench: Wrench,
+    /// Tangent stiffness of the tool with all other platforms free, at its origin, base axes.
+    pub stiffness: CartesianStiffness,
+    /// Its principal directions.
+    pub directions: Vec<Direction>,
+    /// Whether the free platform stays.
+    pub platform: PlatformStability,
+    /// Limbs in the mechanism's order.
+    pub limbs: Vec<LimbEquilibrium>,
+    /// How well the conditions of equilibrium hold.
+    pub residual: Residual,
+    /// State from which a neighbouring equilibrium can be started.
+    pub state: MechanismState,
+}
+
+impl MechanismEquilibrium {
+    /// Every limb keeps its shape and the platform its place.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.platform.stable && self.limbs.iter().all(|l| l.stability.stable)
+    }
+
+    /// Largest buckling margin `mu` of all limbs; below 1 is stable.
+    #[must_use]
+    pub fn margin(&self) -> Option<f64> {
+        self.limbs
+            .iter()
+            .filter_map(|l| l.stability.margin)
+            .max_by(f64::total_cmp)
+    }
+
+    /// Forces (N) or torques (N m) of the loads on all actuators, in the mechanism's order.
+    #[must_use]
+    pub fn actuator_forces(&self) -> Vec<f64> {
+        self.limbs
+            .iter()
+            .flat_map(|l| l.actuator_forces.iter().copied())
+            .collect()
+    }
+}
+
+/// First-order assembly of limbs with errors, no external load [R 6.15-6.20].
+#[derive(Clone, Debug)]
+pub struct LinearAssembly {
+    /// Motion of the tool from its nominal target.
+    pub shift: Twist,
+    /// Wrench on every limb's tip, base axes; their sum about the tool is zero.
+    pub wrenches: Vec<Wrench>,
+    /// Change of the passive joints of every limb, m or rad.
+    pub passive: Vec<Vec<f64>>,
+    /// Deflection of the springs of every limb, m or rad.
+    pub springs: Vec<Vec<f64>>,
+}
+
+impl Mechanism {
+    /// Commands the actuators for a target of the tool (base from tool), from nominal geometry.
+    ///
+    /// # Errors
+    /// [`Error::Unreachable`] with the nearest pose, naming the limb; [`Error::Model`] for a graph
+    /// in which a limb does not run from the base to the tool.
+    pub fn posture(&self, target: &Pose) -> Result<Posture<'_>> {
+        self.posture_from(target, None)
+    }
+
+    /// As [`Self::posture`], searching near the joints of another posture.
+    ///
+    /// # Errors
+    /// As [`Self::posture`].
+    pub fn posture_near(&self, target: &Pose, near: &Posture<'_>) -> Result<Posture<'_>> {
+        self.posture_from(target, Some(&near.limbs))
+    }
+
+    fn posture_from(&self, target: &Pose, near: Option<&[LimbPosture]>) -> Result<Posture<'_>> {
+        if let Some(value) = target
+            .to_homogeneous()
+            .iter()
+            .copied()
+            .find(|x| !x.is_finite())
+        {
+            return Err(Error::NotFinite {
+                place: format!("mechanism '{}'", self.name),
+                what: "the target pose".into(),
+                value,
+            });
+        }
+        let mut limbs = Vec::with_capacity(self.limbs.len());
+        for (i, limb) in self.limbs.iter().enumerate() {
+            if limb.from != 0 || limb.to != self.tool {
+                return Err(Error::model(
+                    format!("mechanism '{}', limb '{}'", self.name, limb.name),
+                    "inverse kinematics needs limbs that run from the base to the tool; command this mechanism with `posture_from_joints`",
+                ));
+            }
+            let tip = target * limb.platform_from_tip;
+            let start = near.map(|n| &n[i]);
+            limbs.push(inverse_kinematics(
+                &limb.nominal,
+                &self.platforms[0].home,
+                &tip,
+                start,
+            )?);
+        }
+        Ok(Posture {
+            mechanism: self,
+            settings: Settings::default(),
+            target: *target,
+            limbs,
+        })
+    }
+
+    /// A posture from known joints: commands and passive coordinates of every limb, with the tool
+    /// nominally at `target`. For graphs with platforms between base and tool.
+    ///
+    /// # Errors
+    /// Lists of the wrong length.
+    pub fn posture_from_joints(
+        &self,
+        target: &Pose,
+        limbs: Vec<LimbPosture>,
+    ) -> Result<Posture<'_>> {
+        if limbs.len() != self.limbs.len() {
+            return Err(Error::Size {
+                place: format!("mechanism '{}'", self.name),
+                what: "limb postures",
+                expected: self.limbs.len(),
+                found: limbs.len(),
+            });
+        }
+        for (limb, joints) in self.limbs.iter().zip(&limbs) {
+            limb.nominal.check(&joints.coordinates, &joints.commands)?;
+        }
+        Ok(Posture {
+            mechanism: self,
+            settings: Settings::default(),
+            target: *target,
+            limbs,
+        })
+    }
+
+    /// The same mechanism with its tool platform's reference point and axes moved to `tool`
+    /// (platform from tool): a spindle's tip, say. Results then refer to that point.
+    #[must_use]
+    pub fn with_tool(&self, tool: &Pose) -> Self {
+        let mut moved = self.clone();
+        let inverse = tool.inverse();
+        for limb in &mut moved.limbs {
+            if limb.to == moved.tool {
+                limb.platform_from_tip = inverse * limb.platform_from_tip;
+            }
+        }
+        let platform = &mut moved.platforms[moved.tool];
+        platform.home *= *tool;
+        platform.centre_of_mass =
+            (inverse * nalgebra::Point3::from(platform.centre_of_mass)).coords;
+        let turn = tool.rotation.to_rotation_matrix();
+        platform.inertia = turn.matrix().transpose() * platform.inertia * turn.matrix();
+        moved
+    }
+}
+
+impl<'m> Posture<'m> {
+    /// The mechanism.
+    #[must_use]
+    pub fn mechanism(&self) -> &'m Mechanism {
+        self.mechanism
+    }
+
+    /// Nominal target of the tool, `t0`.
+    #[must_use]
+    pub fn target(&self) -> &Pose {
+        &self.target
+    }
+
+    /// Joints of every limb.
+    #[must_use]
+    pub fn limbs(&self) -> &[LimbPosture] {
+        &self.limbs
+    }
+
+    /// Commands of all actuators, m or rad, in the mechanism's order.
+    #[must_use]
+    pub fn commands(&self) -> Vec<f64> {
+        self.limbs
+            .iter()
+            .flat_map(|l| l.commands.iter().copied())
+            .collect()
+    }
+
+    /// The same posture with other tolerances.
+    #[must_use]
+    pub fn with_settings(mut self, settings: Settings) -> Self {
+        self.settings = settings;
+        self
+    }
+
+    /// Tolerances in force.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// `limb.actuator` of every command outside its limits, with command and limits (m or rad).
+    #[must_use]
+    pub fn limit_violations(&self) -> Vec<(String, f64, (f64, f64))> {
+        let names = self.mechanism.actuator_names();
+        let actuators = self
+            .mechanism
+            .limbs
+            .iter()
+            .flat_map(|l| &l.nominal.actuators);
+        names
+            .into_iter()
+            .zip(self.commands())
+            .zip(actuators)
+            .filter_map(|((name, command), actuator)| {
+                let (low, high) = actuator.limits?;
+                (command < low || command > high).then_some((name, command, (low, high)))
+            })
+            .collect()
+    }
+
+    /// State with all springs at rest and the platforms where they are meant to be.
+    #[must_use]
+    pub fn rest_state(&self) -> MechanismState {
+        let mut platforms: Vec<Pose> = self.mechanism.platforms.iter().map(|p| p.home).collect();
+        platforms[self.mechanism.tool] = self.target;
+        MechanismState {
+            platforms,
+            coordinates: self.limbs.iter().map(|l| l.coordinates.clone()).collect(),
+            wrenches: vec![Wrench::zero(); self.limbs.len()],
+        }
+    }
+
+    fn solver(&self, state: MechanismState, unknowns: Unknowns) -> PlatformSolver<'m> {
+        let mut solver = PlatformSolver::new(
+            self.mechanism,
+            self.settings,
+            self.limbs.clone(),
+            state,
+            unknowns,
+        );
+        solver.target = self.target;
+        solver
+    }
+
+    /// Unloaded stiffness of the nominal mechanism, at the tool's origin, base axes [R 3.10, 3.13].
+    /// For a mechanism with one moving platform; others are condensed in an equilibrium.
+    ///
+    /// # Errors
+    /// Wrong sizes only; a singular stiffness is a result.
+    pub fn stiffness(&self) -> Result<UnloadedStiffness> {
+        let m = self.mechanism;
+        let mut total = Matrix6::zeros();
+        let mut limbs = Vec::new();
+        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
+            let base = m.platforms[limb.from].home;
+            let k =
+                unloaded_stiffness(&limb.nominal, &base, &joints.coordinates, &joints.commands)?;
+            let arm = self.target.rotation * limb.platform_from_tip.translation.vector;
+            total += k.cartesian.shifted(&arm, &Wrench::zero()).matrix;
+            limbs.push(k);
+        }
+        let scale = self.solver(self.rest_state(), Unknowns::Pose).scale();
+        let directions = balanced_directions(&total, scale);
+        Ok(UnloadedStiffness {
+            cartesian: CartesianStiffness { matrix: total },
+            directions,
+            limbs,
+        })
+    }
+
+    /// `f^-1(F | t0)`: where the tool goes under a dead wrench at its origin [R 6.28-6.30], with
+    /// gravity, preloads and assembly errors of the model.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] with the last state and share of the load;
+    /// [`Error::FreeDirection`] where the wrench pushes in a direction that nothing holds.
+    pub fn deflected_by(&self, wrench: &Wrench) -> Result<MechanismEquilibrium> {
+        self.deflected_from(wrench, self.rest_state())
+    }
+
+    /// As [`Self::deflected_by`], starting from the state of a neighbouring equilibrium.
+    ///
+    /// # Errors
+    /// As [`Self::deflected_by`].
+    pub fn deflected_from(
+        &self,
+        wrench: &Wrench,
+        start: MechanismState,
+    ) -> Result<MechanismEquilibrium> {
+        let mut solver = self.solver(start, Unknowns::Pose);
+        solver.wrench = *wrench;
+        match solver.solve_robustly() {
+            Ok(residual) => Ok(conclude(&mut solver, *wrench, residual)),
+            Err(error) => Err(self
+                .free_push(wrench, solver.scale().length)
+                .unwrap_or(error)),
+        }
+    }
+
+    /// The reason why no equilibrium exists, if it is a wrench along a free direction.
+    fn free_push(&self, wrench: &Wrench, length: f64) -> Option<Error> {
+        let size = wrench.force().norm() + wrench.moment().norm() / length;
+        let own = self.stiffness().ok()?;
+        let pushed = own
+            .directions
+            .iter()
+            .find(|d| d.kind == DirectionKind::Free && d.twist.dot(wrench).abs() > 1e-9 * size)?;
+        let t = pushed.twist.0;
+        Some(Error::FreeDirection {
+            place: format!("mechanism '{}'", self.mechanism.name),
+            reason: format!(
+                "the motion [{:.3} {:.3} {:.3}] m with rotation [{:.3} {:.3} {:.3}] rad costs no force",
+                t[0], t[1], t[2], t[3], t[4], t[5]
+            ),
+            wrench: Box::new(*wrench),
+        })
+    }
+
+    /// `f(t | t0)`: the wrench that holds the tool at `pose` [R 6.21].
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`], for instance for a pose that the limbs cannot follow.
+    pub fn wrench_at(&self, pose: &Pose) -> Result<MechanismEquilibrium> {
+        let mut state = self.rest_state();
+        state.platforms[self.mechanism.tool] = *pose;
+        let mut solver = self.solver(state, Unknowns::Held);
+        let residual = solver.solve_robustly()?;
+        let mut result = conclude(&mut solver, Wrench::zero(), residual);
+        // What the held tool still lacks is what its holder must apply.
+        result.wrench = Wrench(-solver.finish().1[self.mechanism.tool].0);
+        Ok(result)
+    }
+
+    /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes.
+    #[must_use]
+    pub fn assembly_errors(&self) -> Vec<Twist> {
+        let m = self.mechanism;
+        m.limbs
+            .iter()
+            .zip(&self.limbs)
+            .map(|(limb, joints)| {
+                let base = m.platforms[limb.from].home;
+                let tip = |chain| {
+                    crate::equilibrium::unloaded_tip(
+                        chain,
+                        &base,
+                        &joints.coordinates,
+                        &joints.commands,
+                    )
+                };
+                pose_residual(&tip(&limb.actual), &tip(&limb.nominal))
+            })
+            .collect()
+    }
+
+    /// First-order platform shift and internal wrenches for given limb errors `eps_i` (base axes,
+    /// at each limb's tip), no external load:
+    /// `Dt = (sum T^T K T)^-1 sum T^T K eps`, `F_i = K_i (T_i Dt - eps_i)`.
+    ///
+    /// # Errors
+    /// Wrong sizes only.
+    pub fn linear_assembly(&self, errors: &[Twist]) -> Result<LinearAssembly> {
+        let m = self.mechanism;
+        if errors.len() != m.limbs.len() {
+            return Err(Error::Size {
+                place: format!("mechanism '{}'", m.name),
+                what: "limb errors",
+                expected: m.limbs.len(),
+                found: errors.len(),
+            });
+        }
+        let own = self.stiffness()?;
+        let shifts: Vec<Matrix6<f64>> = m
+            .limbs
+            .iter()
+            .map(|l| shift_matrix(&(self.target.rotation * l.platform_from_tip.translation.vector)))
+            .collect();
+        let mut pull = Vector6::zeros();
+        for ((k, t), e) in own.limbs.iter().zip(&shifts).zip(errors) {
+            pull += t.transpose() * k.cartesian.matrix * e.0;
+        }
+        let length = self
+            .solver(self.rest_state(), Unknowns::Pose)
+            .scale()
+            .length;
+        let scale = [1.0, 1.0, 1.0, 1.0 / length, 1.0 / length, 1.0 / length];
+        let total = own.cartesian.matrix;
+        let mut b = DMatrix::from_column_slice(6, 1, pull.as_slice());
+        crate::saddle::Saddle::new(DMatrix::from_fn(6, 6, |i, j| total[(i, j)]), &scale, &scale)
+            .solve(&mut b);
+        let shift = Twist(b.fixed_view::<6, 1>(0, 0).into_owned());
+        let mut result = LinearAssembly {
+            shift,
+            wrenches: Vec::new(),
+            passive: Vec::new(),
+            springs: Vec::new(),
+        };
+        for ((k, t), e) in own.limbs.iter().zip(&shifts).zip(errors) {
+            let motion = t * shift.0 - e.0;
+            result.wrenches.push(Wrench(k.cartesian.matrix * motion));
+            result
+                .passive
+                .push((&k.passive * motion).iter().copied().collect());
+            result
+                .springs
+                .push((&k.springs * motion).iter().copied().collect());
+        }
+        Ok(result)
+    }
+
+    /// Motions that the nominal machine can command or make freely, as an orthonormal basis, 6 x k
+    /// (rotations in units of the natural length).
+    #[must_use]
+    pub fn mobility(&self) -> DMatrix<f64> {
+        let m = self.mechanism;
+        let length = self
+            .solver(self.rest_state(), Unknowns::Pose)
+            .scale()
+            .length;
+        let mut blocked = DMatrix::zeros(6, 6);
+        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
+            let base = m.platforms[limb.from].home;
+            let own = limb.nominal.scale().length;
+            let t =
+                shift_matrix(&(self.target.rotation * limb.platform_from_tip.translation.vector));
+            // From the mechanism's units to SI, to the tip, to the limb's units.
+            let mut to_limb = DMatrix::from_fn(6, 6, |i, j| t[(i, j)]);
+            for k in 0..3 {
+                to_limb.row_mut(3 + k).scale_mut(own);
+                to_limb.column_mut(3 + k).unscale_mut(length);
+            }
+            let p = blocked_motions(&limb.nominal, &base, joints) * to_limb;
+            blocked += p.transpose() * p;
+        }
+        let eigen = blocked.symmetric_eigen();
+        let kept: Vec<_> = (0..6)
+            .filter(|&i| eigen.eigenvalues[i].abs() < 1e-9)
+            .map(|i| eigen.eigenvectors.column(i).into_owned())
+            .collect();
+        if kept.is_empty() {
+            return DMatrix::zeros(6, 0);
+        }
+        DMatrix::from_columns(&kept)
+    }
+
+    /// Base directions `x y z rx ry rz` of the tool that the machine can correct by itself:
+    /// a choice, translations first, of as many as it has degrees of freedom.
+    #[must_use]
+    pub fn correctable(&self) -> [bool; 6] {
+        let basis = self.mobility();
+        let mut chosen = [false; 6];
+        let mut rows: Vec<nalgebra::DVector<f64>> = Vec::new();
+        for (i, flag) in chosen.iter_mut().enumerate() {
+            let mut row = basis.row(i).transpose();
+            let size = row.norm();
+            for r in &rows {
+                let share = row.dot(r);
+                row -= r * share;
+            }
+            if row.norm() > 1e-6 * size.max(1e-3) && row.norm() > 1e-6 {
+                row.normalize_mut();
+                rows.push(row);
+                *flag = true;
+            }
+        }
+        chosen
+    }
+}
+
+/// Unloaded stiffness of a mechanism and its limbs.
+#[derive(Clone, Debug)]
+pub struct UnloadedStiffness {
+    /// `K_C` of the platform at the tool's origin, base axes.
+    pub cartesian: CartesianStiffness,
+    /// Its principal directions.
+    pub directions: Vec<Direction>,
+    /// `K_C^(i)` of every limb at its tip.
+    pub limbs: Vec<ChainStiffness>,
+}
+
+impl UnloadedStiffness {
+    /// Number of directions with stiffness.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.directions
+            .iter()
+            .filter(|d| d.kind != DirectionKind::Free)
+            .count()
+    }
+}
+
+fn balanced_directions(matrix: &Matrix6<f64>, scale: crate::chain::Scale) -> Vec<Direction> {
+    let root = scale.stiffness.sqrt();
+    let factor = |i: usize| if i < 3 { root } else { root * scale.length };
+    let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (factor(i) * factor(j)));
+    directions(scale, &balanced, &DMatrix::identity(6, 6))
+}
+
+/// Stiffness, stability and limbs at a solved state.
+pub(crate) fn conclude(
+    solver: &mut PlatformSolver<'_>,
+    wrench: Wrench,
+    residual: Residual,
+) -> MechanismEquilibrium {
+    let (tangent, _) = solver.finish();
+    let m = solver.mechanism;
+    let tool = m.tool;
+    let mut stiffness = condensed(&tangent, tool - 1);
+    // A dead wrench at the tool's own origin has no tangent.
+    stiffness = stiffness.map(|x| if x.is_finite() { x } else { 0.0 });
+    let scale = solver.scale();
+    let directions = balanced_directions(&stiffness, scale);
+    let least = directions
+        .iter()
+        .map(|d| d.stiffness_n_per_m)
+        .fold(f64::INFINITY, f64::min);
+    let free = directions
+        .iter()
+        .filter(|d| d.kind == DirectionKind::Free)
+        .count();
+    let limbs = m
+        .limbs
+        .iter()
+        .enumerate()
+        .map(|(i, limb)| {
+            let (system, factors) = solver.limb_system(i);
+            let n = limb.actual.coordinate_count();
+            let r = limb.actual.actuators().len();
+            LimbEquilibrium {
+                name: limb.name.clone(),
+                wrench: solver.state.wrenches[i],
+                coordinates: solver.state.coordinates[i].clone(),
+                spring_torques: system.spring_torque.clone(),
+                energy: system.energy,
+                actuator_forces: system.torque[n..n + r].to_vec(),
+                stiffness: chain_stiffness(&limb.actual, system, factors),
+                stability: shape_stability(&limb.actual, system, factors),
+            }
+        })
+        .collect();
+    MechanismEquilibrium {
+        tool: solver.state.platforms[tool],
+        displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
+        wrench,
+        stiffness: CartesianStiffness { matrix: stiffness },
+        platform: PlatformStability {
+            stable: least >= 0.0,
+            smallest_stiffness_n_per_m: least,
+            free,
+        },
+        directions,
+        limbs,
+        residual,
+        state: solver.state.clone(),
+    }
+}
+
+/// Stiffness of one platform with all others free: Schur complement.
+fn condensed(tangent: &DMatrix<f64>, platform: usize) -> Matrix6<f64> {
+    let own: Vec<usize> = (6 * platform..6 * platform + 6).collect();
+    let pick =
+        |rows: &[usize], columns: &[usize]| tangent.select_rows(rows).select_columns(columns);
+    let mut k = pick(&own, &own);
+    let others: Vec<usize> = (0..tangent.nrows()).filter(|i| !own.contains(i)).collect();
+    if !others.is_empty() {
+        let mut b = pick(&others, &own);
+        let most = tangent.amax().max(f64::MIN_POSITIVE).sqrt();
+        let scale = vec![1.0 / most; others.len()];
+        crate::saddle::Saddle::new(pick(&others, &others), &scale, &scale).solve(&mut b);
+        k -= pick(&own, &others) * b;
+    }
+    k.fixed_view::<6, 6>(0, 0).into_owned()
+}

@@ -1,0 +1,30 @@
+//! Tolerances and limits of the iterations.
+
+use serde::{Deserialize, Serialize};
+
+/// Tolerances and limits; the defaults suit every machine in SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Largest closure left over, as a share of the chain's natural length. Default 1e-12.
+    pub closure: f64,
+    /// Largest torque and force residual, as a share of the loads. Default 1e-10.
+    pub torque: f64,
+    /// Iterations of one attempt. Default 40.
+    pub iterations: usize,
+    /// Steps of the report's iteration (loads and Jacobians lagged) before Newton. Default 1.
+    pub picard_steps: usize,
+    /// Smallest load step before a failure is reported. Default 1/1024.
+    pub smallest_load_step: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            closure: 1e-12,
+            torque: 1e-10,
+            iterations: 40,
+            picard_steps: 1,
+            smallest_load_step: 1.0 / 1024.0,
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Does a shape hold [R 5.16-5.21]?
+//!
+//! With the end held, the chain can still move along the null space `N` of its Jacobian. The shape
+//! is stable iff `S_c = N^T (H - K) N` is negative definite; equivalently iff the bordered matrix
+//! has as many positive eigenvalues as the Jacobian has rows. The margin `mu` is the largest
+//! eigenvalue of `(N^T H N) v = mu (N^T K N) v`: it does not depend on coordinates, 0 is unloaded,
+//! 1 is the point of buckling. `S_c` is symmetric even where `H` is not, because null motions do
+//! not turn the end; the symmetric part of `H` is used.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+use crate::chain::Chain;
+use crate::equilibrium::System;
+use crate::saddle::{Inertia, RANK_TOLERANCE, column_space, complement, inertia};
+use crate::stiffness::{balanced_jacobian, names_in, passive_null_space};
+
+/// Whether a chain keeps its shape while its end is held.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShapeStability {
+    /// No neighbouring shape of the held chain has less energy.
+    pub stable: bool,
+    /// Of the bordered matrix; stable iff `positive` equals the rank of the Jacobian.
+    pub inertia: Inertia,
+    /// `mu`, largest share of the way to buckling: below 1 is stable. `None` for a chain without
+    /// inner freedom; infinite where a passive motion is pushed out of line.
+    pub margin: Option<f64>,
+    /// Motion of all coordinates in the most critical mode (m, rad), largest component 1.
+    pub mode: Vec<f64>,
+    /// Passive joints that can move for nothing (neutral, taken out of the verdict).
+    pub neutral: Vec<String>,
+}
+
+pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -> ShapeStability {
+    let n = system.spring_torque.len();
+    let jacobian = balanced_jacobian(system, factors);
+    let range = column_space(&jacobian);
+    let rank = range.ncols();
+    let hessian = DMatrix::from_fn(n, n, |i, j| {
+        0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * factors[6 + i] * factors[6 + j]
+    });
+    let springs = DMatrix::from_fn(n, n, |i, j| {
+        system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
+    });
+    let rows = if rank == 6 {
+        jacobian.clone()
+    } else {
+        range.transpose() * &jacobian
+    };
+
+    let mut bordered = DMatrix::zeros(rank + n, rank + n);
+    bordered
+        .view_mut((rank, 0), (n, rank))
+        .copy_from(&rows.transpose());
+    bordered.view_mut((0, rank), (rank, n)).copy_from(&rows);
+    bordered
+        .view_mut((rank, rank), (n, n))
+        .copy_from(&(&hessian - &springs));
+    let inertia = inertia(bordered);
+
+    // Neutral passive motions leave the verdict unless a load pushes them.
+    let passive = passive_null_space(chain, &jacobian);
+    let pushed = (passive.transpose() * &hessian * &passive).amax();
+    let neutral = passive.ncols() > 0 && pushed <= 1e-9 * hessian.amax().max(f64::MIN_POSITIVE);
+    let mut taken_out = DMatrix::zeros(n, rank + if neutral { passive.ncols() } else { 0 });
+    taken_out.columns_mut(0, rank).copy_from(&rows.transpose());
+    if neutral {
+        taken_out
+            .columns_mut(rank, passive.ncols())
+            .copy_from(&passive);
+    }
+    let null = complement(&taken_out);
+    let a = null.transpose() * &hessian * &null;
+    let b = null.transpose() * &springs * &null;
+    let (margin, mode) = margin(&a, &b);
+    let mode = mode.map_or_else(Vec::new, |v| {
+        let motion = &null * v;
+        let physical: Vec<f64> = (0..n).map(|i| motion[i] * factors[6 + i]).collect();
+        let most = physical.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        physical
+            .iter()
+            .map(|x| x / most.max(f64::MIN_POSITIVE))
+            .collect()
+    });
+    ShapeStability {
+        stable: margin.is_none_or(|mu| mu < 1.0),
+        inertia,
+        margin,
+        mode,
+        neutral: if neutral {
+            names_in(chain, &passive)
+        } else {
+            Vec::new()
+        },
+    }
+}
+
+/// Largest eigenvalue of the pencil `a v = mu b v`, `b` positive semi-definite, and its vector.
+fn margin(a: &DMatrix<f64>, b: &DMatrix<f64>) -> (Option<f64>, Option<DVector<f64>>) {
+    if a.nrows() == 0 {
+        return (None, None);
+    }
+    let eigen = b.clone().symmetric_eigen();
+    let most = eigen.eigenvalues.amax();
+    let soft: Vec<usize> = (0..b.nrows())
+        .filter(|&i| eigen.eigenvalues[i] <= 1e3 * RANK_TOLERANCE * most)
+        .collect();
+    let hard: Vec<usize> = (0..b.nrows()).filter(|i| !soft.contains(i)).collect();
+    // Hard directions in units where b is the identity.
+    let mut y = eigen.eigenvectors.select_columns(&hard);
+    for (k, &i) in hard.iter().enumerate() {
+        y.column_mut(k).unscale_mut(eigen.eigenvalues[i].sqrt());
+    }
+    let mut reduced = y.transpose() * a * &y;
+    let mut coupling = None;
+    if !soft.is_empty() {
+        // Purely passive motions that a load holds (negative) or pushes out of line (positive).
+        let z = eigen.eigenvectors.select_columns(&soft);
+        let held = z.transpose() * a * &z;
+        let eigen_held = held.clone().symmetric_eigen();
+        let worst = eigen_held.eigenvalues.imax();
+        if eigen_held.eigenvalues[worst] >= -1e-12 * a.amax().max(f64::MIN_POSITIVE) {
+            return (
+                Some(f64::INFINITY),
+                Some(z * eigen_held.eigenvectors.column(worst)),
+            );
+        }
+        if let Some(inverse) = held.try_inverse() {
+            let cross = z.transpose() * a * &y;
+            reduced -= cross.transpose() * &inverse * &cross;
+            coupling = Some(-(z * inverse * cross));
+        }
+    }
+    if hard.is_empty() {
+        return (Some(f64::NEG_INFINITY), None);
+    }
+    let eigen = (0.5 * (&reduced + reduced.transpose())).symmetric_eigen();
+    let worst = eigen.eigenvalues.imax();
+    let v = eigen.eigenvectors.column(worst).into_owned();
+    let motion = match coupling {
+        Some(c) => &y * &v + c * &v,
+        None => &y * &v,
+    };
+    (Some(eigen.eigenvalues[worst]), Some(motion))
+}

@@ -1,0 +1,261 @@
+//! Stiffness of a chain at its end, unloaded and loaded [R 3.7-3.13, 4.24-4.30].
+//!
+//! ```text
+//! [K_C; K_Cq; K_Ctheta] = first block column of the inverse of
+//! [0 J_q J_theta; J_q^T H_qq H_qtheta; J_theta^T H_thetaq H_thetatheta - K_theta]
+//! ```
+//!
+//! The bordered form is used throughout: the closed form [R 4.28] needs inverses that do not exist
+//! for, say, parallel last links. A Cartesian stiffness has four kinds of directions: free
+//! (passive joints), finite, negative (under load) and rigid (motions that the chain cannot make,
+//! whose stiffness is infinite).
+
+use nalgebra::{DMatrix, Matrix6, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::chain::{Chain, Role, Scale};
+use crate::equilibrium::{System, balance};
+use crate::error::Result;
+use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
+use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
+
+/// Kind of a direction of the end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DirectionKind {
+    /// Moves without force.
+    Free,
+    /// Positive stiffness.
+    Finite,
+    /// Negative stiffness: pulls away by itself under a dead load.
+    Negative,
+    /// The chain cannot move that way: infinite stiffness.
+    Rigid,
+}
+
+/// A principal direction of the (symmetric part of the) stiffness.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Direction {
+    /// Free, finite, negative or rigid.
+    pub kind: DirectionKind,
+    /// Stiffness along it, N/m (rotations referred to the natural length); infinite if rigid.
+    pub stiffness_n_per_m: f64,
+    /// The motion, scaled so that its longest part (m, or rad times the natural length) is 1 m.
+    pub twist: Twist,
+}
+
+/// Stiffness of a chain at its tip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainStiffness {
+    /// `K_C`, base axes, at the tip. Rigid directions contribute nothing to it: see `directions`.
+    pub cartesian: CartesianStiffness,
+    /// `K_Cq`, n_q x 6: motion of the passive joints per motion of the end (rad or m per m or rad).
+    pub passive: DMatrix<f64>,
+    /// `K_Ctheta`, n_theta x 6: motion of the springs per motion of the end.
+    pub springs: DMatrix<f64>,
+    /// Rank of `K_C` among the motions that the chain can make.
+    pub rank: usize,
+    /// Principal directions: rigid ones first, then by falling stiffness.
+    pub directions: Vec<Direction>,
+    /// Names of passive joints that can move although the end is held and nothing resists (a strut
+    /// that spins about its own axis).
+    pub redundant_passive: Vec<String>,
+}
+
+impl ChainStiffness {
+    /// Number of directions of one kind.
+    #[must_use]
+    pub fn count(&self, kind: DirectionKind) -> usize {
+        self.directions.iter().filter(|d| d.kind == kind).count()
+    }
+}
+
+/// Stiffness of the unloaded chain: springs at rest, no load [R 3.7].
+///
+/// `base` is the pose of the chain's base, `coordinates` and `commands` (m, rad) the posture.
+///
+/// # Errors
+/// Lists of the wrong length or with numbers that are not finite.
+pub fn unloaded_stiffness(
+    chain: &Chain,
+    base: &Pose,
+    coordinates: &[f64],
+    commands: &[f64],
+) -> Result<ChainStiffness> {
+    chain.check(coordinates, commands)?;
+    let mut system = System::new(chain, base, coordinates, commands, false);
+    system.evaluate(
+        chain,
+        base,
+        coordinates,
+        commands,
+        &[],
+        coordinates,
+        &Wrench::zero(),
+        0.0,
+    );
+    Ok(chain_stiffness(
+        chain,
+        &system,
+        &balance(chain, coordinates),
+    ))
+}
+
+/// Balanced Jacobian of the `n` coordinates, 6 x n.
+pub(crate) fn balanced_jacobian(system: &System, factors: &[f64]) -> DMatrix<f64> {
+    let n = system.spring_torque.len();
+    DMatrix::from_fn(6, n, |i, j| {
+        system.jacobian[(i, j)] * factors[i] * factors[6 + j]
+    })
+}
+
+/// Basis of the coordinates' motions that move only passive joints and leave the tip where it is,
+/// n x k, balanced.
+pub(crate) fn passive_null_space(chain: &Chain, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    let passive = chain.indices_of(Role::Passive);
+    let n = jacobian.ncols();
+    if passive.is_empty() {
+        return DMatrix::zeros(n, 0);
+    }
+    let own = jacobian.select_columns(&passive);
+    let rows = column_space(&own.transpose());
+    if rows.ncols() == passive.len() {
+        return DMatrix::zeros(n, 0);
+    }
+    let null = complement(&rows);
+    let mut basis = DMatrix::zeros(n, null.ncols());
+    for (k, &index) in passive.iter().enumerate() {
+        basis.row_mut(index).copy_from(&null.row(k));
+    }
+    basis
+}
+
+/// Names of the coordinates with a share of at least a tenth in any column.
+pub(crate) fn names_in(chain: &Chain, basis: &DMatrix<f64>) -> Vec<String> {
+    (0..basis.nrows())
+        .filter(|&i| basis.row(i).amax() > 0.1)
+        .map(|i| chain.coordinates()[i].name.clone())
+        .collect()
+}
+
+pub(crate) fn chain_stiffness(chain: &Chain, system: &System, factors: &[f64]) -> ChainStiffness {
+    let n = system.spring_torque.len();
+    let jacobian = balanced_jacobian(system, factors);
+    let range = column_space(&jacobian);
+    let rank_of_motion = range.ncols();
+    let redundant = passive_null_space(chain, &jacobian);
+
+    // Bordered system over the motions that exist: [0 U^T J; J^T U  H - K], all balanced.
+    let bordered = system.bordered(true);
+    let full = rank_of_motion == 6;
+    let mut a = DMatrix::zeros(rank_of_motion + n, rank_of_motion + n);
+    let reduced = if full {
+        jacobian
+    } else {
+        range.transpose() * &jacobian
+    };
+    a.view_mut((0, rank_of_motion), (rank_of_motion, n))
+        .copy_from(&reduced);
+    a.view_mut((rank_of_motion, 0), (n, rank_of_motion))
+        .copy_from(&reduced.transpose());
+    for i in 0..n {
+        for j in 0..n {
+            a[(rank_of_motion + i, rank_of_motion + j)] =
+                bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j];
+        }
+    }
+    let mut b = DMatrix::zeros(rank_of_motion + n, 6);
+    if full {
+        b.view_mut((0, 0), (6, 6)).fill_with_identity();
+    } else {
+        b.view_mut((0, 0), (rank_of_motion, 6))
+            .copy_from(&range.transpose());
+    }
+    let ones = vec![1.0; rank_of_motion + n];
+    Saddle::new(a, &ones, &ones).solve(&mut b);
+    let own = b.rows(0, rank_of_motion);
+    let balanced = if full {
+        Matrix6::from_fn(|i, j| own[(i, j)])
+    } else {
+        let spread = &range * own;
+        Matrix6::from_fn(|i, j| spread[(i, j)])
+    };
+
+    let directions = directions(chain.scale(), &balanced, &range);
+    let rank = directions
+        .iter()
+        .filter(|d| matches!(d.kind, DirectionKind::Finite | DirectionKind::Negative))
+        .count();
+    let rows = |role| {
+        let indices = chain.indices_of(role);
+        DMatrix::from_fn(indices.len(), 6, |k, j| {
+            let i = indices[k];
+            b[(rank_of_motion + i, j)] * factors[6 + i] * factors[j]
+        })
+    };
+    ChainStiffness {
+        cartesian: CartesianStiffness {
+            matrix: Matrix6::from_fn(|i, j| balanced[(i, j)] * factors[i] * factors[j]),
+        },
+        passive: rows(Role::Passive),
+        springs: rows(Role::Spring),
+        rank,
+        directions,
+        redundant_passive: names_in(chain, &redundant),
+    }
+}
+
+/// Principal directions of a balanced stiffness within the motions that exist.
+pub(crate) fn directions(
+    scale: Scale,
+    balanced: &Matrix6<f64>,
+    range: &DMatrix<f64>,
+) -> Vec<Direction> {
+    let twist = |balanced: &Vector6<f64>| {
+        let v = Vector6::from_fn(|i, _| {
+            if i < 3 {
+                balanced[i]
+            } else {
+                balanced[i] / scale.length
+            }
+        });
+        let linear = v.fixed_rows::<3>(0).norm();
+        let angular = v.fixed_rows::<3>(3).norm() * scale.length;
+        Twist(v / linear.max(angular).max(f64::MIN_POSITIVE))
+    };
+    let mut list = Vec::with_capacity(6);
+    for column in complement(range).column_iter() {
+        list.push(Direction {
+            kind: DirectionKind::Rigid,
+            stiffness_n_per_m: f64::INFINITY,
+            twist: twist(&Vector6::from_fn(|i, _| column[i])),
+        });
+    }
+    let symmetric = 0.5 * (balanced + balanced.transpose());
+    let within = range.transpose() * symmetric * range;
+    let eigen = within.symmetric_eigen();
+    let most = eigen.eigenvalues.amax();
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
+    for i in order {
+        let value = eigen.eigenvalues[i];
+        let kind = if value.abs() <= 100.0 * RANK_TOLERANCE * most || most == 0.0 {
+            DirectionKind::Free
+        } else if value > 0.0 {
+            DirectionKind::Finite
+        } else {
+            DirectionKind::Negative
+        };
+        let motion = range * eigen.eigenvectors.column(i);
+        list.push(Direction {
+            kind,
+            stiffness_n_per_m: if kind == DirectionKind::Free {
+                0.0
+            } else {
+                value * scale.stiffness
+            },
+            twist: twist(&Vector6::from_fn(|i, _| motion[i])),
+        });
+    }
+    list
+}
