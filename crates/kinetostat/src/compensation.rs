@@ -57,19 +57,66 @@ pub fn compensate_from<'m>(
     directions: [bool; 6],
     start: MechanismState,
 ) -> Result<Compensation<'m>> {
+    let (mut solver, residual) = solve_target(near, desired, wrench, directions, start)?;
+    let equilibrium = conclude(&mut solver, *wrench, residual);
+    Ok(Compensation {
+        correction: pose_residual(&solver.target, desired),
+        left_over: pose_residual(&equilibrium.tool, desired),
+        posture: commanded(near, &solver)?,
+        equilibrium,
+    })
+}
+
+/// Only the posture to command and the state under load: [`compensate_from`] without stiffness and
+/// stability, for fields of many points.
+///
+/// # Errors
+/// As [`compensate`].
+pub fn target_under_load<'m>(
+    near: &Posture<'m>,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    start: MechanismState,
+) -> Result<(Posture<'m>, MechanismState)> {
+    let (solver, _) = solve_target(near, desired, wrench, directions, start)?;
+    Ok((commanded(near, &solver)?, solver.state))
+}
+
+fn commanded<'m>(near: &Posture<'m>, solver: &PlatformSolver<'m>) -> Result<Posture<'m>> {
+    Ok(near
+        .mechanism()
+        .posture_from_joints(&solver.target, solver.posture.clone())?
+        .with_settings(*near.settings()))
+}
+
+fn solve_target<'m>(
+    near: &Posture<'m>,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    start: MechanismState,
+) -> Result<(PlatformSolver<'m>, Residual)> {
     let mechanism = near.mechanism();
     let mut state = start;
     let tool = mechanism.tool();
-    // Held directions start exactly where they must end.
-    let mut pose = *desired;
-    if !directions[3..].iter().any(|d| *d) {
-        pose.rotation = state.platforms[tool].rotation;
-    }
+    // Held directions start exactly where they must end; the nominal target moves along with them
+    // and takes its other directions from the desired pose.
+    let mut pose = state.platforms[tool];
+    let mut target = *near.target();
     for k in 0..3 {
-        if !directions[k] {
-            pose.translation.vector[k] = state.platforms[tool].translation.vector[k];
+        if directions[k] {
+            let change = desired.translation.vector[k] - pose.translation.vector[k];
+            pose.translation.vector[k] = desired.translation.vector[k];
+            target.translation.vector[k] += change;
+        } else {
+            target.translation.vector[k] = desired.translation.vector[k];
         }
     }
+    if directions[3..].iter().any(|d| *d) {
+        pose.rotation = desired.rotation;
+    }
+    target.rotation = desired.rotation;
     state.platforms[tool] = pose;
     let settings = *near.settings();
     let mut solver = PlatformSolver::new(
@@ -80,22 +127,17 @@ pub fn compensate_from<'m>(
         Unknowns::Target(directions),
     );
     solver.wrench = *wrench;
-    solver.target = *near.target();
-    solver.refresh_rates();
-    let residual = match solver.solve(1.0, 0) {
-        Ok((iterations, balance)) => balance.residual(iterations),
-        Err(_) => fixed_point(&mut solver, desired, directions)?,
+    solver.target = target;
+    let solved = if solver.retarget() {
+        solver.solve(1.0, 0).ok()
+    } else {
+        None
     };
-    let equilibrium = conclude(&mut solver, *wrench, residual);
-    let posture = mechanism
-        .posture_from_joints(&solver.target, solver.posture.clone())?
-        .with_settings(settings);
-    Ok(Compensation {
-        correction: pose_residual(&solver.target, desired),
-        left_over: pose_residual(&equilibrium.tool, desired),
-        posture,
-        equilibrium,
-    })
+    let residual = match solved {
+        Some((iterations, balance)) => balance.residual(iterations),
+        None => fixed_point(&mut solver, desired, directions)?,
+    };
+    Ok((solver, residual))
 }
 
 /// The report's own iteration with `a = 1` [R 7.13], each step a robust equilibrium.

@@ -28,7 +28,7 @@ pub use builder::{ActuatorSpec, ChainBuilder};
 pub use chain::{
     Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
 };
-pub use compensation::{Compensation, compensate, compensate_from};
+pub use compensation::{Compensation, compensate, compensate_from, target_under_load};
 pub use equilibrium::{
     ChainProblem, EndCondition, Equilibrium, Prescribed, Residual, solve_chain, unloaded_tip,
 };

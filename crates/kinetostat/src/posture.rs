@@ -357,10 +357,28 @@ impl<'m> Posture<'m> {
         wrench: &Wrench,
         start: MechanismState,
     ) -> Result<MechanismEquilibrium> {
+        let (mut solver, residual) = self.settled(wrench, start)?;
+        Ok(conclude(&mut solver, *wrench, residual))
+    }
+
+    /// Only where the platforms and limbs come to rest: [`Self::deflected_from`] without stiffness
+    /// and stability, for fields of many points.
+    ///
+    /// # Errors
+    /// As [`Self::deflected_by`].
+    pub fn rest_under(&self, wrench: &Wrench, start: MechanismState) -> Result<MechanismState> {
+        Ok(self.settled(wrench, start)?.0.state)
+    }
+
+    fn settled(
+        &self,
+        wrench: &Wrench,
+        start: MechanismState,
+    ) -> Result<(PlatformSolver<'m>, Residual)> {
         let mut solver = self.solver(start, Unknowns::Pose);
         solver.wrench = *wrench;
         match solver.solve_robustly() {
-            Ok(residual) => Ok(conclude(&mut solver, *wrench, residual)),
+            Ok(residual) => Ok((solver, residual)),
             Err(error) => Err(self
                 .free_push(wrench, solver.scale().length)
                 .unwrap_or(error)),

@@ -92,10 +92,26 @@ pub(crate) fn pseudo_inverse(a: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
     (inverse, rank)
 }
 
+/// True if the (fewer) rows of a wide balanced matrix are certainly independent: a cheap test by
+/// its Gram matrix, whose pivots are squares of the matrix's own.
+pub(crate) fn rows_certainly_independent(a: &DMatrix<f64>) -> bool {
+    if a.nrows() > a.ncols() {
+        return false;
+    }
+    let gram = a * a.transpose();
+    gram.cholesky().is_some_and(|c| {
+        let d = c.l_dirty().diagonal();
+        d.min() > 1e-4 * d.max()
+    })
+}
+
 /// Orthonormal bases of the column space and rank of a balanced matrix, by its singular values.
 pub(crate) fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
     if a.ncols() == 0 {
         return DMatrix::zeros(a.nrows(), 0);
+    }
+    if rows_certainly_independent(a) {
+        return DMatrix::identity(a.nrows(), a.nrows());
     }
     let svd = a.clone().svd(true, false);
     let most = svd.singular_values.amax();

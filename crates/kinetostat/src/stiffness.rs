@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::chain::{Chain, Role, Scale};
 use crate::equilibrium::{System, balance};
 use crate::error::Result;
-use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
+use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement, rows_certainly_independent};
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 
 /// Kind of a direction of the end.
@@ -118,6 +118,9 @@ pub(crate) fn passive_null_space(chain: &Chain, jacobian: &DMatrix<f64>) -> DMat
         return DMatrix::zeros(n, 0);
     }
     let own = jacobian.select_columns(&passive);
+    if rows_certainly_independent(&own.transpose()) {
+        return DMatrix::zeros(n, 0);
+    }
     let rows = column_space(&own.transpose());
     if rows.ncols() == passive.len() {
         return DMatrix::zeros(n, 0);
