@@ -1,1 +1,77 @@
 //! G-code programs: read without loss, corrected by any field of corrections, written and checked.
+//!
+//! The way of a program:
+//!
+//! 1. [`Program::read`] keeps every byte and divides the file into lines and words. What cannot be
+//!    followed at all (subroutines, variables, binary files) is refused with its line.
+//! 2. [`interpret`] says where the tool goes: a [`Path`] of straight and circular [`Move`]s in mm, in
+//!    the part frame. What is not followed is refused with line, reason and what to do; the table of
+//!    codes is [`CODES`].
+//! 3. [`write_corrected`] asks a [`CorrectionField`] (a [`CorrectionMap`], a robot's model, a closure)
+//!    what to add to the path, divides blocks where the answer varies, and writes the program.
+//! 4. [`verify_written`] reads what was written with the same reader and checks every promise.
+//!
+//! This crate knows no robot. It reads and writes bytes in memory; files are the caller's.
+//!
+//! ```
+//! use kinetostat_program::*;
+//! use nalgebra::Vector3;
+//!
+//! let text = "G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300 (plunge)\nG1 X100 ; groove\nM2\n";
+//! let program = Program::read(text)?;
+//! let reading = ReadOptions::default();
+//! let path = interpret(&program, &reading)?;
+//! assert_eq!(path.moves[2].end, Vector3::new(100.0, 0.0, -1.0));
+//!
+//! // A machine that sags by 1 um for each 10 mm of x, quadratically more further out.
+//! let field = |request: &Request| {
+//!     let x = request.position_mm.x;
+//!     Ok(Vector3::new(0.0, 0.0, 1e-4 * x + 1e-5 * x * x))
+//! };
+//! let writing = WriteOptions { header: None, ..WriteOptions::default() };
+//! let written = write_corrected(&program, &path, &field, &writing, &Unwatched)?;
+//! verify_written(&program, &path, &written, &reading, &writing)?;
+//!
+//! let output = String::from_utf8(written.bytes)?;
+//! assert!(output.starts_with("G21 G90\nG0 X0 Y0 Z1\nG1 Z-1 F300 (plunge)\nG1 X"));
+//! assert!(output.ends_with("X100.0000 Z-0.8900\nM2\n"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod accounting;
+mod arc;
+mod block;
+mod curve;
+mod dialect;
+mod divide;
+mod emit;
+mod error;
+mod extra;
+mod field;
+mod header;
+mod interpret;
+mod lex;
+mod map;
+mod number;
+mod options;
+mod path;
+mod program;
+mod render;
+mod syntax;
+mod verify;
+mod write;
+
+pub use accounting::Accounting;
+pub use curve::{Arc, Curve};
+pub use dialect::{CODES, Code, Treatment};
+pub use error::{MapError, ProgramError, WriteError};
+pub use field::{CorrectionField, FieldFailure, Monitor, NoCorrection, Request, Unwatched};
+pub use interpret::interpret;
+pub use map::CorrectionMap;
+pub use options::{BlockDelete, ReadOptions, Units};
+pub use path::{
+    CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
+};
+pub use program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
+pub use verify::{Verification, verify_written};
+pub use write::{Corrected, Piece, WriteOptions, write_corrected};

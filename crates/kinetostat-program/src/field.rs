@@ -1,0 +1,85 @@
+//! What a field of corrections is asked, and what it answers.
+
+use nalgebra::Vector3;
+
+/// A point of the path for which a correction is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// Index of the move in [`crate::Path::moves`].
+    pub move_index: usize,
+    /// Share of the move's length: 0 at its start, 1 at its end.
+    pub share: f64,
+    /// The point, in mm, part frame.
+    pub position_mm: Vector3<f64>,
+    /// Direction of motion there, a unit vector; `None` where the move has no length or its start is
+    /// not known.
+    pub tangent: Option<Vector3<f64>>,
+}
+
+/// Why a field has no correction for a point.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FieldFailure {
+    /// What is wrong and what to do, without the place: the caller names line and point.
+    pub message: String,
+}
+
+impl FieldFailure {
+    /// A failure with this message.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+        }
+    }
+}
+
+/// A field of corrections: what to add to the position so that the tool comes to be where the
+/// program wants it.
+///
+/// The writer asks in batches of some thousand points in the order of the path; an implementor may
+/// work on them in parallel. The answer has one entry for each request, in order. Equal requests must
+/// get equal answers, or the output would not be reproducible.
+pub trait CorrectionField: Sync {
+    /// Corrections in mm, part axes, to be added to the positions asked for.
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>>;
+}
+
+/// A closure that answers one request is a field.
+impl<F> CorrectionField for F
+where
+    F: Fn(&Request) -> Result<Vector3<f64>, FieldFailure> + Sync,
+{
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+        requests.iter().map(self).collect()
+    }
+}
+
+/// The field that corrects nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoCorrection;
+
+impl CorrectionField for NoCorrection {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+        vec![Ok(Vector3::zeros()); requests.len()]
+    }
+}
+
+/// Who watches a long run and may stop it.
+pub trait Monitor: Sync {
+    /// `done` of `total` points are answered; the total grows while blocks are divided.
+    fn progress(&self, done: usize, total: usize);
+
+    /// Whether to stop. Asked between batches.
+    fn cancelled(&self) -> bool;
+}
+
+/// A monitor that neither watches nor stops.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Monitor for Unwatched {
+    fn progress(&self, _done: usize, _total: usize) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+}

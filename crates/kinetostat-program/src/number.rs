@@ -1,0 +1,56 @@
+//! Fixed-point numbers as controllers read them.
+
+/// `value` with exactly `decimals` digits after the point, never an exponent, never `-0`.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
+        _ => text,
+    }
+}
+
+/// A positive feed with a relative rounding error of at most 0.01 %.
+pub(crate) fn feed(value: f64) -> String {
+    // Half a unit of the last decimal against 1e-4 of the value.
+    let decimals = (-(2e-4 * value).log10()).ceil().clamp(0.0, 12.0) as usize;
+    let text = fixed(value, decimals);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// Digits after the point in a number as it was written.
+pub(crate) fn decimals_of(text: &[u8]) -> usize {
+    text.iter()
+        .position(|byte| *byte == b'.')
+        .map_or(0, |point| text.len() - point - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_fixed_point_without_a_negative_zero() {
+        assert_eq!(fixed(-0.00001, 4), "0.0000");
+        assert_eq!(fixed(-12.34567, 4), "-12.3457");
+        assert_eq!(fixed(1e9, 1), "1000000000.0");
+        assert_eq!(feed(900.0), "900");
+        assert_eq!(feed(900.27), "900.3");
+    }
+
+    #[test]
+    fn a_feed_is_rounded_by_at_most_one_part_in_ten_thousand() {
+        let mut value = 1.234_567e-4;
+        while value < 1e7 {
+            let read: f64 = feed(value).parse().unwrap();
+            assert!(
+                (read / value - 1.0).abs() <= 1e-4,
+                "{value} was written as {read}"
+            );
+            value *= 1.37;
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! What a program does not say about itself.
+
+use nalgebra::Vector3;
+
+/// Unit of length of the coordinate words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Units {
+    /// G21.
+    Millimetres,
+    /// G20.
+    Inches,
+}
+
+impl Units {
+    /// Millimetres in one unit.
+    pub fn mm_per_unit(self) -> f64 {
+        match self {
+            Units::Millimetres => 1.0,
+            Units::Inches => 25.4,
+        }
+    }
+}
+
+/// Whether blocks marked with `/` are run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BlockDelete {
+    /// The machine's switch is off: the blocks are run (the default).
+    #[default]
+    Run,
+    /// The machine's switch is on: the blocks are carried along and not run.
+    Skip,
+}
+
+/// Settings of the reading that the program cannot supply.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadOptions {
+    /// Units in force before the first G20 or G21. `None` (the default) refuses a program that
+    /// moves before it has named its units.
+    pub units: Option<Units>,
+    /// Origins of G54, G55, G56, G57, G58, G59, G59.1, G59.2, G59.3 in the part frame, in mm. Zero by
+    /// default: the program's coordinates are the part's.
+    pub work_offsets_mm: [Vector3<f64>; 9],
+    /// Where the tool stands before the first block, in mm, part frame.
+    ///
+    /// `None` (the default) means unknown. An axis is then unknown until the program states it (an
+    /// absolute word or G92), and until all axes that the program ever states are known its blocks
+    /// are carried unchanged: a correction written into `G1 Z5` as the first block would send the
+    /// tool across the machine to an X and Y that nobody asked for. An axis that the program never
+    /// states is taken as zero and never written.
+    pub start_position_mm: Option<Vector3<f64>>,
+    /// Largest difference of an arc's radii at start and end, in mm; 0.005 by default, as common
+    /// controllers have it. Within it the radius is led evenly from one to the other.
+    pub arc_tolerance_mm: f64,
+    /// Whether blocks marked with `/` are run.
+    pub block_delete: BlockDelete,
+}
+
+impl Default for ReadOptions {
+    fn default() -> Self {
+        Self {
+            units: None,
+            work_offsets_mm: [Vector3::zeros(); 9],
+            start_position_mm: None,
+            arc_tolerance_mm: 0.005,
+            block_delete: BlockDelete::Run,
+        }
+    }
+}
