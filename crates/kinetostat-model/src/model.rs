@@ -1,0 +1,196 @@
+//! A model: the document as written, and the mechanism it describes.
+
+use kinetostat::{Mechanism, Pose};
+use nalgebra::Vector3;
+use serde::Deserialize;
+
+use crate::assemble::{Findings, assemble, corners};
+use crate::check;
+use crate::placement;
+use crate::presets;
+use crate::problem::{Finding, ModelError, Place, Problem, Severity};
+use crate::schema::{Deviation, Document};
+use crate::source::Source;
+
+/// Longer texts are refused, bytes.
+pub(crate) const MOST_BYTES: usize = 16 * 1024 * 1024;
+
+/// A machine, as written and as the core sees it.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// What the file says.
+    pub document: Document,
+    /// What it means, in SI.
+    pub mechanism: Mechanism,
+    /// The file's text (without a byte order mark).
+    pub text: String,
+    /// The file's name as it was given, or `preset NAME`.
+    pub file: String,
+    /// What looks wrong although it can be computed.
+    pub warnings: Vec<Problem>,
+}
+
+impl Model {
+    /// Reads a model from TOML text; `file` names it in messages.
+    ///
+    /// ```
+    /// let text = kinetostat_model::preset_text("two_link").ok_or("no such preset")?;
+    /// let model = kinetostat_model::Model::from_toml(text, "two_link.toml")?;
+    /// assert_eq!(model.mechanism.limbs().len(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ModelError`] with every problem found, each with its line and what to do.
+    pub fn from_toml(text: &str, file: &str) -> Result<Self, ModelError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let refuse = |message: &str, help: &str| {
+            Err(ModelError::new(vec![Problem::without_text(
+                file,
+                message.into(),
+                help.into(),
+            )]))
+        };
+        if text.len() > MOST_BYTES {
+            return refuse(
+                "the file is larger than 16 MB, which no model file is",
+                "name a model file in TOML",
+            );
+        }
+        if text.trim().is_empty() {
+            return refuse(
+                "the file is empty",
+                "start from a preset: kinetostat model show two_link",
+            );
+        }
+        let source = Source::parse(file, text)?;
+        let findings = check::check(&source.tree);
+        if !findings.is_empty() {
+            return Err(source.error(&findings));
+        }
+        let document =
+            toml::from_str::<Document>(text).map_err(|e| source.error(&[Source::syntax(&e)]))?;
+        let mut findings = Findings::default();
+        let mechanism = assemble(&document, &mut findings);
+        let Some(mechanism) = mechanism.filter(|_| findings.errors.is_empty()) else {
+            if findings.errors.is_empty() {
+                findings.errors.push(Finding::new(
+                    &Place::root(),
+                    "the machine could not be put together",
+                    "please report this file: it should have had a better message",
+                ));
+            }
+            return Err(source.error(&findings.errors));
+        };
+        let mut warnings: Vec<Problem> = findings
+            .warnings
+            .iter()
+            .map(|f| source.problem(Severity::Warning, f))
+            .collect();
+        warnings.sort_by_key(|p| (p.line, p.column));
+        Ok(Self {
+            document,
+            mechanism,
+            text: text.to_owned(),
+            file: file.to_owned(),
+            warnings,
+        })
+    }
+
+    /// A model that comes with the program; see [`crate::preset_names`].
+    ///
+    /// # Errors
+    /// [`ModelError`] with the nearest name if there is no such preset.
+    pub fn preset(name: &str) -> Result<Self, ModelError> {
+        match presets::preset_text(name) {
+            Some(text) => Self::from_toml(text, &format!("preset {name}")),
+            None => Err(presets::unknown(name)),
+        }
+    }
+
+    /// Reads a model from a document, as if it had been read from the text that
+    /// [`to_toml`](Self::to_toml) writes.
+    ///
+    /// # Errors
+    /// As [`from_toml`](Self::from_toml).
+    pub fn from_document(document: &Document, file: &str) -> Result<Self, ModelError> {
+        Self::from_toml(&write(document, file)?, file)
+    }
+
+    /// Name of the machine.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.document.mechanism.name
+    }
+
+    /// Two opposite corners of the workspace in base axes, m: smallest and largest coordinates.
+    #[must_use]
+    pub fn workspace(&self) -> Option<(Vector3<f64>, Vector3<f64>)> {
+        let (a, b) = corners(&self.document).ok()??;
+        Some((a.inf(&b), a.sup(&b)))
+    }
+
+    /// The same machine with one more error of manufacture or assembly: the actual geometry of
+    /// `limb` is moved by `motion` (m, in the frame reached behind the element) at the rigid element
+    /// or link `at`, or at its `start` or `end`. Replaces a deviation at the same place.
+    ///
+    /// # Errors
+    /// [`ModelError`] if there is no such limb or element, or if the motion is not finite.
+    pub fn with_deviation(&self, limb: &str, at: &str, motion: &Pose) -> Result<Self, ModelError> {
+        let mut document = self.document.clone();
+        document.deviation.retain(|d| d.limb != limb || d.at != at);
+        document.deviation.push(Deviation {
+            limb: limb.to_owned(),
+            at: at.to_owned(),
+            moved_by: placement::written(motion),
+            source: None,
+            assumption: None,
+        });
+        Self::from_document(&document, &self.file)
+    }
+
+    /// The same machine as drawn, without errors of manufacture and assembly.
+    ///
+    /// # Errors
+    /// As [`from_toml`](Self::from_toml); cannot happen for a model that was read.
+    pub fn without_deviations(&self) -> Result<Self, ModelError> {
+        let mut document = self.document.clone();
+        document.deviation.clear();
+        Self::from_document(&document, &self.file)
+    }
+
+    /// The document as TOML. Comments and order of the original text are not kept; use
+    /// [`text`](Self::text) for those.
+    ///
+    /// # Errors
+    /// [`ModelError`] if a value cannot be written; cannot happen for a model that was read.
+    pub fn to_toml(&self) -> Result<String, ModelError> {
+        write(&self.document, &self.file)
+    }
+}
+
+fn write(document: &Document, file: &str) -> Result<String, ModelError> {
+    toml::to_string(document).map_err(|e| {
+        ModelError::new(vec![Problem::without_text(
+            file,
+            format!("the model cannot be written as TOML: {e}"),
+            "give every table a name that is plain text".into(),
+        )])
+    })
+}
+
+impl<'de> Deserialize<'de> for Model {
+    /// From a [`Document`] in any format; messages carry no lines then.
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let document = Document::deserialize(deserializer)?;
+        Self::from_document(&document, "model").map_err(serde::de::Error::custom)
+    }
+}
+
+/// The JSON Schema of model files, pretty-printed, with a final newline.
+#[must_use]
+pub fn json_schema() -> String {
+    let mut text = serde_json::to_string_pretty(check::schema()).unwrap_or_default();
+    text.push('\n');
+    text
+}

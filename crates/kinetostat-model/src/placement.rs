@@ -1,0 +1,172 @@
+//! Poses and directions as a file writes them.
+
+use kinetostat::Pose;
+use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
+
+use crate::problem::{Finding, Place};
+use crate::quantity::{DEG, Found, MM, choice, pick, vector};
+use crate::schema::{Axis, AxisName, Placement};
+
+/// Unit vector of a direction.
+pub(crate) fn direction(place: &Place, axis: &Axis) -> Found<Unit<Vector3<f64>>> {
+    let v = match axis {
+        Axis::Named(AxisName::X) => Vector3::x(),
+        Axis::Named(AxisName::Y) => Vector3::y(),
+        Axis::Named(AxisName::Z) => Vector3::z(),
+        Axis::Named(AxisName::MinusX) => -Vector3::x(),
+        Axis::Named(AxisName::MinusY) => -Vector3::y(),
+        Axis::Named(AxisName::MinusZ) => -Vector3::z(),
+        Axis::Vector(v) => Vector3::from(*v),
+    };
+    // Scaling by the largest component first keeps squares of tiny and huge numbers finite.
+    let largest = v.amax();
+    Unit::try_new(v / largest, 1e-12)
+        .filter(|u| largest > 1e-12 && u.iter().all(|x| x.is_finite()))
+        .ok_or_else(|| {
+            Finding::new(
+                place,
+                format!("the axis [{}, {}, {}] has no direction", v.x, v.y, v.z),
+                "write a letter (\"x\", \"-x\", ...) or three numbers that are not all zero",
+            )
+        })
+}
+
+/// Axes of a link that lies along `x`: y horizontal (z cross x), or y cross x where x is nearly
+/// vertical.
+pub(crate) fn frame_along(x: &Unit<Vector3<f64>>) -> Rotation3<f64> {
+    let helper = if x.z.abs() < 0.9 {
+        Vector3::z()
+    } else {
+        Vector3::y()
+    };
+    let y = helper.cross(x).normalize();
+    Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x.into_inner(), y, x.cross(&y)]))
+}
+
+/// The pose; what is not given is zero.
+pub(crate) fn pose(place: &Place, p: &Placement) -> Found<Pose> {
+    let translation = vector(
+        place,
+        "position",
+        &[
+            choice("translation_mm", p.translation_mm, MM),
+            choice("translation_m", p.translation_m, 1.0),
+            choice("position_mm", p.position_mm, MM),
+            choice("position_m", p.position_m, 1.0),
+        ],
+    )?;
+    Ok(Pose::from_parts(translation.into(), orientation(place, p)?))
+}
+
+fn orientation(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
+    let angles = pick(
+        place,
+        "orientation",
+        &[
+            choice("rotation_vector_deg", p.rotation_vector_deg, DEG),
+            choice("rotation_vector_rad", p.rotation_vector_rad, 1.0),
+            choice(
+                "rotation_intrinsic_xyz_deg",
+                p.rotation_intrinsic_xyz_deg,
+                DEG,
+            ),
+            choice("roll_pitch_yaw_urdf_deg", p.roll_pitch_yaw_urdf_deg, DEG),
+            choice("roll_pitch_yaw_urdf_rad", p.roll_pitch_yaw_urdf_rad, 1.0),
+            choice("a_b_c_kuka_deg", p.a_b_c_kuka_deg, DEG),
+            choice("w_p_r_fanuc_deg", p.w_p_r_fanuc_deg, DEG),
+        ],
+    )?;
+    let quaternion = pick(
+        place,
+        "orientation",
+        &[
+            choice("quaternion_wxyz", p.quaternion_wxyz, 1.0),
+            choice("quaternion_xyzw", p.quaternion_xyzw, 1.0),
+        ],
+    )?;
+    let axes = p
+        .x_axis
+        .as_ref()
+        .map(|_| "x_axis")
+        .or(p.y_axis.as_ref().map(|_| "y_axis"));
+    let mut ways = [angles.map(|g| g.key), quaternion.map(|g| g.key), axes]
+        .into_iter()
+        .flatten();
+    if let (Some(one), Some(other)) = (ways.next(), ways.next()) {
+        return Err(Finding::new(
+            &place.key(other),
+            format!("the orientation is given twice: '{one}' and '{other}'"),
+            "keep one of them",
+        ));
+    }
+    if let Some(given) = angles {
+        let [a, b, c] = given.value;
+        let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
+        let turn = UnitQuaternion::from_axis_angle;
+        return Ok(match given.key {
+            "rotation_vector_deg" | "rotation_vector_rad" => {
+                UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c))
+            }
+            "rotation_intrinsic_xyz_deg" => turn(&x, a) * turn(&y, b) * turn(&z, c),
+            "a_b_c_kuka_deg" => turn(&z, a) * turn(&y, b) * turn(&x, c),
+            _ => turn(&z, c) * turn(&y, b) * turn(&x, a),
+        });
+    }
+    if let Some(given) = quaternion {
+        let [a, b, c, d] = given.value;
+        let q = match given.key {
+            "quaternion_wxyz" => Quaternion::new(a, b, c, d),
+            _ => Quaternion::new(d, a, b, c),
+        };
+        let length = q.norm();
+        if (length - 1.0).abs() > 1e-3 {
+            return Err(Finding::new(
+                &place.key(given.key),
+                format!("the quaternion has the length {length}, 1 is needed"),
+                "write the four numbers with at least four digits, in the order that the key names",
+            ));
+        }
+        return Ok(UnitQuaternion::from_quaternion(q));
+    }
+    match (&p.x_axis, &p.y_axis) {
+        (None, None) => Ok(UnitQuaternion::identity()),
+        (None, Some(_)) => Err(Finding::new(
+            &place.key("y_axis"),
+            "'y_axis' is given without 'x_axis'",
+            "write x_axis too",
+        )),
+        (Some(x), None) => {
+            let x = direction(&place.key("x_axis"), x)?;
+            Ok(UnitQuaternion::from_rotation_matrix(&frame_along(&x)))
+        }
+        (Some(x), Some(y)) => {
+            let x = direction(&place.key("x_axis"), x)?;
+            let y = direction(&place.key("y_axis"), y)?;
+            let slant = x.dot(&y);
+            if slant.abs() > 1e-6 {
+                return Err(Finding::new(
+                    &place.key("y_axis"),
+                    format!(
+                        "'y_axis' is not square to 'x_axis': {:.4} degrees instead of 90",
+                        slant.clamp(-1.0, 1.0).acos() / DEG
+                    ),
+                    "correct one of them, or leave out y_axis where the turn about x does not matter",
+                ));
+            }
+            let z = x.cross(&y).normalize();
+            let columns = Matrix3::from_columns(&[x.into_inner(), z.cross(&x), z]);
+            Ok(UnitQuaternion::from_rotation_matrix(
+                &Rotation3::from_matrix_unchecked(columns),
+            ))
+        }
+    }
+}
+
+/// A pose as this crate writes it.
+pub(crate) fn written(pose: &Pose) -> Placement {
+    Placement {
+        translation_m: Some(pose.translation.vector.into()),
+        rotation_vector_rad: Some(pose.rotation.scaled_axis().into()),
+        ..Placement::default()
+    }
+}

@@ -1,0 +1,262 @@
+//! What a model file says, one type per table, in the order in which it is written.
+//!
+//! These types are the only description of the format: reading, writing and the JSON Schema are
+//! generated from them. They hold the numbers as written, each with its unit in the field's name;
+//! the assembly turns them into SI once.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use crate::schema_elastic::{
+    Rectangle, Rigidities, Round, Section, Spring6, Stiffness, Tube, Values,
+};
+pub use crate::schema_element::{
+    ActuatorElement, BodyElement, CoupledElement, Element, LinkElement, NodeElement,
+    ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
+};
+
+/// The version of the format that this crate reads and writes.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// A model file: the whole of one machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "kinetostat model")]
+pub struct Document {
+    /// Version of the format: 1.
+    pub schema: u32,
+    /// Name, origin and gravity of the machine.
+    pub mechanism: MechanismTable,
+    /// Where the machine works, as a box in base axes.
+    pub workspace: Option<Workspace>,
+    /// Moving bodies. The base exists without being written; the last one carries the tool.
+    #[schemars(length(min = 1, max = 64))]
+    pub platform: Vec<PlatformTable>,
+    /// Sections and materials of links, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend("maxProperties" = 1000))]
+    pub section: BTreeMap<String, Section>,
+    /// Stiffnesses of six directions, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend("maxProperties" = 1000))]
+    pub stiffness: BTreeMap<String, Stiffness>,
+    /// Chains, by name; several limbs may use the same one.
+    #[schemars(extend("maxProperties" = 256))]
+    pub chain: BTreeMap<String, ChainTable>,
+    /// Chains between two platforms.
+    #[schemars(length(min = 1, max = 256))]
+    pub limb: Vec<LimbTable>,
+    /// Errors of manufacture and assembly: the actual geometry where it differs from the nominal.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 2000))]
+    pub deviation: Vec<Deviation>,
+}
+
+/// Name, origin and gravity of the machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MechanismTable {
+    /// Name of the machine.
+    pub name: String,
+    /// What it is, in a sentence.
+    pub description: Option<String>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+    /// Gravity in base axes, m/s^2: [0, 0, -9.81] for a machine on the floor, z up. Needed as soon
+    /// as anything has a mass; [0, 0, 0] leaves the weights out.
+    pub gravity_m_per_s2: Option<[f64; 3]>,
+}
+
+/// A box in base axes, given by two opposite corners.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Workspace {
+    /// One corner, mm.
+    pub corner_mm: Option<[f64; 3]>,
+    /// One corner, m.
+    pub corner_m: Option<[f64; 3]>,
+    /// The opposite corner, mm.
+    pub opposite_corner_mm: Option<[f64; 3]>,
+    /// The opposite corner, m.
+    pub opposite_corner_m: Option<[f64; 3]>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// A moving body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlatformTable {
+    /// Name, unique; 'base' is taken.
+    pub name: String,
+    /// Pose in the base when the machine is at home.
+    pub home: Placement,
+    /// Mass, kg.
+    pub mass_kg: Option<f64>,
+    /// Centre of mass in the platform's frame, mm.
+    pub centre_of_mass_mm: Option<[f64; 3]>,
+    /// Centre of mass in the platform's frame, m.
+    pub centre_of_mass_m: Option<[f64; 3]>,
+    /// Inertia about the centre of mass in platform axes, kg m^2, three rows.
+    pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// A pose: at most one position and at most one orientation; what is left out is zero.
+///
+/// An orientation names its convention, since the same three angles mean a dozen different
+/// rotations.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Placement {
+    /// Translation, mm.
+    pub translation_mm: Option<[f64; 3]>,
+    /// Translation, m.
+    pub translation_m: Option<[f64; 3]>,
+    /// Position of the origin, mm.
+    pub position_mm: Option<[f64; 3]>,
+    /// Position of the origin, m.
+    pub position_m: Option<[f64; 3]>,
+    /// Rotation vector: direction of the axis times the angle, degrees.
+    pub rotation_vector_deg: Option<[f64; 3]>,
+    /// Rotation vector: direction of the axis times the angle, radians.
+    pub rotation_vector_rad: Option<[f64; 3]>,
+    /// Turns about x, then about the new y, then about the new z, degrees: Rx(a) Ry(b) Rz(c).
+    pub rotation_intrinsic_xyz_deg: Option<[f64; 3]>,
+    /// Roll, pitch, yaw as in URDF, degrees: Rz(yaw) Ry(pitch) Rx(roll).
+    pub roll_pitch_yaw_urdf_deg: Option<[f64; 3]>,
+    /// Roll, pitch, yaw as in URDF, radians: Rz(yaw) Ry(pitch) Rx(roll).
+    pub roll_pitch_yaw_urdf_rad: Option<[f64; 3]>,
+    /// A, B, C as on a KUKA controller, degrees: Rz(A) Ry(B) Rx(C).
+    pub a_b_c_kuka_deg: Option<[f64; 3]>,
+    /// W, P, R as on a FANUC controller, degrees: Rz(R) Ry(P) Rx(W).
+    pub w_p_r_fanuc_deg: Option<[f64; 3]>,
+    /// Quaternion with the scalar part first.
+    pub quaternion_wxyz: Option<[f64; 4]>,
+    /// Quaternion with the scalar part last.
+    pub quaternion_xyzw: Option<[f64; 4]>,
+    /// Direction of the new x axis. Alone: the new y axis is horizontal (z cross x), or, where x is
+    /// within 26 degrees of the vertical, y cross x.
+    pub x_axis: Option<Axis>,
+    /// Direction of the new y axis, square to `x_axis`.
+    pub y_axis: Option<Axis>,
+}
+
+/// A direction: a letter or three numbers (any length but zero).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Axis {
+    /// Along a coordinate axis.
+    Named(AxisName),
+    /// Three components.
+    Vector([f64; 3]),
+}
+
+/// A coordinate axis and its sense.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum AxisName {
+    /// Along x.
+    #[serde(rename = "x")]
+    X,
+    /// Along y.
+    #[serde(rename = "y")]
+    Y,
+    /// Along z.
+    #[serde(rename = "z")]
+    Z,
+    /// Against x.
+    #[serde(rename = "-x")]
+    MinusX,
+    /// Against y.
+    #[serde(rename = "-y")]
+    MinusY,
+    /// Against z.
+    #[serde(rename = "-z")]
+    MinusZ,
+}
+
+/// Kind of a joint of one degree of freedom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JointKind {
+    /// Slides along its axis.
+    Prismatic,
+    /// Turns about its axis.
+    Revolute,
+}
+
+/// Kind of a passive joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PassiveKind {
+    /// Slides along its axis.
+    Prismatic,
+    /// Turns about its axis.
+    Revolute,
+    /// Turns about its first axis, then about its second.
+    Universal,
+    /// Turns about x, then y, then z.
+    Spherical,
+}
+
+/// An ordered list of elements: the product from the chain's base to its tip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChainTable {
+    /// What the chain is, in a sentence.
+    pub description: Option<String>,
+    /// The elements from the base to the tip, each in the frame reached by those before it.
+    #[schemars(length(min = 1, max = 2000))]
+    pub elements: Vec<Element>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// A chain between two platforms.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimbTable {
+    /// Name, unique.
+    pub name: String,
+    /// Platform where it starts: 'base' or the name of a platform.
+    pub from: String,
+    /// Platform where it ends.
+    pub to: String,
+    /// Name of its chain.
+    pub chain: String,
+    /// Pose of the chain's base in the frame of `from`.
+    pub start: Option<Placement>,
+    /// Pose of the chain's tip in the frame of `to`.
+    pub end: Option<Placement>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// An error of manufacture or assembly: a small motion of the actual geometry behind one element.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Deviation {
+    /// Limb that has it.
+    pub limb: String,
+    /// Name of a rigid element or a link of its chain, or 'start' or 'end'.
+    pub at: String,
+    /// The motion, in the frame reached behind that element.
+    pub moved_by: Placement,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}

@@ -1,0 +1,110 @@
+//! The text of a model file with the place of every value in it.
+
+use std::ops::Range;
+
+use serde_spanned::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::problem::{Finding, ModelError, Place, Problem, Severity, Step};
+
+/// A text and the tree of its values.
+pub(crate) struct Source<'t> {
+    pub(crate) file: &'t str,
+    pub(crate) text: &'t str,
+    pub(crate) tree: DeTable<'t>,
+}
+
+impl<'t> Source<'t> {
+    /// Reads TOML; a mistake in the syntax is an error with its line.
+    pub(crate) fn parse(file: &'t str, text: &'t str) -> Result<Self, ModelError> {
+        match DeTable::parse(text) {
+            Ok(tree) => Ok(Self {
+                file,
+                text,
+                tree: tree.into_inner(),
+            }),
+            Err(error) => {
+                let finding = Self::syntax(&error);
+                let span = finding.span.clone().unwrap_or(0..0);
+                let problem = Problem::in_text(Severity::Error, file, text, span, &finding);
+                Err(ModelError::new(vec![problem]))
+            }
+        }
+    }
+
+    /// A message of the TOML reader as a finding.
+    pub(crate) fn syntax(error: &toml::de::Error) -> Finding {
+        let reason = error.message().lines().collect::<Vec<_>>().join(", ");
+        Finding::new(
+            &Place::root(),
+            format!("this is not TOML: {reason}"),
+            "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]",
+        )
+        .at(error.span().unwrap_or(0..0))
+    }
+
+    /// Where a value is written; for one that is missing, the table that should hold it.
+    pub(crate) fn span(&self, place: &Place) -> Range<usize> {
+        let mut span = 0..0;
+        let mut steps = place.0.iter();
+        let Some(Step::Key(first)) = steps.next() else {
+            return span;
+        };
+        let Some((key, mut value)) = entry(&self.tree, first) else {
+            return span;
+        };
+        // A whole table is shown by its name rather than by all of its lines.
+        span = shown(key.span(), value);
+        for step in steps {
+            let next = match (step, value.get_ref()) {
+                (Step::Key(k), DeValue::Table(table)) => {
+                    entry(table, k).map(|(key, v)| (shown(key.span(), v), v))
+                }
+                (Step::Index(i), DeValue::Array(list)) => list.get(*i).map(|v| (v.span(), v)),
+                _ => None,
+            };
+            let Some((found, inner)) = next else {
+                return span;
+            };
+            if !found.is_empty() {
+                span = found;
+            }
+            value = inner;
+        }
+        span
+    }
+
+    pub(crate) fn problem(&self, severity: Severity, finding: &Finding) -> Problem {
+        let span = finding
+            .span
+            .clone()
+            .unwrap_or_else(|| self.span(&finding.place));
+        Problem::in_text(severity, self.file, self.text, span, finding)
+    }
+
+    pub(crate) fn error(&self, findings: &[Finding]) -> ModelError {
+        let mut problems: Vec<Problem> = findings
+            .iter()
+            .map(|f| self.problem(Severity::Error, f))
+            .collect();
+        problems.sort_by_key(|p| (p.line, p.column));
+        ModelError::new(problems)
+    }
+}
+
+fn shown(key: Range<usize>, value: &Spanned<DeValue<'_>>) -> Range<usize> {
+    match value.get_ref() {
+        DeValue::Table(_) | DeValue::Array(_) => key,
+        _ => value.span(),
+    }
+}
+
+fn entry<'a, 't>(
+    table: &'a DeTable<'t>,
+    key: &str,
+) -> Option<(
+    &'a Spanned<toml::de::DeString<'t>>,
+    &'a Spanned<DeValue<'t>>,
+)> {
+    table.iter().find(|(k, _)| k.get_ref() == key)
+}
