@@ -1,7 +1,20 @@
 //! From a machining program and a robot model to deflections, corrections and a checked result.
+//!
+//! [`analyse`] tells how far the tool is off along a program; [`compensate_program`] writes one that
+//! cuts where it should and proves it by solving the written program again.
 
+mod field;
+mod load;
+mod placement;
 mod result;
+mod run;
+mod sites;
+mod solve;
 
+pub use field::ModelField;
+pub use load::{CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
+pub use placement::Placement;
 pub use result::{
     ActuatorColumn, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult, Summary,
 };
+pub use run::{Run, RunError, Task, Unwatched, Watch, analyse, compensate_program};

@@ -84,6 +84,20 @@ pub enum Error {
         /// Nearest pose found.
         nearest: Box<Pose>,
     },
+    /// A command lies outside the limits of its actuator.
+    #[error(
+        "actuator '{actuator}': the command {command:.6} is outside its limits {low:.6} .. {high:.6} (m or rad)"
+    )]
+    OutsideLimits {
+        /// Name of the actuator.
+        actuator: String,
+        /// Command needed, m or rad.
+        command: f64,
+        /// Lower limit.
+        low: f64,
+        /// Upper limit.
+        high: f64,
+    },
     /// The platform is free to move under this wrench: no position is an equilibrium.
     #[error(
         "{place}: the wrench pushes in a free direction, so the platform has no equilibrium ({reason})"
@@ -111,7 +125,10 @@ impl Error {
     pub fn is_unanswered(&self) -> bool {
         matches!(
             self,
-            Self::NotConverged { .. } | Self::Unreachable { .. } | Self::FreeDirection { .. }
+            Self::NotConverged { .. }
+                | Self::Unreachable { .. }
+                | Self::OutsideLimits { .. }
+                | Self::FreeDirection { .. }
         )
     }
 }

@@ -1,0 +1,55 @@
+//! The model as a field of corrections for the program writer.
+
+use kinetostat::{Error, Mechanism};
+use kinetostat_program::{CorrectionField, FieldFailure, Request};
+use nalgebra::Vector3;
+
+use crate::load::LoadAlongPath;
+use crate::placement::Placement;
+use crate::solve::in_chunks;
+
+/// Answers, for every point of a path, what must be added to the program so that the tool is there
+/// under the load of the program.
+pub struct ModelField<'a> {
+    /// Machine with its tool.
+    pub mechanism: &'a Mechanism,
+    /// Where the program lies.
+    pub placement: Placement,
+    /// Load along the path.
+    pub load: &'a LoadAlongPath<'a>,
+}
+
+impl CorrectionField for ModelField<'_> {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+        in_chunks(requests, |memory, _, request| {
+            let pose = self.placement.tool_pose(&request.position_mm);
+            let wrench = self
+                .load
+                .wrench(&self.placement, request.move_index, request.share);
+            memory[0]
+                .target(self.mechanism, &pose, &wrench)
+                .map(|posture| {
+                    let shift = posture.target().translation.vector - pose.translation.vector;
+                    self.placement.to_program(&shift)
+                })
+                .map_err(|error| FieldFailure::new(in_words(&error)))
+        })
+    }
+}
+
+/// A failure of the core with what a person can do about it.
+pub(crate) fn in_words(error: &Error) -> String {
+    let advice = match error {
+        Error::Unreachable { .. } | Error::OutsideLimits { .. } => {
+            "; move the part (placement) or check the model's limits"
+        }
+        Error::NotConverged { .. } => {
+            "; the load may be beyond what the machine can carry here: check force and moment, or look at `kinetostat deflect` with a part of it"
+        }
+        Error::FreeDirection { .. } => {
+            "; the machine does not hold this direction: check passive joints and platform"
+        }
+        _ => "",
+    };
+    format!("{error}{advice}")
+}

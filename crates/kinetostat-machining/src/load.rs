@@ -1,0 +1,258 @@
+//! The load on the tool along a program.
+//!
+//! Cutting forces act on feed moves, not on rapids. In the milling frame the radial and the
+//! tangential force turn with the feed direction [R 7.17, with the sign of the errata]:
+//!
+//! ```text
+//! f = F_r e_r + F_t e_t + F_a z,   e_t along the feed (seen along the tool axis z), e_r = e_t x z
+//! ```
+//!
+//! so that on a counter-clockwise circle `e_r` points outwards. At a gentle corner the load turns
+//! over the last and first millimetres of the two moves; at a sharp one it turns at once.
+
+use kinetostat::{Pose, Wrench};
+use kinetostat_program::{MoveKind, Path};
+use nalgebra::{Rotation3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::placement::Placement;
+
+/// Axes of a constant wrench.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadAxes {
+    /// Axes of the machine's base.
+    Base,
+    /// Axes of the (nominal) tool frame.
+    Tool,
+    /// x along the feed, z along the part frame's z, y to the left.
+    Feed,
+}
+
+/// A force law on feed moves.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CuttingLoad {
+    /// No cutting force.
+    None,
+    /// The same wrench at the tool's tip everywhere, N and N m.
+    Constant {
+        /// Axes of its components.
+        axes: LoadAxes,
+        /// Force and moment about the tool's tip.
+        wrench: Wrench,
+    },
+    /// Radial, tangential and axial force of milling, N.
+    Milling {
+        /// To the right of the feed.
+        radial: f64,
+        /// Along the feed.
+        tangential: f64,
+        /// Along the part frame's z.
+        axial: f64,
+    },
+}
+
+/// The load of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramLoad {
+    /// Force law.
+    pub cutting: CuttingLoad,
+    /// Only where the program's z is below this, mm.
+    pub below_z_mm: Option<f64>,
+    /// Corners that turn by at most this are gentle, rad. Default 30 degrees.
+    pub gentle_corner: f64,
+    /// Length over which the load turns before and after a gentle corner, mm. Default 2.
+    pub turning_length_mm: f64,
+}
+
+impl ProgramLoad {
+    /// This law on all feed moves.
+    #[must_use]
+    pub fn new(cutting: CuttingLoad) -> Self {
+        Self {
+            cutting,
+            below_z_mm: None,
+            gentle_corner: 30_f64.to_radians(),
+            turning_length_mm: 2.0,
+        }
+    }
+
+    fn turns(&self) -> bool {
+        matches!(
+            self.cutting,
+            CuttingLoad::Milling { .. }
+                | CuttingLoad::Constant {
+                    axes: LoadAxes::Feed,
+                    ..
+                }
+        )
+    }
+}
+
+/// Heading of a move at its two ends, seen along z of the part frame, rad, and how far the heading
+/// of the load differs there because a corner is gentle.
+#[derive(Clone, Copy, Debug, Default)]
+struct Headings {
+    at_start: Option<f64>,
+    at_end: Option<f64>,
+    lag_start: f64,
+    lag_end: f64,
+}
+
+/// A [`ProgramLoad`] along one path.
+#[derive(Clone, Debug)]
+pub struct LoadAlongPath<'a> {
+    load: ProgramLoad,
+    path: &'a Path,
+    headings: Vec<Headings>,
+}
+
+fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
+    let t = tangent?;
+    // A move within 0.1 degree of the tool axis has no direction across it.
+    (t.xy().norm() > 2e-3).then(|| t.y.atan2(t.x))
+}
+
+fn wrap(angle: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    angle - turn * (angle / turn).round()
+}
+
+impl<'a> LoadAlongPath<'a> {
+    /// Prepares the headings of all moves.
+    #[must_use]
+    pub fn new(load: ProgramLoad, path: &'a Path) -> Self {
+        let mut headings = vec![Headings::default(); path.moves.len()];
+        if load.turns() {
+            for (h, m) in headings.iter_mut().zip(&path.moves) {
+                if m.kind == MoveKind::Feed {
+                    h.at_start = heading(m.tangent(0.0));
+                    h.at_end = heading(m.tangent(1.0));
+                }
+            }
+            for i in 1..headings.len() {
+                let (Some(before), Some(after)) = (headings[i - 1].at_end, headings[i].at_start)
+                else {
+                    continue;
+                };
+                let turn = wrap(after - before);
+                if turn.abs() <= load.gentle_corner {
+                    headings[i - 1].lag_end = 0.5 * turn;
+                    headings[i].lag_start = -0.5 * turn;
+                }
+            }
+        }
+        Self {
+            load,
+            path,
+            headings,
+        }
+    }
+
+    /// Wrench on the tool's tip (base axes, N, N m) at a share of a move.
+    #[must_use]
+    pub fn wrench(&self, placement: &Placement, move_index: usize, share: f64) -> Wrench {
+        let motion = &self.path.moves[move_index];
+        let position = motion.point(share);
+        let outside = self.load.below_z_mm.is_some_and(|z| position.z >= z);
+        if motion.kind == MoveKind::Rapid || outside {
+            return Wrench::zero();
+        }
+        let in_base =
+            |w: Wrench| w.rotated(&placement.base_from_part.rotation.to_rotation_matrix());
+        match self.load.cutting {
+            CuttingLoad::None => Wrench::zero(),
+            CuttingLoad::Constant {
+                axes: LoadAxes::Base,
+                wrench,
+            } => wrench,
+            CuttingLoad::Constant {
+                axes: LoadAxes::Tool,
+                wrench,
+            } => wrench.rotated(&placement.tool_orientation.to_rotation_matrix()),
+            CuttingLoad::Constant {
+                axes: LoadAxes::Feed,
+                wrench,
+            } => match self.heading_at(move_index, share) {
+                Some(angle) => {
+                    in_base(wrench.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle)))
+                }
+                // Along the tool axis only the axial part has a direction.
+                None => in_base(Wrench::new(
+                    Vector3::z() * wrench.force().z,
+                    Vector3::z() * wrench.moment().z,
+                )),
+            },
+            CuttingLoad::Milling {
+                radial,
+                tangential,
+                axial,
+            } => {
+                let mut force = Vector3::new(0.0, 0.0, axial);
+                if let Some(angle) = self.heading_at(move_index, share) {
+                    let (s, c) = angle.sin_cos();
+                    force +=
+                        Vector3::new(s, -c, 0.0) * radial + Vector3::new(c, s, 0.0) * tangential;
+                }
+                in_base(Wrench::new(force, Vector3::zeros()))
+            }
+        }
+    }
+
+    fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
+        let motion = &self.path.moves[move_index];
+        let own = heading(motion.tangent(share))?;
+        let h = &self.headings[move_index];
+        let length = motion.length_mm();
+        let zone = self.load.turning_length_mm;
+        // Short moves turn evenly over their whole length, long ones near their ends.
+        let (start, end) = if length <= 2.0 * zone {
+            (1.0 - share, share)
+        } else {
+            let s = share * length;
+            (
+                (1.0 - s / zone).max(0.0),
+                (1.0 - (length - s) / zone).max(0.0),
+            )
+        };
+        Some(own + h.lag_start * start + h.lag_end * end)
+    }
+
+    /// The load in words.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let text = match self.load.cutting {
+            CuttingLoad::None => return "no cutting load".into(),
+            CuttingLoad::Constant { axes, wrench } => {
+                let (f, m) = (wrench.force(), wrench.moment());
+                let axes = match axes {
+                    LoadAxes::Base => "base",
+                    LoadAxes::Tool => "tool",
+                    LoadAxes::Feed => "feed",
+                };
+                format!(
+                    "force ({}, {}, {}) N and moment ({}, {}, {}) N m at the tool's tip in {axes} axes, on feed moves",
+                    f.x, f.y, f.z, m.x, m.y, m.z
+                )
+            }
+            CuttingLoad::Milling {
+                radial,
+                tangential,
+                axial,
+            } => format!(
+                "milling: {radial} N to the right of the feed, {tangential} N along it, {axial} N along z, on feed moves"
+            ),
+        };
+        match self.load.below_z_mm {
+            Some(z) => format!("{text}, only below Z {z} mm"),
+            None => text,
+        }
+    }
+}
+
+/// Turns a tool given by its length along z of the flange into a pose, platform from tool, m.
+#[must_use]
+pub fn straight_tool(length: f64) -> Pose {
+    Pose::translation(0.0, 0.0, length)
+}

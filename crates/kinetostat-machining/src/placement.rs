@@ -1,0 +1,59 @@
+//! Where the program lies in the machine: part frame, tool, scale.
+
+use kinetostat::Pose;
+use nalgebra::{UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Places a program of positions (mm, part frame) into the base of the machine (m).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Placement {
+    /// Base from part frame, m.
+    pub base_from_part: Pose,
+    /// Orientation of the tool frame at every point, base from tool.
+    pub tool_orientation: UnitQuaternion<f64>,
+    /// Length in the machine per length in the program: 1 for real work; other values try a
+    /// program of another size.
+    pub scale: f64,
+}
+
+impl Placement {
+    /// Part frame and tool axes parallel to the base, program origin at `origin` (m).
+    #[must_use]
+    pub fn at(origin: Vector3<f64>) -> Self {
+        Self {
+            base_from_part: Pose::from_parts(origin.into(), UnitQuaternion::identity()),
+            tool_orientation: UnitQuaternion::identity(),
+            scale: 1.0,
+        }
+    }
+
+    /// Metres in the machine per millimetre of the program.
+    fn metres(&self) -> f64 {
+        1e-3 * self.scale
+    }
+
+    /// Pose of the tool at a point of the program (mm).
+    #[must_use]
+    pub fn tool_pose(&self, position_mm: &Vector3<f64>) -> Pose {
+        let point = self.base_from_part * nalgebra::Point3::from(position_mm * self.metres());
+        Pose::from_parts(point.coords.into(), self.tool_orientation)
+    }
+
+    /// A displacement in the machine (m, base axes) as a displacement in the program (mm).
+    #[must_use]
+    pub fn to_program(&self, displacement: &Vector3<f64>) -> Vector3<f64> {
+        self.base_from_part.rotation.inverse() * displacement / self.metres()
+    }
+
+    /// A vector of the part frame in base axes, length unchanged.
+    #[must_use]
+    pub fn to_base_axes(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        self.base_from_part.rotation * vector
+    }
+
+    /// The inverse of [`Self::to_base_axes`].
+    #[must_use]
+    pub fn to_part_axes(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        self.base_from_part.rotation.inverse() * vector
+    }
+}

@@ -1,0 +1,164 @@
+//! Where along a path, or along a written program, errors are looked at.
+
+use kinetostat::Wrench;
+use kinetostat_program::{Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece};
+use nalgebra::Vector3;
+
+use crate::load::LoadAlongPath;
+use crate::placement::Placement;
+use crate::result::PointKind;
+
+/// A place on the path with its load and, for a written program, what is commanded there.
+#[derive(Clone, Debug)]
+pub(crate) struct Site {
+    pub move_index: usize,
+    pub line: usize,
+    pub output_line: usize,
+    pub kind: PointKind,
+    pub share: f64,
+    pub path_mm: f64,
+    /// Where the tool should be, mm, program coordinates.
+    pub desired: Vector3<f64>,
+    /// What the written program commands, mm; the same without compensation.
+    pub commanded: Vector3<f64>,
+    pub wrench: Wrench,
+    /// End of a piece (or block), where a full answer is wanted; otherwise its middle.
+    pub end: bool,
+}
+
+/// Shares this far inside a piece decide which side of a jump of the load it is on.
+const INSIDE: f64 = 1e-9;
+
+/// Length of the path before every move, mm.
+fn starts(path: &Path) -> Vec<f64> {
+    let mut length = 0.0;
+    path.moves
+        .iter()
+        .map(|m| {
+            let start = length;
+            if m.known == Knowledge::Whole {
+                length += m.length_mm();
+            }
+            start
+        })
+        .collect()
+}
+
+/// Ends and middles of all blocks; arcs at every chord of `arc_tolerance_mm`.
+pub(crate) fn of_path(
+    path: &Path,
+    load: &LoadAlongPath<'_>,
+    placement: &Placement,
+    arc_tolerance_mm: f64,
+) -> Vec<Site> {
+    let starts = starts(path);
+    let mut sites = Vec::new();
+    for (i, motion) in path.moves.iter().enumerate() {
+        let mut push = |share: f64, inside: f64, end: bool| {
+            let desired = motion.point(share);
+            sites.push(Site {
+                move_index: i,
+                line: motion.line,
+                output_line: 0,
+                kind: kind(motion),
+                share,
+                path_mm: starts[i] + share * motion.length_mm(),
+                desired,
+                commanded: desired,
+                wrench: load.wrench(placement, i, (share + inside).clamp(0.0, 1.0)),
+                end,
+            });
+        };
+        match (motion.known, motion.kind) {
+            (Knowledge::Nothing, _) => {}
+            (Knowledge::End, _) | (_, MoveKind::Rapid) => push(1.0, 0.0, true),
+            (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => {}
+            (Knowledge::Whole, MoveKind::Feed) => {
+                let pieces = match &motion.curve {
+                    Curve::Line => 1,
+                    Curve::Arc(arc) => arc.chords_within(arc_tolerance_mm),
+                };
+                for k in 0..pieces {
+                    let share = |x: f64| (k as f64 + x) / pieces as f64;
+                    push(share(0.5), 0.0, false);
+                    push(share(1.0), -INSIDE, true);
+                }
+            }
+        }
+    }
+    sites
+}
+
+/// Ends and middles of all pieces of a written program.
+pub(crate) fn of_written(
+    path: &Path,
+    written: &Corrected,
+    load: &LoadAlongPath<'_>,
+    placement: &Placement,
+) -> Vec<Site> {
+    let starts = starts(path);
+    let mut sites = Vec::with_capacity(2 * written.pieces.len());
+    let mut before = Wrench::zero();
+    for piece in written.pieces.iter().filter(|p| p.corrected) {
+        let motion = &path.moves[piece.move_index];
+        let at = |share: f64, inside: f64| {
+            load.wrench(
+                placement,
+                piece.move_index,
+                (share + inside).clamp(0.0, 1.0),
+            )
+        };
+        let mut push = |place: f64, wrench: Wrench, end: bool| {
+            let share = piece.share_from + place * (piece.share_to - piece.share_from);
+            sites.push(Site {
+                move_index: piece.move_index,
+                line: motion.line,
+                output_line: piece.output_line,
+                kind: if piece.corner_step {
+                    PointKind::Corner
+                } else {
+                    kind(motion)
+                },
+                share,
+                path_mm: starts[piece.move_index] + share * motion.length_mm(),
+                desired: motion.point(share),
+                commanded: commanded(piece, place),
+                wrench,
+                end,
+            });
+        };
+        if piece.corner_step {
+            // The load turns while the tool steps: half of it is there half-way.
+            let after = at(piece.share_to, INSIDE);
+            push(0.5, Wrench(0.5 * (before.0 + after.0)), false);
+            push(1.0, after, true);
+            before = after;
+            continue;
+        }
+        let standing = motion.length_mm() == 0.0;
+        if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole && !standing {
+            push(
+                0.5,
+                at(0.5 * (piece.share_from + piece.share_to), 0.0),
+                false,
+            );
+        }
+        let end = at(piece.share_to, -INSIDE);
+        if !standing {
+            push(1.0, end, true);
+        }
+        before = end;
+    }
+    sites
+}
+
+fn kind(motion: &Move) -> PointKind {
+    match motion.kind {
+        MoveKind::Rapid => PointKind::Rapid,
+        MoveKind::Feed => PointKind::Feed,
+    }
+}
+
+fn commanded(piece: &Piece, place: f64) -> Vector3<f64> {
+    piece.commanded_from + (piece.commanded_to - piece.commanded_from) * place
+}

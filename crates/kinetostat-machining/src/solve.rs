@@ -1,0 +1,134 @@
+//! Many points of a path, solved one after the other from the neighbour's state, in chunks of fixed
+//! size: the answer of a point does not depend on the number of threads.
+
+use kinetostat::{
+    Error, Mechanism, MechanismEquilibrium, MechanismState, Pose, Posture, Wrench,
+    target_under_load,
+};
+use rayon::prelude::*;
+
+/// Points that share a chain of starting values.
+pub(crate) const CHUNK: usize = 64;
+
+/// Directions that a program of positions can correct.
+pub(crate) const POSITIONS: [bool; 6] = [true, true, true, false, false, false];
+
+/// Posture and state of the last point solved in a chunk, one memory per kind of question.
+#[derive(Default)]
+pub(crate) struct Neighbour<'m> {
+    last: Option<(Posture<'m>, MechanismState)>,
+}
+
+/// A neighbour farther away than this (share of the machine's length) is no better than a start
+/// from rest.
+const NEAR: f64 = 0.05;
+
+impl<'m> Neighbour<'m> {
+    fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {
+        self.last.as_ref().filter(|(posture, _)| {
+            let limbs = posture.mechanism().limbs();
+            let length = limbs
+                .iter()
+                .map(|l| l.nominal.scale().length)
+                .fold(0.0, f64::max);
+            (posture.target().translation.vector - pose.translation.vector).norm() < NEAR * length
+        })
+    }
+
+    fn posture(&self, mechanism: &'m Mechanism, pose: &Pose) -> Result<Posture<'m>, Error> {
+        let posture = match self.near(pose) {
+            Some((near, _)) => mechanism.posture_near(pose, near)?,
+            None => mechanism.posture(pose)?,
+        };
+        within_limits(&posture)?;
+        Ok(posture)
+    }
+
+    /// The posture whose tool is at `pose` under `wrench`.
+    pub fn target(
+        &mut self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+    ) -> Result<Posture<'m>, Error> {
+        let (near, state) = match self.near(pose) {
+            Some(found) => found.clone(),
+            None => {
+                let posture = mechanism.posture(pose)?;
+                let state = posture.rest_state();
+                (posture, state)
+            }
+        };
+        let answer = target_under_load(&near, pose, wrench, POSITIONS, state)?;
+        within_limits(&answer.0)?;
+        self.last = Some(answer.clone());
+        Ok(answer.0)
+    }
+
+    /// Where the tool goes when commanded to `pose` under `wrench`.
+    pub fn rest(
+        &mut self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+    ) -> Result<(Posture<'m>, Pose), Error> {
+        let posture = self.posture(mechanism, pose)?;
+        let start = self
+            .near(pose)
+            .map_or_else(|| posture.rest_state(), |(_, s)| s.clone());
+        let state = posture.rest_under(wrench, start)?;
+        let tool = state.platforms[mechanism.tool()];
+        self.last = Some((posture.clone(), state));
+        Ok((posture, tool))
+    }
+
+    /// As [`Self::rest`], with stiffness and stability.
+    pub fn equilibrium(
+        &mut self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+    ) -> Result<(Posture<'m>, MechanismEquilibrium), Error> {
+        let posture = self.posture(mechanism, pose)?;
+        let start = self
+            .near(pose)
+            .map_or_else(|| posture.rest_state(), |(_, s)| s.clone());
+        let equilibrium = posture.deflected_from(wrench, start)?;
+        self.last = Some((posture.clone(), equilibrium.state.clone()));
+        Ok((posture, equilibrium))
+    }
+}
+
+/// A command beyond its limits is a place that cannot be reached.
+fn within_limits(posture: &Posture<'_>) -> Result<(), Error> {
+    match posture.limit_violations().into_iter().next() {
+        None => Ok(()),
+        Some((actuator, command, (low, high))) => Err(Error::OutsideLimits {
+            actuator,
+            command,
+            low,
+            high,
+        }),
+    }
+}
+
+/// Runs `work` over all items in chunks of [`CHUNK`], each chunk with memories of its own, on all
+/// cores; answers in order.
+pub(crate) fn in_chunks<'m, T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(&mut [Neighbour<'m>; 2], usize, &T) -> R + Sync,
+) -> Vec<R> {
+    items
+        .par_chunks(CHUNK)
+        .enumerate()
+        .flat_map_iter(|(chunk, items)| {
+            let mut memory: [Neighbour<'m>; 2] = Default::default();
+            let answers: Vec<R> = items
+                .iter()
+                .enumerate()
+                .map(|(i, item)| work(&mut memory, chunk * CHUNK + i, item))
+                .collect();
+            answers
+        })
+        .collect()
+}
