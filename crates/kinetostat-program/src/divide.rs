@@ -3,8 +3,9 @@
 //! The corrected curve of a move is `point(s) + c(s)`, `s` the share of its length. A piece from `a`
 //! to `b` is good if `c` differs from the straight line between `c(a)` and `c(b)` by no more than the
 //! tolerance; the whole vector is compared, so the bound holds for the way along the path too. It is
-//! tested in the middle, and in the quarters too unless middle and ends say that the correction
-//! hardly varies. Arcs are divided first, by their chords.
+//! tested in the middle, and in the quarters too unless the correction changes by less than the
+//! tolerance over the whole piece and the middle lies well within it: then no quarter of a correction
+//! that only rises or only falls can be off. Arcs are divided first, by their chords.
 //!
 //! All blocks are divided together, in rounds, so that the field is asked in large batches.
 
@@ -200,7 +201,7 @@ fn answer(
         stretch.middle.is_some_and(|middle| {
             let deviation = stretch.deviation(0.5, &middle);
             let change = (stretch.ends[1] - stretch.ends[0]).norm();
-            deviation > 0.25 * options.tolerance_mm || change > 0.5 * options.tolerance_mm
+            deviation > 0.25 * options.tolerance_mm || change > options.tolerance_mm
         })
     };
     let requests: Vec<Request> = open

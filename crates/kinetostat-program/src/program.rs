@@ -211,7 +211,12 @@ impl Reader {
 
     fn check_size(&self) -> Result<(), ProgramError> {
         let bytes = &self.program.bytes;
-        let problem = if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        let problem = if bytes.is_empty() {
+            (
+                "the file is empty",
+                "give a program with at least one block",
+            )
+        } else if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
             ("the file is UTF-16 text", "save it as ASCII or UTF-8")
         } else if u32::try_from(bytes.len()).is_err() {
             ("the file is larger than 4 GiB", "divide the program")
@@ -220,7 +225,7 @@ impl Reader {
         };
         Err(ProgramError {
             line: 1,
-            span: 0..2,
+            span: 0..bytes.len().min(2),
             found: "first bytes of the file".to_owned(),
             reason: problem.0.to_owned(),
             remedy: problem.1.to_owned(),

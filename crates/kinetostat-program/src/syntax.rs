@@ -38,9 +38,18 @@ pub(crate) fn check(
     for (index, spanned) in tokens.iter().enumerate() {
         match spanned.token {
             Token::Word { .. } => exponent(line, tokens, index)?,
-            Token::Letter(b'O') => return Err(subprogram(spanned, "an O word")),
+            Token::Letter(b'O') if named_subprogram(tokens, index) => {
+                return Err(subprogram(spanned, "an O word"));
+            }
             Token::Letter(_) if homing_axis(tokens) && stands_alone(tokens, index) => {}
-            Token::Letter(_) => return Err(letters(line, tokens, index)),
+            Token::Letter(_) => {
+                return Err(match tokens.get(index + 1).map(|after| &after.token) {
+                    Some(Token::Other(byte @ (b'#' | b'[' | b'='))) => {
+                        other(line, tokens, index + 1, *byte)
+                    }
+                    _ => letters(line, tokens, index),
+                });
+            }
             Token::Other(byte) => return Err(other(line, tokens, index, byte)),
             Token::Quoted => {
                 return Err(Refused {
@@ -148,6 +157,13 @@ fn exponent(line: &[u8], tokens: &[&Spanned], index: usize) -> Result<(), Refuse
     Ok(())
 }
 
+/// `O<name>` and `O[number]`.
+fn named_subprogram(tokens: &[&Spanned], index: usize) -> bool {
+    tokens
+        .get(index + 1)
+        .is_some_and(|after| matches!(after.token, Token::Other(b'<' | b'[' | b'#')))
+}
+
 /// `G28 X` names axes without numbers.
 fn homing_axis(tokens: &[&Spanned]) -> bool {
     tokens.iter().any(|spanned| {
@@ -177,9 +193,6 @@ fn letters(line: &[u8], tokens: &[&Spanned], index: usize) -> Refused {
         .count();
     let name = String::from_utf8_lossy(&line[start..start + length]).to_uppercase();
     let span = start..start + length;
-    if tokens.iter().any(|spanned| word(spanned, b'O').is_some()) {
-        return subprogram(tokens[index], "an O word with a keyword");
-    }
     let keywords = [
         "IF", "THEN", "ELSE", "ELSEIF", "ENDIF", "WHILE", "ENDWHILE", "DO", "END", "GOTO", "GOTOB",
         "GOTOF", "REPEAT", "FOR", "ENDFOR", "LOOP", "CASE",
@@ -192,6 +205,12 @@ fn letters(line: &[u8], tokens: &[&Spanned], index: usize) -> Refused {
             ),
             remedy: NO_VARIABLES,
         };
+    }
+    if tokens[..index]
+        .iter()
+        .any(|spanned| word(spanned, b'O').is_some())
+    {
+        return subprogram(tokens[index], "an O word with a keyword");
     }
     if length == 1 || name.ends_with("NAN") || name.ends_with("INF") {
         return Refused {
