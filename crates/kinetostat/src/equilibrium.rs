@@ -295,6 +295,15 @@ pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 
         })
 }
 
+/// Loads smaller than this share of the natural ones (a deflection by the whole length) are taken
+/// as that large where a residual is stated relative to them.
+pub(crate) const LEAST_LOAD: f64 = 1e-9;
+
+/// Unit of balanced residuals: square root of the energy of a deflection by the natural length.
+fn natural(chain: &Chain) -> f64 {
+    chain.scale().stiffness.sqrt() * chain.scale().length
+}
+
 /// Residuals of a system in balanced units (square root of energy).
 pub(crate) struct Balance {
     pub closure: f64,
@@ -372,8 +381,7 @@ impl Attempt<'_, '_> {
     }
 
     fn converged(&self, b: &Balance) -> bool {
-        let scale = self.problem.chain.scale();
-        let unit = scale.stiffness.sqrt() * scale.length;
+        let unit = natural(self.problem.chain);
         b.closure <= self.settings.closure * unit
             && b.torque <= self.settings.torque * b.loads + 1e-16 * unit
     }
@@ -530,7 +538,7 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
         place: format!("chain '{}'", chain.name()),
         iterations: spent.0,
         residual_position_m: balance.closure / chain.scale().stiffness.sqrt(),
-        residual_torque: balance.torque / balance.loads.max(f64::MIN_POSITIVE),
+        residual_torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
         load_factor: spent.1,
         last,
     })
@@ -603,7 +611,7 @@ impl Attempt<'_, '_> {
         self.offset = Twist::zero();
         self.evaluate(&x, &wrench, 1.0);
         let chain = self.problem.chain;
-        let stiffness = chain_stiffness(chain, &self.system, &self.factors);
+        let stiffness = chain_stiffness(chain, &self.system, &self.factors, None);
         let stability = shape_stability(chain, &self.system, &self.factors);
         Equilibrium {
             tip: self.system.kinematics.tip_pose(),
@@ -618,7 +626,7 @@ impl Attempt<'_, '_> {
             stability,
             residual: Residual {
                 closure_m: balance.closure / chain.scale().stiffness.sqrt(),
-                torque: balance.torque / balance.loads.max(f64::MIN_POSITIVE),
+                torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
                 iterations,
             },
         }

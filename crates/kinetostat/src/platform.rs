@@ -14,7 +14,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
-use crate::equilibrium::{Balance, System, balance, step_limit};
+use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, step_limit};
 use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
 use crate::loading::Load;
@@ -89,6 +89,8 @@ pub(crate) struct MechanismBalance {
     loads: f64,
     force: f64,
     forces: f64,
+    /// What loads count as at least, see [`LEAST_LOAD`].
+    least: f64,
 }
 
 impl MechanismBalance {
@@ -96,8 +98,8 @@ impl MechanismBalance {
     pub fn residual(&self, iterations: usize) -> crate::equilibrium::Residual {
         crate::equilibrium::Residual {
             closure_m: self.closure_m,
-            torque: (self.torque / self.loads.max(f64::MIN_POSITIVE))
-                .max(self.force / self.forces.max(f64::MIN_POSITIVE)),
+            torque: (self.torque / self.loads.max(self.least))
+                .max(self.force / self.forces.max(self.least)),
             iterations,
         }
     }
@@ -248,6 +250,7 @@ impl<'m> PlatformSolver<'m> {
             loads,
             force,
             forces,
+            least: LEAST_LOAD * root * self.length,
         };
         (balance, lack)
     }
@@ -646,6 +649,12 @@ impl<'m> PlatformSolver<'m> {
     /// System and balance factors of a limb after [`Self::finish`].
     pub fn limb_system(&self, limb: usize) -> (&System, &[f64]) {
         (&self.linear[limb].system, &self.factors[limb])
+    }
+
+    /// Wrench and coordinates of a limb per unit motion of its tip, (6 + n) x 6, after
+    /// [`Self::finish`].
+    pub fn unit_motions(&self, limb: usize) -> DMatrix<f64> {
+        self.linear[limb].solution.columns(1, 6).into_owned()
     }
 
     /// Natural length and stiffness of the mechanism.

@@ -621,7 +621,12 @@ pub(crate) fn conclude(
                 spring_torques: system.spring_torque.clone(),
                 energy: system.energy,
                 actuator_forces: system.torque[n..n + r].to_vec(),
-                stiffness: chain_stiffness(&limb.actual, system, factors),
+                stiffness: chain_stiffness(
+                    &limb.actual,
+                    system,
+                    factors,
+                    Some(solver.unit_motions(i)),
+                ),
                 stability: shape_stability(&limb.actual, system, factors),
             }
         })

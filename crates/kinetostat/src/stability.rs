@@ -100,6 +100,22 @@ fn margin(a: &DMatrix<f64>, b: &DMatrix<f64>) -> (Option<f64>, Option<DVector<f6
     if a.nrows() == 0 {
         return (None, None);
     }
+    // The usual case: every inner motion strains a spring.
+    if let Some(factor) = b.clone().cholesky().filter(|c| {
+        let d = c.l_dirty().diagonal();
+        d.min() > 1e-4 * d.max()
+    }) {
+        let l = factor.l();
+        let half = l.solve_lower_triangular(a);
+        let reduced = half.and_then(|h| l.solve_lower_triangular(&h.transpose()));
+        if let Some(reduced) = reduced {
+            let eigen = (0.5 * (&reduced + reduced.transpose())).symmetric_eigen();
+            let worst = eigen.eigenvalues.imax();
+            let v = eigen.eigenvectors.column(worst).into_owned();
+            let motion = l.tr_solve_lower_triangular(&v);
+            return (Some(eigen.eigenvalues[worst]), motion);
+        }
+    }
     let eigen = b.clone().symmetric_eigen();
     let most = eigen.eigenvalues.amax();
     let soft: Vec<usize> = (0..b.nrows())

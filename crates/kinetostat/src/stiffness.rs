@@ -98,6 +98,7 @@ pub fn unloaded_stiffness(
         chain,
         &system,
         &balance(chain, coordinates),
+        None,
     ))
 }
 
@@ -141,48 +142,22 @@ pub(crate) fn names_in(chain: &Chain, basis: &DMatrix<f64>) -> Vec<String> {
         .collect()
 }
 
-pub(crate) fn chain_stiffness(chain: &Chain, system: &System, factors: &[f64]) -> ChainStiffness {
-    let n = system.spring_torque.len();
+/// `solved` is the solution of the bordered system for unit motions of the tip, (6 + n) x 6, where
+/// the caller has it already.
+pub(crate) fn chain_stiffness(
+    chain: &Chain,
+    system: &System,
+    factors: &[f64],
+    solved: Option<DMatrix<f64>>,
+) -> ChainStiffness {
     let jacobian = balanced_jacobian(system, factors);
     let range = column_space(&jacobian);
-    let rank_of_motion = range.ncols();
     let redundant = passive_null_space(chain, &jacobian);
-
-    // Bordered system over the motions that exist: [0 U^T J; J^T U  H - K], all balanced.
-    let bordered = system.bordered(true);
-    let full = rank_of_motion == 6;
-    let mut a = DMatrix::zeros(rank_of_motion + n, rank_of_motion + n);
-    let reduced = if full {
-        jacobian
-    } else {
-        range.transpose() * &jacobian
+    let answer = match solved {
+        Some(solution) if range.ncols() == 6 => solution,
+        _ => unit_motions(system, factors, &jacobian, &range),
     };
-    a.view_mut((0, rank_of_motion), (rank_of_motion, n))
-        .copy_from(&reduced);
-    a.view_mut((rank_of_motion, 0), (n, rank_of_motion))
-        .copy_from(&reduced.transpose());
-    for i in 0..n {
-        for j in 0..n {
-            a[(rank_of_motion + i, rank_of_motion + j)] =
-                bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j];
-        }
-    }
-    let mut b = DMatrix::zeros(rank_of_motion + n, 6);
-    if full {
-        b.view_mut((0, 0), (6, 6)).fill_with_identity();
-    } else {
-        b.view_mut((0, 0), (rank_of_motion, 6))
-            .copy_from(&range.transpose());
-    }
-    let ones = vec![1.0; rank_of_motion + n];
-    Saddle::new(a, &ones, &ones).solve(&mut b);
-    let own = b.rows(0, rank_of_motion);
-    let balanced = if full {
-        Matrix6::from_fn(|i, j| own[(i, j)])
-    } else {
-        let spread = &range * own;
-        Matrix6::from_fn(|i, j| spread[(i, j)])
-    };
+    let balanced = Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]));
 
     let directions = directions(chain.scale(), &balanced, &range);
     let rank = directions
@@ -191,14 +166,11 @@ pub(crate) fn chain_stiffness(chain: &Chain, system: &System, factors: &[f64]) -
         .count();
     let rows = |role| {
         let indices = chain.indices_of(role);
-        DMatrix::from_fn(indices.len(), 6, |k, j| {
-            let i = indices[k];
-            b[(rank_of_motion + i, j)] * factors[6 + i] * factors[j]
-        })
+        DMatrix::from_fn(indices.len(), 6, |k, j| answer[(6 + indices[k], j)])
     };
     ChainStiffness {
         cartesian: CartesianStiffness {
-            matrix: Matrix6::from_fn(|i, j| balanced[(i, j)] * factors[i] * factors[j]),
+            matrix: answer.fixed_view::<6, 6>(0, 0).into_owned(),
         },
         passive: rows(Role::Passive),
         springs: rows(Role::Spring),
@@ -206,6 +178,40 @@ pub(crate) fn chain_stiffness(chain: &Chain, system: &System, factors: &[f64]) -
         directions,
         redundant_passive: names_in(chain, &redundant),
     }
+}
+
+/// Wrench and coordinates per unit motion of the tip, (6 + n) x 6, over the motions that the chain
+/// can make: the bordered system with its first rows restricted to the Jacobian's range.
+fn unit_motions(
+    system: &System,
+    factors: &[f64],
+    jacobian: &DMatrix<f64>,
+    range: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let (n, r) = (jacobian.ncols(), range.ncols());
+    let bordered = system.bordered(true);
+    let reduced = range.transpose() * jacobian;
+    let mut a = DMatrix::zeros(r + n, r + n);
+    a.view_mut((0, r), (r, n)).copy_from(&reduced);
+    a.view_mut((r, 0), (n, r)).copy_from(&reduced.transpose());
+    for i in 0..n {
+        for j in 0..n {
+            a[(r + i, r + j)] = bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j];
+        }
+    }
+    let mut b = DMatrix::zeros(r + n, 6);
+    b.view_mut((0, 0), (r, 6)).copy_from(&range.transpose());
+    let ones = vec![1.0; r + n];
+    Saddle::new(a, &ones, &ones).solve(&mut b);
+    let wrench = range * b.rows(0, r);
+    DMatrix::from_fn(6 + n, 6, |i, j| {
+        let balanced = if i < 6 {
+            wrench[(i, j)]
+        } else {
+            b[(r + i - 6, j)]
+        };
+        balanced * factors[i] * factors[j]
+    })
 }
 
 /// Principal directions of a balanced stiffness within the motions that exist.
