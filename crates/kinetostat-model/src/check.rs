@@ -280,7 +280,10 @@ impl Checker {
                     place,
                     span.clone(),
                     format!("{owner} has no '{key}'"),
-                    format!("write '{key}': {about}"),
+                    match key {
+                        "schema" => "write schema = 1 in the first line".into(),
+                        _ => format!("write '{key}': {about}"),
+                    },
                 );
             }
         }

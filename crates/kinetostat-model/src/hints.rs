@@ -119,6 +119,13 @@ pub(crate) fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
             format!("name it: {ORIENTATIONS}"),
         );
     }
+    let bare = |k: &str| k.replace(['_', '-'], "").to_lowercase();
+    if let Some(same) = known.iter().find(|k| bare(k) == bare(key)) {
+        return (
+            format!("unknown key '{key}'"),
+            format!("did you mean '{same}'?"),
+        );
+    }
     let units_for_it = rest(key);
     if !units_for_it.is_empty() {
         return (

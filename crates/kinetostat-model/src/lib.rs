@@ -65,6 +65,8 @@ mod check;
 mod elastic;
 mod file;
 mod hints;
+mod joint;
+mod limb;
 mod model;
 mod part;
 mod placement;
@@ -75,7 +77,9 @@ mod quantity;
 pub mod schema;
 mod schema_elastic;
 mod schema_element;
+mod section;
 mod source;
+mod template;
 
 pub use file::read_model;
 pub use model::{Model, json_schema};

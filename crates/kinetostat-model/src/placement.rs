@@ -55,7 +55,16 @@ pub(crate) fn pose(place: &Place, p: &Placement) -> Found<Pose> {
             choice("position_m", p.position_m, 1.0),
         ],
     )?;
-    Ok(Pose::from_parts(translation.into(), orientation(place, p)?))
+    let pose = Pose::from_parts(translation.into(), orientation(place, p)?);
+    // Squares of huge rotation vectors overflow.
+    match pose.to_homogeneous().iter().all(|x| x.is_finite()) {
+        true => Ok(pose),
+        false => Err(Finding::new(
+            place,
+            "the pose holds a number that is too large",
+            "check the figures and their units",
+        )),
+    }
 }
 
 fn orientation(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
@@ -168,5 +177,66 @@ pub(crate) fn written(pose: &Pose) -> Placement {
         translation_m: Some(pose.translation.vector.into()),
         rotation_vector_rad: Some(pose.rotation.scaled_axis().into()),
         ..Placement::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn orientation_of(toml: &str) -> UnitQuaternion<f64> {
+        let written: Placement = toml::from_str(toml).expect("placement");
+        let made = pose(&Place::root(), &written);
+        made.unwrap_or_else(|f| panic!("{}", f.message)).rotation
+    }
+
+    /// Columns of the rotation matrix, by hand, for 90 degrees about two axes: the order shows.
+    #[test]
+    fn every_convention_turns_as_its_name_says() {
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        for (toml, columns) in [
+            // Rx(90) Ry(90): x -> -z -> y, y -> y -> z, z -> x -> x.
+            ("rotation_intrinsic_xyz_deg = [90, 90, 0]", [y, z, x]),
+            // Ry(90) Rx(90): x -> x -> -z, y -> z -> x, z -> -y -> -y.
+            ("roll_pitch_yaw_urdf_deg = [90, 90, 0]", [-z, x, -y]),
+            ("w_p_r_fanuc_deg = [90, 90, 0]", [-z, x, -y]),
+            ("a_b_c_kuka_deg = [0, 90, 90]", [-z, x, -y]),
+            // Rz(90) Rx(90): x -> x -> y, y -> z -> z, z -> -y -> x.
+            ("roll_pitch_yaw_urdf_deg = [90, 0, 90]", [y, z, x]),
+            ("a_b_c_kuka_deg = [90, 0, 90]", [y, z, x]),
+            ("rotation_vector_deg = [0, 0, 90]", [y, -x, z]),
+            (
+                "rotation_vector_rad = [0, 0, 1.5707963267948966]",
+                [y, -x, z],
+            ),
+            ("quaternion_wxyz = [0.5, 0.5, 0.5, 0.5]", [y, z, x]),
+            (
+                "quaternion_wxyz = [0.70710678, 0.70710678, 0, 0]",
+                [x, z, -y],
+            ),
+            (
+                "quaternion_xyzw = [0.70710678, 0, 0, 0.70710678]",
+                [x, z, -y],
+            ),
+            ("x_axis = \"y\"\ny_axis = \"z\"", [y, z, x]),
+            ("x_axis = \"-z\"\ny_axis = [0, 2, 0]", [-z, y, x]),
+            ("x_axis = [3, 0, 0]", [x, y, z]),
+            ("x_axis = \"z\"", [z, x, y]),
+        ] {
+            let turn = orientation_of(toml);
+            for (axis, column) in [x, y, z].iter().zip(columns) {
+                assert!((turn * axis - column).norm() < 1e-8, "{toml}: {turn}");
+            }
+        }
+    }
+
+    #[test]
+    fn huge_and_tiny_directions_are_directions() {
+        for scale in [1e-11, 1e300] {
+            let axis = Axis::Vector([scale, scale, 0.0]);
+            let found = direction(&Place::root(), &axis);
+            let unit = found.unwrap_or_else(|f| panic!("{}", f.message));
+            assert!((unit.x - 0.5f64.sqrt()).abs() < 1e-15);
+        }
     }
 }

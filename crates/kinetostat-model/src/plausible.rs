@@ -5,10 +5,12 @@ use nalgebra::{Translation3, UnitQuaternion};
 
 use crate::problem::{Finding, Place};
 
-/// Pose of a chain's tip in its base with all springs at zero, for given coordinates and commands
-/// (m, rad).
-pub(crate) fn tip(chain: &Chain, coordinates: &[f64], commands: &[f64]) -> Pose {
+/// Pose of a chain's tip in its base, for given coordinates and commands (m, rad), and how far (m)
+/// any of its frames lies from its first one.
+fn tip(chain: &Chain, coordinates: &[f64], commands: &[f64]) -> (Pose, f64) {
     let mut pose = Pose::identity();
+    let mut origin = None;
+    let mut reach = 0.0_f64;
     for element in chain.elements() {
         match element {
             Element::Rigid(offset) => pose *= offset,
@@ -30,8 +32,11 @@ pub(crate) fn tip(chain: &Chain, coordinates: &[f64], commands: &[f64]) -> Pose 
             }
             Element::Node(_) => {}
         }
+        // The first offset only places the chain.
+        let here = pose.translation.vector;
+        reach = reach.max((here - *origin.get_or_insert(here)).norm());
     }
-    pose
+    (pose, reach)
 }
 
 /// Looks at sizes, masses, gravity and the home posture.
@@ -60,20 +65,11 @@ pub(crate) fn check(mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
     for (i, limb) in mechanism.limbs().iter().enumerate() {
         let place = root.key("limb").index(i);
         let chain = &limb.nominal;
-        let tip = tip(chain, &chain.home_coordinates(), &chain.home_commands());
-        let written: f64 = chain
-            .elements()
-            .iter()
-            .map(|e| match e {
-                Element::Rigid(offset) => offset.translation.vector.norm(),
-                _ => 0.0,
-            })
-            .sum();
-        let reach = written.max(tip.translation.vector.norm());
+        let (tip, reach) = tip(chain, &chain.home_coordinates(), &chain.home_commands());
         if reach > 100.0 || (reach > 0.0 && reach < 1e-3) {
             warn(
                 &place,
-                format!("the limb '{}' is {reach} m long", limb.name),
+                format!("the limb '{}' reaches over {reach:.6} m", limb.name),
                 "machines lie between a millimetre and 100 m; check the units of its chain",
             );
         }

@@ -31,17 +31,24 @@ pub(crate) struct Given<T> {
 /// What can be multiplied by the factor of its unit.
 pub(crate) trait Scaled: Copy {
     fn scaled(self, factor: f64) -> Self;
+    fn finite(self) -> bool;
 }
 
 impl Scaled for f64 {
     fn scaled(self, factor: f64) -> Self {
         self * factor
     }
+    fn finite(self) -> bool {
+        self.is_finite()
+    }
 }
 
 impl<const N: usize> Scaled for [f64; N] {
     fn scaled(self, factor: f64) -> Self {
         self.map(|x| x * factor)
+    }
+    fn finite(self) -> bool {
+        self.iter().all(|x| x.is_finite())
     }
 }
 
@@ -70,10 +77,18 @@ pub(crate) fn pick<T: Scaled>(
             "keep one of them",
         ));
     }
-    Ok(first.map(|(key, value, factor)| Given {
-        key,
-        value: value.scaled(factor),
-    }))
+    let Some((key, value, factor)) = first else {
+        return Ok(None);
+    };
+    let value = value.scaled(factor);
+    if value.finite() {
+        return Ok(Some(Given { key, value }));
+    }
+    Err(Finding::new(
+        &place.key(key),
+        format!("the {what} is too large for a number in SI units"),
+        "check the figure and its unit",
+    ))
 }
 
 /// Exactly one of the keys.

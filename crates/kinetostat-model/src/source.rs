@@ -38,7 +38,7 @@ impl<'t> Source<'t> {
         Finding::new(
             &Place::root(),
             format!("this is not TOML: {reason}"),
-            "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]",
+            "a value is written as  key = 1.5 (with a point),  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]",
         )
         .at(error.span().unwrap_or(0..0))
     }

@@ -1,0 +1,329 @@
+//! Joints and springs of one degree of freedom: lengths for those that slide, angles for those that
+//! turn.
+
+use kinetostat::{ActuatorSpec, MotionKind};
+use nalgebra::Vector3;
+
+use crate::part::Part;
+use crate::placement::direction;
+use crate::problem::{Finding, Place};
+use crate::quantity::{Choice, DEG, Found, Given, MM, Scaled, choice, forbid, pick};
+use crate::schema::{ActuatorElement, JointKind, PassiveElement, PassiveKind, SpringElement};
+
+pub(crate) fn kind(joint: JointKind) -> MotionKind {
+    match joint {
+        JointKind::Prismatic => MotionKind::Prismatic,
+        JointKind::Revolute => MotionKind::Revolute,
+    }
+}
+
+/// Keys for a length and for an angle: the ones of the joint's kind count, the others are refused.
+fn by_kind<T: Scaled>(
+    place: &Place,
+    what: &str,
+    kind: MotionKind,
+    lengths: &[Choice<T>],
+    angles: &[Choice<T>],
+) -> Found<Option<Given<T>>> {
+    let (right, wrong, reason) = match kind {
+        MotionKind::Prismatic => (
+            lengths,
+            angles,
+            "the joint is prismatic: it slides along its axis",
+        ),
+        MotionKind::Revolute => (
+            angles,
+            lengths,
+            "the joint is revolute: it turns about its axis",
+        ),
+    };
+    let keys: Vec<&str> = right.iter().map(|c| c.key).collect();
+    forbid(
+        place,
+        wrong,
+        reason,
+        &format!("write {}", keys.join(" or ")),
+    )?;
+    pick(place, what, right)
+}
+
+fn stiffness_of(
+    place: &Place,
+    kind: MotionKind,
+    linear: [Option<f64>; 2],
+    angular: [Option<f64>; 2],
+) -> Found<Option<f64>> {
+    let linear = [
+        choice("stiffness_n_per_m", linear[0], 1.0),
+        choice("stiffness_n_per_mm", linear[1], 1.0 / MM),
+    ];
+    let angular = [
+        choice("stiffness_n_m_per_rad", angular[0], 1.0),
+        choice("stiffness_n_mm_per_rad", angular[1], MM),
+    ];
+    let given = by_kind(place, "stiffness", kind, &linear, &angular)?;
+    match given {
+        Some(g) if g.value <= 0.0 => Err(Finding::new(
+            &place.key(g.key),
+            format!(
+                "the stiffness is {} {}, a number above zero is needed",
+                g.value,
+                match kind {
+                    MotionKind::Prismatic => "N/m",
+                    MotionKind::Revolute => "N m/rad",
+                }
+            ),
+            "a direction that nothing holds is a passive joint; a drive that does not give way is rigid_drive = true",
+        )),
+        given => Ok(given.map(|g| g.value)),
+    }
+}
+
+pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec> {
+    let kind = kind(e.actuator);
+    let axis = direction(&place.key("axis"), &e.axis)?.into_inner();
+    let stiffness = stiffness_of(
+        place,
+        kind,
+        [e.stiffness_n_per_m, e.stiffness_n_per_mm],
+        [e.stiffness_n_m_per_rad, e.stiffness_n_mm_per_rad],
+    )?;
+    let rigid = e.rigid_drive.unwrap_or(false);
+    if rigid && stiffness.is_some() {
+        return Err(Finding::new(
+            &place.key("rigid_drive"),
+            "the drive is said to be rigid and to have a stiffness",
+            "keep one of them",
+        ));
+    }
+    if !rigid && stiffness.is_none() {
+        let key = match kind {
+            MotionKind::Prismatic => "stiffness_n_per_m or stiffness_n_per_mm",
+            MotionKind::Revolute => "stiffness_n_m_per_rad or stiffness_n_mm_per_rad",
+        };
+        return Err(Finding::new(
+            place,
+            "the stiffness of the drive is missing",
+            format!("write {key}, or rigid_drive = true for a drive that does not give way"),
+        ));
+    }
+    let rest = rest(place, kind, [e.rest_mm, e.rest_m, e.rest_deg, e.rest_rad])?;
+    let home = by_kind(
+        place,
+        "home",
+        kind,
+        &[
+            choice("home_mm", e.home_mm, MM),
+            choice("home_m", e.home_m, 1.0),
+        ],
+        &[
+            choice("home_deg", e.home_deg, DEG),
+            choice("home_rad", e.home_rad, 1.0),
+        ],
+    )?;
+    let limits = by_kind(
+        place,
+        "limits",
+        kind,
+        &[
+            choice("limits_mm", e.limits_mm, MM),
+            choice("limits_m", e.limits_m, 1.0),
+        ],
+        &[
+            choice("limits_deg", e.limits_deg, DEG),
+            choice("limits_rad", e.limits_rad, 1.0),
+        ],
+    )?;
+    let home_value = home.map_or(0.0, |h| h.value);
+    if let Some(Given {
+        key,
+        value: [low, high],
+    }) = limits
+    {
+        if low >= high {
+            return Err(Finding::new(
+                &place.key(key),
+                "the limits are reversed or equal",
+                "write the smallest command first: [smallest, largest]",
+            ));
+        }
+        if !(low <= home_value && home_value <= high) {
+            let home = home.map_or("home is 0 (none is written), which".to_owned(), |h| {
+                format!("'{}'", h.key)
+            });
+            return Err(Finding::new(
+                &place.key(key),
+                format!("{home} is outside '{key}'"),
+                "correct one of them; the machine must be able to stand at home",
+            ));
+        }
+    }
+    Ok(ActuatorSpec {
+        kind,
+        axis,
+        stiffness,
+        rest,
+        home: home_value,
+        limits: limits.map(|l| (l.value[0], l.value[1])),
+    })
+}
+
+/// Deflection at rest from its four keys: mm, m, deg, rad.
+fn rest(place: &Place, kind: MotionKind, [mm, m, deg, rad]: [Option<f64>; 4]) -> Found<f64> {
+    let lengths = [choice("rest_mm", mm, MM), choice("rest_m", m, 1.0)];
+    let angles = [choice("rest_deg", deg, DEG), choice("rest_rad", rad, 1.0)];
+    let given = by_kind(place, "deflection at rest", kind, &lengths, &angles)?;
+    Ok(given.map_or(0.0, |g| g.value))
+}
+
+pub(crate) fn passive(place: &Place, name: String, e: &PassiveElement) -> Found<Vec<Part>> {
+    let lengths = [
+        choice("home_mm", e.home_mm, MM),
+        choice("home_m", e.home_m, 1.0),
+    ];
+    let angles = [
+        choice("home_deg", e.home_deg, DEG),
+        choice("home_rad", e.home_rad, 1.0),
+    ];
+    let several = [
+        ("homes_deg", e.homes_deg.as_ref(), DEG),
+        ("homes_rad", e.homes_rad.as_ref(), 1.0),
+    ];
+    let single = match e.passive {
+        PassiveKind::Prismatic => Some(MotionKind::Prismatic),
+        PassiveKind::Revolute => Some(MotionKind::Revolute),
+        PassiveKind::Universal | PassiveKind::Spherical => None,
+    };
+    if let Some(kind) = single {
+        if e.axes.is_some() {
+            return Err(Finding::new(
+                &place.key("axes"),
+                "'axes' belongs to a universal joint",
+                "write axis = ...",
+            ));
+        }
+        if let Some((key, ..)) = several.iter().find(|s| s.1.is_some()) {
+            return Err(Finding::new(
+                &place.key(key),
+                format!("'{key}' belongs to a universal or spherical joint"),
+                "write home_deg = ... (one number)",
+            ));
+        }
+        let Some(axis) = &e.axis else {
+            return Err(Finding::new(
+                place,
+                "the axis is missing",
+                "write axis = \"x\" (or another direction)",
+            ));
+        };
+        let axis = direction(&place.key("axis"), axis)?.into_inner();
+        let home = by_kind(place, "home", kind, &lengths, &angles)?;
+        return Ok(vec![Part::Passive(
+            name,
+            kind,
+            axis,
+            home.map_or(0.0, |h| h.value),
+        )]);
+    }
+    for choices in [&lengths, &angles] {
+        forbid(
+            place,
+            choices,
+            "the joint has several angles",
+            "write homes_deg = [first, second, ...]",
+        )?;
+    }
+    if e.axis.is_some() {
+        return Err(Finding::new(
+            &place.key("axis"),
+            "'axis' belongs to a joint of one degree of freedom",
+            "a universal joint has axes = [first, second]; a spherical one turns about x, y, z",
+        ));
+    }
+    let joints: Vec<(String, Vector3<f64>)> = match (e.passive, &e.axes) {
+        (PassiveKind::Spherical, None) => ["x", "y", "z"]
+            .into_iter()
+            .zip([Vector3::x(), Vector3::y(), Vector3::z()])
+            .map(|(letter, axis)| (format!("{name}.{letter}"), axis))
+            .collect(),
+        (PassiveKind::Spherical, Some(_)) => {
+            return Err(Finding::new(
+                &place.key("axes"),
+                "a spherical joint has no axes",
+                "leave 'axes' out: it turns about x, y, z; or write passive = \"universal\"",
+            ));
+        }
+        (_, Some([first, second])) => {
+            let axes = place.key("axes");
+            let one = direction(&axes.index(0), first)?.into_inner();
+            let other = direction(&axes.index(1), second)?.into_inner();
+            if one.cross(&other).norm() < 1e-6 {
+                return Err(Finding::new(
+                    &axes,
+                    "the two axes of the universal joint are parallel",
+                    "write two different axes, usually square to each other",
+                ));
+            }
+            vec![(format!("{name}.1"), one), (format!("{name}.2"), other)]
+        }
+        (_, None) => {
+            return Err(Finding::new(
+                place,
+                "the axes of the universal joint are missing",
+                "write axes = [\"y\", \"z\"] (or other directions)",
+            ));
+        }
+    };
+    let mut homes = vec![0.0; joints.len()];
+    if let [(_, Some(_), _), (key, Some(_), _)] = several {
+        return Err(Finding::new(
+            &place.key(key),
+            "the home is given twice: 'homes_deg' and 'homes_rad'",
+            "keep one of them",
+        ));
+    }
+    for (key, values, factor) in several {
+        if let Some(values) = values {
+            if values.len() != joints.len() {
+                return Err(Finding::new(
+                    &place.key(key),
+                    format!(
+                        "'{key}' needs {} numbers, {} were found",
+                        joints.len(),
+                        values.len()
+                    ),
+                    "one for each axis, in order",
+                ));
+            }
+            homes = values.iter().map(|v| v * factor).collect();
+        }
+    }
+    Ok(joints
+        .into_iter()
+        .zip(homes)
+        .map(|((name, axis), home)| Part::Passive(name, MotionKind::Revolute, axis, home))
+        .collect())
+}
+
+pub(crate) fn spring(place: &Place, name: String, e: &SpringElement) -> Found<Part> {
+    let kind = kind(e.spring);
+    let axis = direction(&place.key("axis"), &e.axis)?.into_inner();
+    let stiffness = stiffness_of(
+        place,
+        kind,
+        [e.stiffness_n_per_m, e.stiffness_n_per_mm],
+        [e.stiffness_n_m_per_rad, e.stiffness_n_mm_per_rad],
+    )?
+    .ok_or_else(|| {
+        Finding::new(
+            place,
+            "the stiffness of the spring is missing",
+            match kind {
+                MotionKind::Prismatic => "write stiffness_n_per_m or stiffness_n_per_mm",
+                MotionKind::Revolute => "write stiffness_n_m_per_rad or stiffness_n_mm_per_rad",
+            },
+        )
+    })?;
+    let rest = rest(place, kind, [e.rest_mm, e.rest_m, e.rest_deg, e.rest_rad])?;
+    Ok(Part::Spring(name, kind, axis, stiffness, rest))
+}
