@@ -168,7 +168,10 @@ impl<'o> Interpreter<'o> {
 
     fn note_no_motion(&mut self, block: &Block<'_>, explicit: Option<Motion>) {
         let line = block.line_number;
-        if block.value(b'F').is_some() || block.codes.feed_mode.is_some() {
+        // A feed mode that is named again leaves the F in force, which in the output is that of the
+        // last piece and not the programmed one.
+        let lost = block.codes.feed_mode.is_some() && self.feed.is_none();
+        if block.value(b'F').is_some() || lost {
             self.events.push(Event {
                 line,
                 change: Change::Feed(self.feed),
