@@ -1,2 +1,61 @@
-//! Tasks of the project.
-fn main() {}
+//! Tasks of the project: `cargo xtask test`, `cargo xtask figures [--json]`.
+
+mod figures;
+mod test;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use anyhow::{Context, Result, bail};
+
+const HELP: &str = "\
+Tasks of the project
+
+  cargo xtask test              format, lints, tests, documentation: what CI runs
+  cargo xtask figures           every number that the issues ask for, measured now
+  cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
+  cargo xtask figures --quick   without the ones that build from an empty registry cache";
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let done = match words.as_slice() {
+        ["test"] => test::run(),
+        ["figures", options @ ..] => figures::run(options),
+        _ => {
+            eprintln!("{HELP}");
+            return ExitCode::FAILURE;
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Root of the workspace.
+fn root() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().unwrap_or(own).to_path_buf()
+}
+
+/// Runs a command at the root; its output is shown, failure is an error.
+fn step(title: &str, command: &mut Command) -> Result<()> {
+    eprintln!("== {title}");
+    let status = command
+        .current_dir(root())
+        .status()
+        .with_context(|| format!("{title}: cannot start {command:?}"))?;
+    if !status.success() {
+        bail!("{title} failed ({status})");
+    }
+    Ok(())
+}
+
+/// The cargo that runs this task.
+fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}

@@ -1,0 +1,34 @@
+//! `cargo xtask test`: format, lints, tests, documentation.
+
+use anyhow::Result;
+
+use crate::{cargo, step};
+
+/// What CI runs and the README promises.
+pub fn run() -> Result<()> {
+    step("format", cargo().args(["fmt", "--all", "--check"]))?;
+    step(
+        "lints",
+        cargo().args([
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--quiet",
+            "--",
+            "-D",
+            "warnings",
+        ]),
+    )?;
+    step(
+        "documentation",
+        cargo()
+            .args(["doc", "--workspace", "--no-deps", "--quiet"])
+            .env("RUSTDOCFLAGS", "-D warnings"),
+    )?;
+    step(
+        "tests",
+        cargo().args(["test", "--workspace", "--no-fail-fast"]),
+    )?;
+    eprintln!("== all passed");
+    Ok(())
+}
