@@ -1,110 +1,112 @@
-//! Machines and helpers shared by the tests.
+//! Machines, random chains, golden files and the invariants of every equilibrium.
 #![allow(dead_code)]
 
-use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, Limb, Mechanism, MotionKind, Platform, Pose, turn_matrix,
-};
-use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
+pub mod invariants;
+pub mod machines;
+pub mod random;
 
-/// Numbers of the identified Orthoglide (reference values, part 2, section 1), SI.
-pub struct Orthoglide {
-    pub bar_length: f64,
-    /// Rotation of leg i about its own actuator line, rad.
-    pub line_error: f64,
-    /// Offset of leg i along its own actuator, m.
-    pub slide_error: f64,
+pub use invariants::{assert_chain_equilibrium, assert_equilibrium};
+pub use machines::*;
+pub use random::*;
+
+use nalgebra::{DMatrix, Matrix6};
+use serde_json::Value;
+
+/// A golden file with provenance.
+pub fn golden(name: &str) -> Value {
+    let path = format!("{}/tests/golden/{name}", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let value: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{path}: {e}"));
+    for key in ["source", "quantity", "units", "status", "digits"] {
+        assert!(value[key].is_string(), "{path}: no '{key}'");
+    }
+    let status = value["status"].as_str().unwrap();
+    assert!(
+        ["agrees", "erratum", "computed"].contains(&status),
+        "{path}: status {status}"
+    );
+    value
 }
 
-impl Default for Orthoglide {
-    fn default() -> Self {
-        Self {
-            bar_length: 0.310,
-            line_error: 0.0,
-            slide_error: 0.0,
+pub fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap_or_else(|| panic!("not a number: {v}"))
+}
+
+pub fn numbers(v: &Value) -> Vec<f64> {
+    v.as_array()
+        .unwrap_or_else(|| panic!("not a list: {v}"))
+        .iter()
+        .map(number)
+        .collect()
+}
+
+pub fn matrix(v: &Value) -> Matrix6<f64> {
+    let rows: Vec<Vec<f64>> = v.as_array().unwrap().iter().map(numbers).collect();
+    Matrix6::from_fn(|i, j| rows[i][j])
+}
+
+pub fn name(v: &Value) -> &str {
+    v["name"].as_str().unwrap()
+}
+
+/// `|a - b| <= tolerance`, with what it was.
+#[track_caller]
+pub fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{what}: found {found:.12e}, expected {expected:.12e}, off by {:.2e} > {tolerance:.1e}",
+        (found - expected).abs()
+    );
+}
+
+#[track_caller]
+pub fn all_close(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (i, (a, b)) in found.iter().zip(expected).enumerate() {
+        close(&format!("{what}[{i}]"), *a, *b, tolerance);
+    }
+}
+
+/// Largest difference of two 6 x 6 stiffnesses as a share of the largest entry of its own block
+/// (N/m, N, N m): units are never mixed.
+pub fn block_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
+    let mut worst = 0.0_f64;
+    for (r, c) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+        let d = (a - b).fixed_view::<3, 3>(r, c).amax();
+        worst = worst.max(d / b.fixed_view::<3, 3>(r, c).amax().max(1e-300));
+    }
+    worst
+}
+
+/// As [`block_error`], but each block is judged against the geometric mean of the diagonal blocks:
+/// for matrices in which a block may vanish.
+pub fn balanced_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
+    let size = |r: usize| b.fixed_view::<3, 3>(r, r).amax().max(1e-300);
+    let mut worst = 0.0_f64;
+    for r in [0, 3] {
+        for c in [0, 3] {
+            let d = (a - b).fixed_view::<3, 3>(r, c).amax();
+            worst = worst.max(d / (size(r) * size(c)).sqrt());
         }
     }
+    worst
 }
 
-impl Orthoglide {
-    pub fn leg(&self, index: usize, errors: bool) -> Chain {
-        let (length, r, foot) = (self.bar_length, 0.0405, 0.1097);
-        let e = |k: usize| Matrix3::identity().column(k % 3).into_owned();
-        let frame = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
-            e(index),
-            e(index + 1),
-            e(index + 2),
-        ]));
-        let turned = Pose::from_parts(
-            Vector3::zeros().into(),
-            UnitQuaternion::from_rotation_matrix(&frame),
-        );
-        // Foot: cantilever of 150 mm at 45 degrees between x and n.
-        let in_plane = BeamSection {
-            youngs_modulus: 1.0,
-            shear_modulus: 1.0,
-            area: 2.9952e7,
-            second_moment_y: 6.385e8 * 1e-6,
-            second_moment_z: 1.79e9 * 1e-6,
-            torsion_constant: 6.3e8 * 1e-6,
-        };
-        let tilt = turn_matrix(&Rotation3::from_axis_angle(
-            &Vector3::z_axis(),
-            45_f64.to_radians(),
-        ));
-        let foot_matrix = tilt * in_plane.cantilever(0.150) * tilt.transpose();
-        let mut bar = Matrix6::zeros();
-        bar[(0, 0)] = 3.25e7;
-        bar[(1, 1)] = 18.03e3;
-        bar[(1, 5)] = -2878.5;
-        bar[(5, 1)] = -2878.5;
-        bar[(5, 5)] = 598.8;
-        bar[(3, 3)] = 34.76;
-        let error = if errors { self.line_error } else { 0.0 };
-        let slide = if errors { self.slide_error } else { 0.0 };
-        let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 1e9);
-        drive.home = -r - length;
-        Chain::builder(format!("leg {}", ["x", "y", "z"][index]))
-            .rigid(turned)
-            .translation(vector![0.0, -foot, 0.0])
-            .rigid(Pose::rotation(Vector3::x() * error))
-            .translation(vector![slide, 0.0, 0.0])
-            .actuator("drive", drive)
-            .translation(vector![0.0, foot, 0.0])
-            .spring6("foot", &foot_matrix, [0.0; 6])
-            .passive("q1", MotionKind::Revolute, Vector3::z(), 0.0)
-            .parallelogram("q2", length, 0.080, &bar, 0.0)
-            .passive("q3", MotionKind::Revolute, Vector3::z(), 0.0)
-            .translation(vector![r, 0.0, 0.0])
-            .rigid(turned.inverse())
-            .build()
-            .expect("leg")
-    }
-
-    pub fn build(&self) -> Mechanism {
-        let mut builder = Mechanism::builder("orthoglide");
-        let tool = builder.platform(Platform::new("tool", Pose::identity()));
-        for i in 0..3 {
-            builder = builder.limb(Limb {
-                name: ["x", "y", "z"][i].into(),
-                from: 0,
-                to: tool,
-                platform_from_tip: Pose::identity(),
-                nominal: self.leg(i, false),
-                actual: self.leg(i, true),
-            });
-        }
-        builder.build().expect("orthoglide")
-    }
+#[track_caller]
+pub fn same_stiffness(what: &str, a: &Matrix6<f64>, b: &Matrix6<f64>, tolerance: f64) {
+    let e = balanced_error(a, b);
+    assert!(
+        e <= tolerance,
+        "{what}: relative difference {e:.2e} > {tolerance:.1e}\n{a:.6e}{b:.6e}"
+    );
 }
 
-/// Q0 .. Q4 of the report, m.
-pub fn orthoglide_points() -> [Vector3<f64>; 5] {
-    let (a, b) = (0.12635, -0.07365);
-    [
-        vector![0.0, 0.0, 0.0],
-        vector![a, a, a],
-        vector![b, b, b],
-        vector![a, a, b],
-        vector![b, b, a],
-    ]
+/// Rank by singular values of a matrix whose rotations are measured at `length`.
+pub fn rank(k: &Matrix6<f64>, length: f64) -> usize {
+    let balanced = DMatrix::from_fn(6, 6, |i, j| {
+        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+        k[(i, j)] / (unit(i) * unit(j))
+    });
+    let s = balanced.singular_values();
+    s.iter().filter(|x| **x > 1e-9 * s.amax()).count()
 }

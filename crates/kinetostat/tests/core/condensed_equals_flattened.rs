@@ -1,0 +1,244 @@
+//! Condensing limbs to 6 x 6 and solving for the platforms gives what the whole flattened system
+//! gives; a chain cut at a node into two limbs over a free platform is the chain.
+
+use crate::common::{
+    Orthoglide, Recipe, Rng, arm, assert_equilibrium, balanced_error, cases, orthoglide_point,
+    random_chain, same_stiffness,
+};
+use crate::oracle::Flat;
+use kinetostat::{
+    Chain, Limb, LimbPosture, Mechanism, Platform, Pose, Posture, Twist, Wrench, moved,
+    pose_residual,
+};
+use nalgebra::{Matrix3, Vector3, Vector6};
+use proptest::prelude::*;
+
+/// Solves both ways from rest and compares everything.
+#[track_caller]
+fn compare(label: &str, posture: &Posture<'_>, wrench: &Wrench) {
+    let e = posture
+        .deflected_by(wrench)
+        .unwrap_or_else(|error| panic!("{label}: {error}"));
+    assert_equilibrium(posture, &e);
+    let mut flat = Flat::at_rest(posture);
+    flat.load = wrench.0;
+    flat.solve(false);
+    let tool = posture.mechanism().tool();
+    let miss = pose_residual(&e.tool, &flat.platforms[tool]);
+    assert!(miss.0.norm() < 1e-10, "{label}: tool {miss:?}");
+    let size = flat.wrenches.iter().map(Vector6::norm).fold(1.0, f64::max);
+    for (i, limb) in e.limbs.iter().enumerate() {
+        let d = (limb.wrench.0 - flat.wrenches[i]).norm();
+        assert!(d < 1e-8 * size, "{label}: limb {i} wrench {d:e}");
+        for (a, b) in limb.coordinates.iter().zip(&flat.coordinates[i]) {
+            assert!((a - b).abs() < 1e-10, "{label}: limb {i} coordinate {a} {b}");
+        }
+    }
+    same_stiffness(label, &e.stiffness.matrix, &flat.stiffness(), 1e-8);
+}
+
+#[test]
+fn the_orthoglide_with_errors_under_load_and_gravity() {
+    let mut rng = Rng(11);
+    let machine = Orthoglide { line_error: 1_f64.to_radians(), slide_error: 5e-4, ..Default::default() }.build();
+    for index in 0..5 {
+        let posture = machine.posture(&orthoglide_point(index)).unwrap();
+        compare(&format!("Q{index}"), &posture, &rng.wrench(220.0, 20.0));
+        let other = machine.with_tool(&rng.pose(0.15, 1.5));
+        let posture = other.posture(&(orthoglide_point(index) * other.platforms()[1].home)).unwrap();
+        compare(&format!("Q{index} tool"), &posture, &rng.wrench(150.0, 20.0));
+    }
+}
+
+#[test]
+fn a_heavy_arm_under_gravity_and_two_kilonewton() {
+    let chain = arm(true);
+    let machine = Mechanism::serial(chain, Pose::identity(), Vector3::new(0.0, 0.0, -9.81)).unwrap();
+    let mut rng = Rng(3);
+    let (low, high) = ([-2.5, -1.0, -0.6, -2.5, -1.8, -2.5], [2.5, 1.0, 1.6, 2.5, 1.8, 2.5]);
+    for pose in 0..5 {
+        let commands: Vec<f64> = (0..6).map(|i| rng.between(low[i], high[i])).collect();
+        let limb = &machine.limbs()[0].nominal;
+        let joints = LimbPosture { commands, coordinates: limb.home_coordinates() };
+        let target = kinetostat::unloaded_tip(limb, &Pose::identity(), &joints.coordinates, &joints.commands);
+        let posture = machine.posture_from_joints(&target, vec![joints]).unwrap();
+        compare(&format!("pose {pose}"), &posture, &rng.wrench(2000.0, 300.0));
+    }
+}
+
+/// A chain in two parts with the description of both and of the whole.
+struct Cut {
+    whole: Mechanism,
+    parts: Mechanism,
+    whole_posture: Vec<LimbPosture>,
+    part_posture: Vec<LimbPosture>,
+    target: Pose,
+}
+
+/// The parts joined at a platform whose frame is `platform` seen from the first part's tip.
+fn cut(rng: &mut Rng, passive: usize, mass: f64) -> Cut {
+    let recipe = Recipe { stages: 2, passive, preload: 0.02, ..Recipe::default() };
+    let first = random_chain(rng, &recipe);
+    let second = random_chain(rng, &Recipe { passive: 0, ..recipe });
+    let gravity = rng.axis() * 9.81;
+    let com = rng.vector(0.1);
+    let join = rng.pose(0.2, 1.0);
+    // The whole, rebuilt from the elements of both parts.
+    let whole = joined(&first.chain, &join, mass, com, &second.chain);
+    let mut builder = Mechanism::builder("parts").gravity(gravity);
+    let mut middle = Platform::new("middle", Pose::identity());
+    let none: Vec<f64> = vec![];
+    let at = |c: &Chain, base: &Pose, x: &[f64], q: &[f64]| kinetostat::unloaded_tip(c, base, x, q);
+    middle.home = at(&first.chain, &Pose::identity(), &first.posture, &first.commands) * join;
+    middle.mass = mass;
+    middle.centre_of_mass = com;
+    let target = at(&second.chain, &middle.home, &second.posture, &second.commands);
+    let _ = none;
+    let middle = builder.platform(middle);
+    let tool = builder.platform(Platform::new("tool", target));
+    let limb = |name: &str, from, to, tip: Pose, chain: &Chain| Limb {
+        name: name.into(),
+        from,
+        to,
+        platform_from_tip: tip,
+        nominal: chain.clone(),
+        actual: chain.clone(),
+    };
+    let parts = builder
+        .limb(limb("first", 0, middle, join.inverse(), &first.chain))
+        .limb(limb("second", middle, tool, Pose::identity(), &second.chain))
+        .build()
+        .unwrap();
+    let whole = Mechanism::serial(whole, target, gravity).unwrap();
+    let posture = |c: &Vec<f64>, x: &Vec<f64>| LimbPosture { commands: c.clone(), coordinates: x.clone() };
+    Cut {
+        whole_posture: vec![posture(
+            &[first.commands.clone(), second.commands.clone()].concat(),
+            &[first.posture.clone(), second.posture.clone()].concat(),
+        )],
+        part_posture: vec![
+            posture(&first.commands, &first.posture),
+            posture(&second.commands, &second.posture),
+        ],
+        whole,
+        parts,
+        target,
+    }
+}
+
+/// Serialises two chains, joins their lists and reads them back: an independent way to one chain.
+fn joined(a: &Chain, join: &Pose, mass: f64, com: Vector3<f64>, b: &Chain) -> Chain {
+    use serde_json::{Value, json};
+    let mut first = serde_json::to_value(a).unwrap();
+    let second = serde_json::to_value(b).unwrap();
+    let (n, r) = (a.coordinate_count(), a.actuators().len());
+    let list = |v: &Value, key: &str| v[key].as_array().unwrap().clone();
+    // The first chain's tip becomes an inner node; the joint body sits behind it.
+    let nodes = a.nodes().len();
+    let mut names: Vec<String> = a.nodes().iter().map(|s| format!("1.{s}")).collect();
+    let mut elements = list(&first, "elements");
+    let rigid = |p: &Pose| json!({ "Rigid": p });
+    elements.push(rigid(join));
+    let offset = Pose::translation(com.x, com.y, com.z);
+    elements.push(rigid(&offset));
+    elements.push(json!({ "Node": nodes }));
+    names.push("joint".into());
+    elements.push(rigid(&offset.inverse()));
+    let shift = |v: &mut Value, by: usize| *v = json!(v.as_u64().unwrap() as usize + by);
+    for mut e in list(&second, "elements") {
+        if let Some(node) = e.get_mut("Node") {
+            shift(node, nodes + 1);
+        }
+        if let Some(m) = e.get_mut("Motion") {
+            if !m["coordinate"].is_null() {
+                shift(&mut m["coordinate"]["index"], n);
+            }
+            if !m["command"].is_null() {
+                shift(&mut m["command"]["index"], r);
+            }
+        }
+        elements.push(e);
+    }
+    names.extend(b.nodes().iter().map(|s| if s == "tip" { s.clone() } else { format!("2.{s}") }));
+    let mut renamed = |key: &str| {
+        let mut all = Vec::new();
+        for (part, v) in [(1, &first), (2, &second)] {
+            for mut item in list(v, key) {
+                item["name"] = json!(format!("{part}.{}", item["name"].as_str().unwrap()));
+                if part == 2 {
+                    match key {
+                        "springs" => shift(&mut item["first"], n),
+                        "bodies" => shift(&mut item["node"], nodes + 1),
+                        "actuators" if !item["coordinate"].is_null() => shift(&mut item["coordinate"], n),
+                        _ => {}
+                    }
+                }
+                all.push(item);
+            }
+        }
+        all
+    };
+    let (coordinates, actuators, springs, mut bodies) =
+        (renamed("coordinates"), renamed("actuators"), renamed("springs"), renamed("bodies"));
+    bodies.push(json!({ "name": "joint", "node": nodes, "mass": mass, "inertia": Matrix3::<f64>::zeros() }));
+    first["elements"] = json!(elements);
+    first["nodes"] = json!(names);
+    first["coordinates"] = json!(coordinates);
+    first["actuators"] = json!(actuators);
+    first["springs"] = json!(springs);
+    first["bodies"] = json!(bodies);
+    serde_json::from_value(first).unwrap()
+}
+
+proptest! {
+    #![proptest_config(cases(16))]
+    #[test]
+    fn a_chain_cut_at_a_free_platform_is_the_chain(seed in any::<u64>()) {
+        let mut rng = Rng(seed);
+        let mass = if rng.below(2) == 0 { 0.0 } else { 12.0 };
+        let c = cut(&mut rng, 0, mass);
+        let whole = c.whole.posture_from_joints(&c.target, c.whole_posture.clone()).unwrap();
+        let parts = c.parts.posture_from_joints(&c.target, c.part_posture.clone()).unwrap();
+        let wrench = rng.wrench(100.0, 12.0);
+        let a = whole.deflected_by(&wrench).unwrap();
+        let b = parts.deflected_by(&wrench).unwrap();
+        assert_equilibrium(&whole, &a);
+        assert_equilibrium(&parts, &b);
+        let miss = pose_residual(&a.tool, &b.tool);
+        prop_assert!(miss.0.norm() < 1e-10, "{miss:?}");
+        let error = balanced_error(&b.stiffness.matrix, &a.stiffness.matrix);
+        prop_assert!(error < 1e-8, "stiffness {error:e}");
+        let (stored, again) = (a.limbs[0].energy, b.limbs.iter().map(|l| l.energy).sum::<f64>());
+        prop_assert!((stored - again).abs() < 1e-8 * stored);
+        // And the flattened oracle agrees, with the body of the second limb on the middle platform.
+        compare("parts", &parts, &wrench);
+    }
+
+    #[test]
+    fn random_chains_agree_with_the_flattened_system(seed in any::<u64>()) {
+        let mut rng = Rng(seed);
+        let r = random_chain(&mut rng, &Recipe { stages: 3, passive: 0, preload: 0.02, ..Recipe::default() });
+        let machine = Mechanism::serial(r.chain.clone(), Pose::identity(), rng.axis() * 9.81).unwrap();
+        let joints = LimbPosture { commands: r.commands.clone(), coordinates: r.posture.clone() };
+        let target = kinetostat::unloaded_tip(&r.chain, &Pose::identity(), &r.posture, &r.commands);
+        let posture = machine.posture_from_joints(&target, vec![joints]).unwrap();
+        compare("random", &posture, &rng.wrench(100.0, 10.0));
+    }
+
+    #[test]
+    fn a_prescribed_pose_of_the_tool_leaves_other_platforms_free(seed in any::<u64>()) {
+        let mut rng = Rng(seed);
+        let c = cut(&mut rng, 1, 5.0);
+        let whole = c.whole.posture_from_joints(&c.target, c.whole_posture.clone()).unwrap();
+        let parts = c.parts.posture_from_joints(&c.target, c.part_posture.clone()).unwrap();
+        let pose = moved(&c.target, &Twist::new(rng.vector(0.003), rng.vector(0.01)));
+        let a = whole.wrench_at(&pose).unwrap();
+        assert_equilibrium(&whole, &a);
+        let b = parts.wrench_at(&pose).unwrap();
+        assert_equilibrium(&parts, &b);
+        let d = (a.wrench.0 - b.wrench.0).norm() / a.wrench.0.norm();
+        prop_assert!(d < 1e-7, "wrench {d:e}");
+        let error = balanced_error(&b.stiffness.matrix, &a.stiffness.matrix);
+        prop_assert!(error < 1e-7, "stiffness {error:e}");
+    }
+}

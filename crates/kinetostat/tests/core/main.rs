@@ -1,0 +1,18 @@
+//! What the core must satisfy: one module per claim of the theory or per source of numbers.
+//!
+//! One binary instead of many, because linking dominates the time of a test run.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../oracle/mod.rs"]
+mod oracle;
+
+mod beam_tables_3_2_and_3_3;
+mod change_of_frame_and_reference_point;
+mod condensed_equals_flattened;
+mod energy_equals_work;
+mod jacobians_are_derivatives;
+mod orthoglide_reference;
+mod stewart_gough_3_34_and_3_35;
+mod stored_stiffness_is_the_derivative_of_the_wrench;
+mod two_link_chain_4_31;
