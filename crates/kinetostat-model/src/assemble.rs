@@ -12,7 +12,7 @@ use crate::part::{inertia, mass};
 use crate::placement::pose;
 use crate::plausible;
 use crate::problem::{Finding, Place};
-use crate::quantity::{MM, choice, need, vector};
+use crate::quantity::{Found, MM, choice, need, vector};
 use crate::schema::{Document, Element, LimbTable, SCHEMA_VERSION, Spring6};
 use crate::template::{Template, template};
 
@@ -31,6 +31,11 @@ impl Findings {
         help: impl Into<String>,
     ) {
         self.errors.push(Finding::new(place, message, help));
+    }
+
+    /// With this many errors the file is no model; the rest is not looked at.
+    pub(crate) fn enough(&self) -> bool {
+        self.errors.len() >= 100
     }
 
     /// The value, or `None` with the reason kept.
@@ -118,10 +123,11 @@ fn workspace(document: &Document, findings: &mut Findings) {
     }
 }
 
-/// The workspace's corners, m.
-pub(crate) fn corners(
-    document: &Document,
-) -> Result<Option<(Vector3<f64>, Vector3<f64>)>, Finding> {
+/// Two opposite corners, m.
+pub(crate) type Corners = (Vector3<f64>, Vector3<f64>);
+
+/// The workspace's corners.
+pub(crate) fn corners(document: &Document) -> Found<Option<Corners>> {
     let Some(w) = &document.workspace else {
         return Ok(None);
     };

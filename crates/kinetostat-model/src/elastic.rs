@@ -19,12 +19,12 @@ pub(crate) struct Elastic {
 }
 
 /// What a link's name may stand for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Elasticity {
     /// A section: the stiffness follows from the length.
     Section(BeamSection),
     /// The stiffness of the far end, SI.
-    Matrix(Matrix6<f64>),
+    Matrix(Box<Matrix6<f64>>),
 }
 
 impl Elastic {
@@ -67,7 +67,7 @@ impl Elastic {
             return section.map(Elasticity::Section).ok_or(None);
         }
         if let Some(matrix) = self.stiffnesses.get(name) {
-            return matrix.map(Elasticity::Matrix).ok_or(None);
+            return matrix.map(|m| Elasticity::Matrix(Box::new(m))).ok_or(None);
         }
         let known: Vec<&str> = self
             .sections
@@ -211,7 +211,9 @@ pub(crate) fn unknown(
     known: &[&str],
     otherwise: &str,
 ) -> Finding {
-    let help = match hints::nearest(name, known) {
+    let mut known = known.to_vec();
+    known.dedup();
+    let help = match hints::nearest(name, &known) {
         Some(word) => format!("did you mean '{word}'?"),
         None if known.is_empty() => format!("there are none; {otherwise}"),
         None => format!("there are: {}; or {otherwise}", known.join(", ")),

@@ -73,7 +73,7 @@ fn split_unit(key: &str) -> (&str, Option<&str>) {
         .iter()
         .find_map(|unit| {
             let stem = key.strip_suffix(unit)?.strip_suffix('_')?;
-            (!stem.is_empty()).then(|| (stem, Some(*unit)))
+            (!stem.is_empty()).then_some((stem, Some(*unit)))
         })
         .unwrap_or((key, None))
 }

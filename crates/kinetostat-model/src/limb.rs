@@ -214,6 +214,9 @@ fn deviations<'d>(
 ) -> BTreeMap<usize, BTreeMap<&'d str, (Place, Pose)>> {
     let mut found: BTreeMap<usize, BTreeMap<&str, (Place, Pose)>> = BTreeMap::new();
     for (i, d) in document.deviation.iter().enumerate() {
+        if findings.enough() {
+            break;
+        }
         let place = Place::root().key("deviation").index(i);
         let motion = findings.keep(pose(&place.key("moved_by"), &d.moved_by));
         let Some(limb) = document.limb.iter().position(|l| l.name == d.limb) else {

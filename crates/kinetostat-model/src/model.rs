@@ -2,7 +2,6 @@
 
 use kinetostat::{Mechanism, Pose};
 use nalgebra::Vector3;
-use serde::Deserialize;
 
 use crate::assemble::{Findings, assemble, corners};
 use crate::check;
@@ -108,6 +107,21 @@ impl Model {
         }
     }
 
+    /// A preset by its name, or a file by its path: what a command line takes as MODEL. A file named
+    /// like a preset is reached as `./NAME`.
+    ///
+    /// # Errors
+    /// As [`preset`](Self::preset) for a plain word that is no file, else as
+    /// [`crate::read_model`].
+    pub fn open(name_or_path: &str) -> Result<Self, ModelError> {
+        let path = std::path::Path::new(name_or_path);
+        let word = !name_or_path.contains(['/', '\\', '.']);
+        if presets::preset_text(name_or_path).is_some() || (word && !path.exists()) {
+            return Self::preset(name_or_path);
+        }
+        crate::file::read_model(path)
+    }
+
     /// Reads a model from a document, as if it had been read from the text that
     /// [`to_toml`](Self::to_toml) writes.
     ///
@@ -146,7 +160,16 @@ impl Model {
             source: None,
             assumption: None,
         });
-        Self::from_document(&document, &self.file)
+        Self::from_document(&document, &self.changed())
+    }
+
+    /// Lines of messages about a changed document are not those of its file: the name says so.
+    fn changed(&self) -> String {
+        const MARK: &str = " (changed)";
+        match self.file.ends_with(MARK) {
+            true => self.file.clone(),
+            false => format!("{}{MARK}", self.file),
+        }
     }
 
     /// The same machine as drawn, without errors of manufacture and assembly.
@@ -156,7 +179,7 @@ impl Model {
     pub fn without_deviations(&self) -> Result<Self, ModelError> {
         let mut document = self.document.clone();
         document.deviation.clear();
-        Self::from_document(&document, &self.file)
+        Self::from_document(&document, &self.changed())
     }
 
     /// The document as TOML. Comments and order of the original text are not kept; use
@@ -177,14 +200,6 @@ fn write(document: &Document, file: &str) -> Result<String, ModelError> {
             "give every table a name that is plain text".into(),
         )])
     })
-}
-
-impl<'de> Deserialize<'de> for Model {
-    /// From a [`Document`] in any format; messages carry no lines then.
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let document = Document::deserialize(deserializer)?;
-        Self::from_document(&document, "model").map_err(serde::de::Error::custom)
-    }
 }
 
 /// The JSON Schema of model files, pretty-printed, with a final newline.

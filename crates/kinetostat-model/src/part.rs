@@ -182,7 +182,7 @@ fn link(
                 None => local,
             }
         }
-        Elasticity::Matrix(matrix) => matrix,
+        Elasticity::Matrix(matrix) => *matrix,
     };
     Ok(vec![
         Part::Rigid(
@@ -228,7 +228,7 @@ fn parallelogram(
     .map_or(0.0, |g| g.value);
     let bar = match elastic.named(&place.key("parallelogram"), &e.parallelogram)? {
         Elasticity::Section(section) => section.cantilever(length),
-        Elasticity::Matrix(matrix) => matrix,
+        Elasticity::Matrix(matrix) => *matrix,
     };
     Ok(Part::Parallelogram(
         name,

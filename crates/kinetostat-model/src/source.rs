@@ -35,12 +35,15 @@ impl<'t> Source<'t> {
     /// A message of the TOML reader as a finding.
     pub(crate) fn syntax(error: &toml::de::Error) -> Finding {
         let reason = error.message().lines().collect::<Vec<_>>().join(", ");
-        Finding::new(
-            &Place::root(),
-            format!("this is not TOML: {reason}"),
-            "a value is written as  key = 1.5 (with a point),  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]",
-        )
-        .at(error.span().unwrap_or(0..0))
+        let help = if reason.contains("duplicate key") {
+            "each key is written once in a table; keep one of them (a list of tables begins with [[name]])"
+        } else if reason.contains("expected newline") {
+            "one key and its value stand on a line of their own; decimals are written with a point"
+        } else {
+            "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]"
+        };
+        Finding::new(&Place::root(), format!("this is not TOML: {reason}"), help)
+            .at(error.span().unwrap_or(0..0))
     }
 
     /// Where a value is written; for one that is missing, the table that should hold it.

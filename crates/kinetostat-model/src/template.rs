@@ -30,8 +30,11 @@ pub(crate) fn template(
     let mut names = Names::default();
     let mut complete = true;
     for (i, element) in chain.elements.iter().enumerate() {
+        if findings.enough() {
+            return None;
+        }
         let place = elements.index(i);
-        names.take(&place, element, findings);
+        complete &= names.take(&place, element, findings);
         let made = match parts(&place, i + 1, element, elastic) {
             Ok(made) => made,
             Err(reason) => {
@@ -69,9 +72,10 @@ struct Names {
 }
 
 impl Names {
-    fn take(&mut self, place: &Place, element: &Element, findings: &mut Findings) {
+    /// False where the core would refuse the name.
+    fn take(&mut self, place: &Place, element: &Element, findings: &mut Findings) -> bool {
         let Some(given) = element.name() else {
-            return;
+            return true;
         };
         let (taken, key, own) = match element {
             Element::Node(_) => (&mut self.nodes, "node", given == "tip"),
@@ -84,13 +88,15 @@ impl Names {
         };
         let place = place.key(key);
         name(&place, given, findings);
-        if own || !taken.insert(given.to_owned()) {
+        let free = !own && taken.insert(given.to_owned());
+        if !free {
             let message = match own {
                 true => format!("the name '{given}' is taken"),
                 false => format!("the name '{given}' is used twice in this chain"),
             };
             findings.error(&place, message, "choose another name");
         }
+        free
     }
 
     /// False where the core would refuse the part.

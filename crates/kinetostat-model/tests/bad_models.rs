@@ -260,6 +260,41 @@ fn sizes_are_limited_before_anything_is_built() {
 }
 
 #[test]
+fn a_command_line_names_presets_and_files() {
+    assert_eq!(
+        Model::open("two_link").map(|m| m.file).ok().as_deref(),
+        Some("preset two_link")
+    );
+    let error = Model::open("two_lnik").expect_err("no preset").to_string();
+    assert!(error.contains("did you mean 'two_link'?"), "{error}");
+    let error = Model::open("./two_link").expect_err("no file").to_string();
+    assert!(error.contains("there is no such file"), "{error}");
+    let error = Model::open("arm.toml").expect_err("no file").to_string();
+    assert!(
+        error.contains("--> arm.toml") && error.contains("there is no such file"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_large_file_full_of_mistakes_is_refused_soon() {
+    let mut text = String::from(
+        "schema = 1\n[mechanism]\nname = \"x\"\n[[platform]]\nname = \"tool\"\nhome = { }\n[[limb]]\nname = \"l\"\nfrom = \"base\"\nto = \"tool\"\nchain = \"c0\"\n",
+    );
+    for chain in 0..100 {
+        text.push_str(&format!("[chain.c{chain}]\nelements = [\n"));
+        for _ in 0..500 {
+            text.push_str("{ coupled = \"q\", motion = \"revolute\", axis = \"z\", ratio = 1 },\n");
+        }
+        text.push_str("]\n");
+    }
+    let start = std::time::Instant::now();
+    let error = Model::from_toml(&text, "large.toml").expect_err("wrong");
+    assert!(error.problems().len() <= 110, "{}", error.problems().len());
+    assert!(start.elapsed().as_secs() < 20);
+}
+
+#[test]
 fn unlikely_figures_are_warnings() {
     for (from, to, message, help) in [
         (
