@@ -128,9 +128,6 @@ impl<'a> Emitter<'a> {
                 self.apply(&event.change);
             }
         }
-        if program.lines().len() <= header_at {
-            self.write_header();
-        }
         Ok(self.finish())
     }
 
@@ -151,12 +148,6 @@ impl<'a> Emitter<'a> {
         let Some(texts) = &self.options.header else {
             return;
         };
-        // The line above may be the file's last one, without an ending.
-        let first = self.program.first_byte();
-        if self.bytes.len() > first && !self.bytes.ends_with(b"\n") && !self.bytes.ends_with(b"\r")
-        {
-            self.bytes.extend_from_slice(self.program.usual_ending());
-        }
         let header = header(self.program, texts, self.options.max_line_bytes);
         let ending = self.program.usual_ending();
         let lines = header

@@ -49,7 +49,8 @@ fn plain(text: &str) -> String {
         .collect()
 }
 
-/// Number of lines at the top that stay above the header: the tape mark and the program number.
+/// Number of lines at the top that stay above the header: the tape mark and the program number. None
+/// do in a program that has nothing else.
 pub(crate) fn lines_above(program: &Program) -> usize {
     let mut above = 0;
     for line in program.lines() {
@@ -60,5 +61,9 @@ pub(crate) fn lines_above(program: &Program) -> usize {
         }
         above += 1;
     }
-    above
+    if above < program.lines().len() {
+        above
+    } else {
+        0
+    }
 }

@@ -211,7 +211,7 @@ impl Reader {
 
     fn check_size(&self) -> Result<(), ProgramError> {
         let bytes = &self.program.bytes;
-        let problem = if bytes.is_empty() {
+        let problem = if bytes.len() == byte_order_mark(bytes) {
             (
                 "the file is empty",
                 "give a program with at least one block",

@@ -257,9 +257,6 @@ impl Verifier<'_> {
                 blocks += group.len();
             }
         }
-        if self.input.lines().len() <= header_at {
-            self.check_header(&mut output)?;
-        }
         if let Some((index, _)) = output.next() {
             return Err(fail(
                 0,
