@@ -453,6 +453,18 @@ impl ChainBuilder {
                 i + 1
             ));
         }
+        // A coupling as large as the diagonal is indefinite; found here because extreme numbers can
+        // keep an eigenvalue iteration busy for ever.
+        if let Some((i, j)) = (0..k.nrows())
+            .flat_map(|i| (0..i).map(move |j| (i, j)))
+            .find(|&(i, j)| balanced[(i, j)].abs() >= 1.0)
+        {
+            return Some(format!(
+                "spring '{name}': its stiffness matrix is not positive definite: entry ({}, {}) is too large for its diagonal",
+                i + 1,
+                j + 1
+            ));
+        }
         let least = balanced.symmetric_eigenvalues().min();
         (least <= 1e-12).then(|| {
             format!("spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {least:.2e})")
@@ -496,17 +508,27 @@ impl ChainBuilder {
     }
 }
 
+fn is_body(chain: &Chain, node: usize) -> bool {
+    chain.bodies.iter().any(|b| b.node == node)
+}
+
 /// Length: sum of the rigid offsets. Stiffness: geometric mean of the springs, rotations referred
 /// to that length.
 fn natural_scale(chain: &Chain) -> Scale {
-    let length: f64 = chain
-        .elements
-        .iter()
-        .map(|e| match e {
-            Element::Rigid(pose) => pose.translation.vector.norm(),
-            _ => 0.0,
-        })
-        .sum();
+    let mut length = 0.0;
+    for (i, element) in chain.elements.iter().enumerate() {
+        // A centre of mass is reached by an offset and left by its inverse: no part of the chain.
+        let to_mass =
+            matches!(chain.elements.get(i + 1), Some(Element::Node(n)) if is_body(chain, *n));
+        let from_mass =
+            i > 0 && matches!(chain.elements[i - 1], Element::Node(n) if is_body(chain, n));
+        if let Element::Rigid(pose) = element
+            && !to_mass
+            && !from_mass
+        {
+            length += pose.translation.vector.norm();
+        }
+    }
     let length = if length > 1e-9 { length } else { 1.0 };
     let posture = chain.home_coordinates();
     let (mut sum, mut count) = (0.0, 0.0);

@@ -234,6 +234,17 @@ impl MechanismBuilder {
                     limb.name, limb.from, limb.to
                 ));
             }
+            if limb
+                .platform_from_tip
+                .to_homogeneous()
+                .iter()
+                .any(|x| !x.is_finite())
+            {
+                return fault(format!(
+                    "limb '{}': the pose of its tip on the platform is not finite",
+                    limb.name
+                ));
+            }
             if limb.to == 0 {
                 return fault(format!(
                     "limb '{}': it ends at the base; write it from the base to the moving platform",
