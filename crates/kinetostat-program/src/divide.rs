@@ -7,12 +7,14 @@
 //! tolerance over the whole piece and the middle lies well within it: then no quarter of a correction
 //! that only rises or only falls can be off. Arcs are divided first, by their chords.
 //!
-//! All blocks are divided together, in rounds, so that the field is asked in large batches.
+//! Neighbouring pieces of a straight move are joined again where the tolerance allows it
+//! ([`crate::merge`]). All blocks are divided together, in rounds, so that the field is asked in large batches.
 
 use nalgebra::Vector3;
 
 use crate::error::WriteError;
 use crate::field::{CorrectionField, Monitor, Request};
+use crate::merge::{Sample, merge};
 use crate::path::{Knowledge, Move, MoveKind, Path};
 use crate::write::WriteOptions;
 
@@ -51,6 +53,27 @@ impl Stretch {
         self.share[0] + (self.share[1] - self.share[0]) * part
     }
 
+    /// Remembers what was asked inside, for [`merge`]: a straight move of several pieces may do with
+    /// fewer. The chords of an arc are needed for the arc.
+    fn keep_samples(&self, path: &Path, samples: &mut Vec<Sample>) {
+        let move_index = self.move_index;
+        if path.moves[move_index].curve != crate::Curve::Line || self.share == [0.0, 1.0] {
+            return;
+        }
+        let asked = [
+            (0.5, self.middle),
+            (0.25, self.quarters.map(|pair| pair[0])),
+            (0.75, self.quarters.map(|pair| pair[1])),
+        ];
+        samples.extend(asked.into_iter().filter_map(|(part, value)| {
+            Some(Sample {
+                move_index,
+                share: self.at(part),
+                value: value?,
+            })
+        }));
+    }
+
     fn deviation(&self, part: f64, value: &Vector3<f64>) -> f64 {
         (value - self.ends[0].lerp(&self.ends[1], part)).norm()
     }
@@ -81,10 +104,11 @@ pub(crate) fn divide(
         left_out_mm: 0.0,
     };
     let mut nodes = Vec::new();
+    let mut samples = Vec::new();
     let mut open = first_round(&mut asker, options, &mut nodes)?;
     while !open.is_empty() {
         answer(&mut asker, &mut open, options)?;
-        open = next_round(path, open, options, &mut nodes);
+        open = next_round(path, open, options, &mut nodes, &mut samples);
         if nodes.len() + open.len() > options.max_pieces {
             let line = open
                 .first()
@@ -100,6 +124,12 @@ pub(crate) fn divide(
             .cmp(&b.move_index)
             .then(a.share.total_cmp(&b.share))
     });
+    samples.sort_by(|a, b| {
+        a.move_index
+            .cmp(&b.move_index)
+            .then(a.share.total_cmp(&b.share))
+    });
+    let nodes = merge(nodes, &samples, options.tolerance_mm);
     Ok(Division {
         nodes,
         evaluations: asker.answered,
@@ -225,6 +255,7 @@ fn next_round(
     open: Vec<Stretch>,
     options: &WriteOptions,
     nodes: &mut Vec<Node>,
+    samples: &mut Vec<Sample>,
 ) -> Vec<Stretch> {
     let mut next = Vec::new();
     for stretch in open {
@@ -240,6 +271,7 @@ fn next_round(
             .max(stretch.deviation(0.25, &low))
             .max(stretch.deviation(0.75, &high));
         if worst <= options.tolerance_mm {
+            stretch.keep_samples(path, samples);
             continue;
         }
         let [from, to] = stretch.share;

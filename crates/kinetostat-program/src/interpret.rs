@@ -374,12 +374,12 @@ impl<'o> Interpreter<'o> {
         if block
             .words
             .iter()
-            .any(|word| word.letter == b'M' && (100.0..200.0).contains(&word.value))
+            .any(|word| word.letter == b'M' && word.value >= 100.0)
             && block.codes.motion.is_none()
         {
             return Err(block.refuse(
                 None,
-                "an axis word after M100 to M199 is a parameter to printers and a motion to LinuxCNC",
+                "an axis word beside this M code is its parameter to printers and a motion to mills",
                 "write the motion as a block of its own, with G0 or G1",
             ));
         }
@@ -556,6 +556,16 @@ impl<'o> Interpreter<'o> {
         ))
     }
 
+    /// A turned part or head changes where the tool stands in the part, and this reader cannot tell how.
+    fn warn_of_carried_axes(&mut self) {
+        for letter in "ABCUVW".chars() {
+            let moved = |motion: &&Move| motion.extra.iter().any(|extra| extra.letter == letter);
+            if let Some(line) = self.moves.iter().find(moved).map(|motion| motion.line) {
+                self.warn(line, &format!("axis {letter} is carried along; what it does to the place of the tool in the part is not accounted for"));
+            }
+        }
+    }
+
     fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
         let stated = self.known;
         let covers = |known: &[bool; 3]| (0..3).all(|axis| known[axis] || !stated[axis]);
@@ -587,6 +597,7 @@ impl<'o> Interpreter<'o> {
         {
             self.warn(first, &format!("{unknown} block(s) move before the program has stated where the tool is; they are carried unchanged (a start position given by option changes this)"));
         }
+        self.warn_of_carried_axes();
         self.warnings.sort_by_key(|warning| warning.line);
         Ok(Path {
             moves: self.moves,

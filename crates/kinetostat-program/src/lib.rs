@@ -52,6 +52,7 @@ mod header;
 mod interpret;
 mod lex;
 mod map;
+mod merge;
 mod number;
 mod options;
 mod path;

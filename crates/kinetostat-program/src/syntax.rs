@@ -82,17 +82,16 @@ fn word(spanned: &Spanned, letter: u8) -> Option<f64> {
 
 /// M commands of printers whose arguments are their own: text, or letters that are axes elsewhere.
 ///
-/// A controller that runs several commands of a line (LinuxCNC) knows only M0 to M199, so a line
-/// that holds a G word is never taken as a vendor's command, and neither is one with M100 to M199
-/// and an X, Y or Z, which would be a motion there.
+/// Controllers of mills run M codes and motions in one block, so a line that holds a G word is never
+/// taken as a vendor's command, and neither is one with an X, Y or Z unless the command is a printer's
+/// well-known setting ([`printer_setting`]).
 fn vendor_command(line: &[u8], tokens: &[&Spanned]) -> Option<usize> {
     let at = usize::from(tokens.first().and_then(|first| word(first, b'N')).is_some());
     let command = tokens.get(at).and_then(|spanned| word(spanned, b'M'))?;
     let arguments = &tokens[at + 1..];
     let code = command.floor();
     let takes_text = [23.0, 28.0, 32.0, 117.0, 118.0].contains(&code);
-    let printers_own = matches!(code as u32,
-        16..=18 | 20..=29 | 31..=34 | 36 | 42 | 43 | 73 | 75..=78 | 80..=87 | 92);
+    let printers_own = printer_setting(code as u32);
     if !(takes_text || printers_own || code >= 100.0) || arguments.is_empty() {
         return None;
     }
@@ -119,10 +118,20 @@ fn vendor_command(line: &[u8], tokens: &[&Spanned]) -> Option<usize> {
                 .any(|letter| word(spanned, *letter).is_some())
         })
     };
-    if plain && (has(b"GM") || ((100.0..200.0).contains(&code) && has(b"XYZ"))) {
+    if plain && (has(b"GM") || (!printers_own && has(b"XYZ"))) {
         return None;
     }
     Some(at + 1)
+}
+
+/// M commands of printers that set something (for each axis), or act on cards, fans and lights, and that
+/// no mill has with axis words.
+fn printer_setting(code: u32) -> bool {
+    matches!(
+        code,
+        16..=18 | 20..=29 | 31..=34 | 36 | 42 | 43 | 73 | 75..=78 | 80..=87 | 92
+            | 201..=205 | 208 | 350 | 351 | 566 | 569 | 572 | 574 | 579 | 584 | 593 | 906..=908 | 911..=919
+    )
 }
 
 /// `X1E5` is X1 and E5 to some controllers and 100000 to others.

@@ -1,6 +1,9 @@
 //! Arcs in every form: three planes, centre and radius, both kinds of centre words, parts of circles,
 //! whole circles and helices, absolute and incremental, millimetres and inches.
 
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use std::f64::consts::{PI, TAU};
 
 use kinetostat_program::*;
@@ -93,7 +96,7 @@ impl Case {
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for number in 0..3 * 64 {
-        let flag = |bit: usize| number / 3 & (1 << bit) != 0;
+        let flag = |bit: usize| (number / 3) & (1 << bit) != 0;
         for sweep in [0.4, 2.0, 4.5, TAU] {
             if flag(1) && (sweep == TAU || flag(2)) {
                 // A whole circle by its radius has no centre, and R has no centre words.

@@ -1,5 +1,8 @@
 //! The promises of a written program, over generated programs and random fields.
 
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 mod support;
 
 use kinetostat_program::*;
@@ -271,8 +274,14 @@ fn check_one(ops: &[support::Op], style: &Style, waves: &Waves) {
     }
 }
 
+/// 400, or as many as `PROPTEST_CASES` says.
+fn cases() -> u32 {
+    let asked = std::env::var("PROPTEST_CASES").ok();
+    asked.and_then(|cases| cases.parse().ok()).unwrap_or(400)
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn every_written_program_keeps_every_promise(

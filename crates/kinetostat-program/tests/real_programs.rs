@@ -1,5 +1,8 @@
 //! The real programs of the shared data, which are not part of the repository.
 
+// Helpers of tests, which clippy does not count as tests.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use std::path::PathBuf;
 
 use kinetostat_program::*;

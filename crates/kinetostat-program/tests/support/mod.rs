@@ -589,7 +589,8 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
         if let Some(value) = get('F') {
             speed = Some(value);
         }
-        if coordinates.iter().all(Option::is_none) {
+        // A piece so short that rounding leaves nothing to move may still have its share of E.
+        if coordinates.iter().all(Option::is_none) && get('E').is_none() {
             continue;
         }
         assert!(
