@@ -1,1 +1,76 @@
 //! The report of a run as one self-contained HTML file.
+//!
+//! [`html`] turns a [`RunResult`] into a page that opens from disk without any network, prints on A4
+//! and can be filed with the part. [`plot_preview_svg`] draws the same run as one small picture.
+//! Both are pure functions: the same result gives the same bytes, and nothing is read or written.
+//!
+//! # How it is made
+//!
+//! - `verdict` says in plain words what the run means; `facts` collects figures, tables and what was
+//!   asked; `page` fills the template (minijinja with automatic escaping).
+//! - `along` draws what changes along the path, `plan` the path itself with the deviation magnified,
+//!   `preview` the stand-alone picture. They share `chart`, `axis`, `outline` and `svg`.
+//! - `number` and `text` decide how numbers and names look, in one place.
+//!
+//! # Why the plots are drawn here and not by a plotting library
+//!
+//! `kuva` 0.6 and `plotters` 0.3 were tried. `plotters` has no axes of equal scale and writes colours
+//! into every element, so that a page cannot follow dark mode or print. `kuva` has both equal scale and
+//! few dependencies, but is 95 000 lines for the half dozen line plots needed (39 s of compilation on
+//! one core), and labels at worst points that avoid each other, bands for rapids, a deviation with its
+//! own scale bar, and one drawing at two widths would have to be made by hand on top of it. A small
+//! writer of SVG with classes instead of colours does all of this and lets the style sheet decide.
+//!
+//! # Safety of the page
+//!
+//! Names and comments come from files that somebody else wrote. All text passes automatic escaping (page)
+//! or `svg` (drawings); control characters and marks that reverse the direction of text are replaced. A
+//! content security policy forbids scripts, network, frames and forms. The style sheet is inline and
+//! constant.
+
+mod along;
+mod axis;
+mod chart;
+mod facts;
+mod label;
+mod number;
+mod outline;
+mod page;
+mod plan;
+mod preview;
+mod svg;
+mod text;
+mod verdict;
+
+use kinetostat_machining::RunResult;
+
+/// Why a report could not be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// The page template failed; this is a fault of this crate, never of the data.
+    #[error("the report page could not be filled: {0}")]
+    Template(#[from] minijinja::Error),
+}
+
+/// The report as one HTML page.
+///
+/// Every value of `result` is accepted: numbers that are not finite are shown as "not available", lists of
+/// different lengths are read as far as they go.
+///
+/// # Errors
+///
+/// [`ReportError::Template`] if the page template cannot be filled.
+pub fn html(result: &RunResult) -> Result<String, ReportError> {
+    Ok(page::render(result)?)
+}
+
+/// One picture of the run, 900 by 420, for a README or a slide: the path from above with the deviation
+/// magnified, and the error before and after compensation along the path.
+///
+/// It is a complete SVG document with its own style; it has its own background and looks right on
+/// light and on dark pages.
+#[must_use]
+pub fn plot_preview_svg(result: &RunResult) -> String {
+    preview::draw(result)
+}

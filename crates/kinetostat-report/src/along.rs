@@ -1,0 +1,361 @@
+//! What changes along the path: errors, forces and corrections of actuators, stiffness and margin.
+
+use kinetostat_machining::{PointResult, RunResult};
+
+use crate::axis::Span;
+use crate::chart::{Along, Limit, Mark, Panel, Series, Sheet, legend};
+use crate::label::Frame;
+use crate::number::{self, Rounding, norm};
+use crate::svg::Svg;
+use crate::text;
+
+/// Most actuators drawn; more are in the result file.
+pub(crate) const MOST_ACTUATORS: usize = 12;
+
+/// The error before and after compensation, one above the other; empty without points.
+pub(crate) fn errors(result: &RunResult, sheet: Sheet) -> String {
+    let Some(along) = Along::of(&result.points) else {
+        return String::new();
+    };
+    let mut panels = Vec::new();
+    panels.extend(before_panel(result, &along, sheet));
+    if result.question.compensated {
+        panels.extend(after_panel(result, &along));
+    }
+    let heights = if sheet.narrow() {
+        [170.0, 150.0]
+    } else {
+        [210.0, 160.0]
+    };
+    stack(
+        &panels,
+        &heights,
+        &along,
+        sheet,
+        "Distance of the tool from its programmed place along the path",
+    )
+}
+
+/// Smallest stiffness and buckling margin along the path.
+pub(crate) fn stiffness(result: &RunResult, sheet: Sheet) -> String {
+    let Some(along) = Along::of(&result.points) else {
+        return String::new();
+    };
+    let mut panels = Vec::new();
+    let values = along.values(&result.points, |p| Some(p.smallest_stiffness_n_per_mm));
+    if let Some(span) = span_of(&values) {
+        let least = number::significant(span.low, 3, Rounding::Down);
+        panels.push(Panel {
+            title: format!(
+                "Smallest stiffness: {} at least",
+                number::with_unit(&least, "N/mm")
+            ),
+            y_label: "stiffness, N/mm".to_owned(),
+            span: span.with_near_zero().widened().padded(0.08, 0.08),
+            ticks: None,
+            series: vec![Series {
+                class: "line strong",
+                values,
+            }],
+            limits: Vec::new(),
+            marks: Vec::new(),
+        });
+    }
+    let values = along.values(&result.points, |p| p.buckling_margin);
+    if let Some(span) = span_of(&values) {
+        let most = number::significant(span.high, 2, Rounding::Up);
+        panels.push(Panel {
+            title: format!("Buckling margin: {most} at most, 1 is buckling"),
+            y_label: "margin, no unit".to_owned(),
+            span: span.including(0.0).including(1.0).padded(0.08, 0.14),
+            ticks: None,
+            series: vec![Series {
+                class: "line strong",
+                values,
+            }],
+            limits: vec![Limit {
+                value: 1.0,
+                label: "1: buckling".to_owned(),
+            }],
+            marks: Vec::new(),
+        });
+    }
+    let heights = if sheet.narrow() {
+        [140.0, 130.0]
+    } else {
+        [160.0, 130.0]
+    };
+    stack(
+        &panels,
+        &heights,
+        &along,
+        sheet,
+        "Smallest stiffness and buckling margin along the path",
+    )
+}
+
+/// Forces and corrections of the actuators as small panels; empty without points or actuators.
+pub(crate) fn actuators(result: &RunResult, sheet: Sheet) -> String {
+    let Some(along) = Along::of(&result.points) else {
+        return String::new();
+    };
+    let mut panels = Vec::new();
+    for (index, actuator) in result
+        .question
+        .actuators
+        .iter()
+        .take(MOST_ACTUATORS)
+        .enumerate()
+    {
+        let name = text::shorten(&actuator.name, 24);
+        let turning = actuator.force_unit.contains('m');
+        let word = if turning { "torque" } else { "force" };
+        let values = along.values(&result.points, |p| p.actuator_force.get(index).copied());
+        panels.extend(actuator_panel(&name, word, &actuator.force_unit, values));
+        if result.question.compensated {
+            let values = along.values(&result.points, |p| {
+                p.actuator_correction.get(index).copied()
+            });
+            panels.extend(actuator_panel(
+                &name,
+                "correction",
+                &actuator.motion_unit,
+                values,
+            ));
+        }
+    }
+    share_spans(&mut panels);
+    grid(&panels, &along, sheet)
+}
+
+fn before_panel(result: &RunResult, along: &Along, sheet: Sheet) -> Option<Panel> {
+    let worst = number::largest(cutting(&result.points).map(|p| norm(&p.error_before_mm)))?;
+    let (unit, factor) = number::length_unit(worst);
+    let most = number::length(worst, 2, Rounding::Up);
+    Some(Panel {
+        title: format!("Without compensation: up to {most} off"),
+        y_label: format!("distance, {unit}"),
+        span: Span {
+            low: 0.0,
+            high: worst * factor,
+        }
+        .widened()
+        .padded(0.0, 0.2),
+        ticks: None,
+        series: vec![Series {
+            class: "line before",
+            values: along.values(&result.points, |p| Some(norm(&p.error_before_mm) * factor)),
+        }],
+        limits: Vec::new(),
+        marks: worst_marks(result, along, factor, sheet),
+    })
+}
+
+fn after_panel(result: &RunResult, along: &Along) -> Option<Panel> {
+    let (place, worst) = cutting(&result.points)
+        .filter_map(|p| Some((p, number::drawable(norm(&p.error_after_mm))?)))
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let (unit, factor) = number::length_unit(worst);
+    let most = number::length(worst, 2, Rounding::Up);
+    let tolerance = result.question.tolerance_mm;
+    let mut span = Span {
+        low: 0.0,
+        high: worst * factor,
+    }
+    .widened();
+    let mut limits = Vec::new();
+    // A tolerance far above the curve would press it flat.
+    if tolerance > 0.0 && tolerance <= 6.0 * worst {
+        span = span.including(tolerance * factor);
+        limits.push(Limit {
+            value: tolerance * factor,
+            label: format!("tolerance {}", number::length_setting(tolerance)),
+        });
+    }
+    let mark = number::drawable(place.path_mm).map(|x| Mark {
+        at: (x * along.factor, worst * factor),
+        label: format!("line {}", number::count(place.line)),
+        tooltip: format!("line {}: {most} off", number::count(place.line)),
+    });
+    Some(Panel {
+        title: format!("With the compensated program: at most {most} off"),
+        y_label: format!("distance, {unit}"),
+        span: span.padded(0.0, 0.22),
+        ticks: None,
+        series: vec![Series {
+            class: "line after",
+            values: along.values(&result.points, |p| Some(norm(&p.error_after_mm) * factor)),
+        }],
+        limits,
+        marks: mark.into_iter().collect(),
+    })
+}
+
+/// The worst points that are apart from each other: neighbours would only cover one another.
+fn worst_marks(result: &RunResult, along: &Along, factor: f64, sheet: Sheet) -> Vec<Mark> {
+    let (most, apart) = if sheet.narrow() { (2, 0.2) } else { (4, 0.08) };
+    let mut marks: Vec<Mark> = Vec::new();
+    for point in &result.worst_points {
+        let error = norm(&point.error_before_mm);
+        let (Some(x), Some(y)) = (number::drawable(point.path_mm), number::drawable(error)) else {
+            continue;
+        };
+        let x = x * along.factor;
+        let near = |mark: &Mark| (mark.at.0 - x).abs() < apart * along.span.length();
+        if marks.len() == most || marks.iter().any(near) {
+            continue;
+        }
+        let line = number::count(point.line);
+        marks.push(Mark {
+            at: (x, y * factor),
+            label: format!("line {line}"),
+            tooltip: format!(
+                "line {line}: {} off",
+                number::length(error, 3, Rounding::Nearest)
+            ),
+        });
+    }
+    marks
+}
+
+fn actuator_panel(
+    name: &str,
+    word: &str,
+    unit: &str,
+    values: Vec<Option<(f64, f64)>>,
+) -> Option<Panel> {
+    let span = span_of(&values)?;
+    let most = span.low.abs().max(span.high.abs());
+    let most = number::with_unit(
+        &number::significant(most, 2, Rounding::Up),
+        &text::clean(unit),
+    );
+    Some(Panel {
+        title: format!("{name}: {word} up to {most}"),
+        y_label: text::shorten(unit, 8),
+        span: span.with_near_zero().widened(),
+        ticks: None,
+        series: vec![Series {
+            class: if word == "correction" {
+                "line after"
+            } else {
+                "line strong"
+            },
+            values,
+        }],
+        limits: Vec::new(),
+        marks: Vec::new(),
+    })
+}
+
+/// Panels of one unit get one scale if that leaves every curve readable.
+fn share_spans(panels: &mut [Panel]) {
+    let kinds: Vec<(String, &'static str)> = panels
+        .iter()
+        .map(|panel| {
+            (
+                panel.y_label.clone(),
+                panel.series.first().map_or("", |s| s.class),
+            )
+        })
+        .collect();
+    let original: Vec<Span> = panels.iter().map(|panel| panel.span).collect();
+    for (index, panel) in panels.iter_mut().enumerate() {
+        let group = original
+            .iter()
+            .zip(&kinds)
+            .filter(|(_, kind)| **kind == kinds[index]);
+        let group: Vec<Span> = group.map(|(span, _)| *span).collect();
+        let joined = group
+            .iter()
+            .copied()
+            .reduce(Span::joined)
+            .unwrap_or(panel.span);
+        if group
+            .iter()
+            .all(|span| span.length() > joined.length() / 5.0)
+        {
+            panel.span = joined;
+        }
+        panel.span = panel.span.padded(0.1, 0.1);
+    }
+}
+
+/// True for points that are drawn in plots along the path.
+fn cutting(points: &[PointResult]) -> impl Iterator<Item = &PointResult> {
+    points
+        .iter()
+        .filter(|p| p.kind != kinetostat_machining::PointKind::Rapid)
+}
+
+fn span_of(values: &[Option<(f64, f64)>]) -> Option<Span> {
+    Span::of(values.iter().flatten().map(|value| value.1))
+}
+
+/// Panels under each other with one axis along the path.
+fn stack(
+    panels: &[Panel],
+    heights: &[f64],
+    along: &Along,
+    sheet: Sheet,
+    description: &str,
+) -> String {
+    if panels.is_empty() {
+        return String::new();
+    }
+    let mut svg = Svg::default();
+    let heights = || heights.iter().copied().chain(std::iter::repeat(130.0));
+    let gutter = panels
+        .iter()
+        .zip(heights())
+        .map(|(p, h)| p.gutter(h))
+        .fold(0.0, f64::max);
+    let mut y = 26.0;
+    for (index, (panel, height)) in panels.iter().zip(heights()).enumerate() {
+        let frame = Frame {
+            x: gutter,
+            y,
+            width: sheet.width() - gutter - 14.0,
+            height,
+        };
+        panel.draw(&mut svg, frame, along, index + 1 == panels.len());
+        y += height + 42.0;
+    }
+    y += 14.0;
+    if along.has_rapids() {
+        let entries = [("rapids", "rapid move (nothing is cut)".to_owned())];
+        y += legend(&mut svg, &entries, (gutter, y), sheet.width());
+    }
+    svg.inline(sheet.class(), (sheet.width(), y - 8.0), description)
+}
+
+/// Small panels in two columns, or one on a narrow sheet.
+fn grid(panels: &[Panel], along: &Along, sheet: Sheet) -> String {
+    if panels.is_empty() {
+        return String::new();
+    }
+    let columns = if sheet.narrow() { 1 } else { 2 };
+    let height = if sheet.narrow() { 76.0 } else { 84.0 };
+    let gutter = panels.iter().map(|p| p.gutter(height)).fold(0.0, f64::max);
+    let column_width =
+        (sheet.width() - 14.0 + 22.0) / columns as f64 - 22.0 * f64::from(columns > 1);
+    let rows = panels.len().div_ceil(columns);
+    let mut svg = Svg::default();
+    for (index, panel) in panels.iter().enumerate() {
+        let (row, column) = (index / columns, index % columns);
+        let frame = Frame {
+            x: gutter + column as f64 * (column_width + 22.0),
+            y: 26.0 + row as f64 * (height + 38.0),
+            width: column_width - gutter - if columns == 1 { 22.0 } else { 0.0 },
+            height,
+        };
+        // Below the last panel of each column stand the numbers.
+        panel.draw(&mut svg, frame, along, index + columns >= panels.len());
+    }
+    let total = 26.0 + rows as f64 * (height + 38.0) + 8.0;
+    svg.inline(
+        sheet.class(),
+        (sheet.width(), total),
+        "Forces and corrections of the actuators along the path",
+    )
+}

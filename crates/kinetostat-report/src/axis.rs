@@ -1,0 +1,195 @@
+//! Axes: the span of the data, round ticks and the way from values to pixels.
+
+use crate::number;
+
+/// From the smallest to the largest value shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Span {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+/// A tick with its label.
+pub(crate) struct Tick {
+    pub(crate) value: f64,
+    pub(crate) label: String,
+}
+
+impl Span {
+    /// The span of the values that can be drawn; none without any.
+    pub(crate) fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
+        values
+            .filter_map(number::drawable)
+            .fold(None, |span, value| match span {
+                None => Some(Self {
+                    low: value,
+                    high: value,
+                }),
+                Some(span) => Some(span.including(value)),
+            })
+    }
+
+    pub(crate) fn including(self, value: f64) -> Self {
+        Self {
+            low: self.low.min(value),
+            high: self.high.max(value),
+        }
+    }
+
+    pub(crate) fn joined(self, other: Self) -> Self {
+        self.including(other.low).including(other.high)
+    }
+
+    pub(crate) fn length(self) -> f64 {
+        self.high - self.low
+    }
+
+    pub(crate) fn middle(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// Zero belongs to the span unless the values are far from it compared with their spread.
+    pub(crate) fn with_near_zero(self) -> Self {
+        let (near, far) = (
+            self.low.abs().min(self.high.abs()),
+            self.low.abs().max(self.high.abs()),
+        );
+        if self.low * self.high > 0.0 && near > 0.6 * far {
+            self
+        } else {
+            self.including(0.0)
+        }
+    }
+
+    /// Never empty, and never so thin that the noise of arithmetic fills the plot.
+    pub(crate) fn widened(self) -> Self {
+        let size = self.low.abs().max(self.high.abs());
+        if size == 0.0 {
+            return Self {
+                low: 0.0,
+                high: 1.0,
+            };
+        }
+        let least = 0.02 * size;
+        if self.length() >= least {
+            return self;
+        }
+        let middle = self.middle();
+        Self {
+            low: middle - least,
+            high: middle + least,
+        }
+    }
+
+    /// With room at the ends, as shares of the length; an end at zero stays.
+    pub(crate) fn padded(self, below: f64, above: f64) -> Self {
+        let length = self.length();
+        Self {
+            low: if self.low == 0.0 {
+                0.0
+            } else {
+                self.low - below * length
+            },
+            high: if self.high == 0.0 {
+                0.0
+            } else {
+                self.high + above * length
+            },
+        }
+    }
+
+    /// Round ticks inside the span, about as many as wanted.
+    pub(crate) fn ticks(self, wanted: usize) -> Vec<Tick> {
+        let raw = self.length() / wanted.max(1) as f64;
+        if !raw.is_finite() || raw <= 0.0 {
+            return Vec::new();
+        }
+        let step = round_step(raw);
+        let decimals = usize::try_from(-step.log10().floor() as i64)
+            .unwrap_or(0)
+            .min(9);
+        let slack = 1e-9 * self.length();
+        let first = ((self.low - slack) / step).ceil();
+        let last = ((self.high + slack) / step).floor();
+        (0..=20)
+            .map(|index| first + f64::from(index))
+            .take_while(|count| *count <= last)
+            .map(|count| Tick {
+                value: count * step,
+                label: number::fixed(count * step, decimals),
+            })
+            .collect()
+    }
+}
+
+/// The round step (1, 2, 5 times a power of ten) nearest to a length.
+fn round_step(raw: f64) -> f64 {
+    let below = number::round_number(raw);
+    let above = number::round_number(raw * 2.6);
+    if raw / below < above / raw {
+        below
+    } else {
+        above
+    }
+}
+
+/// The way from values to pixels.
+#[derive(Clone, Copy)]
+pub(crate) struct Scale {
+    span: Span,
+    from: f64,
+    to: f64,
+}
+
+impl Scale {
+    /// `span.low` is drawn at `from`, `span.high` at `to`.
+    pub(crate) fn new(span: Span, from: f64, to: f64) -> Self {
+        Self { span, from, to }
+    }
+
+    pub(crate) fn at(&self, value: f64) -> f64 {
+        self.from + (value - self.span.low) / self.span.length() * (self.to - self.from)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(low: f64, high: f64) -> Vec<String> {
+        Span { low, high }
+            .ticks(5)
+            .into_iter()
+            .map(|t| t.label)
+            .collect()
+    }
+
+    #[test]
+    fn ticks_are_round() {
+        assert_eq!(labels(0.0, 0.8), ["0.0", "0.2", "0.4", "0.6", "0.8"]);
+        assert_eq!(
+            labels(-26.0, 26.0),
+            ["\u{2212}20", "\u{2212}10", "0", "10", "20"]
+        );
+        assert!(labels(0.0, f64::INFINITY).is_empty());
+        assert!(labels(1.0, 1.0).is_empty());
+    }
+
+    #[test]
+    fn spans_are_never_empty() {
+        assert_eq!(Span::of([f64::NAN].into_iter()), None);
+        let flat = Span::of([5.0, 5.0].into_iter()).unwrap().widened();
+        assert!(flat.length() > 0.1);
+        assert_eq!(
+            Span {
+                low: 0.0,
+                high: 0.0
+            }
+            .widened(),
+            Span {
+                low: 0.0,
+                high: 1.0
+            }
+        );
+    }
+}

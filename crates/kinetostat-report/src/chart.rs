@@ -1,0 +1,328 @@
+//! A panel with values over the length of the path.
+
+use kinetostat_machining::{PointKind, PointResult};
+
+use crate::axis::{Scale, Span, Tick};
+use crate::label::{Frame, Labels, TEXT_SIZE};
+use crate::outline::{path_data, per_column};
+use crate::svg::{Anchor, Svg, pixel};
+use crate::{number, text};
+
+/// The drawing surface: the same figure is drawn for wide windows and paper, and for telephones.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sheet {
+    Wide,
+    Narrow,
+}
+
+impl Sheet {
+    /// Width in pixels.
+    pub(crate) fn width(self) -> f64 {
+        match self {
+            Self::Wide => 960.0,
+            Self::Narrow => 380.0,
+        }
+    }
+
+    /// Class of the drawing.
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Wide => "plot wide",
+            Self::Narrow => "plot narrow",
+        }
+    }
+
+    pub(crate) fn narrow(self) -> bool {
+        self == Self::Narrow
+    }
+}
+
+/// The axis along the path, common to all panels of a report.
+pub(crate) struct Along {
+    pub(crate) span: Span,
+    /// From mm to the unit of the axis.
+    pub(crate) factor: f64,
+    pub(crate) label: &'static str,
+    /// Where rapids lie, in the unit of the axis.
+    rapids: Vec<(f64, f64)>,
+}
+
+impl Along {
+    /// None if no point has a place on the path.
+    pub(crate) fn of(points: &[PointResult]) -> Option<Self> {
+        let span = Span::of(points.iter().map(|p| p.path_mm))?;
+        let (factor, label) = if span.high > 20_000.0 {
+            (0.001, "length of the path, m")
+        } else {
+            (1.0, "length of the path, mm")
+        };
+        let mut rapids: Vec<(f64, f64)> = Vec::new();
+        let mut previous = span.low.min(0.0);
+        for point in points {
+            let Some(here) = number::drawable(point.path_mm) else {
+                continue;
+            };
+            if point.kind == PointKind::Rapid && here > previous {
+                match rapids.last_mut() {
+                    Some(last) if last.1 >= previous * factor => last.1 = here * factor,
+                    _ => rapids.push((previous * factor, here * factor)),
+                }
+            }
+            previous = here;
+        }
+        let span = span.including(0.0);
+        let span = Span {
+            low: span.low * factor,
+            high: span.high * factor,
+        };
+        let span = if span.length() > 0.0 {
+            span
+        } else {
+            span.widened()
+        };
+        Some(Self {
+            span,
+            factor,
+            label,
+            rapids,
+        })
+    }
+
+    pub(crate) fn has_rapids(&self) -> bool {
+        !self.rapids.is_empty()
+    }
+
+    /// Values of cutting moves over the path; rapids lift the pen.
+    pub(crate) fn values(
+        &self,
+        points: &[PointResult],
+        value: impl Fn(&PointResult) -> Option<f64>,
+    ) -> Vec<Option<(f64, f64)>> {
+        points
+            .iter()
+            .map(|point| {
+                if point.kind == PointKind::Rapid {
+                    return None;
+                }
+                let x = number::drawable(point.path_mm)? * self.factor;
+                let y = value(point).and_then(number::drawable)?;
+                Some((x, y))
+            })
+            .collect()
+    }
+}
+
+/// One line of a panel.
+pub(crate) struct Series {
+    pub(crate) class: &'static str,
+    pub(crate) values: Vec<Option<(f64, f64)>>,
+}
+
+/// A level that means something.
+pub(crate) struct Limit {
+    pub(crate) value: f64,
+    pub(crate) label: String,
+}
+
+/// A point worth a label.
+pub(crate) struct Mark {
+    pub(crate) at: (f64, f64),
+    pub(crate) label: String,
+    pub(crate) tooltip: String,
+}
+
+/// A plot of values over the path.
+pub(crate) struct Panel {
+    pub(crate) title: String,
+    pub(crate) y_label: String,
+    pub(crate) span: Span,
+    /// Ticks of the vertical axis; round ones if none are given.
+    pub(crate) ticks: Option<Vec<Tick>>,
+    pub(crate) series: Vec<Series>,
+    pub(crate) limits: Vec<Limit>,
+    pub(crate) marks: Vec<Mark>,
+}
+
+impl Panel {
+    fn ticks(&self, height: f64) -> Vec<Tick> {
+        let wanted = (height / 34.0).round().clamp(2.0, 6.0) as usize;
+        self.span.ticks(wanted)
+    }
+
+    /// Room left of the frame for the label and the ticks of the vertical axis.
+    pub(crate) fn gutter(&self, height: f64) -> f64 {
+        let computed;
+        let ticks = match &self.ticks {
+            Some(ticks) => ticks,
+            None => {
+                computed = self.ticks(height);
+                &computed
+            }
+        };
+        let widest = ticks
+            .iter()
+            .map(|tick| text::width(&tick.label, TEXT_SIZE))
+            .fold(0.0, f64::max);
+        widest + 32.0
+    }
+
+    /// Draws the panel; `numbered` writes the numbers and the label of the axis along the path.
+    pub(crate) fn draw(&self, svg: &mut Svg, frame: Frame, along: &Along, numbered: bool) {
+        let x = Scale::new(along.span, frame.x, frame.right());
+        let y = Scale::new(self.span, frame.bottom(), frame.y);
+        svg.rectangle(
+            "ground",
+            (frame.x, frame.y),
+            (frame.width, frame.height),
+            0.0,
+        );
+        svg.path("rapids", &bands(along, &x, &frame));
+        let computed;
+        let y_ticks = match &self.ticks {
+            Some(ticks) => ticks,
+            None => {
+                computed = self.ticks(frame.height);
+                &computed
+            }
+        };
+        for tick in y_ticks {
+            let at = y.at(tick.value);
+            svg.line("grid", (frame.x, at), (frame.right(), at));
+            svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);
+        }
+        draw_path_axis(svg, frame, along, &x, numbered);
+        svg.line("axis", (frame.x, frame.y), (frame.x, frame.bottom()));
+        let gutter = self.gutter(frame.height);
+        svg.text_upwards(
+            "name",
+            (frame.x - gutter + 12.0, frame.y + 0.5 * frame.height),
+            &self.y_label,
+        );
+        let most = (frame.width / 6.6) as usize;
+        svg.text(
+            "title",
+            (frame.x, frame.y - 9.0),
+            Anchor::Start,
+            &text::shorten(&self.title, most),
+        );
+
+        let mut labels = Labels::default();
+        for limit in &self.limits {
+            let at = y.at(limit.value);
+            svg.line("limit", (frame.x, at), (frame.right(), at));
+            let base = if at - 18.0 > frame.y {
+                at - 5.0
+            } else {
+                at + 14.0
+            };
+            svg.text(
+                "limit-name",
+                (frame.right() - 6.0, base),
+                Anchor::End,
+                &limit.label,
+            );
+            let width = text::width(&limit.label, TEXT_SIZE) + 10.0;
+            labels.reserve(Frame {
+                x: frame.right() - width,
+                y: base - 12.0,
+                width,
+                height: 16.0,
+            });
+        }
+        for series in &self.series {
+            let pixels: Vec<_> = series
+                .values
+                .iter()
+                .map(|value| value.map(|(along, value)| (x.at(along), y.at(value))))
+                .collect();
+            svg.path(series.class, &path_data(&per_column(&pixels)));
+        }
+        for mark in &self.marks {
+            let at = (x.at(mark.at.0), y.at(mark.at.1));
+            svg.marker("mark", at, &mark.tooltip);
+            labels.reserve(Frame {
+                x: at.0 - 5.0,
+                y: at.1 - 5.0,
+                width: 10.0,
+                height: 10.0,
+            });
+        }
+        for mark in &self.marks {
+            let at = (x.at(mark.at.0), y.at(mark.at.1));
+            labels.place(svg, "mark-name", &frame, at, &mark.label);
+        }
+    }
+}
+
+fn draw_path_axis(svg: &mut Svg, frame: Frame, along: &Along, x: &Scale, numbered: bool) {
+    let wanted = (frame.width / 95.0).round().clamp(2.0, 10.0) as usize;
+    for tick in along.span.ticks(wanted) {
+        let at = x.at(tick.value);
+        svg.line("axis", (at, frame.bottom()), (at, frame.bottom() + 4.0));
+        if numbered {
+            svg.text(
+                "tick",
+                (at, frame.bottom() + 17.0),
+                Anchor::Middle,
+                &tick.label,
+            );
+        }
+    }
+    svg.line(
+        "axis",
+        (frame.x, frame.bottom()),
+        (frame.right(), frame.bottom()),
+    );
+    if numbered {
+        let at = (frame.x + 0.5 * frame.width, frame.bottom() + 34.0);
+        svg.text("name", at, Anchor::Middle, along.label);
+    }
+}
+
+/// Rapids as one shape; those narrower than a pixel are drawn a pixel wide.
+fn bands(along: &Along, x: &Scale, frame: &Frame) -> String {
+    let mut data = String::new();
+    let mut covered = f64::NEG_INFINITY;
+    for (from, to) in &along.rapids {
+        let left = x.at(*from).max(covered);
+        let right = x.at(*to).max(left + 1.0).min(frame.right());
+        if right - left < 0.2 {
+            continue;
+        }
+        covered = right;
+        data.push_str(&format!(
+            "M{} {}h{}v{}h{}z",
+            pixel(left),
+            pixel(frame.y),
+            pixel(right - left),
+            pixel(frame.height),
+            pixel(left - right)
+        ));
+    }
+    data
+}
+
+/// A row of samples with names; returns the height it takes.
+pub(crate) fn legend(
+    svg: &mut Svg,
+    entries: &[(&str, String)],
+    from: (f64, f64),
+    right: f64,
+) -> f64 {
+    let (mut x, mut y) = from;
+    for (class, name) in entries {
+        let width = 30.0 + text::width(name, TEXT_SIZE);
+        if x > from.0 && x + width > right {
+            x = from.0;
+            y += 19.0;
+        }
+        if *class == "rapids" {
+            svg.rectangle("rapids swatch", (x, y - 10.0), (22.0, 12.0), 0.0);
+        } else {
+            svg.line(class, (x, y - 4.0), (x + 22.0, y - 4.0));
+        }
+        svg.text("name", (x + 28.0, y), Anchor::Start, name);
+        x += width + 18.0;
+    }
+    y - from.1 + 19.0
+}

@@ -1,0 +1,403 @@
+//! Figures and tables of the report as text.
+
+use kinetostat_machining::{PointKind, PointResult, Question, RunResult};
+use minijinja::{Value, context};
+
+use crate::number::{self, MISSING, Rounding, norm};
+use crate::text::{self, or_unknown};
+use crate::verdict::allowed_mm;
+
+/// A key figure: what, how much, and a line that helps to read it.
+fn card(name: &str, value: String, note: String) -> Value {
+    context! { name, value, note }
+}
+
+/// The key figures as cards.
+pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
+    let (summary, question) = (&result.summary, &result.question);
+    let up = |value: f64| number::length(value, 2, Rounding::Up);
+    let mut cards = vec![card(
+        "Largest error without compensation",
+        up(summary.max_position_error_before_mm),
+        format!("on average {}", up(summary.rms_position_error_before_mm)),
+    )];
+    if question.compensated {
+        cards.push(card(
+            "Largest error of the written program",
+            up(summary.max_position_error_after_mm),
+            improvement(
+                summary.max_position_error_before_mm,
+                summary.max_position_error_after_mm,
+            ),
+        ));
+        cards.push(card(
+            "Largest correction",
+            up(summary.max_correction_mm),
+            "of the programmed positions".to_owned(),
+        ));
+    }
+    cards.push(card(
+        if question.compensated {
+            "Tilt that stays"
+        } else {
+            "Tilt of the tool"
+        },
+        angle(summary.max_residual_rotation_deg),
+        if question.compensated {
+            "not corrected by positions"
+        } else {
+            "largest along the path"
+        }
+        .to_owned(),
+    ));
+    cards.push(stiffness_card(summary.smallest_stiffness_n_per_mm));
+    cards.push(margin_card(summary.largest_buckling_margin));
+    cards.push(actuator_card(result));
+    cards.push(if question.compensated {
+        card(
+            "Blocks per second",
+            number::significant(summary.blocks_per_second, 2, Rounding::Up),
+            format!(
+                "at most, shortest piece {}",
+                number::length(summary.smallest_piece_mm, 2, Rounding::Down)
+            ),
+        )
+    } else {
+        card(
+            "Path cut",
+            number::with_unit(
+                &number::significant(summary.feed_length_mm, 4, Rounding::Nearest),
+                "mm",
+            ),
+            format!("{} points calculated", number::count(summary.points)),
+        )
+    });
+    cards
+}
+
+fn improvement(before: f64, after: f64) -> String {
+    let times = before / after;
+    if times.is_finite() && times >= 1.5 {
+        format!(
+            "about {} times smaller",
+            number::significant(times, 2, Rounding::Down)
+        )
+    } else {
+        "checked by solving the written file again".to_owned()
+    }
+}
+
+fn stiffness_card(stiffness: f64) -> Value {
+    let value = number::with_unit(&number::significant(stiffness, 3, Rounding::Down), "N/mm");
+    let moved = 100.0 / stiffness;
+    let note = if moved.is_finite() && moved > 0.0 {
+        let moved = number::length(moved, 2, Rounding::Up);
+        format!("100 N move the tool by up to {moved}")
+    } else {
+        "in the softest direction".to_owned()
+    };
+    card("Smallest stiffness", value, note)
+}
+
+fn margin_card(margin: Option<f64>) -> Value {
+    match margin {
+        Some(margin) => card(
+            "Buckling margin",
+            number::significant(margin, 2, Rounding::Up),
+            "0 is no load, 1 is buckling".to_owned(),
+        ),
+        None => card(
+            "Buckling margin",
+            "none".to_owned(),
+            "no limb of this machine can buckle".to_owned(),
+        ),
+    }
+}
+
+fn actuator_card(result: &RunResult) -> Value {
+    let forces = result
+        .question
+        .actuators
+        .iter()
+        .zip(&result.summary.max_actuator_force);
+    let largest = forces
+        .filter_map(|(actuator, force)| Some((actuator, number::drawable(*force)?.abs())))
+        .reduce(|a, b| if b.1 > a.1 { b } else { a });
+    match largest {
+        Some((actuator, force)) => card(
+            "Largest actuator load",
+            number::with_unit(
+                &number::significant(force, 3, Rounding::Up),
+                &text::shorten(&actuator.force_unit, 8),
+            ),
+            text::shorten(&actuator.name, 40),
+        ),
+        None => card("Largest actuator load", MISSING.to_owned(), String::new()),
+    }
+}
+
+fn angle(value: f64) -> String {
+    if value.abs() > 0.0 && value.abs() < 1e-4 {
+        return number::with_unit("below 0.0001", "deg");
+    }
+    number::with_unit(&number::significant(value, 2, Rounding::Up), "deg")
+}
+
+/// Rows of the table of worst points, and the units of its errors before and after.
+pub(crate) fn worst(result: &RunResult) -> Value {
+    let shown: Vec<&PointResult> = result.worst_points.iter().take(10).collect();
+    let unit_of = |error: fn(&PointResult) -> f64| {
+        number::length_unit(number::largest(shown.iter().map(|p| error(p))).unwrap_or(0.0))
+    };
+    let before = unit_of(|p| norm(&p.error_before_mm));
+    let after = unit_of(|p| norm(&p.error_after_mm));
+    let rows: Vec<Value> = shown
+        .iter()
+        .map(|point| {
+            context! {
+                line => number::count(point.line),
+                output_line => (point.output_line > 0).then(|| number::count(point.output_line)),
+                place => vector(&point.position_mm, 1.0, 3),
+                motion => motion(point),
+                before => error_columns(&point.error_before_mm, before.1),
+                after => error_columns(&point.error_after_mm, after.1),
+            }
+        })
+        .collect();
+    context! { rows, before_unit => before.0, after_unit => after.0 }
+}
+
+fn motion(point: &PointResult) -> String {
+    match point.kind {
+        PointKind::Feed => {
+            let share = 100.0 * point.share;
+            format!(
+                "cutting, at {}",
+                number::with_unit(&number::fixed(share, 0), "%")
+            )
+        }
+        PointKind::Rapid => "rapid".to_owned(),
+        PointKind::Corner => "corner".to_owned(),
+    }
+}
+
+fn vector(values: &[f64; 3], factor: f64, decimals: usize) -> Vec<String> {
+    values
+        .iter()
+        .map(|value| number::fixed(value * factor, decimals))
+        .collect()
+}
+
+fn error_columns(error: &[f64; 3], factor: f64) -> Vec<String> {
+    let decimals = if factor == 1.0 { 4 } else { 2 };
+    let mut columns = vector(error, factor, decimals);
+    columns.push(number::fixed(norm(error) * factor, decimals));
+    columns
+}
+
+/// What the written program leaves: name, size, explanation.
+pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
+    let (summary, question) = (&result.summary, &result.question);
+    let row = |name: &str, size: String, text: String| context! { name, size, text };
+    let mut rows = vec![row(
+        "Tilt of the tool",
+        angle(summary.max_residual_rotation_deg),
+        "The load turns the tool as well as moving it. A program of positions moves the tool tip back to its place but \
+         cannot turn it back; a side wall cut deep below the tip shows it."
+            .to_owned(),
+    )];
+    if !question.compensated {
+        return rows;
+    }
+    rows.push(row(
+        "Rounding",
+        number::length(summary.max_rounding_error_mm, 2, Rounding::Up),
+        format!(
+            "Numbers are written with {} decimals. This part of the error after compensation comes from that alone.",
+            question.decimals
+        ),
+    ));
+    let steps = match summary.corner_steps {
+        0 => "none".to_owned(),
+        steps => format!(
+            "{}, longest {}",
+            number::count(steps),
+            number::length(summary.largest_corner_step_mm, 2, Rounding::Up)
+        ),
+    };
+    rows.push(row(
+        "Corner steps",
+        steps,
+        "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
+         step there while the tool stays at its corner."
+            .to_owned(),
+    ));
+    rows
+}
+
+/// The first lines under the title: what the verdict is about.
+pub(crate) fn heading(result: &RunResult) -> Vec<Value> {
+    let question = &result.question;
+    let mut rows = vec![
+        fact("Program", or_unknown(&question.program)),
+        fact("Machine", or_unknown(&question.model)),
+        fact("Load", or_unknown(&question.load)),
+    ];
+    if question.compensated {
+        rows.push(fact(
+            "Tolerance",
+            format!(
+                "path {}, chords of arcs {}",
+                number::length_setting(question.tolerance_mm),
+                number::length_setting(question.chord_tolerance_mm)
+            ),
+        ));
+    }
+    rows
+}
+
+fn fact(name: &str, text: String) -> Value {
+    context! { name, lines => vec![text] }
+}
+
+/// What was asked and how the program was written.
+pub(crate) fn asked(result: &RunResult) -> Vec<Value> {
+    let (summary, question) = (&result.summary, &result.question);
+    let deviations: Vec<String> = question
+        .model_deviations
+        .iter()
+        .map(|line| text::clean(line))
+        .collect();
+    let mut rows = vec![
+        fact("Machine model", or_unknown(&question.model)),
+        fact("Model from", or_unknown(&question.model_source)),
+        context! {
+            name => "Deviations from the drawing",
+            lines => if deviations.is_empty() { vec!["none".to_owned()] } else { deviations },
+        },
+        fact("Program", or_unknown(&question.program)),
+        fact("Load", or_unknown(&question.load)),
+        fact("Where the program lies", or_unknown(&question.placement)),
+        fact("Tool", or_unknown(&question.tool)),
+        fact("Path cut", extent(question, summary.feed_length_mm)),
+        fact("Actuators", actuator_names(question)),
+        fact("Points calculated", number::count(summary.points)),
+        fact(
+            "Blocks read",
+            format!(
+                "{} ({} bytes)",
+                number::count(summary.blocks),
+                number::count(summary.bytes_in)
+            ),
+        ),
+    ];
+    if question.compensated {
+        rows.extend(written(result));
+    } else {
+        rows.push(fact("Blocks written", "none, analysis only".to_owned()));
+    }
+    rows.push(fact(
+        "kinetostat",
+        format!("version {}", or_unknown(&result.kinetostat_version)),
+    ));
+    rows
+}
+
+fn written(result: &RunResult) -> Vec<Value> {
+    let (summary, question) = (&result.summary, &result.question);
+    vec![
+        fact(
+            "Blocks written",
+            format!(
+                "{} ({} bytes); of those read, {} were divided and {} carried over byte for byte",
+                number::count(summary.blocks_out),
+                number::count(summary.bytes_out),
+                number::count(summary.blocks_split),
+                number::count(summary.blocks_unchanged)
+            ),
+        ),
+        fact(
+            "Straight pieces written",
+            format!(
+                "{}, the shortest {}",
+                number::count(summary.pieces),
+                number::length(summary.smallest_piece_mm, 2, Rounding::Down)
+            ),
+        ),
+        fact(
+            "Most blocks per second",
+            format!(
+                "{} at the programmed feed",
+                number::significant(summary.blocks_per_second, 3, Rounding::Up)
+            ),
+        ),
+        fact(
+            "Speed along the part",
+            format!(
+                "within {} of the programmed one",
+                number::with_unit(
+                    &number::significant(summary.max_speed_deviation_percent, 2, Rounding::Up),
+                    "%"
+                )
+            ),
+        ),
+        fact(
+            "Tolerance of the path",
+            number::length_setting(question.tolerance_mm),
+        ),
+        fact(
+            "Tolerance of chords in arcs",
+            number::length_setting(question.chord_tolerance_mm),
+        ),
+        fact("Decimals written", question.decimals.to_string()),
+        fact(
+            "Error allowed in all",
+            number::length(allowed_mm(result), 2, Rounding::Up),
+        ),
+    ]
+}
+
+fn extent(question: &Question, length: f64) -> String {
+    let axes: Vec<String> = ["X", "Y", "Z"]
+        .iter()
+        .enumerate()
+        .map(|(axis, name)| {
+            let corner = |value: f64| number::fixed(value, 3);
+            format!(
+                "{name} {} to {}",
+                corner(question.box_min_mm[axis]),
+                corner(question.box_max_mm[axis])
+            )
+        })
+        .collect();
+    let length = number::with_unit(&number::significant(length, 5, Rounding::Nearest), "mm");
+    format!(
+        "{length} long; {} (mm, program coordinates)",
+        axes.join(", ")
+    )
+}
+
+fn actuator_names(question: &Question) -> String {
+    let names: Vec<String> = question
+        .actuators
+        .iter()
+        .map(|a| or_unknown(&a.name))
+        .collect();
+    if names.is_empty() {
+        "none".to_owned()
+    } else {
+        names.join(", ")
+    }
+}
+
+/// The sentence that says that not every point is drawn.
+pub(crate) fn decimated(result: &RunResult) -> Option<String> {
+    let (shown, all) = (result.points.len(), result.summary.points);
+    (shown < all).then(|| {
+        format!(
+            "{} of {} points shown; the worst are among them.",
+            number::count(shown),
+            number::count(all)
+        )
+    })
+}

@@ -1,0 +1,72 @@
+//! The page: the template filled with figures, drawings and tables.
+
+use kinetostat_machining::RunResult;
+use minijinja::{Environment, Value, context};
+
+use crate::chart::Sheet;
+use crate::number::{self, MISSING};
+use crate::{along, facts, plan, text, verdict};
+
+/// The name ends in `.html`, which switches automatic escaping on.
+const PAGE: &str = "report.html";
+
+const STYLE: &str = concat!(
+    include_str!("template/palette.css"),
+    include_str!("template/plot.css"),
+    include_str!("template/page.css")
+);
+
+/// Most warnings shown; more are in the result file.
+const MOST_WARNINGS: usize = 100;
+
+/// Fills the page.
+pub(crate) fn render(result: &RunResult) -> Result<String, minijinja::Error> {
+    let mut environment = Environment::new();
+    environment.add_template(PAGE, include_str!("template/report.html"))?;
+    let question = &result.question;
+    let verdict = verdict::verdict(result);
+    let warnings: Vec<String> = result
+        .warnings
+        .iter()
+        .map(|line| text::clean(line))
+        .collect();
+    let actuators = question.actuators.len();
+    environment.get_template(PAGE)?.render(context! {
+        style => Value::from_safe_string(STYLE.to_owned()),
+        program => text::shorten(&text::or_unknown(&question.program), 80),
+        model => text::shorten(&text::or_unknown(&question.model), 80),
+        version => text::clean(&result.kinetostat_version),
+        compensated => question.compensated,
+        verdict => context! {
+            class => verdict.level.class(),
+            word => verdict.level.word(),
+            sentence => verdict.sentence,
+        },
+        heading => facts::heading(result),
+        cards => facts::cards(result),
+        errors => figure(result, along::errors),
+        views => figure(result, plan::views),
+        magnification => plan::magnification(result).map(number::setting),
+        actuators => figure(result, along::actuators),
+        actuators_left_out => actuators.saturating_sub(along::MOST_ACTUATORS),
+        stiffness => figure(result, along::stiffness),
+        has_margin => result.summary.largest_buckling_margin.is_some(),
+        worst => facts::worst(result),
+        uncorrected => facts::uncorrected(result),
+        warnings_left_out => warnings.len().saturating_sub(MOST_WARNINGS),
+        warning_count => warnings.len(),
+        warnings => warnings.into_iter().take(MOST_WARNINGS).collect::<Vec<_>>(),
+        asked => facts::asked(result),
+        decimated => facts::decimated(result),
+        missing => MISSING,
+    })
+}
+
+/// A drawing for wide windows and paper, and one for telephones; the style sheet shows one of them.
+fn figure(result: &RunResult, draw: fn(&RunResult, Sheet) -> String) -> Value {
+    let wide = draw(result, Sheet::Wide);
+    if wide.is_empty() {
+        return Value::from(());
+    }
+    Value::from_safe_string(wide + "\n" + &draw(result, Sheet::Narrow))
+}

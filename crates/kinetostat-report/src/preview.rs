@@ -1,0 +1,136 @@
+//! One small picture of a run: the path from above and the error along it.
+
+use kinetostat_machining::RunResult;
+
+use crate::axis::{Span, Tick};
+use crate::chart::{Along, Panel, Series};
+use crate::label::Frame;
+use crate::number::{self, Rounding, norm};
+use crate::plan;
+use crate::svg::{Anchor, Svg};
+
+const SIZE: (f64, f64) = (900.0, 420.0);
+
+const STYLE: &str = concat!(
+    include_str!("template/palette.css"),
+    include_str!("template/plot.css")
+);
+
+/// Decades that are shown at most.
+const MOST_DECADES: i32 = 7;
+
+/// Draws the picture.
+pub(crate) fn draw(result: &RunResult) -> String {
+    let mut svg = Svg::default();
+    svg.rectangle("card", (0.5, 0.5), (SIZE.0 - 1.0, SIZE.1 - 1.0), 10.0);
+    let frame = Frame {
+        x: 66.0,
+        y: 48.0,
+        width: 330.0,
+        height: 316.0,
+    };
+    let title = match plan::magnification(result) {
+        Some(factor) => format!("From above, deviation × {}", number::setting(factor)),
+        None => "The path from above".to_owned(),
+    };
+    plan::view_from_above(&mut svg, result, frame, &title);
+    if !errors(&mut svg, result) {
+        svg.text("name", (450.0, 210.0), Anchor::Middle, "no points to show");
+    }
+    svg.document(
+        SIZE,
+        "Deviation of the tool along the path, without and with compensation",
+        STYLE,
+    )
+}
+
+/// The error before and after over powers of ten; says if there was anything to draw.
+fn errors(svg: &mut Svg, result: &RunResult) -> bool {
+    let Some(along) = Along::of(&result.points) else {
+        return false;
+    };
+    let largest = |error: fn(&kinetostat_machining::PointResult) -> f64| {
+        number::largest(result.points.iter().map(error)).filter(|error| *error > 0.0)
+    };
+    let before = largest(|p| norm(&p.error_before_mm));
+    let after = largest(|p| norm(&p.error_after_mm)).filter(|_| result.question.compensated);
+    let Some(top) = before.into_iter().chain(after).reduce(f64::max) else {
+        return false;
+    };
+    let high = top.log10().ceil() as i32;
+    let lowest = after.unwrap_or(top / 50.0) / 6.0;
+    let low = (lowest.log10().floor() as i32).clamp(high - MOST_DECADES, high - 1);
+    let span = Span {
+        low: f64::from(low),
+        high: f64::from(high),
+    };
+    let curve = |error: fn(&kinetostat_machining::PointResult) -> [f64; 3]| {
+        along.values(&result.points, |p| {
+            Some(norm(&error(p)).log10().clamp(span.low, span.high))
+        })
+    };
+    let mut series = vec![Series {
+        class: "line before",
+        values: curve(|p| p.error_before_mm),
+    }];
+    if after.is_some() {
+        series.push(Series {
+            class: "line after",
+            values: curve(|p| p.error_after_mm),
+        });
+    }
+    let panel = Panel {
+        title: "Distance from the programmed place".to_owned(),
+        y_label: "distance".to_owned(),
+        span,
+        ticks: Some((low..=high).map(decade).collect()),
+        series,
+        limits: Vec::new(),
+        marks: Vec::new(),
+    };
+    let frame = Frame {
+        x: 506.0,
+        y: 48.0,
+        width: 372.0,
+        height: 316.0,
+    };
+    panel.draw(svg, frame, &along, true);
+    let y_of =
+        |error: f64| frame.bottom() - (error.log10() - span.low) / span.length() * frame.height;
+    let named = [
+        ("before-name", "without compensation", before),
+        ("after-name", "with the compensated program", after),
+    ];
+    for (class, name, error) in named {
+        if let Some(error) = error {
+            let up_to = number::length(error, 2, Rounding::Up);
+            let y = y_of(error);
+            // Above the curve unless that is outside the frame; the after curve lies far below.
+            let y = if y - 12.0 > frame.y + 14.0 {
+                y - 10.0
+            } else {
+                y + 34.0
+            };
+            svg.text(
+                class,
+                (frame.right() - 8.0, y),
+                Anchor::End,
+                &format!("{name}: up to {up_to}"),
+            );
+        }
+    }
+    true
+}
+
+fn decade(power: i32) -> Tick {
+    let value = 10f64.powi(power);
+    let label = if power >= -2 {
+        number::with_unit(&number::setting(value), "mm")
+    } else {
+        number::with_unit(&number::setting(value * 1000.0), "µm")
+    };
+    Tick {
+        value: f64::from(power),
+        label,
+    }
+}

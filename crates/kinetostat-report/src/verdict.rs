@@ -1,0 +1,305 @@
+//! What a run means, in plain words.
+
+use kinetostat_machining::{PointKind, RunResult, Summary};
+
+use crate::number::{self, Rounding, sentence_mm};
+
+/// Rotations below this are not worth a sentence, deg.
+const SMALLEST_ROTATION: f64 = 0.000_5;
+
+/// How good the news is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Level {
+    /// The written program does what was asked.
+    Good,
+    /// An answer without a judgement: analysis only.
+    Analysis,
+    /// Usable only after a look at what is said.
+    Attention,
+    /// Not to be run.
+    Stop,
+}
+
+impl Level {
+    /// Class in the style sheet.
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Analysis => "analysis",
+            Self::Attention => "attention",
+            Self::Stop => "stop",
+        }
+    }
+
+    /// The level in words, for those who do not see colours.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Good => "Corrected",
+            Self::Analysis => "Analysis",
+            Self::Attention => "Attention",
+            Self::Stop => "Do not run",
+        }
+    }
+}
+
+/// The verdict of a run.
+pub(crate) struct Verdict {
+    pub(crate) level: Level,
+    pub(crate) sentence: String,
+}
+
+/// Error that the written program may have: the tolerance of the path, of chords in arcs, and the rounding.
+pub(crate) fn allowed_mm(result: &RunResult) -> f64 {
+    let parts = [
+        result.question.tolerance_mm,
+        result.question.chord_tolerance_mm,
+        result.summary.max_rounding_error_mm,
+    ];
+    parts
+        .into_iter()
+        .filter(|part| part.is_finite() && *part > 0.0)
+        .sum()
+}
+
+/// Judges a run.
+pub(crate) fn verdict(result: &RunResult) -> Verdict {
+    let summary = &result.summary;
+    let stop = |sentence: String| Verdict {
+        level: Level::Stop,
+        sentence,
+    };
+    if summary.points == 0 && result.points.is_empty() {
+        return Verdict {
+            level: Level::Attention,
+            sentence: "No point of the program was calculated, so there is nothing to judge."
+                .to_owned(),
+        };
+    }
+    if !summary.stable {
+        let place = first_unstable_line(result).map_or_else(String::new, |line| {
+            format!(", first at line {}", number::count(line))
+        });
+        return stop(format!(
+            "The machine gives way under this load{place}: it is not stable there. Do not run this program with \
+             this load; the figures below hold only where the machine is stable."
+        ));
+    }
+    if !summary.converged {
+        return stop(
+            "The calculation found no answer for at least one place on the path. Do not rely on the figures below \
+             or on the compensated program before the reason is found (see the warnings)."
+                .to_owned(),
+        );
+    }
+    let mut judged = if result.question.compensated {
+        compensated(result)
+    } else {
+        analysed(summary)
+    };
+    if cuts_without_load(result) {
+        judged.sentence = format!(
+            "No cutting force acts on the tool in this run. {}",
+            judged.sentence
+        );
+    }
+    if summary.max_residual_rotation_deg > SMALLEST_ROTATION {
+        let angle = number::significant(summary.max_residual_rotation_deg, 2, Rounding::Up);
+        let angle = number::with_unit(&angle, "deg");
+        judged.sentence.push_str(&if result.question.compensated {
+            format!(" The tool stays tilted by up to {angle}, which a program of positions cannot correct.")
+        } else {
+            format!(" It tilts by up to {angle}.")
+        });
+    }
+    judged
+}
+
+fn analysed(summary: &Summary) -> Verdict {
+    let before = summary.max_position_error_before_mm;
+    if !before.is_finite() {
+        return unknown();
+    }
+    Verdict {
+        level: Level::Analysis,
+        sentence: format!(
+            "The tool is up to {} off its programmed path. This is an analysis only: no compensated program was \
+             written.",
+            sentence_mm(before)
+        ),
+    }
+}
+
+fn compensated(result: &RunResult) -> Verdict {
+    let before = result.summary.max_position_error_before_mm;
+    let after = result.summary.max_position_error_after_mm;
+    if !before.is_finite() || !after.is_finite() {
+        return unknown();
+    }
+    let allowed = allowed_mm(result);
+    let (before_text, after_text) = (sentence_mm(before), sentence_mm(after));
+    if after > allowed {
+        let sentence = if after < before {
+            format!(
+                "Without compensation the tool is up to {before_text} off; with the compensated program it is still \
+                 up to {after_text} off, more than the {} asked for.",
+                sentence_mm(allowed)
+            )
+        } else {
+            format!(
+                "The compensated program is no better than the original: the tool is up to {before_text} off without \
+                 it and up to {after_text} with it, more than the {} asked for.",
+                sentence_mm(allowed)
+            )
+        };
+        return Verdict {
+            level: Level::Attention,
+            sentence,
+        };
+    }
+    if before <= allowed {
+        return Verdict {
+            level: Level::Good,
+            sentence: format!(
+                "Even without compensation the tool is at most {before_text} off, within the {} asked for; with the \
+                 compensated program at most {after_text}.",
+                sentence_mm(allowed)
+            ),
+        };
+    }
+    Verdict {
+        level: Level::Good,
+        sentence: format!(
+            "Without compensation the tool is up to {before_text} off; with the compensated program at most \
+             {after_text}."
+        ),
+    }
+}
+
+fn unknown() -> Verdict {
+    Verdict {
+        level: Level::Stop,
+        sentence: "The error of the tool is not available, so the program cannot be judged: do not run it before the \
+                   reason is found (see the warnings)."
+            .to_owned(),
+    }
+}
+
+fn first_unstable_line(result: &RunResult) -> Option<usize> {
+    result
+        .points
+        .iter()
+        .chain(&result.worst_points)
+        .filter(|point| !point.stable)
+        .map(|point| point.line)
+        .min()
+}
+
+/// True if no cutting move carries a force; weight and the machine's own deviations may still be there.
+fn cuts_without_load(result: &RunResult) -> bool {
+    let mut cutting = result
+        .points
+        .iter()
+        .filter(|p| p.kind != PointKind::Rapid)
+        .peekable();
+    cutting.peek().is_some() && cutting.all(|p| p.force_n.iter().all(|force| *force == 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use kinetostat_machining::PointResult;
+
+    use super::*;
+
+    fn run() -> RunResult {
+        let mut result = RunResult::default();
+        result.summary.points = 1;
+        result.summary.converged = true;
+        result.summary.stable = true;
+        result.summary.max_position_error_before_mm = 0.7583;
+        result.summary.max_position_error_after_mm = 0.000_57;
+        result.summary.max_rounding_error_mm = 0.000_1;
+        result.question.compensated = true;
+        result.question.tolerance_mm = 0.000_5;
+        result.points.push(PointResult {
+            force_n: [0.0, 0.0, -100.0],
+            stable: true,
+            ..PointResult::default()
+        });
+        result
+    }
+
+    fn sentence(result: &RunResult) -> (Level, String) {
+        let verdict = verdict(result);
+        (verdict.level, verdict.sentence.replace('\u{202f}', " "))
+    }
+
+    #[test]
+    fn good_news() {
+        let mut result = run();
+        result.summary.max_residual_rotation_deg = 0.42;
+        let expected = "Without compensation the tool is up to 0.76 mm off; with the compensated program at most \
+                        0.00057 mm. The tool stays tilted by up to 0.42 deg, which a program of positions cannot \
+                        correct.";
+        assert_eq!(sentence(&result), (Level::Good, expected.to_owned()));
+    }
+
+    #[test]
+    fn small_from_the_start() {
+        let mut result = run();
+        result.summary.max_position_error_before_mm = 0.000_58;
+        let (level, text) = sentence(&result);
+        assert_eq!(level, Level::Good);
+        assert!(text.starts_with("Even without compensation"), "{text}");
+    }
+
+    #[test]
+    fn missed_tolerance() {
+        let mut result = run();
+        result.summary.max_position_error_after_mm = 0.012;
+        let (level, text) = sentence(&result);
+        assert_eq!(level, Level::Attention);
+        assert!(
+            text.contains("still up to 0.012 mm off, more than the 0.00060 mm asked for"),
+            "{text}"
+        );
+        result.summary.max_position_error_after_mm = 0.9;
+        assert!(sentence(&result).1.contains("no better than the original"));
+    }
+
+    #[test]
+    fn analysis_and_no_load() {
+        let mut result = run();
+        result.question.compensated = false;
+        result.points[0].force_n = [0.0; 3];
+        let (level, text) = sentence(&result);
+        assert_eq!(level, Level::Analysis);
+        assert!(
+            text.starts_with(
+                "No cutting force acts on the tool in this run. The tool is up to 0.76 mm"
+            ),
+            "{text}"
+        );
+        assert!(text.contains("no compensated program was written"));
+    }
+
+    #[test]
+    fn bad_news_comes_first() {
+        let mut result = run();
+        result.summary.converged = false;
+        assert_eq!(sentence(&result).0, Level::Stop);
+        result.summary.stable = false;
+        result.points[0].stable = false;
+        result.points[0].line = 27;
+        let (level, text) = sentence(&result);
+        assert_eq!(level, Level::Stop);
+        assert!(text.contains("first at line 27"), "{text}");
+        let mut result = run();
+        result.summary.max_position_error_after_mm = f64::NAN;
+        assert!(sentence(&result).1.contains("not available"));
+        assert!(
+            sentence(&RunResult::default())
+                .1
+                .contains("nothing to judge")
+        );
+    }
+}
