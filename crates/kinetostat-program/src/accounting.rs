@@ -47,6 +47,9 @@ pub struct Accounting {
     pub corner_steps: usize,
     /// Longest of these steps.
     pub largest_corner_step_mm: f64,
+    /// Largest jump of the correction that got no step, because it is below
+    /// [`crate::WriteOptions::corner_step_mm`]; the piece after it starts that far from its place.
+    pub largest_jump_taken_up_mm: f64,
     /// Feed blocks of the output in a second at the programmed feed, on average; `None` without
     /// feeds per minute.
     pub mean_blocks_per_second: Option<f64>,

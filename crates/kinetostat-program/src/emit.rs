@@ -297,42 +297,41 @@ impl<'a> Emitter<'a> {
             corner_step: false,
             corrected,
         };
-        let (Some(start), Some(end)) = (nodes.first(), nodes.last()) else {
+        let Some(end) = nodes.last() else {
             return vec![whole(self.state.target, false)];
         };
         if is_corrected_at_end(motion) || !is_divided(motion) {
             return vec![whole(motion.end + end.after, true)];
         }
-        let tolerance = self.options.tolerance_mm;
+        let smallest_step = self.options.smallest_step_mm();
         let mut steps = Vec::with_capacity(nodes.len());
         let mut share_from = 0.0;
         let mut reached = self.state.target;
+        let mut go = |target: Vector3<f64>, share_to: f64, corner_step: bool| {
+            steps.push(Step {
+                share_from,
+                share_to,
+                target,
+                corner_step,
+                corrected: true,
+            });
+            share_from = share_to;
+        };
         for (index, node) in nodes.iter().enumerate() {
             let point = motion.point(node.share);
-            let mut step = |target: Vector3<f64>, share_to: f64, corner_step: bool| {
-                steps.push(Step {
-                    share_from,
-                    share_to,
-                    target,
-                    corner_step,
-                    corrected: true,
-                });
-                share_from = share_to;
-                reached = target;
-            };
             if index > 0 {
-                step(point + node.before, node.share, false);
+                reached = point + node.before;
+                go(reached, node.share, false);
             }
-            let jumped_to = if index == 0 { start.before } else { node.after };
-            if index + 1 < nodes.len() && (point + jumped_to - reached).norm() > tolerance {
-                steps.push(Step {
-                    share_from,
-                    share_to: node.share,
-                    target: point + jumped_to,
-                    corner_step: true,
-                    corrected: true,
-                });
-                reached = point + jumped_to;
+            if index + 1 < nodes.len() {
+                let jump = (point + node.after - reached).norm();
+                if jump > smallest_step {
+                    reached = point + node.after;
+                    go(reached, node.share, true);
+                } else {
+                    let taken_up = &mut self.accounting.largest_jump_taken_up_mm;
+                    *taken_up = taken_up.max(jump);
+                }
             }
         }
         steps

@@ -14,9 +14,13 @@ use crate::program::Program;
 /// How a corrected program is written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WriteOptions {
-    /// How far straight pieces may leave the corrected curve because the correction varies, in mm;
-    /// also the smallest jump of the correction that gets a step of its own. Default 0.0005.
+    /// How far straight pieces may leave the corrected curve because the correction varies, in mm.
+    /// Default 0.0005.
     pub tolerance_mm: f64,
+    /// Smallest jump of the correction (between blocks, where the load turns with the direction of
+    /// motion, or inside one) that gets a step of its own, in mm; a smaller jump is taken up along the
+    /// piece that follows. `None`, the default, is `tolerance_mm`.
+    pub corner_step_mm: Option<f64>,
     /// How far the chords of an arc may leave it, in mm. Default 0.0004.
     pub chord_tolerance_mm: f64,
     /// A stretch this short (in mm) over which the correction still varies by more than the
@@ -38,6 +42,7 @@ impl Default for WriteOptions {
     fn default() -> Self {
         Self {
             tolerance_mm: 0.0005,
+            corner_step_mm: None,
             chord_tolerance_mm: 0.0004,
             smallest_piece_mm: 0.001,
             decimals: None,
@@ -53,6 +58,7 @@ impl WriteOptions {
     fn check(&self) -> Result<(), WriteError> {
         let lengths = [
             ("tolerance_mm", self.tolerance_mm),
+            ("corner_step_mm", self.smallest_step_mm()),
             ("chord_tolerance_mm", self.chord_tolerance_mm),
             ("smallest_piece_mm", self.smallest_piece_mm),
         ];
@@ -82,6 +88,10 @@ impl WriteOptions {
             });
         }
         Ok(())
+    }
+
+    pub(crate) fn smallest_step_mm(&self) -> f64 {
+        self.corner_step_mm.unwrap_or(self.tolerance_mm)
     }
 
     /// Digits after the point of coordinate words in a unit of this size.

@@ -148,6 +148,27 @@ fn a_jump_of_the_correction_becomes_a_corner_step_of_the_next_feed_block() {
 }
 
 #[test]
+fn smaller_jumps_than_asked_for_get_no_step_and_are_accounted_for() {
+    let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.02);
+    let writing = WriteOptions {
+        corner_step_mm: Some(0.025),
+        ..bare()
+    };
+    let (output, result) = written_with(
+        "G21 G90\nG1 X10 F600\nX20\nY10\n",
+        &field,
+        &at_origin(),
+        &writing,
+    );
+    assert_eq!(
+        output,
+        "G21 G90\nG1 X9.9800 F598.8\nX19.9800 F600\nY-0.0200 X20.0000\nY9.9800\n"
+    );
+    assert_eq!(result.accounting.corner_steps, 1);
+    assert!((result.accounting.largest_jump_taken_up_mm - 0.02).abs() < 1e-12);
+}
+
+#[test]
 fn a_jump_inside_a_block_becomes_a_step_at_its_place() {
     let field = |request: &Request| {
         Ok(if request.position_mm.z < -1.0 {

@@ -55,7 +55,7 @@ pub fn op() -> impl Strategy<Value = Op> {
     prop_oneof![
         8 => (any::<bool>(), [place(), place(), place()], speed(), prop::option::weighted(0.3, 0.1..5.0_f64), prop::bool::weighted(0.1))
             .prop_map(|(feed, to, speed, extruded, pause)| Op::Straight { feed, to, speed, extruded, pause }),
-        5 => (any::<bool>(), 0.3..60.0_f64, 0.0..6.28_f64, 0.2..6.0_f64, prop::option::of(-10.0..10.0_f64), any::<bool>(), prop::bool::weighted(0.2), speed())
+        5 => (any::<bool>(), 0.3..60.0_f64, 0.0..std::f64::consts::TAU, 0.2..6.0_f64, prop::option::of(-10.0..10.0_f64), any::<bool>(), prop::bool::weighted(0.2), speed())
             .prop_map(|(clockwise, radius, angle, sweep, rise, by_radius, full, speed)| Op::Arc { clockwise, radius, angle, sweep, rise, by_radius, full, speed }),
         1 => any::<bool>().prop_map(Op::Incremental),
         1 => any::<bool>().prop_map(Op::AbsoluteCentre),
