@@ -47,7 +47,7 @@ pub(crate) fn stiffness(result: &RunResult, sheet: Sheet) -> String {
         let least = number::significant(span.low, 3, Rounding::Down);
         panels.push(Panel {
             title: format!(
-                "Smallest stiffness: {} at least",
+                "Smallest stiffness: at least {}",
                 number::with_unit(&least, "N/mm")
             ),
             y_label: "stiffness, N/mm".to_owned(),
@@ -65,9 +65,9 @@ pub(crate) fn stiffness(result: &RunResult, sheet: Sheet) -> String {
     if let Some(span) = span_of(&values) {
         let most = number::significant(span.high, 2, Rounding::Up);
         panels.push(Panel {
-            title: format!("Buckling margin: {most} at most, 1 is buckling"),
+            title: format!("Buckling margin: at most {most}"),
             y_label: "margin, no unit".to_owned(),
-            span: span.including(0.0).including(1.0).padded(0.08, 0.14),
+            span: span.including(0.0).including(1.0).padded(0.08, 0.24),
             ticks: None,
             series: vec![Series {
                 class: "line strong",
@@ -178,7 +178,7 @@ fn after_panel(result: &RunResult, along: &Along) -> Option<Panel> {
         tooltip: format!("line {}: {most} off", number::count(place.line)),
     });
     Some(Panel {
-        title: format!("With the compensated program: at most {most} off"),
+        title: format!("With compensation: at most {most} off"),
         y_label: format!("distance, {unit}"),
         span: span.padded(0.0, 0.22),
         ticks: None,

@@ -105,7 +105,7 @@ impl Span {
             return Vec::new();
         }
         let step = round_step(raw);
-        let decimals = usize::try_from(-step.log10().floor() as i64)
+        let decimals = usize::try_from(-(step.log10() + 1e-9).floor() as i64)
             .unwrap_or(0)
             .min(9);
         let slack = 1e-9 * self.length();
@@ -122,15 +122,17 @@ impl Span {
     }
 }
 
-/// The round step (1, 2, 5 times a power of ten) nearest to a length.
+/// The round step (1, 2, 5 times a power of ten) nearest to a length in ratio.
 fn round_step(raw: f64) -> f64 {
-    let below = number::round_number(raw);
-    let above = number::round_number(raw * 2.6);
-    if raw / below < above / raw {
-        below
-    } else {
-        above
-    }
+    let power = 10f64.powf(raw.log10().floor());
+    let share = raw / power;
+    let step = match share {
+        share if share < 2f64.sqrt() => 1.0,
+        share if share < 10f64.sqrt() => 2.0,
+        share if share < 50f64.sqrt() => 5.0,
+        _ => 10.0,
+    };
+    step * power
 }
 
 /// The way from values to pixels.

@@ -145,7 +145,7 @@ pub(crate) struct Panel {
 
 impl Panel {
     fn ticks(&self, height: f64) -> Vec<Tick> {
-        let wanted = (height / 34.0).round().clamp(2.0, 6.0) as usize;
+        let wanted = (height / 34.0).round().clamp(3.0, 6.0) as usize;
         self.span.ticks(wanted)
     }
 
@@ -198,7 +198,7 @@ impl Panel {
             (frame.x - gutter + 12.0, frame.y + 0.5 * frame.height),
             &self.y_label,
         );
-        let most = (frame.width / 6.6) as usize;
+        let most = (frame.width / 6.9) as usize;
         svg.text(
             "title",
             (frame.x, frame.y - 9.0),
@@ -206,29 +206,13 @@ impl Panel {
             &text::shorten(&self.title, most),
         );
 
+        let marks: Vec<_> = self
+            .marks
+            .iter()
+            .map(|m| (x.at(m.at.0), y.at(m.at.1)))
+            .collect();
         let mut labels = Labels::default();
-        for limit in &self.limits {
-            let at = y.at(limit.value);
-            svg.line("limit", (frame.x, at), (frame.right(), at));
-            let base = if at - 18.0 > frame.y {
-                at - 5.0
-            } else {
-                at + 14.0
-            };
-            svg.text(
-                "limit-name",
-                (frame.right() - 6.0, base),
-                Anchor::End,
-                &limit.label,
-            );
-            let width = text::width(&limit.label, TEXT_SIZE) + 10.0;
-            labels.reserve(Frame {
-                x: frame.right() - width,
-                y: base - 12.0,
-                width,
-                height: 16.0,
-            });
-        }
+        self.draw_limits(svg, frame, &y, &marks, &mut labels);
         for series in &self.series {
             let pixels: Vec<_> = series
                 .values
@@ -237,9 +221,8 @@ impl Panel {
                 .collect();
             svg.path(series.class, &path_data(&per_column(&pixels)));
         }
-        for mark in &self.marks {
-            let at = (x.at(mark.at.0), y.at(mark.at.1));
-            svg.marker("mark", at, &mark.tooltip);
+        for (mark, at) in self.marks.iter().zip(&marks) {
+            svg.marker("mark", *at, &mark.tooltip);
             labels.reserve(Frame {
                 x: at.0 - 5.0,
                 y: at.1 - 5.0,
@@ -247,9 +230,52 @@ impl Panel {
                 height: 10.0,
             });
         }
-        for mark in &self.marks {
-            let at = (x.at(mark.at.0), y.at(mark.at.1));
-            labels.place(svg, "mark-name", &frame, at, &mark.label);
+        for (mark, at) in self.marks.iter().zip(&marks) {
+            labels.place(svg, "mark-name", &frame, *at, (0.0, -1.0), &mark.label);
+        }
+    }
+
+    fn draw_limits(
+        &self,
+        svg: &mut Svg,
+        frame: Frame,
+        y: &Scale,
+        marks: &[(f64, f64)],
+        labels: &mut Labels,
+    ) {
+        for limit in &self.limits {
+            let at = y.at(limit.value);
+            svg.line("limit", (frame.x, at), (frame.right(), at));
+            let base = if at - 18.0 > frame.y {
+                at - 5.0
+            } else {
+                at + 14.0
+            };
+            let width = text::width(&limit.label, TEXT_SIZE) + 10.0;
+            let right = Frame {
+                x: frame.right() - width,
+                y: base - 12.0,
+                width,
+                height: 16.0,
+            };
+            // On the left if a marked point with its label needs the right end.
+            let busy = marks
+                .iter()
+                .any(|mark| mark.0 > right.x - 60.0 && (mark.1 - base).abs() < 40.0);
+            let (area, at, anchor) = if busy {
+                (
+                    Frame {
+                        x: frame.x,
+                        ..right
+                    },
+                    frame.x + 6.0,
+                    Anchor::Start,
+                )
+            } else {
+                (right, frame.right() - 6.0, Anchor::End)
+            };
+            svg.text("limit-name", (at, base), anchor, &limit.label);
+            labels.reserve(area);
         }
     }
 }

@@ -17,13 +17,16 @@ pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
     let up = |value: f64| number::length(value, 2, Rounding::Up);
     let mut cards = vec![card(
-        "Largest error without compensation",
+        "Error without compensation",
         up(summary.max_position_error_before_mm),
-        format!("on average {}", up(summary.rms_position_error_before_mm)),
+        format!(
+            "largest; typically {}",
+            up(summary.rms_position_error_before_mm)
+        ),
     )];
     if question.compensated {
         cards.push(card(
-            "Largest error of the written program",
+            "Error with compensation",
             up(summary.max_position_error_after_mm),
             improvement(
                 summary.max_position_error_before_mm,
@@ -58,7 +61,7 @@ pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
             "Blocks per second",
             number::significant(summary.blocks_per_second, 2, Rounding::Up),
             format!(
-                "at most, shortest piece {}",
+                "at most; shortest piece {}",
                 number::length(summary.smallest_piece_mm, 2, Rounding::Down)
             ),
         )
@@ -79,7 +82,7 @@ fn improvement(before: f64, after: f64) -> String {
     let times = before / after;
     if times.is_finite() && times >= 1.5 {
         format!(
-            "about {} times smaller",
+            "largest; about {} times smaller",
             number::significant(times, 2, Rounding::Down)
         )
     } else {

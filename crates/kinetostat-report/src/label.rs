@@ -51,17 +51,19 @@ impl Labels {
         self.taken.push(frame);
     }
 
-    /// Writes a label beside a point, where there is room inside the frame; says if there was.
+    /// Writes a label beside a point, where there is room inside the frame, if possible in the wanted
+    /// direction; says if there was room.
     pub(crate) fn place(
         &mut self,
         svg: &mut Svg,
         class: &str,
         frame: &Frame,
         at: (f64, f64),
+        wanted: (f64, f64),
         label: &str,
     ) -> bool {
         let width = text::width(label, TEXT_SIZE) + 4.0;
-        let choices = [
+        let mut choices = [
             (0.0, -9.0, Anchor::Middle),
             (9.0, -6.0, Anchor::Start),
             (-9.0, -6.0, Anchor::End),
@@ -70,6 +72,12 @@ impl Labels {
             (0.0, 20.0, Anchor::Middle),
             (0.0, -24.0, Anchor::Middle),
         ];
+        let along = |choice: &(f64, f64, Anchor)| {
+            // Text stands on its base line: its middle is a little higher.
+            let (x, y) = (choice.0, choice.1 - 4.0);
+            (x * wanted.0 + y * wanted.1) / x.hypot(y)
+        };
+        choices.sort_by(|a, b| along(b).total_cmp(&along(a)));
         for (dx, dy, anchor) in choices {
             let (x, y) = (at.0 + dx, at.1 + dy);
             let left = match anchor {

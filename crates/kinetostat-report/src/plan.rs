@@ -176,7 +176,8 @@ impl Extent {
         let (mut across, mut up) = (span(view.0)?, span(view.1)?);
         let size = across.length().max(up.length());
         let room = if size > 0.0 { 0.05 * size } else { 1.0 };
-        for side in [&mut across, &mut up] {
+        // More room at the sides: labels of the worst points stand there.
+        for (side, room) in [(&mut across, 2.2 * room), (&mut up, room)] {
             *side = Span {
                 low: side.low - room,
                 high: side.high + room,
@@ -337,14 +338,17 @@ fn mark_worst(
     tip: impl Fn(&PointResult) -> Option<(f64, f64)>,
 ) {
     let mut labels = Labels::default();
-    let mut marked: Vec<(f64, f64)> = Vec::new();
+    let mut marked: Vec<(usize, (f64, f64))> = Vec::new();
+    let middle = (frame.x + 0.5 * frame.width, frame.y + 0.5 * frame.height);
     for point in &result.worst_points {
         let Some(at) = tip(point) else { continue };
-        let near = |other: &(f64, f64)| (other.0 - at.0).hypot(other.1 - at.1) < 46.0;
+        let near = |other: &(usize, (f64, f64))| {
+            other.0 == point.line || (other.1.0 - at.0).hypot(other.1.1 - at.1) < 46.0
+        };
         if marked.len() == 3 || marked.iter().any(near) {
             continue;
         }
-        marked.push(at);
+        marked.push((point.line, at));
         let label = format!("line {}", number::count(point.line));
         let error = number::length(norm(&point.error_before_mm), 3, Rounding::Nearest);
         svg.marker("mark", at, &format!("{label}: {error} off"));
@@ -354,7 +358,9 @@ fn mark_worst(
             width: 10.0,
             height: 10.0,
         });
-        labels.place(svg, "mark-name", frame, at, &label);
+        // Outwards, where the path is not in the way.
+        let outwards = (at.0 - middle.0, at.1 - middle.1);
+        labels.place(svg, "mark-name", frame, at, outwards, &label);
     }
 }
 
