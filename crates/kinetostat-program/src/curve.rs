@@ -4,6 +4,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
+/// A move shorter than this has no length and no direction: what is left of two equal places after the
+/// arithmetic of increments and inches, in mm.
+pub(crate) const NO_LENGTH_MM: f64 = 1e-7;
+
 /// A circular arc or helix in the part frame; lengths in mm, angles in radians.
 ///
 /// The point at angle `a` is `centre + radius (cos a first + sin a second) + rise`, with
@@ -118,7 +122,7 @@ impl Curve {
             Curve::Line => end - start,
             Curve::Arc(arc) => arc.derivative(share.clamp(0.0, 1.0)),
         };
-        direction.try_normalize(0.0)
+        direction.try_normalize(NO_LENGTH_MM)
     }
 
     pub(crate) fn length_between(

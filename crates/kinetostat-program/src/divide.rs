@@ -12,6 +12,7 @@
 
 use nalgebra::Vector3;
 
+use crate::curve::NO_LENGTH_MM;
 use crate::error::WriteError;
 use crate::field::{CorrectionField, Monitor, Request};
 use crate::merge::{Sample, merge};
@@ -81,7 +82,9 @@ impl Stretch {
 
 /// Whether a move is divided at all: feed moves with a length and a known start.
 pub(crate) fn is_divided(motion: &Move) -> bool {
-    motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole && motion.length_mm() > 0.0
+    motion.kind == MoveKind::Feed
+        && motion.known == Knowledge::Whole
+        && motion.length_mm() > NO_LENGTH_MM
 }
 
 /// Whether only the end of a move is corrected: rapids, and moves from an unknown place.

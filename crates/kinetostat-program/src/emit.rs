@@ -10,7 +10,7 @@ use crate::path::{
     Change, Feed, Knowledge, Motion, Move, MoveKind, OffsetChange, Path, PositionOffset, Warning,
 };
 use crate::program::{Line, Program};
-use crate::render::BlockWriter;
+use crate::render::{BlockWriter, ProgramStyle};
 use crate::write::{Corrected, Piece, WriteOptions};
 
 /// What the controller that runs the output holds at a line.
@@ -40,6 +40,7 @@ pub(crate) struct Emitter<'a> {
     program: &'a Program,
     path: &'a Path,
     options: &'a WriteOptions,
+    style: ProgramStyle,
     nodes: Vec<Node>,
     next_node: usize,
     state: OutputState,
@@ -82,6 +83,7 @@ impl<'a> Emitter<'a> {
             program,
             path,
             options,
+            style: ProgramStyle::of(program, path),
             next_node: 0,
             state: OutputState {
                 position: start,
@@ -251,8 +253,7 @@ impl<'a> Emitter<'a> {
         let own = self.program.ending(line);
         let between = if own.is_empty() { usual } else { own };
         let before = self.bytes.len();
-        let mut block =
-            BlockWriter::new(self.program, line, motion, self.path.stated, self.options);
+        let mut block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
         for (index, step) in steps.iter().enumerate() {
             let last = index + 1 == steps.len();
             let from = self.state.position;

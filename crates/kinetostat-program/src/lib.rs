@@ -11,7 +11,8 @@
 //!    what to add to the path, divides blocks where the answer varies, and writes the program.
 //! 4. [`verify_written`] reads what was written with the same reader and checks every promise.
 //!
-//! This crate knows no robot. It reads and writes bytes in memory; files are the caller's.
+//! This crate knows no robot. It reads and writes bytes in memory; files are the caller's. Lengths are in
+//! mm and points in the part frame unless a name says otherwise; lines are counted from 1.
 //!
 //! ```
 //! use kinetostat_program::*;

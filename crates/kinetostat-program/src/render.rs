@@ -6,7 +6,7 @@ use crate::curve::Curve;
 use crate::emit::{OutputState, Step, motion_of};
 use crate::error::WriteError;
 use crate::number;
-use crate::path::{ExtraMode, Feed, FeedMode, Knowledge, Motion, Move};
+use crate::path::{ExtraMode, Feed, FeedMode, Knowledge, Motion, Move, Path};
 use crate::program::{Line, Program, Word};
 use crate::write::WriteOptions;
 
@@ -18,6 +18,37 @@ const EXTRA_DECIMALS: usize = 5;
 
 const AXES: [u8; 3] = *b"XYZ";
 
+/// What holds for all blocks of a program.
+pub(crate) struct ProgramStyle {
+    /// Axes that may be written.
+    pub stated: [bool; 3],
+    /// Every motion of the program has its own motion word, so its pieces must too: it may be meant for
+    /// a firmware without modal motion (most printers').
+    pub repeats_motion: bool,
+}
+
+impl ProgramStyle {
+    pub fn of(program: &Program, path: &Path) -> Self {
+        let names_motion = |motion: &Move| {
+            program
+                .lines()
+                .get(motion.line - 1)
+                .is_some_and(|line| motion_word(program.words(line)).is_some())
+        };
+        Self {
+            stated: path.stated,
+            repeats_motion: path.moves.iter().all(names_motion),
+        }
+    }
+}
+
+/// The word among these that says how to move.
+pub(crate) fn motion_word(words: &[Word]) -> Option<&Word> {
+    words
+        .iter()
+        .find(|word| word.letter == b'G' && [0.0, 1.0, 2.0, 3.0].contains(&word.value))
+}
+
 /// Writes the pieces of one block.
 pub(crate) struct BlockWriter<'a> {
     program: &'a Program,
@@ -25,6 +56,7 @@ pub(crate) struct BlockWriter<'a> {
     words: &'a [Word],
     motion: &'a Move,
     stated: [bool; 3],
+    repeats_motion: bool,
     decimals: usize,
     separator: &'static str,
     lower_case: bool,
@@ -38,7 +70,7 @@ impl<'a> BlockWriter<'a> {
         program: &'a Program,
         line: &'a Line,
         motion: &'a Move,
-        stated: [bool; 3],
+        whole: &ProgramStyle,
         options: &WriteOptions,
     ) -> Self {
         let words = program.words(line);
@@ -52,7 +84,8 @@ impl<'a> BlockWriter<'a> {
             line,
             words,
             motion,
-            stated,
+            stated: whole.stated,
+            repeats_motion: whole.repeats_motion,
             decimals: options.decimals_for(motion.words.mm_per_unit),
             separator: if spaced { " " } else { "" },
             lower_case: words
@@ -158,7 +191,12 @@ impl<'a> BlockWriter<'a> {
         if self.line.block_delete {
             line.push(b'/');
         }
-        line.extend_from_slice(text.trim_start().as_bytes());
+        if self.repeats_motion {
+            line.extend_from_slice(if self.lower_case { b"g1" } else { b"G1" });
+            line.extend_from_slice(text.as_bytes());
+        } else {
+            line.extend_from_slice(text.trim_start().as_bytes());
+        }
         if index + 1 == steps.len() {
             for word in self.words_after_motion() {
                 line.extend_from_slice(self.separator.as_bytes());
@@ -236,11 +274,7 @@ impl<'a> BlockWriter<'a> {
 
     /// G2 and G3 become G1, and the words of the arc go.
     fn edit_motion_words(&self, state: &OutputState, edits: &mut Edits) {
-        let motion_word = self
-            .words
-            .iter()
-            .find(|word| word.letter == b'G' && [0.0, 1.0, 2.0, 3.0].contains(&word.value));
-        if let Some(word) = motion_word {
+        if let Some(word) = motion_word(self.words) {
             if self.motion.curve != Curve::Line {
                 let bytes = self.program.bytes();
                 let digits = if bytes[word.number as usize] == b'0' {

@@ -13,6 +13,7 @@ use crate::number::decimals_of;
 use crate::options::ReadOptions;
 use crate::path::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::program::{Line, Program, Word};
+use crate::render::motion_word;
 use crate::write::{Corrected, Piece, WriteOptions};
 
 /// Largest difference between a place as written and as read again, in mm: arithmetic only.
@@ -371,9 +372,12 @@ impl Verifier<'_> {
             return broken("something that is no coordinate has changed");
         }
         let mut codes = self.codes(self.output, first);
+        let names_motion = motion_word(self.input.words(line)).is_some();
         for (index, line) in further {
             self.check_further(number, motion, *index, line)?;
-            codes.extend(self.codes(self.output, line));
+            let repeated = |code: &(u8, i64)| names_motion && *code == (b'G', 10);
+            let further_codes = self.codes(self.output, line);
+            codes.extend(further_codes.into_iter().filter(|code| !repeated(code)));
         }
         let mut wanted = self.codes(self.input, line);
         if is_arc {
@@ -419,7 +423,8 @@ impl Verifier<'_> {
             let allowed = match word.letter {
                 b'X' | b'Y' | b'Z' => decimals_of(text) == decimals,
                 b'F' => true,
-                b'G' | b'M' => is_after_motion(word),
+                // Whether the input named the motion too is checked with the codes.
+                b'G' | b'M' => is_after_motion(word) || word.letter == b'G' && word.value == 1.0,
                 letter => motion
                     .extra
                     .iter()
@@ -496,7 +501,7 @@ fn check_extra_axes(motion: &Move, piece: &Piece, read: &Move) -> Result<(), Wri
 }
 
 fn is_motion(word: &Word) -> bool {
-    word.letter == b'G' && [0.0, 1.0, 2.0, 3.0].contains(&word.value)
+    motion_word(std::slice::from_ref(word)).is_some()
 }
 
 fn is_after_motion(word: &Word) -> bool {

@@ -101,6 +101,41 @@ fn a_block_is_split_where_the_correction_bends_and_its_comment_and_stop_stay_in_
 }
 
 #[test]
+fn a_program_that_names_every_motion_names_it_in_every_piece() {
+    // Most printers' firmwares have no modal motion.
+    let (output, result) = written_with(
+        "G21 G90\nG0 X0\nG1 X100 F600\ng2 X90 I-5\n",
+        &bend,
+        &at_origin(),
+        &bare(),
+    );
+    assert!(result.accounting.pieces > 20);
+    for line in output.lines().skip(2) {
+        assert!(line.starts_with("G1 ") || line.starts_with("g1 "), "{line}");
+    }
+}
+
+#[test]
+fn what_arithmetic_leaves_of_two_equal_places_is_no_move() {
+    let mut text = "G20 G91\nG1 F10\n".to_owned();
+    for _ in 0..10 {
+        text.push_str("X0.1\n");
+    }
+    text.push_str("G90\nX1\n");
+    let field = |request: &Request| {
+        Ok(request.tangent.map_or(Vector3::zeros(), |tangent| {
+            Vector3::new(0.0, 0.05 * tangent.x, 0.0)
+        }))
+    };
+    let (output, result) = written_with(&text, &field, &at_origin(), &bare());
+    assert_eq!(
+        result.accounting.corner_steps, 1,
+        "only the first: {output}"
+    );
+    assert!(output.ends_with("G90\nX1\n"), "{output}");
+}
+
+#[test]
 fn increments_never_drift() {
     let mut text = "G21 G90\nG0 X0 Y0 Z0\nG91 G1 F500\n".to_owned();
     for _ in 0..5000 {
@@ -226,7 +261,7 @@ fn an_inverse_time_step_at_a_corner_has_the_programmed_speed() {
     let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * 0.1);
     let output = written("G21 G90 G93\nG1 X100 F2\n", &field);
     // 200 mm/min over 0.1 mm is 2000 blocks in a minute.
-    assert_eq!(output, "G21 G90 G93\nG1 X0.1000 F2000\nX100.1000 F2\n");
+    assert_eq!(output, "G21 G90 G93\nG1 X0.1000 F2000\nG1 X100.1000 F2\n");
 }
 
 #[test]
@@ -339,7 +374,7 @@ fn blocks_from_an_unknown_place_are_carried_and_never_sent_to_an_axis_they_do_no
     // With the start position given all blocks are corrected, the first by a step.
     let (output, _) = written_with(text, &field, &at_origin(), &bare());
     assert!(
-        output.starts_with("G21 G90\nG1 Z0.0300 X0.0100 Y0.0200 F1500\nZ5.0300\nG0 X10.0100\n"),
+        output.starts_with("G21 G90\nG1 Z0.0300 X0.0100 Y0.0200 F1500\nG1 Z5.0300\nG0 X10.0100\n"),
         "{output}"
     );
 }
