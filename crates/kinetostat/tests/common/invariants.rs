@@ -9,24 +9,25 @@ use nalgebra::{DVector, Matrix6, Vector3};
 
 use crate::oracle::{Flat, Frames, springs};
 
-/// `K - K^T = blkdiag(0, -hat(m))` to `tolerance` of the balanced size of `K`.
+/// `K - K^T = blkdiag(0, -hat(m))` to `tolerance` of the size of `K`, rotations measured at `length`.
 #[track_caller]
-pub fn assert_antisymmetric_part(k: &Matrix6<f64>, moment: &Vector3<f64>, tolerance: f64) {
+pub fn assert_antisymmetric_part(
+    k: &Matrix6<f64>,
+    moment: &Vector3<f64>,
+    length: f64,
+    tolerance: f64,
+) {
     let mut expected = Matrix6::zeros();
     expected
         .fixed_view_mut::<3, 3>(3, 3)
         .copy_from(&-hat(moment));
-    let difference = k - k.transpose() - expected;
-    let size = |r: usize| k.fixed_view::<3, 3>(r, r).amax().max(1e-300);
-    for r in [0, 3] {
-        for c in [0, 3] {
-            let e = difference.fixed_view::<3, 3>(r, c).amax() / (size(r) * size(c)).sqrt();
-            assert!(
-                e <= tolerance,
-                "K - K^T is not blkdiag(0, -hat(m)): block ({r}, {c}) off by {e:.2e}"
-            );
-        }
-    }
+    let unit = |i: usize| if i < 3 { 1.0 } else { 1.0 / length };
+    let balanced = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] * unit(i) * unit(j));
+    let left = balanced(&(k - k.transpose() - expected)).amax() / balanced(k).amax().max(1e-300);
+    assert!(
+        left <= tolerance,
+        "K - K^T is not blkdiag(0, -hat(m)): off by {left:.2e}"
+    );
 }
 
 #[track_caller]
@@ -132,7 +133,8 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
         let left = (scaled(&torque, i) - scaled(&spring, i)).abs();
         assert!(
             left <= 1e-9 * size,
-            "torque {i} unbalanced by {left:.2e} of {size:.2e} {:?}", e.residual
+            "torque {i} unbalanced by {left:.2e} of {size:.2e} {:?}",
+            e.residual
         );
         let reported = (e.spring_torques[i] - spring[i]).abs();
         assert!(
@@ -149,9 +151,18 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
     let inner = node_wrenches(problem)
         .iter()
         .any(|(_, w)| w.moment() != Vector3::zeros());
-    let rigid = e.stiffness.directions.iter().any(|d| d.stiffness_n_per_m.is_infinite());
+    let rigid = e
+        .stiffness
+        .directions
+        .iter()
+        .any(|d| d.stiffness_n_per_m.is_infinite());
     if !inner && !rigid {
-        assert_antisymmetric_part(&e.stiffness.cartesian.matrix, &e.wrench.moment(), 1e-8);
+        assert_antisymmetric_part(
+            &e.stiffness.cartesian.matrix,
+            &e.wrench.moment(),
+            scale.length,
+            1e-9,
+        );
     }
     assert_eq!(e.stiffness.directions.len(), 6);
     assert_stability_is_consistent(&e.stability);
@@ -240,7 +251,7 @@ pub fn assert_equilibrium(posture: &Posture<'_>, e: &MechanismEquilibrium) {
         assert_stability_is_consistent(&e.limbs[i].stability);
         at += 6 + n;
     }
-    assert_antisymmetric_part(&e.stiffness.matrix, &e.wrench.moment(), 1e-8);
+    assert_antisymmetric_part(&e.stiffness.matrix, &e.wrench.moment(), reach, 1e-9);
     assert!(
         e.residual.torque <= 1e-8 && e.residual.closure_m <= 1e-9 * reach,
         "{:?}",

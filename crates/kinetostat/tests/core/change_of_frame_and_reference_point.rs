@@ -73,7 +73,11 @@ proptest! {
 
 #[test]
 fn another_tool_point_sees_the_same_machine() {
-    let machine = Orthoglide { line_error: 0.01, ..Default::default() }.build();
+    let machine = Orthoglide {
+        line_error: 0.01,
+        ..Default::default()
+    }
+    .build();
     let mut rng = Rng(7);
     for index in 0..5 {
         let tool = rng.pose(0.15, 1.5);
@@ -86,8 +90,17 @@ fn another_tool_point_sees_the_same_machine() {
         }
         // Unloaded: plain congruence.
         let arm0 = target.rotation * tool.translation.vector;
-        let k0 = posture.stiffness().unwrap().cartesian.shifted(&-arm0, &Wrench::zero());
-        same_stiffness("unloaded", &there.stiffness().unwrap().cartesian.matrix, &k0.matrix, 1e-11);
+        let k0 = posture
+            .stiffness()
+            .unwrap()
+            .cartesian
+            .shifted(&-arm0, &Wrench::zero());
+        same_stiffness(
+            "unloaded",
+            &there.stiffness().unwrap().cartesian.matrix,
+            &k0.matrix,
+            1e-11,
+        );
 
         let wrench = rng.wrench(220.0, 20.0);
         let e = posture.deflected_by(&wrench).unwrap();
@@ -98,22 +111,41 @@ fn another_tool_point_sees_the_same_machine() {
         assert_equilibrium(&there, &o);
         let miss = kinetostat::pose_residual(&(e.tool * tool), &o.tool);
         assert!(miss.0.norm() < 1e-12, "{index}: {miss:?}");
-        let k = CartesianStiffness { matrix: e.stiffness.matrix }.shifted(&-arm, &wrench);
+        let k = CartesianStiffness {
+            matrix: e.stiffness.matrix,
+        }
+        .shifted(&-arm, &wrench);
         same_stiffness("loaded", &o.stiffness.matrix, &k.matrix, 1e-9);
     }
 }
 
 #[test]
 fn the_order_of_the_limbs_does_not_matter() {
-    let wrench = Wrench::new(Vector3::new(215.0, -10.0, -25.0), Vector3::new(1.0, 21.5, 0.0));
-    let build = |order| Orthoglide { line_error: 0.017, order, ..Default::default() }.build();
+    let wrench = Wrench::new(
+        Vector3::new(215.0, -10.0, -25.0),
+        Vector3::new(1.0, 21.5, 0.0),
+    );
+    let build = |order| {
+        Orthoglide {
+            line_error: 0.017,
+            order,
+            ..Default::default()
+        }
+        .build()
+    };
     let machine = build([0, 1, 2]);
     for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
         let other = build(order);
         for index in 0..5 {
             let target = orthoglide_point(index);
-            let (p, q) = (machine.posture(&target).unwrap(), other.posture(&target).unwrap());
-            let (e, o) = (p.deflected_by(&wrench).unwrap(), q.deflected_by(&wrench).unwrap());
+            let (p, q) = (
+                machine.posture(&target).unwrap(),
+                other.posture(&target).unwrap(),
+            );
+            let (e, o) = (
+                p.deflected_by(&wrench).unwrap(),
+                q.deflected_by(&wrench).unwrap(),
+            );
             assert_equilibrium(&q, &o);
             let miss = kinetostat::pose_residual(&e.tool, &o.tool);
             assert!(miss.0.norm() < 1e-13, "{miss:?}");

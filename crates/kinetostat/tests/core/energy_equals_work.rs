@@ -1,7 +1,10 @@
 //! What the springs store is what the end wrench and the dead loads did [R 4.12]: along a path of
 //! prescribed poses, and for a machine loaded slowly.
 
-use crate::common::{Orthoglide, Recipe, Rng, assert_chain_equilibrium, assert_equilibrium, cases, orthoglide_point, random_chain};
+use crate::common::{
+    Orthoglide, Recipe, Rng, assert_chain_equilibrium, assert_equilibrium, cases, orthoglide_point,
+    random_chain,
+};
 use kinetostat::{EndCondition, Load, Settings, Twist, Wrench, moved, solve_chain};
 use nalgebra::{Vector3, vector};
 use proptest::prelude::*;
@@ -68,7 +71,9 @@ fn a_slowly_loaded_machine_stores_the_work_of_its_load() {
         // A pure force is dead along the whole path: its work is the integral of F ds.
         let force = vector![215.0, -60.0, 90.0];
         let at = |s: f64| {
-            let e = posture.deflected_by(&Wrench::new(force * s, Vector3::zeros())).unwrap();
+            let e = posture
+                .deflected_by(&Wrench::new(force * s, Vector3::zeros()))
+                .unwrap();
             assert_equilibrium(&posture, &e);
             e
         };
@@ -77,6 +82,9 @@ fn a_slowly_loaded_machine_stores_the_work_of_its_load() {
         let work = force.dot(&end.displacement.linear())
             - integral(|s| force.dot(&at(s).displacement.linear()));
         let stored: f64 = end.limbs.iter().map(|l| l.energy).sum();
-        assert!((stored / work - 1.0).abs() < 1e-9, "{index}: {stored:e} {work:e}");
+        assert!(
+            (stored / work - 1.0).abs() < 1e-9,
+            "{index}: {stored:e} {work:e}"
+        );
     }
 }

@@ -43,3 +43,21 @@ proptest! {
         }
     }
 }
+
+#[test]
+#[ignore = "core fault C8: rigid rotations below 3e-8 rad are dropped"]
+fn tiny_rigid_rotations_are_kept() {
+    for angle in [1e-7, 2e-8, 1e-9] {
+        let chain = kinetostat::Chain::builder("c")
+            .rigid(kinetostat::Pose::rotation(nalgebra::Vector3::z() * angle))
+            .translation(nalgebra::Vector3::x() * 2.0)
+            .build()
+            .unwrap();
+        let tip = kinetostat::unloaded_tip(&chain, &kinetostat::Pose::identity(), &[], &[]);
+        let found = tip.translation.vector.y;
+        assert!(
+            (found / (2.0 * angle) - 1.0).abs() < 1e-6,
+            "{angle:e}: {found:e}"
+        );
+    }
+}

@@ -9,10 +9,16 @@ mod oracle;
 
 mod beam_tables_3_2_and_3_3;
 mod change_of_frame_and_reference_point;
+mod compensation_closes;
 mod condensed_equals_flattened;
+mod end_conditions_are_consistent;
 mod energy_equals_work;
+mod free_rigid_and_redundant_directions;
+mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
 mod orthoglide_reference;
+mod shapes_and_their_stability;
 mod stewart_gough_3_34_and_3_35;
 mod stored_stiffness_is_the_derivative_of_the_wrench;
 mod two_link_chain_4_31;
+mod what_goes_wrong_says_why;

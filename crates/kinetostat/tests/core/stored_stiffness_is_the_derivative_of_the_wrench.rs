@@ -16,7 +16,11 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use proptest::prelude::*;
 
 fn tight() -> Settings {
-    Settings { torque: 1e-13, closure: 1e-14, ..Settings::default() }
+    Settings {
+        torque: 1e-13,
+        closure: 1e-14,
+        ..Settings::default()
+    }
 }
 
 /// Fourth-order differences of the wrench over re-solved poses.
@@ -32,11 +36,19 @@ fn differences(problem: &ChainProblem<'_>, e: &Equilibrium, h: f64) -> Matrix6<f
                 .or_else(|_| solve_chain(&next, &Settings::default()))
                 .expect("neighbour");
             // The same branch: coordinates move little.
-            let jump = found.coordinates.iter().zip(&e.coordinates).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let jump = found
+                .coordinates
+                .iter()
+                .zip(&e.coordinates)
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max);
             assert!(jump < 0.2, "the neighbour is another shape: {jump}");
             found.wrench.0
         };
-        k.set_column(column, &((8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h)));
+        k.set_column(
+            column,
+            &((8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h)),
+        );
     }
     k
 }
@@ -45,7 +57,10 @@ fn differences(problem: &ChainProblem<'_>, e: &Equilibrium, h: f64) -> Matrix6<f
 fn loads(rng: &mut Rng, nodes: usize, force: f64) -> Vec<Load> {
     let mut list = vec![Load::Gravity(rng.axis() * 9.81)];
     for _ in 0..2 {
-        list.push(Load::Dead { node: rng.below(nodes), wrench: rng.wrench(force, 0.1 * force) });
+        list.push(Load::Dead {
+            node: rng.below(nodes),
+            wrench: rng.wrench(force, 0.1 * force),
+        });
     }
     list
 }
@@ -126,15 +141,24 @@ impl NodeLoad for Moving {
     fn wrenches(&self, kinematics: &Kinematics, out: &mut Vec<(usize, Wrench)>) {
         let pose = kinematics.node_pose(self.node);
         let pull = self.spring * (self.anchor - pose.translation.vector);
-        out.push((self.node, Wrench::new(pose.rotation * self.follower + pull, Vector3::zeros())));
+        out.push((
+            self.node,
+            Wrench::new(pose.rotation * self.follower + pull, Vector3::zeros()),
+        ));
     }
     fn tangents(&self, kinematics: &Kinematics, out: &mut Vec<NodeTangent>) {
         let pose = kinematics.node_pose(self.node);
         let mut matrix = Matrix6::zeros();
         matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&-self.spring);
         let f = pose.rotation * self.follower;
-        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&-f.cross_matrix());
-        out.push(NodeTangent { on: self.node, by: self.node, matrix });
+        matrix
+            .fixed_view_mut::<3, 3>(0, 3)
+            .copy_from(&-f.cross_matrix());
+        out.push(NodeTangent {
+            on: self.node,
+            by: self.node,
+            matrix,
+        });
     }
 }
 

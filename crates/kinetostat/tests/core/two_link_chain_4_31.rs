@@ -88,7 +88,13 @@ fn the_margin_is_the_true_shape_criterion_of_table_5_2() {
         .passive("q1", MotionKind::Revolute, Vector3::z(), 0.0)
         .translation(vector![1.0, 0.0, 0.0])
         .node("middle")
-        .spring("theta", MotionKind::Revolute, Vector3::z(), 1.0, -30_f64.to_radians())
+        .spring(
+            "theta",
+            MotionKind::Revolute,
+            Vector3::z(),
+            1.0,
+            -30_f64.to_radians(),
+        )
         .translation(vector![1.0, 0.0, 0.0])
         .passive("q2", MotionKind::Revolute, Vector3::z(), 0.0)
         .node("hinge")
@@ -122,6 +128,11 @@ fn the_margin_is_the_true_shape_criterion_of_table_5_2() {
         close(&label, e.stability.margin.unwrap(), mu, 1e-6);
         assert_eq!(e.stability.stable, s_c < 0.0, "{label}");
         let verdict = e.stability.inertia.positive == 3;
-        assert_eq!(verdict, s_c < 0.0, "{label}: inertia {:?}", e.stability.inertia);
+        assert_eq!(
+            verdict,
+            s_c < 0.0,
+            "{label}: inertia {:?}",
+            e.stability.inertia
+        );
     }
 }

@@ -6,7 +6,7 @@
 //! only the description of chains and mechanisms and the algebra of poses is shared.
 
 use kinetostat::{Chain, Element, Mechanism, MotionKind, Pose, Wrench};
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 /// Rotation by `angle` about the unit vector `axis`, Rodrigues' formula written out.
 fn rodrigues(axis: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
@@ -107,14 +107,6 @@ impl Frames {
 
     pub fn position(&self, node: usize) -> Vector3<f64> {
         self.nodes[node].1
-    }
-
-    pub fn pose(&self, node: usize) -> Pose {
-        let (r, p, _) = self.nodes[node];
-        Pose::from_parts(
-            p.into(),
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(r)),
-        )
     }
 
     /// `[p* - p; log(R* R^T)]` at a node.
@@ -325,7 +317,7 @@ impl<'m> Flat<'m> {
         let gravity = m.gravity();
         let mut rows = DVector::zeros(self.size());
         let mut at = 6 * (self.platforms.len() - 1);
-        let mut put = |rows: &mut DVector<f64>, platform: usize, w: Vector6<f64>| {
+        let put = |rows: &mut DVector<f64>, platform: usize, w: Vector6<f64>| {
             if platform > 0 {
                 let mut part = rows.rows_mut(6 * (platform - 1), 6);
                 part += w;
