@@ -2,6 +2,12 @@
 //!
 //! One binary instead of many, because linking dominates the time of a test run.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::needless_range_loop,
+    reason = "a failing test may panic; matrices are read by their indices"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../oracle/mod.rs"]
