@@ -7,10 +7,11 @@ use crate::block::Block;
 use crate::curve::Curve;
 use crate::error::ProgramError;
 use crate::extra::ExtraAxes;
-use crate::options::{BlockDelete, ReadOptions, Units};
+use crate::modes::Modes;
+use crate::options::{BlockDelete, ReadOptions};
 use crate::path::{
-    Change, CoordinateWords, Event, Feed, FeedMode, Knowledge, Motion, Move, MoveKind,
-    OffsetChange, Path, PositionOffset, Warning,
+    Change, CoordinateWords, Event, Knowledge, Motion, Move, MoveKind, OffsetChange, Path,
+    PositionOffset, Warning,
 };
 use crate::program::{LineKind, Program};
 
@@ -49,24 +50,10 @@ pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, Progr
 
 struct Interpreter<'o> {
     options: &'o ReadOptions,
-    units: Option<Units>,
-    motion: Option<Motion>,
-    incremental: bool,
-    absolute_centre: bool,
-    /// Axes of the plane and its normal.
-    plane: [usize; 3],
-    feed_mode: FeedMode,
-    feed: Option<Feed>,
-    /// The units changed after the F in force was given.
-    feed_is_stale: bool,
-    work_offset: usize,
+    modes: Modes,
     offset: PositionOffset,
     position: Vector3<f64>,
     known: [bool; 3],
-    extra: ExtraAxes,
-    /// Line of a change of the tool length that no Z word has followed yet.
-    length_change: Option<usize>,
-    tool_length_on: bool,
     ended: Option<usize>,
     no_feed_warned: bool,
     block_delete_warned: bool,
@@ -81,21 +68,10 @@ impl<'o> Interpreter<'o> {
     fn new(options: &'o ReadOptions) -> Self {
         Self {
             options,
-            units: options.units,
-            motion: None,
-            incremental: false,
-            absolute_centre: false,
-            plane: [0, 1, 2],
-            feed_mode: FeedMode::PerMinute,
-            feed: None,
-            feed_is_stale: false,
-            work_offset: 0,
+            modes: Modes::new(options.units),
             offset: PositionOffset::default(),
             position: options.start_position_mm.unwrap_or_default(),
             known: [options.start_position_mm.is_some(); 3],
-            extra: ExtraAxes::default(),
-            length_change: None,
-            tool_length_on: false,
             ended: None,
             no_feed_warned: false,
             block_delete_warned: false,
@@ -122,7 +98,7 @@ impl<'o> Interpreter<'o> {
 
     fn run(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
         if block.is_vendor() {
-            self.extra.set_extruder_mode(block.codes.extruder);
+            self.modes.extra.set_extruder_mode(block.codes.extruder);
             return Ok(());
         }
         refuse_dwell_with_motion(block)?;
@@ -139,18 +115,14 @@ impl<'o> Interpreter<'o> {
                 "remove the blocks after M2 or M30, or the M2 or M30 before them",
             ));
         }
-        self.set_modes(block)?;
-        let explicit = block.codes.motion;
-        if let Some(motion) = explicit {
-            self.motion = Some(motion);
-        }
+        self.modes.set(block)?;
         if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {
             self.refuse_parameters_of_calls(block)?;
             self.read_move(block)?;
         } else {
-            self.note_no_motion(block, explicit);
+            self.note_no_motion(block);
         }
         if block.codes.ends {
             self.ended.get_or_insert(block.line_number);
@@ -161,23 +133,23 @@ impl<'o> Interpreter<'o> {
     /// `G2 I5` is a full circle without an axis word.
     fn is_centre_only(&self, block: &Block<'_>) -> bool {
         matches!(
-            self.motion,
+            self.modes.motion,
             Some(Motion::Clockwise | Motion::CounterClockwise)
         ) && b"IJKR".iter().any(|letter| block.value(*letter).is_some())
     }
 
-    fn note_no_motion(&mut self, block: &Block<'_>, explicit: Option<Motion>) {
+    fn note_no_motion(&mut self, block: &Block<'_>) {
         let line = block.line_number;
         // A feed mode that is named again leaves the F in force, which in the output is that of the
         // last piece and not the programmed one.
-        let lost = block.codes.feed_mode.is_some() && self.feed.is_none();
+        let lost = block.codes.feed_mode.is_some() && self.modes.feed.is_none();
         if block.value(b'F').is_some() || lost {
             self.events.push(Event {
                 line,
-                change: Change::Feed(self.feed),
+                change: Change::Feed(self.modes.feed),
             });
         }
-        if let Some(motion) = explicit {
+        if let Some(motion) = block.codes.motion {
             self.events.push(Event {
                 line,
                 change: Change::Motion(motion),
@@ -185,120 +157,8 @@ impl<'o> Interpreter<'o> {
         }
     }
 
-    fn set_modes(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
-        let codes = &block.codes;
-        if let Some(code) = codes.feed_mode {
-            let mode = match code {
-                930 => FeedMode::InverseTime,
-                940 => FeedMode::PerMinute,
-                _ => FeedMode::PerRevolution,
-            };
-            if mode != self.feed_mode {
-                // An F of another mode is another quantity: controllers want a new one.
-                self.feed = None;
-            }
-            self.feed_mode = mode;
-        }
-        if let Some(code) = codes.units {
-            let units = if code == 200 {
-                Units::Inches
-            } else {
-                Units::Millimetres
-            };
-            if let Some(before) = self.units
-                && before != units
-            {
-                self.feed_is_stale = self.feed.is_some();
-                self.extra
-                    .change_units(before.mm_per_unit() / units.mm_per_unit());
-            }
-            self.units = Some(units);
-        }
-        if let Some(value) = block.value(b'F') {
-            self.set_feed(block, value)?;
-        }
-        match codes.plane {
-            Some(170) => self.plane = [0, 1, 2],
-            Some(180) => self.plane = [2, 0, 1],
-            Some(_) => self.plane = [1, 2, 0],
-            None => {}
-        }
-        if let Some(code) = codes.distance {
-            self.incremental = code == 910;
-            self.extra.set_distance_mode(self.incremental);
-        }
-        self.extra.set_extruder_mode(codes.extruder);
-        if let Some(code) = codes.arc_distance {
-            self.absolute_centre = code == 901;
-        }
-        if let Some(code) = codes.work_offset {
-            self.work_offset = match code {
-                540..=590 if code % 10 == 0 => (code as usize - 540) / 10,
-                591..=593 => code as usize - 591 + 6,
-                _ => {
-                    return Err(block.refuse(
-                        None,
-                        "an extended work coordinate system is not known here",
-                        "use G54 to G59.3",
-                    ));
-                }
-            };
-            if block.value(b'P').is_some() {
-                return Err(block.refuse(
-                    block.word(b'P'),
-                    "an extended work coordinate system is not known here",
-                    "use G54 to G59.3",
-                ));
-            }
-        }
-        match codes.tool_length {
-            Some(430) => {
-                self.tool_length_on = true;
-                self.length_change = Some(block.line_number);
-            }
-            // Cancelling what was never set is a habit of the first block and changes nothing.
-            Some(_) if self.tool_length_on => {
-                self.tool_length_on = false;
-                self.length_change = Some(block.line_number);
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn set_feed(&mut self, block: &Block<'_>, value: f64) -> Result<(), ProgramError> {
-        if value <= 0.0 {
-            return Err(block.refuse(
-                block.word(b'F'),
-                &format!("a feed of {value} is no feed"),
-                "write a feed above zero",
-            ));
-        }
-        let scale = match self.feed_mode {
-            FeedMode::InverseTime => 1.0,
-            // A program may name F before its units; where none are named the first move is refused.
-            _ => self.units.map_or(1.0, Units::mm_per_unit),
-        };
-        self.feed_is_stale = self.feed_mode != FeedMode::InverseTime && self.units.is_none();
-        self.feed = Some(Feed {
-            mode: self.feed_mode,
-            value: value * scale,
-        });
-        Ok(())
-    }
-
-    fn mm_per_unit(&self, block: &Block<'_>) -> Result<f64, ProgramError> {
-        self.units.map(Units::mm_per_unit).ok_or_else(|| {
-            block.refuse(
-                None,
-                "the program moves before it names its units",
-                "begin it with G21 (mm) or G20 (inch), or give the units by option",
-            )
-        })
-    }
-
     fn work_offset_mm(&self) -> Vector3<f64> {
-        self.options.work_offsets_mm[self.work_offset]
+        self.options.work_offsets_mm[self.modes.work_offset]
     }
 
     fn set_position_offset(
@@ -336,7 +196,7 @@ impl<'o> Interpreter<'o> {
             _ => OffsetChange::Resume,
         };
         self.offset.apply(&change, &self.position);
-        self.note_no_motion(block, None);
+        self.note_no_motion(block);
         self.events.push(Event {
             line: block.line_number,
             change: Change::Offset(change),
@@ -352,7 +212,7 @@ impl<'o> Interpreter<'o> {
             let Some(value) = block.value(COORDINATES[axis]) else {
                 continue;
             };
-            let value_mm = value * self.mm_per_unit(block)?;
+            let value_mm = value * self.modes.mm_per_unit(block)?;
             coordinates_mm[axis] = Some(value_mm);
             if !self.known[axis] {
                 // The user tells where the tool stands: the coordinate is its place in the part.
@@ -361,7 +221,7 @@ impl<'o> Interpreter<'o> {
                 self.position[axis] = value_mm + work_offset_mm[axis];
             }
         }
-        self.extra.set_here(block);
+        self.modes.extra.set_here(block);
         Ok(OffsetChange::Here {
             coordinates_mm,
             work_offset_mm,
@@ -383,7 +243,7 @@ impl<'o> Interpreter<'o> {
                 "write the motion as a block of its own, with G0 or G1",
             ));
         }
-        if matches!(self.motion, Some(Motion::Rapid | Motion::Feed)) {
+        if matches!(self.modes.motion, Some(Motion::Rapid | Motion::Feed)) {
             for letter in *b"IJKRP" {
                 if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
                     return Err(block.refuse(
@@ -401,7 +261,7 @@ impl<'o> Interpreter<'o> {
     }
 
     fn read_move(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
-        let motion = match self.motion {
+        let motion = match self.modes.motion {
             Some(Motion::Off) | None => {
                 return Err(block.refuse(
                     None,
@@ -411,22 +271,27 @@ impl<'o> Interpreter<'o> {
             }
             Some(motion) => motion,
         };
-        let mm_per_unit = self.mm_per_unit(block)?;
+        let mm_per_unit = self.modes.mm_per_unit(block)?;
         let kind = if motion == Motion::Rapid {
             MoveKind::Rapid
         } else {
             MoveKind::Feed
         };
-        self.check_feed(block, kind)?;
+        self.modes.check_feed(block, kind)?;
+        if kind == MoveKind::Feed && self.modes.feed.is_none() && !self.no_feed_warned {
+            self.no_feed_warned = true;
+            self.warn(block.line_number, "the program feeds before it has given an F: the speed is the machine's, and no F is written until the program gives one");
+        }
 
         let start = self.position;
         let known_before = self.known;
         let end = self.end_of_move(block, kind, mm_per_unit)?;
-        self.check_tool_length(block, motion)?;
+        self.modes.check_tool_length(block, motion)?;
         let curve = match motion {
             Motion::Clockwise | Motion::CounterClockwise => {
                 if let Some(axis) = (0..3).find(|axis| {
-                    !known_before[*axis] && (self.known[*axis] || self.plane[..2].contains(axis))
+                    !known_before[*axis]
+                        && (self.known[*axis] || self.modes.plane[..2].contains(axis))
                 }) {
                     return Err(block.refuse(
                         None,
@@ -442,9 +307,9 @@ impl<'o> Interpreter<'o> {
                     &ArcFrame {
                         start,
                         end,
-                        axes: self.plane,
+                        axes: self.modes.plane,
                         clockwise: motion == Motion::Clockwise,
-                        absolute_centre: self.absolute_centre,
+                        absolute_centre: self.modes.absolute_centre,
                         mm_per_unit,
                         offset_mm: self.work_offset_mm() + self.offset.active_mm,
                         tolerance_mm: self.options.arc_tolerance_mm,
@@ -454,7 +319,7 @@ impl<'o> Interpreter<'o> {
             _ => Curve::Line,
         };
         self.position = end;
-        let extra = self.extra.read(block, self.incremental);
+        let extra = self.modes.extra.read(block, self.modes.incremental);
         self.knowledge.push((known_before, self.known));
         self.moves.push(Move {
             line: block.line_number,
@@ -463,39 +328,14 @@ impl<'o> Interpreter<'o> {
             start,
             end,
             extra,
-            feed: self.feed,
+            feed: self.modes.feed,
             known: Knowledge::Whole,
             words: CoordinateWords {
                 mm_per_unit,
-                incremental: self.incremental,
+                incremental: self.modes.incremental,
                 work_offset_mm: self.work_offset_mm(),
             },
         });
-        Ok(())
-    }
-
-    fn check_feed(&mut self, block: &Block<'_>, kind: MoveKind) -> Result<(), ProgramError> {
-        if kind == MoveKind::Rapid {
-            return Ok(());
-        }
-        if self.feed_mode == FeedMode::InverseTime && block.value(b'F').is_none() {
-            return Err(block.refuse(
-                None,
-                "with G93 (inverse time) every feed block needs its own F",
-                "write F into the block",
-            ));
-        }
-        if self.feed_is_stale {
-            return Err(block.refuse(
-                None,
-                "the units were named after the F in force: its value is read differently by controllers",
-                "write F again after G20 or G21",
-            ));
-        }
-        if self.feed.is_none() && !self.no_feed_warned {
-            self.no_feed_warned = true;
-            self.warn(block.line_number, "the program feeds before it has given an F: the speed is the machine's, and no F is written until the program gives one");
-        }
         Ok(())
     }
 
@@ -513,7 +353,7 @@ impl<'o> Interpreter<'o> {
                 continue;
             };
             let value_mm = value * mm_per_unit;
-            if self.incremental {
+            if self.modes.incremental {
                 if !self.known[axis] && kind == MoveKind::Feed {
                     return Err(block.refuse(
                         block.word(letter),
@@ -538,22 +378,6 @@ impl<'o> Interpreter<'o> {
             }
         }
         Ok(end)
-    }
-
-    /// After G43 and G49 the tool point is at another Z than before, unknown until a Z word.
-    fn check_tool_length(&mut self, block: &Block<'_>, motion: Motion) -> Result<(), ProgramError> {
-        let Some(line) = self.length_change else {
-            return Ok(());
-        };
-        if motion == Motion::Rapid && !self.incremental && block.value(b'Z').is_some() {
-            self.length_change = None;
-            return Ok(());
-        }
-        Err(block.refuse(
-            None,
-            &format!("line {line} changed the tool length, so the height of the tool point is unknown here"),
-            "follow G43 and G49 by a rapid (G0) with an absolute Z word, in the same or the next motion block",
-        ))
     }
 
     /// A turned part or head changes where the tool stands in the part, and this reader cannot tell how.

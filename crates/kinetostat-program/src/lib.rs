@@ -54,6 +54,7 @@ mod interpret;
 mod lex;
 mod map;
 mod merge;
+mod modes;
 mod number;
 mod options;
 mod path;
@@ -61,6 +62,7 @@ mod program;
 mod render;
 mod syntax;
 mod verify;
+mod verify_text;
 mod write;
 
 pub use accounting::Accounting;

@@ -49,6 +49,12 @@ pub(crate) fn motion_word(words: &[Word]) -> Option<&Word> {
         .find(|word| word.letter == b'G' && [0.0, 1.0, 2.0, 3.0].contains(&word.value))
 }
 
+/// Whether a word acts when the block's motion is over.
+pub(crate) fn is_after_motion(word: &Word) -> bool {
+    word.letter == b'M' && [0.0, 1.0, 2.0, 30.0, 60.0].contains(&word.value)
+        || word.letter == b'G' && word.value == 9.0
+}
+
 /// Writes the pieces of one block.
 pub(crate) struct BlockWriter<'a> {
     program: &'a Program,
@@ -428,12 +434,8 @@ impl<'a> BlockWriter<'a> {
         Some(text)
     }
 
-    /// Words that act when the block's motion is over.
     fn words_after_motion(&self) -> impl Iterator<Item = &'a Word> {
-        self.words.iter().filter(|word| {
-            word.letter == b'M' && [0.0, 1.0, 2.0, 30.0, 60.0].contains(&word.value)
-                || word.letter == b'G' && word.value == 9.0
-        })
+        self.words.iter().filter(|word| is_after_motion(word))
     }
 
     fn with_blanks_before(&self, word: &Word) -> Range<usize> {
