@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     writeln!(
         std::io::stdout(),
         "{} blocks in, {} carried, {} corrected, {} split; {} blocks out; largest correction {:.4} mm, \
-         rounding {:.5} mm, speed kept within {:.3} %",
+         rounding {:.5} mm, speed kept within {:.3} %; {} points asked for",
         account.blocks_in,
         account.blocks_carried,
         account.blocks_corrected,
@@ -48,7 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         account.blocks_out,
         account.largest_correction_mm,
         account.largest_rounding_mm,
-        found.largest_speed_error * 100.0
+        found.largest_speed_error * 100.0,
+        account.evaluations
     )?;
     for warning in &account.warnings {
         writeln!(std::io::stdout(), "line {}: {}", warning.line, warning.text)?;

@@ -618,3 +618,69 @@ fn a_written_program_that_was_tampered_with_fails_its_last_check() {
         );
     }
 }
+
+#[test]
+fn a_position_offset_states_an_unknown_place() {
+    let field = |request: &Request| Ok(Vector3::new(0.001 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG92 X10 Y0 Z5\nG1 X110 F500\nG92 X0\nG1 X10\n";
+    let (output, result) = written_with(text, &field, &ReadOptions::default(), &bare());
+    // The first block begins with the correction of the place where the tool stands uncorrected; the
+    // stretch is 0.1 %, so F changes by as much.
+    assert_eq!(
+        output,
+        "G21 G90\nG92 X10 Y0 Z5\nG1 X10.0100 F500\nG1 X110.1100 F500.5\nG92 X0\nG1 X10.0100\n"
+    );
+    assert_eq!(
+        result.pieces[0].commanded_from,
+        Vector3::new(10.0, 0.0, 5.0)
+    );
+    assert!(result.accounting.warnings.is_empty());
+}
+
+#[test]
+fn a_tool_length_is_followed_when_a_rapid_states_the_height_again() {
+    let field = |_: &Request| Ok(Vector3::new(0.0, 0.0, 0.25));
+    let text =
+        "G21 G90 G17 G40 G49 G80\nT1 M6\nG0 X0 Y0\nG43 H1 Z50\nG1 Z-1 F100\nG0 Z50\nG49\nM30\n";
+    let output = written_with(text, &field, &ReadOptions::default(), &bare()).0;
+    assert_eq!(
+        output,
+        "G21 G90 G17 G40 G49 G80\nT1 M6\nG0 X0 Y0\nG43 H1 Z50.2500\nG1 Z-0.7500 F100\nG0 Z50.2500\nG49\nM30\n"
+    );
+}
+
+#[test]
+fn blocks_marked_for_deletion_are_run_or_skipped_as_told() {
+    let text = "G21 G90\nG0 X0\n/G0 X50 (optional)\nG91\nG0 X1\n";
+    let (run, result) = written_with(text, &shift, &at_origin(), &bare());
+    assert_eq!(
+        run,
+        "G21 G90\nG0 X0.0100\n/G0 X50.0100 (optional)\nG91\nG0 X1\n"
+    );
+    assert!(
+        result.accounting.warnings[0]
+            .text
+            .contains("block delete switch off")
+    );
+    let reading = ReadOptions {
+        block_delete: BlockDelete::Skip,
+        ..at_origin()
+    };
+    let (skipped, result) = written_with(text, &shift, &reading, &bare());
+    assert_eq!(
+        skipped,
+        "G21 G90\nG0 X0.0100\n/G0 X50 (optional)\nG91\nG0 X1\n"
+    );
+    assert_eq!(result.pieces.len(), 2);
+    assert_eq!(result.accounting.blocks_in, 5);
+}
+
+#[test]
+fn the_feed_mode_may_change_and_each_feed_is_shared_out_in_its_own_way() {
+    let stretch = |request: &Request| Ok(Vector3::new(0.01 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG1 X100 F1000\nG94\nG1 X200\nG93\nG1 X100 F2\nG95\nG1 X0 F0.2\n";
+    assert_eq!(
+        written(text, &stretch),
+        "G21 G90\nG1 X101.0000 F1010\nG94\nG1 X202.0000\nG93\nG1 X101.0000 F2\nG95\nG1 X0 F0.202\n"
+    );
+}
