@@ -1,8 +1,81 @@
-//! Elastostatics of robots by virtual joint modelling.
+//! Elastostatics of robots that machine, by virtual joint modelling.
 //!
-//! Dependencies between modules point one way:
-//! `spatial, saddle <- chain <- kinematics <- loading <- equilibrium <- stiffness <- stability <-
-//! mechanism <- posture <- compensation`.
+//! A robot is soft: cutting forces, gravity, joint preload and the forced assembly of
+//! over-constrained machines bend it. This crate answers how stiff it is here and now, where it goes
+//! under a load, whether that equilibrium is stable, what stresses assembly locked in, and what must
+//! be commanded so that the tool is where it should be. It does no I/O.
+//!
+//! # A tour
+//!
+//! A limb is an ordered product of elementary motions; a mechanism is a graph of platforms joined by
+//! limbs. Here is a machine of three PUU legs along x, y and z:
+//!
+//! ```
+//! use kinetostat::*;
+//! use nalgebra::{Vector3, vector};
+//!
+//! let bar = BeamSection::tube(2.1e11, 8.1e10, 0.022, 0.014); // Pa, m
+//! let leg = |name: &str, turned: Pose| {
+//!     let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 2.8e6); // N/m
+//!     drive.home = -0.34;
+//!     Chain::builder(name)
+//!         .rigid(turned)
+//!         .actuator("drive", drive)
+//!         .passive_universal("foot joint", Vector3::z(), Vector3::y())
+//!         .link("bar", &bar, 0.31)
+//!         .passive_universal("head joint", Vector3::y(), Vector3::z())
+//!         .translation(vector![0.03, 0.0, 0.0])
+//!         .rigid(turned.inverse())
+//!         .build()
+//! };
+//! let third = 2.0 * std::f64::consts::FRAC_PI_3;
+//! let mut machine = Mechanism::builder("3-PUU");
+//! let tool = machine.platform(Platform::new("tool", Pose::identity()));
+//! for (name, turns) in [("x", 0.0), ("y", 1.0), ("z", 2.0)] {
+//!     let diagonal = Vector3::repeat(1.0).normalize();
+//!     let chain = leg(name, Pose::rotation(diagonal * (third * turns)))?;
+//!     machine = machine.limb(Limb {
+//!         name: name.into(),
+//!         from: 0,
+//!         to: tool,
+//!         platform_from_tip: Pose::identity(),
+//!         nominal: chain.clone(),
+//!         actual: chain,
+//!     });
+//! }
+//! let machine = machine.build()?;
+//!
+//! let t0 = Pose::translation(0.02, -0.01, 0.03);
+//! let posture = machine.posture(&t0)?; // actuators commanded for t0
+//! let k_c = posture.stiffness()?; // unloaded K_C [R 3.10, 3.13]
+//! assert_eq!(k_c.rank(), 6);
+//!
+//! let cutting = Wrench::new(vector![100.0, -20.0, -30.0], vector![0.5, 1.0, 0.0]); // N, N m
+//! let loaded = posture.deflected_by(&cutting)?; // t = f^-1(F | t0) [R 6.28-6.30]
+//! assert!(loaded.stable());
+//! let linear = k_c.cartesian.compliance().ok_or("singular")? * cutting.0;
+//! assert!((loaded.displacement.0 - linear).norm() < 0.02 * linear.norm());
+//!
+//! let held = posture.wrench_at(&loaded.tool)?; // F = f(t | t0) [R 6.21]
+//! assert!((held.wrench.0 - cutting.0).norm() < 1e-6);
+//!
+//! let position = [true, true, true, false, false, false];
+//! let target = compensate(&machine, &t0, &cutting, position, &Settings::default())?; // [R 7.13]
+//! assert!(target.left_over.linear().norm() < 1e-12); // the tool is where it should be
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Conventions
+//!
+//! SI units; linear part before angular; base axes at a stated point; a [`Wrench`] is what the
+//! environment applies. `[R 4.16]` is equation 4.16 of the COROUSSO report L1.1; where this crate
+//! departs from its print, the comment says so. A physical finding (singular, unstable, redundant,
+//! free) is a field of a result; `Err` is a wrong input or a question without an answer.
+//!
+//! # Order of the modules
+//!
+//! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <-
+//! equilibrium, stiffness, stability <- mechanism, inverse <- platform <- posture <- compensation`.
 
 mod beam;
 mod builder;
