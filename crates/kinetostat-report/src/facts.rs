@@ -12,9 +12,12 @@ fn card(name: &str, value: String, note: String) -> Value {
     context! { name, value, note }
 }
 
-/// The key figures as cards.
+/// The key figures as cards; none if nothing was calculated.
 pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
+    if summary.points == 0 && result.points.is_empty() {
+        return Vec::new();
+    }
     let up = |value: f64| number::length(value, 2, Rounding::Up);
     let mut cards = vec![card(
         "Error without compensation",
@@ -112,7 +115,7 @@ fn margin_card(margin: Option<f64>) -> Value {
         None => card(
             "Buckling margin",
             "none".to_owned(),
-            "no limb of this machine can buckle".to_owned(),
+            "no limb of this model can buckle".to_owned(),
         ),
     }
 }
@@ -140,8 +143,8 @@ fn actuator_card(result: &RunResult) -> Value {
 }
 
 fn angle(value: f64) -> String {
-    if value.abs() > 0.0 && value.abs() < 1e-4 {
-        return number::with_unit("below 0.0001", "deg");
+    if value > 0.0 && value < 1e-4 {
+        return number::with_unit("0.0001", "deg");
     }
     number::with_unit(&number::significant(value, 2, Rounding::Up), "deg")
 }
@@ -242,9 +245,9 @@ pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
 pub(crate) fn heading(result: &RunResult) -> Vec<Value> {
     let question = &result.question;
     let mut rows = vec![
-        fact("Program", or_unknown(&question.program)),
-        fact("Machine", or_unknown(&question.model)),
-        fact("Load", or_unknown(&question.load)),
+        fact("Program", first_screen(&question.program)),
+        fact("Machine", first_screen(&question.model)),
+        fact("Load", first_screen(&question.load)),
     ];
     if question.compensated {
         rows.push(fact(
@@ -257,6 +260,11 @@ pub(crate) fn heading(result: &RunResult) -> Vec<Value> {
         ));
     }
     rows
+}
+
+/// Text for the first screen, where an endless name must not push the verdict away.
+fn first_screen(text: &str) -> String {
+    text::shorten(&or_unknown(text), 200)
 }
 
 fn fact(name: &str, text: String) -> Value {
@@ -308,14 +316,21 @@ pub(crate) fn asked(result: &RunResult) -> Vec<Value> {
 
 fn written(result: &RunResult) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
+    // Every block read must be found again in one of the three counts.
+    let carried = summary
+        .blocks_split
+        .saturating_add(summary.blocks_unchanged);
+    let corrected = summary.blocks.saturating_sub(carried);
     vec![
         fact(
             "Blocks written",
             format!(
-                "{} ({} bytes); of those read, {} were divided and {} carried over byte for byte",
+                "{} ({} bytes); of those read, {} were divided, {} corrected in one piece and {} \
+                 carried over byte for byte",
                 number::count(summary.blocks_out),
                 number::count(summary.bytes_out),
                 number::count(summary.blocks_split),
+                number::count(corrected),
                 number::count(summary.blocks_unchanged)
             ),
         ),

@@ -62,7 +62,7 @@ impl Labels {
         wanted: (f64, f64),
         label: &str,
     ) -> bool {
-        let width = text::width(label, TEXT_SIZE) + 4.0;
+        let width = 1.1 * text::width(label, TEXT_SIZE) + 8.0;
         let mut choices = [
             (0.0, -9.0, Anchor::Middle),
             (9.0, -6.0, Anchor::Start),

@@ -17,9 +17,17 @@ pub(crate) enum Rounding {
     Down,
 }
 
-/// The value if it can be drawn: finite and not absurdly large (differences must stay finite).
+/// Smaller than anything that means something in mm, µm, N or deg.
+const NOTHING: f64 = 1e-9;
+
+/// The value if it can be drawn: finite and not absurdly large (differences must stay finite). What is
+/// next to nothing is nothing: ticks would have more zeros than a reader.
 pub(crate) fn drawable(value: f64) -> Option<f64> {
-    (value.is_finite() && value.abs() < 1e12).then_some(value)
+    (value.is_finite() && value.abs() < 1e12).then_some(if value.abs() < NOTHING {
+        0.0
+    } else {
+        value
+    })
 }
 
 /// Largest value of those that can be drawn.
@@ -62,7 +70,7 @@ pub(crate) fn significant(value: f64, digits: usize, rounding: Rounding) -> Stri
     if !value.is_finite() {
         return MISSING.to_owned();
     }
-    if value == 0.0 {
+    if value.abs() < NOTHING {
         return "0".to_owned();
     }
     let value = rounded(value, digits, rounding);
@@ -107,7 +115,13 @@ pub(crate) fn length(value_mm: f64, digits: usize, rounding: Rounding) -> String
     let (unit, factor) = length_unit(value_mm);
     let value = value_mm * factor;
     if value != 0.0 && value.abs() < 0.001 {
-        return with_unit("below 0.001", unit);
+        // Rounded up, the smallest length that is stated is an upper bound without a word for it.
+        let number = if rounding == Rounding::Up && value > 0.0 {
+            "0.001"
+        } else {
+            "below 0.001"
+        };
+        return with_unit(number, unit);
     }
     with_unit(&significant(value, digits, rounding), unit)
 }
@@ -218,6 +232,7 @@ mod tests {
         assert_eq!(fixed(-0.0004, 3), "0.000");
         assert_eq!(fixed(-1234.5, 1), "\u{2212}1\u{202f}234.5");
         assert_eq!(significant(0.7583, 2, Rounding::Up), "0.76");
+        assert_eq!(significant(1e-320, 2, Rounding::Up), "0");
         assert_eq!(significant(0.76, 2, Rounding::Up), "0.76");
         assert_eq!(significant(0.7583, 3, Rounding::Nearest), "0.758");
         assert_eq!(significant(9.996, 2, Rounding::Up), "10");

@@ -33,9 +33,9 @@ pub(crate) fn render(result: &RunResult) -> Result<String, minijinja::Error> {
     let actuators = question.actuators.len();
     environment.get_template(PAGE)?.render(context! {
         style => Value::from_safe_string(STYLE.to_owned()),
-        program => text::shorten(&text::or_unknown(&question.program), 80),
-        model => text::shorten(&text::or_unknown(&question.model), 80),
-        version => text::clean(&result.kinetostat_version),
+        program => name_or(&question.program, "Unnamed program"),
+        model => name_or(&question.model, "unnamed machine"),
+        version => text::shorten(&result.kinetostat_version, 40),
         compensated => question.compensated,
         verdict => context! {
             class => verdict.level.class(),
@@ -60,6 +60,16 @@ pub(crate) fn render(result: &RunResult) -> Result<String, minijinja::Error> {
         decimated => facts::decimated(result),
         missing => MISSING,
     })
+}
+
+/// A name short enough for the title.
+fn name_or(name: &str, otherwise: &str) -> String {
+    let name = if name.trim().is_empty() {
+        otherwise
+    } else {
+        name
+    };
+    text::shorten(name, 80)
 }
 
 /// A drawing for wide windows and paper, and one for telephones; the style sheet shows one of them.

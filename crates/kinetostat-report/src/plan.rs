@@ -19,6 +19,9 @@ const NAMES: [&str; 3] = ["X, mm", "Y, mm", "Z, mm"];
 /// Most whiskers from the path to the magnified place of the tool.
 const WHISKERS: usize = 72;
 
+/// From this many points on lines are drawn thin: they lie close together.
+const DENSE: usize = 1200;
+
 /// How much larger than true the deviation is drawn: a round number, so that the largest one takes about
 /// an eighth of the path's size. None if there is no deviation or no path.
 pub(crate) fn magnification(result: &RunResult) -> Option<f64> {
@@ -285,6 +288,11 @@ fn draw(
         ))
     };
     let points = &result.points;
+    let (feed, before) = if points.len() < DENSE {
+        ("feed", "line before")
+    } else {
+        ("feed fine", "line before fine")
+    };
     svg.path("rapid", &path_data(&moves(points, true, &place)));
     if let Some(factor) = magnification {
         let tips: Vec<_> = points
@@ -297,13 +305,13 @@ fn draw(
                 svg.line("whisker", from, to);
             }
         }
-        svg.path("feed", &path_data(&moves(points, false, &place)));
-        svg.path("line before", &path_data(&tips));
+        svg.path(feed, &path_data(&moves(points, false, &place)));
+        svg.path(before, &path_data(&tips));
         mark_worst(svg, result, &frame, |p| {
             displaced(p, factor).and_then(&place)
         });
     } else {
-        svg.path("feed", &path_data(&moves(points, false, &place)));
+        svg.path(feed, &path_data(&moves(points, false, &place)));
     }
 }
 

@@ -17,7 +17,7 @@ const STYLE: &str = concat!(
 );
 
 /// Decades that are shown at most.
-const MOST_DECADES: i32 = 7;
+const MOST_DECADES: f64 = 7.0;
 
 /// Draws the picture.
 pub(crate) fn draw(result: &RunResult) -> String {
@@ -30,8 +30,8 @@ pub(crate) fn draw(result: &RunResult) -> String {
         height: 316.0,
     };
     let title = match plan::magnification(result) {
-        Some(factor) => format!("From above, deviation × {}", number::setting(factor)),
-        None => "The path from above".to_owned(),
+        Some(factor) => format!("Path from above, deviation × {}", number::setting(factor)),
+        None => "Path from above".to_owned(),
     };
     plan::view_from_above(&mut svg, result, frame, &title);
     if !errors(&mut svg, result) {
@@ -57,12 +57,12 @@ fn errors(svg: &mut Svg, result: &RunResult) -> bool {
     let Some(top) = before.into_iter().chain(after).reduce(f64::max) else {
         return false;
     };
-    let high = top.log10().ceil() as i32;
-    let lowest = after.unwrap_or(top / 50.0) / 6.0;
-    let low = (lowest.log10().floor() as i32).clamp(high - MOST_DECADES, high - 1);
+    // Room for a name above the upper curve, and for the ups and downs of the lower one.
+    let high = top.log10() + 0.7;
+    let low = after.unwrap_or(top / 30.0).log10() - 1.3;
     let span = Span {
-        low: f64::from(low),
-        high: f64::from(high),
+        low: low.max(high - MOST_DECADES),
+        high,
     };
     let curve = |error: fn(&kinetostat_machining::PointResult) -> [f64; 3]| {
         along.values(&result.points, |p| {
@@ -83,7 +83,11 @@ fn errors(svg: &mut Svg, result: &RunResult) -> bool {
         title: "Distance from the programmed place".to_owned(),
         y_label: "distance".to_owned(),
         span,
-        ticks: Some((low..=high).map(decade).collect()),
+        ticks: Some(
+            (span.low.ceil() as i32..=span.high.floor() as i32)
+                .map(decade)
+                .collect(),
+        ),
         series,
         limits: Vec::new(),
         marks: Vec::new(),
@@ -99,18 +103,12 @@ fn errors(svg: &mut Svg, result: &RunResult) -> bool {
         |error: f64| frame.bottom() - (error.log10() - span.low) / span.length() * frame.height;
     let named = [
         ("before-name", "without compensation", before),
-        ("after-name", "with the compensated program", after),
+        ("after-name", "with compensation", after),
     ];
     for (class, name, error) in named {
         if let Some(error) = error {
             let up_to = number::length(error, 2, Rounding::Up);
-            let y = y_of(error);
-            // Above the curve unless that is outside the frame; the after curve lies far below.
-            let y = if y - 12.0 > frame.y + 14.0 {
-                y - 10.0
-            } else {
-                y + 34.0
-            };
+            let y = y_of(error) - 10.0;
             svg.text(
                 class,
                 (frame.right() - 8.0, y),

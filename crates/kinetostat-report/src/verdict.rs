@@ -85,11 +85,15 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
         ));
     }
     if !summary.converged {
-        return stop(
-            "The calculation found no answer for at least one place on the path. Do not rely on the figures below \
-             or on the compensated program before the reason is found (see the warnings)."
-                .to_owned(),
-        );
+        let program = if result.question.compensated {
+            " or on the compensated program"
+        } else {
+            ""
+        };
+        return stop(format!(
+            "The calculation found no answer for at least one place on the path. Do not rely on the figures \
+             below{program} before the reason is found (see the warnings)."
+        ));
     }
     let mut judged = if result.question.compensated {
         compensated(result)

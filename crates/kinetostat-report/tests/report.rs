@@ -22,8 +22,10 @@ fn fixtures() -> Vec<(&'static str, RunResult)> {
         point.position_mm[1] *= 0.4;
         point.position_mm[0] *= 4.0;
     }
-    let mut blank_points = RunResult::default();
-    blank_points.points = vec![PointResult::default(); 3];
+    let blank_points = RunResult {
+        points: vec![PointResult::default(); 3],
+        ..RunResult::default()
+    };
     let mut many = pocket_on_serial_robot(300);
     let repeated = many.question.actuators.clone();
     many.question
@@ -166,7 +168,7 @@ fn what_users_of_such_tools_ask_for_is_said() {
         "path 0.5 µm, chords of arcs 0.2 µm",
         "40 266 (1 220 345 bytes)",
         "41 377 (1 301 002 bytes)",
-        "1 111 were divided and 39 155 carried over byte for byte",
+        "1 111 were divided, 0 corrected in one piece and 39 155 carried over byte for byte",
         "Most blocks per second",
         "Straight pieces written",
         "N m",
