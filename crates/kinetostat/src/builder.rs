@@ -346,11 +346,11 @@ impl ChainBuilder {
                 "parallelogram '{name}': length {length} and width {width} must be positive"
             ));
         }
-        let law = SpringLaw::Parallelogram(ParallelogramLaw {
+        let law = SpringLaw::Parallelogram(Box::new(ParallelogramLaw {
             bar: *bar,
             width,
             inclination,
-        });
+        }));
         this.translation(Vector3::new(length, 0.0, 0.0))
             .springs(&format!("{name}.bars"), &[0, 1, 3, 4, 5], law, vec![0.0; 5])
             .coupled(name, MotionKind::Revolute, axis, -1.0)

@@ -424,7 +424,7 @@ impl Attempt<'_, '_> {
     /// last residual, `Err` if it did not converge.
     fn newton(
         &mut self,
-        x: &mut Vec<f64>,
+        x: &mut [f64],
         wrench: &mut Wrench,
         share: f64,
         picard: usize,
@@ -442,7 +442,7 @@ impl Attempt<'_, '_> {
             }
             let mut length = step_limit(self.problem.chain, step.column(0).iter().skip(6).copied());
             let merit = now.closure.powi(2) + now.torque.powi(2);
-            let (x0, w0) = (x.clone(), *wrench);
+            let (x0, w0) = (x.to_vec(), *wrench);
             loop {
                 for (i, value) in x.iter_mut().enumerate() {
                     *value = x0[i] + length * step[(6 + i, 0)];

@@ -14,7 +14,7 @@ pub enum SpringLaw {
     /// Constant symmetric stiffness, k x k (N/m, N/rad, N m/m, N m/rad by coordinate).
     Linear(DMatrix<f64>),
     /// Two parallel bars lumped into one spring: see [`ParallelogramLaw`].
-    Parallelogram(ParallelogramLaw),
+    Parallelogram(Box<ParallelogramLaw>),
 }
 
 /// A bar parallelogram of width `d` seen as one link: five spring coordinates at the distal end
