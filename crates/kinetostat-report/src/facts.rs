@@ -408,14 +408,47 @@ fn actuator_names(question: &Question) -> String {
     }
 }
 
-/// The sentence that says that not every point is drawn.
-pub(crate) fn decimated(result: &RunResult) -> Option<String> {
+/// What stands under every plot if it does not show everything: points left out because they are many, and
+/// points that cannot be drawn because they have no number.
+pub(crate) fn caption(result: &RunResult) -> Option<String> {
     let (shown, all) = (result.points.len(), result.summary.points);
-    (shown < all).then(|| {
-        format!(
-            "{} of {} points shown; the worst are among them.",
-            number::count(shown),
-            number::count(all)
-        )
-    })
+    let mut sentences = Vec::new();
+    if shown < all {
+        let (shown, all) = (number::count(shown), number::count(all));
+        sentences.push(format!(
+            "{shown} of {all} points shown; the worst are among them."
+        ));
+    }
+    let missing = result
+        .points
+        .iter()
+        .filter(|point| lacks_numbers(point))
+        .count();
+    if missing > 0 {
+        let missing = number::count(missing);
+        sentences.push(format!(
+            "Points that lack a number, which plots and their titles leave out: {missing}."
+        ));
+    }
+    (!sentences.is_empty()).then(|| sentences.join(" "))
+}
+
+fn lacks_numbers(point: &PointResult) -> bool {
+    let vectors = [
+        point.position_mm,
+        point.error_before_mm,
+        point.error_after_mm,
+    ];
+    let single = [point.path_mm, point.smallest_stiffness_n_per_mm];
+    let lists = point
+        .actuator_force
+        .iter()
+        .chain(&point.actuator_correction);
+    let mut values = vectors
+        .iter()
+        .flatten()
+        .chain(&single)
+        .chain(lists)
+        .chain(&point.buckling_margin);
+    values.any(|value| number::drawable(*value).is_none())
 }

@@ -57,7 +57,7 @@ pub(crate) fn render(result: &RunResult) -> Result<String, minijinja::Error> {
         warning_count => warnings.len(),
         warnings => warnings.into_iter().take(MOST_WARNINGS).collect::<Vec<_>>(),
         asked => facts::asked(result),
-        decimated => facts::decimated(result),
+        caption => facts::caption(result),
         missing => MISSING,
     })
 }
