@@ -1,2 +1,60 @@
-//! The kinetostat command.
-fn main() {}
+//! The kinetostat command: how far a machine bends along a program, and a program that cuts where
+//! it should.
+//!
+//! One module per command (`demo`, `compensate`, `deflect`, `stiffness`, `check`, `models`, `shell`);
+//! `job` and `setting` turn files and options into a question, `along` runs it, `output` puts files
+//! in place, `screen` prints, `failure` knows the exit codes.
+
+mod along;
+mod args;
+mod compensate;
+mod demo;
+mod diagnose;
+mod failure;
+mod input;
+mod job;
+mod orientation;
+mod output;
+mod points_csv;
+mod progress;
+mod screen;
+mod setting;
+mod summary;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use clap::error::ErrorKind;
+
+use crate::args::{Cli, Command};
+use crate::failure::{Answer, Code};
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            // Help and version were asked for; everything else is wrong input.
+            return match error.kind() {
+                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::SUCCESS,
+                _ => ExitCode::from(Code::WrongInput as u8),
+            };
+        }
+    };
+    progress::catch_interrupts();
+    match run(cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            screen::complain(&failure);
+            ExitCode::from(failure.code as u8)
+        }
+    }
+}
+
+fn run(command: Command) -> Answer<()> {
+    match command {
+        Command::Demo(args) => demo::run(&args),
+        Command::Compensate(args) => compensate::run(*args),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,195 @@
+//! A run along a program, from question to files: shared by `compensate`, `deflect` and `demo`.
+
+use std::path::PathBuf;
+
+use kinetostat_machining::{
+    LoadAlongPath, Run, RunResult, Task, analyse, compensate_program,
+};
+use kinetostat_program::{Path as ToolPath, Program, ProgramError, interpret};
+
+use crate::failure::{Answer, Failure};
+use crate::output::{Existing, Outputs};
+use crate::points_csv;
+use crate::progress::Progress;
+use crate::screen::{self, Stream};
+use crate::setting::{Machine, Setting, Targets};
+
+/// What a run writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Aim {
+    Analyse,
+    Compensate,
+}
+
+/// Claimed outputs of a run by what they hold.
+pub(crate) struct Files {
+    pub(crate) outputs: Outputs,
+    program: Option<usize>,
+    report: Option<usize>,
+    json: Option<usize>,
+    points: Option<usize>,
+}
+
+impl Files {
+    /// Claims every target before the long work begins.
+    pub(crate) fn claim(
+        aim: Aim,
+        targets: &Targets,
+        existing: Existing,
+        inputs: &[PathBuf],
+    ) -> Answer<Self> {
+        let mut outputs = Outputs::new(existing, inputs.to_vec());
+        let mut claim = |what, target: &Option<PathBuf>| {
+            target
+                .as_deref()
+                .map(|path| outputs.claim(what, path))
+                .transpose()
+        };
+        let program = match aim {
+            Aim::Compensate => claim("compensated program", &targets.program)?,
+            Aim::Analyse => None,
+        };
+        Ok(Self {
+            program,
+            report: claim("report", &targets.report)?,
+            json: claim("result", &targets.json)?,
+            points: claim("table of points", &targets.points)?,
+            outputs,
+        })
+    }
+
+    /// Writes a run beside its targets; nothing is in place yet.
+    pub(crate) fn fill(&mut self, run: &Run) -> Answer<()> {
+        if let (Some(index), Some(written)) = (self.program, &run.written) {
+            self.outputs.fill(index, &written.bytes)?;
+        }
+        if let Some(index) = self.json {
+            self.outputs.fill(index, json(&run.result)?.as_bytes())?;
+        }
+        if let Some(index) = self.points {
+            let table = points_csv::table(&run.result.question, &run.points)?;
+            self.outputs.fill(index, &table)?;
+        }
+        if let Some(index) = self.report {
+            let page = kinetostat_report::html(&run.result)
+                .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
+            self.outputs.fill(index, page.as_bytes())?;
+        }
+        Ok(())
+    }
+}
+
+/// Reads and interprets a program.
+pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
+    let refuse = |error: ProgramError| Failure::input(error).within(&setting.program_name);
+    let program = Program::read(setting.program.clone()).map_err(refuse)?;
+    let path = interpret(&program, &setting.reading).map_err(refuse)?;
+    Ok((program, path))
+}
+
+/// Solves the machine along the program.
+pub(crate) fn solve(
+    aim: Aim,
+    machine: &Machine,
+    setting: &Setting,
+    threads: Option<usize>,
+) -> Answer<Run> {
+    let (program, path) = read_program(setting)?;
+    let mut question = machine.question.clone();
+    question.program.clone_from(&setting.program_name);
+    let mut writing = setting.writing.clone();
+    if let Some(header) = &mut writing.header {
+        *header = vec![
+            format!("version {}", env!("CARGO_PKG_VERSION")),
+            format!(
+                "model {} ({}), fingerprint {:016x}",
+                question.model, question.model_source, machine.fingerprint
+            ),
+            format!("load {}", LoadAlongPath::new(machine.load, &path).in_words()),
+            format!("tool {}", question.tool),
+            format!("placement {}", question.placement),
+        ];
+    }
+    let task = Task {
+        mechanism: &machine.mechanism,
+        program: &program,
+        reading: setting.reading.clone(),
+        path: &path,
+        placement: machine.placement,
+        load: machine.load,
+        writing,
+        question,
+    };
+    let progress = Progress::new();
+    let work = || match aim {
+        Aim::Analyse => analyse(&task, &progress),
+        Aim::Compensate => compensate_program(&task, &progress),
+    };
+    let result = in_threads(threads, work)?;
+    progress.finish();
+    let mut run =
+        result.map_err(|error| Failure::from(error).within(&setting.program_name))?;
+    if let Some(limit) = setting.max_blocks_per_second
+        && run.result.summary.blocks_per_second > limit
+    {
+        run.result.warnings.push(format!(
+            "the written program asks for up to {:.0} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
+            run.result.summary.blocks_per_second
+        ));
+    }
+    Ok(run)
+}
+
+/// Runs `work` on a number of threads.
+pub(crate) fn in_threads<R: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> R + Send,
+) -> Answer<R> {
+    let Some(count) = threads else {
+        return Ok(work());
+    };
+    if !(1..=1024).contains(&count) {
+        return Err(Failure::input(format!(
+            "--threads {count}: 1 to 1024 threads can be used"
+        )));
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(count)
+        .build()
+        .map_err(|error| Failure::input(format!("{count} threads cannot be started: {error}")))?;
+    Ok(pool.install(work))
+}
+
+/// A result as JSON with a final newline.
+pub(crate) fn json<T: serde::Serialize>(value: &T) -> Answer<String> {
+    let mut text = serde_json::to_string_pretty(value)
+        .map_err(|error| Failure::input(format!("the result cannot be written as JSON: {error}")))?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// Where the text for people goes, and the JSON on the standard output if it is wanted there.
+pub(crate) fn tell(text: &str, result: Option<&RunResult>) -> Answer<()> {
+    match result {
+        Some(result) => {
+            screen::print(Stream::Err, text)?;
+            screen::print_bytes(json(result)?.as_bytes())
+        }
+        None => screen::print(Stream::Out, text),
+    }
+}
+
+/// Files that were written, one a line.
+pub(crate) fn written(paths: &[PathBuf]) -> String {
+    if paths.is_empty() {
+        return String::new();
+    }
+    let mut out = String::from("\nWritten\n");
+    for path in paths {
+        out.push_str(&format!(
+            "  {}\n",
+            crate::failure::safe(&path.display().to_string())
+        ));
+    }
+    out
+}

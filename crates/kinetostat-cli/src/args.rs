@@ -1,0 +1,389 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{ArgAction, Args, Parser, Subcommand};
+
+use crate::job::{Axes, BlockDeleteWord, UnitsWord};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: not converged, or a point that cannot be reached
+  130  stopped with Ctrl-C; nothing was written";
+
+/// Elastostatics of robots that machine: how far a machine bends along a program, and a program
+/// that cuts where it should.
+#[derive(Debug, Parser)]
+#[command(
+    name = "kinetostat",
+    version,
+    arg_required_else_help = true,
+    subcommand_required = true,
+    after_help = EXIT_CODES,
+    after_long_help = concat!(
+        "Examples:\n",
+        "  kinetostat demo\n",
+        "      a first look: mills a circle on a bending machine and opens no network\n",
+        "  kinetostat deflect job.toml\n",
+        "      how far is the tool off along the program?\n",
+        "  kinetostat compensate job.toml\n",
+        "      write the program that cuts where it should\n",
+        "  kinetostat check my_robot.toml\n",
+        "      what does the model file say, in words?\n\n",
+        "Exit codes:\n",
+        "  0    answered\n",
+        "  1    wrong input: a file, a number or an option; the message says which\n",
+        "  2    no answer: not converged, or a point that cannot be reached\n",
+        "  130  stopped with Ctrl-C; nothing was written",
+    )
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Demo(DemoArgs),
+    Compensate(Box<CompensateArgs>),
+    Deflect(Box<DeflectArgs>),
+    Stiffness(StiffnessArgs),
+    Check(CheckArgs),
+    Model(ModelArgs),
+    Completions(CompletionsArgs),
+    Man(ManArgs),
+}
+
+/// Mill a circular groove on a bending machine: the first look
+///
+/// Writes the program, the compensated program, the report, the result and all points, and the
+/// model and job files that repeat the run.
+#[derive(Debug, Args)]
+pub(crate) struct DemoArgs {
+    /// Directory for the files; it is made if it does not exist
+    #[arg(long, value_name = "DIR", default_value = "kinetostat-demo")]
+    pub(crate) out: PathBuf,
+    /// Overwrite files of the same names in it
+    #[arg(long)]
+    pub(crate) force_overwrite: bool,
+    /// Print the result as JSON; the text goes to the standard error
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Number of threads; all cores without it
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+}
+
+/// Write a program that cuts where it should
+///
+/// Reads model, program, placement and load from a job file, from options, or from both (options go
+/// over the job file), solves the machine along the program, writes the compensated program, reads
+/// it again from its bytes and solves it once more: the error after compensation is measured, not
+/// promised. Nothing is overwritten without --force-overwrite, an input never.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES, after_long_help = COMPENSATE_HELP)]
+pub(crate) struct CompensateArgs {
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
+    /// The compensated program; without it, PROGRAM-compensated beside the job or the program
+    #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) out: Option<PathBuf>,
+    /// Corrections from a table instead of a model: CSV with the columns
+    /// x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm on a full grid
+    #[arg(long, value_name = "FILE", conflicts_with = "model")]
+    pub(crate) map: Option<PathBuf>,
+    /// Write the program as it was read, byte for byte
+    #[arg(long)]
+    pub(crate) no_compensation: bool,
+    /// Compensate a program that is marked as compensated once more
+    #[arg(long)]
+    pub(crate) again: bool,
+    /// Leave out the header that marks the program as compensated
+    #[arg(long, help_heading = "Outputs")]
+    pub(crate) no_header: bool,
+    /// How far the straight pieces may leave the corrected path, micrometres [default: 0.5]
+    #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true)]
+    pub(crate) tolerance_um: Option<f64>,
+    /// Digits after the point in mm, one more in inches [default: 4]
+    #[arg(long, value_name = "N", help_heading = "Tolerances")]
+    pub(crate) decimals: Option<u8>,
+    /// Warn if the written program asks for more blocks per second than this
+    #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true)]
+    pub(crate) max_blocks_per_second: Option<f64>,
+}
+
+/// How far is the tool off: at one place, or along a program
+///
+/// With --at: displacement and rotation under a load at one place, actuator forces and stability.
+/// With a job file, or with --program: the same along a whole program, with report and tables;
+/// nothing is compensated.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES, after_long_help = DEFLECT_HELP)]
+pub(crate) struct DeflectArgs {
+    /// Preset, model file, or job file
+    #[arg(value_name = "MODEL|JOB")]
+    pub(crate) subject: String,
+    #[command(flatten)]
+    pub(crate) place: PlaceArgs,
+    #[command(flatten)]
+    pub(crate) program: ProgramArgs,
+    /// Print the result as JSON (the text goes to the standard error), or write it to FILE
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-", help_heading = "Outputs")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+/// How stiff is the machine at one place
+///
+/// The 6 x 6 stiffness matrix of the tool with units, axes and reference point, its principal
+/// directions, and the share of each limb; under a load if a force is given.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES, after_long_help = STIFFNESS_HELP)]
+pub(crate) struct StiffnessArgs {
+    /// Preset or model file
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    #[command(flatten)]
+    pub(crate) place: PlaceArgs,
+    /// Force on the tool's tip, N
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true)]
+    pub(crate) force: Option<Vec<f64>>,
+    /// Moment on the tool about its tip, N m
+    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true)]
+    pub(crate) moment: Option<Vec<f64>>,
+    /// Distance of the tool's tip along z of the flange, mm
+    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    pub(crate) tool_length_mm: Option<f64>,
+    /// Print the result as JSON; the text goes to the standard error
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What a model file says, in words
+///
+/// Platforms, limbs, actuators with units and limits, passive joints, springs, masses; mobility,
+/// stiffness at home, effect of deviations, stability under gravity; and everything that looks
+/// wrong.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub(crate) struct CheckArgs {
+    /// Preset or model file
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: String,
+    /// Print the findings as JSON; the text goes to the standard error
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Models that come with the program, and the format of model files
+#[derive(Debug, Args)]
+pub(crate) struct ModelArgs {
+    #[command(subcommand)]
+    pub(crate) action: ModelAction,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum ModelAction {
+    /// The presets, one line each
+    List,
+    /// The model file of a preset: a start for your own
+    Show {
+        /// Name of the preset
+        name: String,
+    },
+    /// The JSON Schema of model files, for editors
+    Schema,
+}
+
+/// Completions for a shell, to be saved where the shell looks for them
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    pub(crate) shell: clap_complete::Shell,
+}
+
+/// Manual pages
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// Write one page per command into this directory instead of printing the first
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Overwrite pages that exist
+    #[arg(long, requires = "out")]
+    pub(crate) force_overwrite: bool,
+}
+
+/// A place in the workspace.
+#[derive(Debug, Default, Args)]
+pub(crate) struct PlaceArgs {
+    /// Place of the tool's tip in base axes, mm; home without it
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true)]
+    pub(crate) at: Option<Vec<f64>>,
+    /// Orientation of the tool there by a named convention, as in a_b_c_kuka_deg=0,0,90; without it,
+    /// the orientation at home
+    #[arg(long, value_name = "CONVENTION=A,B,C", requires = "at")]
+    pub(crate) rotation: Option<String>,
+}
+
+/// Job file, model and everything about the program.
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// Job file (TOML): model, program, placement, load, tolerances, outputs
+    #[arg(value_name = "JOB")]
+    pub(crate) job: Option<PathBuf>,
+    /// Preset or model file
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) model: Option<String>,
+    #[command(flatten)]
+    pub(crate) program: ProgramArgs,
+    /// Print the result as JSON (the text goes to the standard error), or write it to FILE
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-", help_heading = "Outputs")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+/// Options of a run along a program, shared by `compensate` and `deflect`.
+#[derive(Debug, Default, Args)]
+pub(crate) struct ProgramArgs {
+    /// G-code program
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) program: Option<PathBuf>,
+    /// Distance of the tool's tip along z of the flange, mm
+    #[arg(long, value_name = "L", allow_negative_numbers = true, help_heading = "Placement")]
+    pub(crate) tool_length_mm: Option<f64>,
+    /// Where the program's zero point lies in the machine's base, mm
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Placement")]
+    pub(crate) part_origin_mm: Option<Vec<f64>>,
+    /// Orientation of the program's axes in the base, as in a_b_c_kuka_deg=90,0,0
+    #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Placement")]
+    pub(crate) part_orientation: Option<String>,
+    /// Orientation of the tool in the base; without it, the one at home
+    #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Placement")]
+    pub(crate) tool_orientation: Option<String>,
+    /// Length in the machine per length in the program [default: 1]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "Placement")]
+    pub(crate) scale: Option<f64>,
+    /// Force on the tool's tip, N: everywhere on feed moves (with --at: at that place)
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, help_heading = "Load")]
+    pub(crate) force: Option<Vec<f64>>,
+    /// Moment on the tool about its tip, N m
+    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, help_heading = "Load")]
+    pub(crate) moment: Option<Vec<f64>>,
+    /// Axes of force and moment [default: base]
+    #[arg(long, value_enum, value_name = "AXES", help_heading = "Load")]
+    pub(crate) load_axes: Option<Axes>,
+    /// Milling force instead, N: to the right of the feed, along it, along the part's z
+    #[arg(long, num_args = 3, value_names = ["RADIAL", "TANGENTIAL", "AXIAL"], allow_negative_numbers = true, conflicts_with_all = ["force", "moment", "load_axes"], help_heading = "Load")]
+    pub(crate) milling: Option<Vec<f64>>,
+    /// The load acts only below this height of the program, mm
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = "Load")]
+    pub(crate) below_z_mm: Option<f64>,
+    /// Units of a program that does not say G20 or G21
+    #[arg(long, value_enum, value_name = "UNITS", help_heading = "Reading")]
+    pub(crate) units: Option<UnitsWord>,
+    /// Largest difference of an arc's radii at start and end, mm [default: 0.005]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, help_heading = "Reading")]
+    pub(crate) arc_tolerance: Option<f64>,
+    /// Origin of a work coordinate system in the part, mm: G54=x,y,z (repeat for more)
+    #[arg(long, value_name = "G54=X,Y,Z", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Reading")]
+    pub(crate) work_offset: Vec<String>,
+    /// Blocks marked with `/`: run them (the default), or skip them
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Reading")]
+    pub(crate) block_delete: Option<BlockDeleteWord>,
+    /// Where the tool stands before the first block, mm
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading")]
+    pub(crate) start_position_mm: Option<Vec<f64>>,
+    /// How far the chords of arcs may leave them, micrometres [default: 0.4]
+    #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances")]
+    pub(crate) chord_tolerance_um: Option<f64>,
+    /// The report, one HTML file
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) report: Option<PathBuf>,
+    /// All points of the path as a table (CSV)
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    pub(crate) points: Option<PathBuf>,
+    /// Overwrite outputs that exist (never an input)
+    #[arg(long, help_heading = "Outputs")]
+    pub(crate) force_overwrite: bool,
+    /// Number of threads; all cores without it. The result is the same
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+}
+
+const COMPENSATE_HELP: &str = r#"Examples:
+  kinetostat compensate job.toml
+  kinetostat compensate job.toml --tolerance-um 1 --out tighter.ngc
+  kinetostat compensate --model orthoglide --program part.ngc --tool-length-mm 100 \
+      --part-origin-mm 20 20 120 --milling 215 -10 -25 --out part-compensated.ngc
+  kinetostat compensate --map measured.csv --program part.ngc --out corrected.ngc
+  kinetostat compensate --no-compensation --program part.ngc --out copy.ngc
+
+A job file:
+  schema = 1
+  model = "orthoglide"             # a preset, or a file: "machine.toml"
+  program = "part.ngc"             # paths start at the job file
+
+  [placement]
+  part_origin_mm = [20, 20, 120]   # the program's zero point, base axes
+  part_orientation = { a_b_c_kuka_deg = [0, 0, 0] }
+  # tool_orientation = { ... }     # without it, as at home
+  # scale = 1
+
+  [tool]
+  length_mm = 100                  # or pose = { position_mm = [...], ... }
+
+  [load]                           # on feed moves; none in rapids
+  milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }
+  # or force_n = [0, 0, -200], moment_n_m = [0, 0, 1], axes = "base"
+  # below_z_mm = 0, gentle_corner_deg = 30, turning_length_mm = 2
+
+  [reading]
+  # units = "mm", arc_tolerance_mm = 0.005, block_delete = "run"
+  # start_position_mm = [0, 0, 50]
+  # work_offset_mm = { G54 = [0, 0, 0] }
+
+  [tolerances]
+  path_um = 0.5
+  chord_um = 0.4
+  # decimals = 4, max_blocks_per_second = 500
+
+  [output]                         # below the job's own directory
+  program = "compensated.ngc"
+  report = "report.html"
+  json = "result.json"
+  points = "points.csv"
+  # header = true
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: not converged, or a point that cannot be reached
+  130  stopped with Ctrl-C; nothing was written"#;
+
+const DEFLECT_HELP: &str = "\
+Examples:
+  kinetostat deflect orthoglide --at 0 0 0 --force 215 -10 -25
+  kinetostat deflect my_robot.toml --at 1200 0 800 --tool-length-mm 150 \\
+      --rotation a_b_c_kuka_deg=0,90,0 --force 0 0 -500 --moment 0 0 20
+  kinetostat deflect job.toml --report report.html
+  kinetostat deflect orthoglide --program part.ngc --part-origin-mm 0 0 100 \\
+      --tool-length-mm 100 --force 0 0 -200
+
+Force and moment act on the tool at its tip; axes are those of the base.
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: not converged, or a point that cannot be reached
+  130  stopped with Ctrl-C; nothing was written";
+
+const STIFFNESS_HELP: &str = "\
+Examples:
+  kinetostat stiffness orthoglide --at 0 0 0
+  kinetostat stiffness heavy_6r --tool-length-mm 200
+  kinetostat stiffness orthoglide --at 50 50 150 --tool-length-mm 100 --force 215 -10 -25
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: not converged, or a point that cannot be reached";

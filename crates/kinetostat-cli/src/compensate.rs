@@ -1,0 +1,232 @@
+//! `kinetostat compensate`: a program that cuts where it should.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_program::{
+    Accounting, CorrectionMap, Program, interpret, verify_written, write_corrected,
+};
+use serde::Serialize;
+
+use crate::along::{self, Aim, Files as Targets, tell};
+use crate::args::CompensateArgs;
+use crate::failure::{Answer, Failure};
+use crate::input::Files;
+use crate::output::{Existing, Outputs};
+use crate::progress::Progress;
+use crate::screen::{self, Stream, columns, fixed, mm, number, wrapped};
+use crate::setting::{JobFile, Setting, WritingFlags, machine, setting};
+use crate::summary;
+
+pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
+    let files = Files::default();
+    job_after_json(&mut args);
+    let job = args
+        .run
+        .job
+        .as_deref()
+        .map(|path| JobFile::read(&files, path))
+        .transpose()?;
+    let flags = WritingFlags {
+        tolerance_um: args.tolerance_um,
+        decimals: args.decimals,
+        max_blocks_per_second: args.max_blocks_per_second,
+        no_header: args.no_header,
+        again: args.again,
+        out: args.out.as_deref(),
+        json: args.run.json.as_deref(),
+    };
+    let mut setting = setting(&files, job.as_ref(), &args.run.program, &flags)?;
+    let existing = if args.run.program.force_overwrite {
+        Existing::Replace
+    } else {
+        Existing::Refuse
+    };
+    if args.no_compensation {
+        return copy(&setting, existing);
+    }
+    let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
+    if let Some(map) = &args.map {
+        return from_map(&files, map, &setting, existing, to_screen);
+    }
+    let (machine, model) = machine(
+        &files,
+        job.as_ref(),
+        args.run.model.as_deref(),
+        &args.run.program,
+        &mut setting.inputs,
+    )?;
+    // A program that cannot be read is told before outputs are looked at.
+    along::read_program(&setting)?;
+    let mut targets = Targets::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
+    let mut run = along::solve(Aim::Compensate, &machine, &setting, args.run.program.threads)?;
+    run.result
+        .warnings
+        .extend(model.warnings.iter().map(|w| format!("model: {}", w.message)));
+    targets.fill(&run)?;
+    let paths = targets.outputs.commit()?;
+    let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
+    tell(&text, to_screen.then_some(&run.result))
+}
+
+/// `--json job.toml` means the job: the file of `--json` may be left out, and nobody calls a result
+/// `.toml`.
+fn job_after_json(args: &mut CompensateArgs) {
+    let taken = args
+        .run
+        .json
+        .as_ref()
+        .is_some_and(|p| p.extension().is_some_and(|e| e == "toml"));
+    if taken && args.run.job.is_none() {
+        args.run.job = args.run.json.replace(PathBuf::from("-"));
+    }
+}
+
+/// The program as it was read.
+fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
+    let refuse = |error| Failure::input(error).within(&setting.program_name);
+    let program = Program::read(setting.program.clone()).map_err(refuse)?;
+    let mut outputs = Outputs::new(existing, setting.inputs.clone());
+    let mut text = wrapped(
+        &format!(
+            "{}: {} blocks in {} lines, written as read, byte for byte.",
+            setting.program_name,
+            program.block_count(),
+            program.line_count()
+        ),
+        0,
+    );
+    if let Err(error) = interpret(&program, &setting.reading) {
+        text.push_str(&wrapped(
+            &format!("It could not be compensated as it is: {error}."),
+            0,
+        ));
+    }
+    if let Some(target) = &setting.targets.program {
+        let index = outputs.claim("program", target)?;
+        outputs.fill(index, program.bytes())?;
+    }
+    let paths = outputs.commit()?;
+    text.push_str(&along::written(&paths));
+    screen::print(Stream::Out, &text)
+}
+
+/// Result of a program corrected from a table.
+#[derive(Serialize)]
+struct MapResult<'a> {
+    schema: u32,
+    kinetostat_version: &'static str,
+    program: &'a str,
+    map: String,
+    accounting: &'a Accounting,
+    largest_distance_mm: f64,
+    largest_speed_error_percent: f64,
+    warnings: Vec<String>,
+}
+
+fn from_map(
+    files: &Files,
+    map: &Path,
+    setting: &Setting,
+    existing: Existing,
+    to_screen: bool,
+) -> Answer<()> {
+    let t = &setting.targets;
+    if t.report.is_some() || t.points.is_some() {
+        return Err(Failure::input(
+            "--map writes no --report and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
+        ));
+    }
+    let bytes = files.bytes("map", map)?;
+    let field = CorrectionMap::read(&bytes)
+        .map_err(|error| Failure::input(error).within(&map.display().to_string()))?;
+    let (program, path) = along::read_program(setting)?;
+    let mut inputs = setting.inputs.clone();
+    inputs.push(map.to_owned());
+    let mut outputs = Outputs::new(existing, inputs);
+    let mut claim = |what, target: &Option<PathBuf>| {
+        target
+            .as_deref()
+            .map(|path| outputs.claim(what, path))
+            .transpose()
+    };
+    let (out, json_out) = (claim("corrected program", &t.program)?, claim("result", &t.json)?);
+    let mut writing = setting.writing.clone();
+    let name = map
+        .file_name()
+        .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    if let Some(header) = &mut writing.header {
+        *header = vec![
+            format!("version {}", env!("CARGO_PKG_VERSION")),
+            format!("corrections from the table {name}"),
+        ];
+    }
+    let refuse = |error| {
+        Failure::from(kinetostat_machining::RunError::Write(error)).within(&setting.program_name)
+    };
+    let progress = Progress::new();
+    let written =
+        write_corrected(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let check = verify_written(&program, &path, &written, &setting.reading, &writing)
+        .map_err(refuse)?;
+    progress.finish();
+    let a = &written.accounting;
+    let mut warnings: Vec<String> = path
+        .warnings
+        .iter()
+        .chain(&a.warnings)
+        .map(|w| format!("line {}: {}", w.line, w.text))
+        .collect();
+    warnings.dedup();
+    let result = MapResult {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        program: &setting.program_name,
+        map: name,
+        accounting: a,
+        largest_distance_mm: check.largest_distance_mm,
+        largest_speed_error_percent: 100.0 * check.largest_speed_error,
+        warnings,
+    };
+    if let Some(index) = json_out {
+        outputs.fill(index, along::json(&result)?.as_bytes())?;
+    }
+    if let Some(index) = out {
+        outputs.fill(index, &written.bytes)?;
+    }
+    let paths = outputs.commit()?;
+    let row = |name: &str, value: String, unit: &str| {
+        vec![format!("{name}, {unit}"), value]
+    };
+    let mut text = wrapped(
+        &format!("{} corrected by the table {}", setting.program_name, result.map),
+        0,
+    );
+    text.push('\n');
+    text.push_str(&columns(
+        &[
+            row("largest correction", mm(a.largest_correction_mm), "mm"),
+            row("rounding", fixed(a.largest_rounding_mm, 5), "mm"),
+            row(
+                "speed along the part, error",
+                fixed(result.largest_speed_error_percent, 3),
+                "%",
+            ),
+            row("blocks read", a.blocks_in.to_string(), "number"),
+            row("blocks written", a.blocks_out.to_string(), "number"),
+            row("blocks unchanged", a.blocks_carried.to_string(), "number"),
+            row(
+                "most blocks per second",
+                a.peak_blocks_per_second.map_or("?".into(), |b| number(b, 3)),
+                "1/s",
+            ),
+        ],
+        2,
+    ));
+    text.push_str(&summary::warnings(&result.warnings));
+    text.push_str(&along::written(&paths));
+    if to_screen {
+        screen::print(Stream::Err, &text)?;
+        return screen::print_bytes(along::json(&result)?.as_bytes());
+    }
+    screen::print(Stream::Out, &text)
+}

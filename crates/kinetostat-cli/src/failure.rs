@@ -1,0 +1,123 @@
+//! Why a command ends without an answer, and its exit code.
+
+use std::fmt::Display;
+
+use kinetostat_machining::RunError;
+use kinetostat_model::ModelError;
+use kinetostat_program::WriteError;
+
+/// Exit codes, as in the table of `kinetostat --help`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Code {
+    /// The question is wrong: a file, a number, an option.
+    WrongInput = 1,
+    /// The question is right but has no answer: no convergence, a point out of reach.
+    Unanswered = 2,
+    /// Ctrl-C.
+    Stopped = 130,
+}
+
+/// What is told before the program ends.
+#[derive(Clone, Debug)]
+pub(crate) struct Failure {
+    pub(crate) code: Code,
+    /// Plain text, safe for a terminal.
+    pub(crate) plain: String,
+    /// The same with colours, where there are some.
+    pub(crate) styled: Option<String>,
+}
+
+pub(crate) type Answer<T> = Result<T, Failure>;
+
+impl Failure {
+    /// Wrong input.
+    pub(crate) fn input(message: impl Display) -> Self {
+        Self::new(Code::WrongInput, message)
+    }
+
+    /// No answer exists or none was found.
+    pub(crate) fn unanswered(message: impl Display) -> Self {
+        Self::new(Code::Unanswered, message)
+    }
+
+    fn new(code: Code, message: impl Display) -> Self {
+        Self {
+            code,
+            plain: safe(&message.to_string()),
+            styled: None,
+        }
+    }
+
+    pub(crate) fn with_style(mut self, styled: String) -> Self {
+        self.styled = Some(styled);
+        self
+    }
+
+    /// The same failure, told to be in a file.
+    pub(crate) fn within(mut self, place: &str) -> Self {
+        self.plain = format!("{}: {}", safe(place), self.plain);
+        self.styled = None;
+        self
+    }
+}
+
+impl From<ModelError> for Failure {
+    fn from(error: ModelError) -> Self {
+        let plain = error.rendered(false);
+        Self {
+            code: Code::WrongInput,
+            // The model crate has made its text safe; its line structure is wanted.
+            plain: plain.strip_prefix("error: ").unwrap_or(&plain).to_owned(),
+            styled: Some(error.rendered(true)),
+        }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Cancelled | RunError::Write(WriteError::Cancelled) => {
+                Self::new(Code::Stopped, "stopped on request; nothing was written")
+            }
+            error if error.is_unanswered() => Self::unanswered(error),
+            error => Self::input(error),
+        }
+    }
+}
+
+impl From<kinetostat::Error> for Failure {
+    fn from(error: kinetostat::Error) -> Self {
+        let advice = match &error {
+            kinetostat::Error::Unreachable { .. } | kinetostat::Error::OutsideLimits { .. } => {
+                "; choose a place inside the workspace, or check the model's limits and the tool's length"
+            }
+            kinetostat::Error::NotConverged { .. } => {
+                "; the load may be beyond what the machine can carry here: try a part of it"
+            }
+            kinetostat::Error::FreeDirection { .. } => {
+                "; leave that part of the load out, or check passive joints and platform"
+            }
+            _ => "",
+        };
+        let message = format!("{error}{advice}");
+        if error.is_unanswered() {
+            Self::unanswered(message)
+        } else {
+            Self::input(message)
+        }
+    }
+}
+
+/// Text of files and names made safe for a terminal: control characters other than line ends are
+/// replaced, so that a comment cannot move the cursor or change colours.
+pub(crate) fn safe(text: &str) -> String {
+    text.chars()
+        .map(|c| match c {
+            '\n' => c,
+            '\t' => ' ',
+            '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
+            c if c.is_control() => '\u{fffd}',
+            c => c,
+        })
+        .collect()
+}
