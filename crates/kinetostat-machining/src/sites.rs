@@ -11,7 +11,6 @@ use crate::result::PointKind;
 /// A place on the path with its load and, for a written program, what is commanded there.
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
-    pub move_index: usize,
     pub line: usize,
     pub output_line: usize,
     pub kind: PointKind,
@@ -57,7 +56,6 @@ pub(crate) fn of_path(
         let mut push = |share: f64, inside: f64, end: bool| {
             let desired = motion.point(share);
             sites.push(Site {
-                move_index: i,
                 line: motion.line,
                 output_line: 0,
                 kind: kind(motion),
@@ -111,7 +109,6 @@ pub(crate) fn of_written(
         let mut push = |place: f64, wrench: Wrench, end: bool| {
             let share = piece.share_from + place * (piece.share_to - piece.share_from);
             sites.push(Site {
-                move_index: piece.move_index,
                 line: motion.line,
                 output_line: piece.output_line,
                 kind: if piece.corner_step {

@@ -1,0 +1,206 @@
+//! Runs over programs on preset machines.
+
+use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat_machining::{
+    CuttingLoad, LoadAlongPath, Placement, ProgramLoad, Question, Run, RunError, Task, Unwatched,
+    analyse, compensate_program, straight_tool,
+};
+use kinetostat_model::Model;
+use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
+use nalgebra::{Vector3, vector};
+
+const GROOVE: &str = "G21 G90 G17\nG0 X25 Y0 Z5\nG1 Z-2 F300\nG3 X25 Y0 I-25 J0 F600\nG0 Z5\nM2\n";
+
+fn orthoglide() -> Mechanism {
+    let mut model = Model::preset("orthoglide").expect("preset");
+    for (leg, axis) in [
+        ("leg x", Vector3::x()),
+        ("leg y", Vector3::x()),
+        ("leg z", Vector3::x()),
+    ] {
+        model = model
+            .with_deviation(leg, "line", &Pose::rotation(axis * 1_f64.to_radians()))
+            .expect("deviation");
+    }
+    model.mechanism.with_tool(&straight_tool(0.1))
+}
+
+fn milling() -> ProgramLoad {
+    ProgramLoad::new(CuttingLoad::Milling {
+        radial: 215.0,
+        tangential: -10.0,
+        axial: -25.0,
+    })
+}
+
+fn run(
+    mechanism: &Mechanism,
+    text: &str,
+    origin: Vector3<f64>,
+    load: ProgramLoad,
+    write: bool,
+) -> Result<Run, RunError> {
+    let program = Program::read(text).expect("program");
+    let reading = ReadOptions::default();
+    let path = interpret(&program, &reading).expect("path");
+    let task = Task {
+        mechanism,
+        program: &program,
+        reading,
+        path: &path,
+        placement: Placement::at(origin),
+        load,
+        writing: WriteOptions::default(),
+        question: Question::default(),
+    };
+    if write {
+        compensate_program(&task, &Unwatched)
+    } else {
+        analyse(&task, &Unwatched)
+    }
+}
+
+#[test]
+fn the_written_groove_is_within_a_micrometre_also_between_its_points() {
+    let machine = orthoglide();
+    let run = run(&machine, GROOVE, vector![0.0, 0.0, 0.1], milling(), true).expect("run");
+    let summary = &run.result.summary;
+    assert!(summary.max_position_error_before_mm > 0.5, "{summary:?}");
+    assert!(summary.max_position_error_after_mm < 1e-3, "{summary:?}");
+    assert!(summary.max_speed_deviation_percent <= 0.1);
+    assert!(summary.converged && summary.stable);
+    // An independent look at some points: read the written program with the reader, command what it
+    // says, and ask the core where the tool goes.
+    let written = run.written.expect("written");
+    let program = Program::read(written.bytes).expect("written program");
+    let path = interpret(&program, &ReadOptions::default()).expect("written path");
+    let last = &path.moves[path.moves.len() - 2];
+    let commanded = last.end * 1e-3 + vector![0.0, 0.0, 0.1];
+    // The groove ends at angle 0, feed along +y: e_r is +x, e_t is +y.
+    let force = Wrench::new(vector![215.0, -10.0, -25.0], Vector3::zeros());
+    let target = Pose::translation(commanded.x, commanded.y, commanded.z);
+    let tool = machine
+        .posture(&target)
+        .expect("posture")
+        .deflected_by(&force)
+        .expect("equilibrium")
+        .tool;
+    let miss = tool.translation.vector - vector![0.025, 0.0, 0.098];
+    assert!(miss.norm() < 2e-7, "{miss}");
+}
+
+#[test]
+fn the_report_s_own_fixed_point_finds_the_same_targets() {
+    let machine = orthoglide();
+    let result = run(&machine, GROOVE, vector![0.0, 0.0, 0.1], milling(), true)
+        .expect("run")
+        .result;
+    let mut compared = 0;
+    for point in result.points.iter().step_by(97) {
+        let wanted = Vector3::from(point.position_mm) * 1e-3 + vector![0.0, 0.0, 0.1];
+        let wrench = Wrench::new(Vector3::from(point.force_n), Vector3::zeros());
+        // t0 <- t0 + (t - f^-1(F | t0)) [R 7.13]
+        let mut t0 = wanted;
+        for _ in 0..12 {
+            let posture = machine
+                .posture(&Pose::translation(t0.x, t0.y, t0.z))
+                .expect("posture");
+            let tool = posture.deflected_by(&wrench).expect("equilibrium").tool;
+            t0 += wanted - tool.translation.vector;
+        }
+        let correction = (t0 - wanted) * 1e3;
+        let written = Vector3::from(point.correction_mm);
+        assert!(
+            (correction - written).norm() < 1e-3,
+            "line {}: {correction} {written}",
+            point.line
+        );
+        compared += 1;
+    }
+    assert!(compared > 5);
+}
+
+#[test]
+fn analysis_tells_the_errors_that_compensation_removes() {
+    let machine = orthoglide();
+    let origin = vector![0.0, 0.0, 0.1];
+    let before = run(&machine, GROOVE, origin, milling(), false)
+        .expect("analysis")
+        .result;
+    let both = run(&machine, GROOVE, origin, milling(), true)
+        .expect("compensation")
+        .result;
+    assert!(!before.question.compensated && both.question.compensated);
+    let (a, b) = (
+        before.summary.max_position_error_before_mm,
+        both.summary.max_position_error_before_mm,
+    );
+    assert!((a - b).abs() < 0.01 * a, "{a} {b}");
+    assert_eq!(before.worst_points[0].line, both.worst_points[0].line);
+}
+
+#[test]
+fn a_point_out_of_reach_is_named_with_its_line() {
+    let machine = orthoglide();
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nG1 X900\n";
+    for write in [false, true] {
+        let error =
+            run(&machine, text, Vector3::zeros(), milling(), write).expect_err("out of reach");
+        assert!(error.is_unanswered(), "{error}");
+        assert!(error.to_string().starts_with("line 4:"), "{error}");
+        assert!(error.to_string().contains("placement"), "{error}");
+    }
+}
+
+#[test]
+fn one_thread_and_two_write_the_same_bytes() {
+    let machine = orthoglide();
+    let bytes = |threads| {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("pool")
+            .install(|| run(&machine, GROOVE, vector![0.0, 0.0, 0.1], milling(), true))
+            .map(|run| {
+                (
+                    run.written.expect("written").bytes,
+                    format!("{:?}", run.points),
+                )
+            })
+            .expect("run")
+    };
+    assert_eq!(bytes(1), bytes(2));
+}
+
+#[test]
+fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
+    let model = Model::preset("heavy_6r").expect("preset");
+    let home = model.mechanism.platforms()[model.mechanism.tool()].home;
+    let program = Program::read(GROOVE).expect("program");
+    let reading = ReadOptions::default();
+    let path = interpret(&program, &reading).expect("path");
+    let placement = Placement {
+        base_from_part: Pose::from_parts(home.translation, nalgebra::UnitQuaternion::identity()),
+        tool_orientation: home.rotation,
+        scale: 1.0,
+    };
+    let task = Task {
+        mechanism: &model.mechanism,
+        program: &program,
+        reading,
+        path: &path,
+        placement,
+        load: milling(),
+        writing: WriteOptions::default(),
+        question: Question::default(),
+    };
+    let summary = compensate_program(&task, &Unwatched)
+        .expect("run")
+        .result
+        .summary;
+    assert!(summary.max_position_error_before_mm > 0.3, "{summary:?}");
+    assert!(summary.max_position_error_after_mm < 1e-3, "{summary:?}");
+    // Where the load is off (rapids), gravity is still there.
+    let load = LoadAlongPath::new(milling(), &path);
+    assert_eq!(load.wrench(&placement, 0, 1.0), Wrench::zero());
+}
