@@ -197,3 +197,107 @@ fn a_tool_far_from_the_platform_is_corrected_at_its_own_tip() {
         assert_eq!(c.posture.correctable(), POSITION);
     }
 }
+
+#[test]
+fn what_can_be_corrected_does_not_depend_on_the_tool_frame() {
+    let machine = Orthoglide::default().build();
+    let mut rng = Rng(31);
+    for index in 0..5 {
+        let tool = rng.pose(0.2, 1.5);
+        let other = machine.with_tool(&tool);
+        let posture = other.posture(&(orthoglide_point(index) * tool)).unwrap();
+        let basis = posture.mobility();
+        assert_eq!(basis.ncols(), 3);
+        assert!(
+            basis.rows(3, 3).amax() < 1e-9,
+            "it translates only: {basis}"
+        );
+        assert_eq!(posture.correctable(), POSITION);
+    }
+}
+
+#[test]
+fn the_rates_of_the_commands_are_exact() {
+    // With exact tangents the combined iteration is quadratic: few steps, no fallback.
+    let wrench = Wrench::new(vector![215.0, -10.0, -25.0], vector![1.0, 21.5, 0.0]);
+    let machine = Orthoglide {
+        line_error: 0.017,
+        ..Default::default()
+    }
+    .build();
+    for index in 0..5 {
+        let c = compensate(
+            &machine,
+            &orthoglide_point(index),
+            &wrench,
+            POSITION,
+            &Settings::default(),
+        )
+        .unwrap();
+        assert!(
+            c.equilibrium.residual.iterations <= 6,
+            "{}",
+            c.equilibrium.residual.iterations
+        );
+    }
+    let machine = heavy_arm();
+    let mut rng = Rng(41);
+    for _ in 0..4 {
+        let (desired, joints) = reachable(&machine, &mut rng);
+        let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
+        let c = compensate_from(
+            &posture,
+            &desired,
+            &rng.wrench(2000.0, 300.0),
+            [true; 6],
+            posture.rest_state(),
+        )
+        .unwrap();
+        assert!(
+            c.equilibrium.residual.iterations <= 6,
+            "{}",
+            c.equilibrium.residual.iterations
+        );
+    }
+}
+
+#[test]
+fn the_lean_answer_is_the_full_one() {
+    let machine = Orthoglide {
+        line_error: 0.017,
+        ..Default::default()
+    }
+    .build();
+    let wrench = Wrench::new(vector![215.0, -10.0, -25.0], vector![1.0, 21.5, 0.0]);
+    let posture = machine.posture(&orthoglide_point(3)).unwrap();
+    let lean = posture.rest_under(&wrench, posture.rest_state()).unwrap();
+    assert_eq!(lean, posture.deflected_by(&wrench).unwrap().state);
+}
+
+#[test]
+fn the_mobility_of_a_turned_lever_is_that_of_its_tool_point() {
+    use kinetostat::{ActuatorSpec, Chain, MotionKind};
+    let lever = Chain::builder("lever")
+        .actuator(
+            "turn",
+            ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), 1e6),
+        )
+        .translation(vector![1.0, 0.0, 0.0])
+        .build()
+        .unwrap();
+    let machine = Mechanism::serial(lever, Pose::identity(), Vector3::zeros())
+        .unwrap()
+        .with_tool(&Pose::translation(0.3, 0.4, 0.2));
+    let target = Pose::rotation(Vector3::z() * 1.1) * Pose::translation(1.3, 0.4, 0.2);
+    let posture = machine.posture(&target).unwrap();
+    let basis = posture.mobility();
+    assert_eq!(basis.ncols(), 1);
+    // Natural length 1 m: the motion is [z x p; z].
+    let p = target.translation.vector;
+    let motion = nalgebra::DVector::from_row_slice(&[-p.y, p.x, 0.0, 0.0, 0.0, 1.0]).normalize();
+    assert!(
+        (basis.column(0).dot(&motion).abs() - 1.0).abs() < 1e-9,
+        "{basis}"
+    );
+    assert_eq!(posture.correctable().iter().filter(|d| **d).count(), 1);
+}
