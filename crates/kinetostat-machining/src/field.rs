@@ -1,6 +1,6 @@
 //! The model as a field of corrections for the program writer.
 
-use kinetostat::{Error, Mechanism};
+use kinetostat::{Error, Mechanism, Wrench};
 use kinetostat_program::{CorrectionField, FieldFailure, Request};
 use nalgebra::Vector3;
 
@@ -19,13 +19,31 @@ pub struct ModelField<'a> {
     pub load: &'a LoadAlongPath<'a>,
 }
 
+impl ModelField<'_> {
+    fn wrench(&self, request: &Request) -> Wrench {
+        match request.turning {
+            None => self
+                .load
+                .wrench(&self.placement, request.move_index, request.share),
+            Some(turn) => self.load.turning_wrench(
+                &self.placement,
+                (turn.from_move, turn.from_share),
+                (request.move_index, turn.to_share),
+                turn.part,
+            ),
+        }
+    }
+}
+
 impl CorrectionField for ModelField<'_> {
+    fn turns(&self) -> bool {
+        true
+    }
+
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
         in_chunks(requests, |memory, _, request| {
             let pose = self.placement.tool_pose(&request.position_mm);
-            let wrench = self
-                .load
-                .wrench(&self.placement, request.move_index, request.share);
+            let wrench = self.wrench(request);
             memory[0]
                 .target(self.mechanism, &pose, &wrench)
                 .map(|posture| {

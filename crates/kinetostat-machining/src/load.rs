@@ -200,6 +200,21 @@ impl<'a> LoadAlongPath<'a> {
         }
     }
 
+    /// Wrench while the tool stands at a corner and the load has turned by `part` from that of one
+    /// place of the path to that of another (move and share): evenly, component by component.
+    #[must_use]
+    pub fn turning_wrench(
+        &self,
+        placement: &Placement,
+        from: (usize, f64),
+        to: (usize, f64),
+        part: f64,
+    ) -> Wrench {
+        let before = self.wrench(placement, from.0, from.1);
+        let after = self.wrench(placement, to.0, to.1);
+        Wrench(before.0.lerp(&after.0, part))
+    }
+
     fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
         let motion = &self.path.moves[move_index];
         let own = heading(motion.tangent(share))?;

@@ -25,9 +25,6 @@ pub(crate) struct Site {
     pub end: bool,
 }
 
-/// Shares this far inside a piece decide which side of a jump of the load it is on.
-const INSIDE: f64 = 1e-9;
-
 /// Length of the path before every move, mm.
 fn starts(path: &Path) -> Vec<f64> {
     let mut length = 0.0;
@@ -53,7 +50,7 @@ pub(crate) fn of_path(
     let starts = starts(path);
     let mut sites = Vec::new();
     for (i, motion) in path.moves.iter().enumerate() {
-        let mut push = |share: f64, inside: f64, end: bool| {
+        let mut push = |share: f64, end: bool| {
             let desired = motion.point(share);
             sites.push(Site {
                 line: motion.line,
@@ -63,13 +60,13 @@ pub(crate) fn of_path(
                 path_mm: starts[i] + share * motion.length_mm(),
                 desired,
                 commanded: desired,
-                wrench: load.wrench(placement, i, (share + inside).clamp(0.0, 1.0)),
+                wrench: load.wrench(placement, i, share),
                 end,
             });
         };
         match (motion.known, motion.kind) {
             (Knowledge::Nothing, _) => {}
-            (Knowledge::End, _) | (_, MoveKind::Rapid) => push(1.0, 0.0, true),
+            (Knowledge::End, _) | (_, MoveKind::Rapid) => push(1.0, true),
             (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => {}
             (Knowledge::Whole, MoveKind::Feed) => {
                 let pieces = match &motion.curve {
@@ -78,8 +75,8 @@ pub(crate) fn of_path(
                 };
                 for k in 0..pieces {
                     let share = |x: f64| (k as f64 + x) / pieces as f64;
-                    push(share(0.5), 0.0, false);
-                    push(share(1.0), -INSIDE, true);
+                    push(share(0.5), false);
+                    push(share(1.0), true);
                 }
             }
         }
@@ -96,16 +93,11 @@ pub(crate) fn of_written(
 ) -> Vec<Site> {
     let starts = starts(path);
     let mut sites = Vec::with_capacity(2 * written.pieces.len());
-    let mut before = Wrench::zero();
-    for piece in written.pieces.iter().filter(|p| p.corrected) {
+    for (index, piece) in written.pieces.iter().enumerate() {
         let motion = &path.moves[piece.move_index];
-        let at = |share: f64, inside: f64| {
-            load.wrench(
-                placement,
-                piece.move_index,
-                (share + inside).clamp(0.0, 1.0),
-            )
-        };
+        if !piece.corrected || motion.known == Knowledge::Nothing || motion.length_mm() == 0.0 {
+            continue;
+        }
         let mut push = |place: f64, wrench: Wrench, end: bool| {
             let share = piece.share_from + place * (piece.share_to - piece.share_from);
             sites.push(Site {
@@ -124,27 +116,25 @@ pub(crate) fn of_written(
                 end,
             });
         };
-        if piece.corner_step {
-            // The load turns while the tool steps: half of it is there half-way.
-            let after = at(piece.share_to, INSIDE);
-            push(0.5, Wrench(0.5 * (before.0 + after.0)), false);
-            push(1.0, after, true);
-            before = after;
+        if let Some(turn) = piece.turn {
+            for (place, end) in [(0.5, false), (1.0, true)] {
+                let part = turn.part_from + place * (turn.part_to - turn.part_from);
+                let from = (turn.from_move, turn.from_share);
+                let to = (piece.move_index, turn.to_share);
+                push(place, load.turning_wrench(placement, from, to, part), end);
+            }
             continue;
         }
-        let standing = motion.length_mm() == 0.0;
-        if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole && !standing {
-            push(
-                0.5,
-                at(0.5 * (piece.share_from + piece.share_to), 0.0),
-                false,
-            );
+        if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole {
+            let share = 0.5 * (piece.share_from + piece.share_to);
+            push(0.5, load.wrench(placement, piece.move_index, share), false);
         }
-        let end = at(piece.share_to, -INSIDE);
-        if !standing {
-            push(1.0, end, true);
-        }
-        before = end;
+        // A piece that ends at a jump of the load ends before it.
+        let next_turn = written.pieces.get(index + 1).and_then(|next| next.turn);
+        let share = next_turn
+            .filter(|turn| turn.from_move == piece.move_index)
+            .map_or(piece.share_to, |turn| turn.from_share);
+        push(1.0, load.wrench(placement, piece.move_index, share), true);
     }
     sites
 }

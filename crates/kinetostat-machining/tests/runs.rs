@@ -90,6 +90,21 @@ fn the_written_groove_is_within_a_micrometre_also_between_its_points() {
 }
 
 #[test]
+fn sharp_corners_and_cuts_that_begin_half_way_are_followed_within_a_micrometre() {
+    let machine = orthoglide();
+    let text = "G21 G90\nG0 X0 Y0 Z5\nG1 Z-2 F300\nG1 X30\nG1 Y20\nG1 X0\nG1 Y0\nG0 Z5\n";
+    let mut law = milling();
+    law.below_z_mm = Some(0.0);
+    let summary = run(&machine, text, vector![0.0, 0.0, 0.1], law, true)
+        .expect("run")
+        .result
+        .summary;
+    assert!(summary.corner_steps >= 5, "{summary:?}");
+    assert!(summary.largest_corner_step_mm > 0.05, "{summary:?}");
+    assert!(summary.max_position_error_after_mm < 1e-3, "{summary:?}");
+}
+
+#[test]
 fn the_report_s_own_fixed_point_finds_the_same_targets() {
     let machine = orthoglide();
     let result = run(&machine, GROOVE, vector![0.0, 0.0, 0.1], milling(), true)
@@ -144,8 +159,8 @@ fn a_point_out_of_reach_is_named_with_its_line() {
     let machine = orthoglide();
     let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nG1 X900\n";
     for write in [false, true] {
-        let error =
-            run(&machine, text, Vector3::zeros(), milling(), write).expect_err("out of reach");
+        let error = run(&machine, text, vector![0.0, 0.0, 0.1], milling(), write)
+            .expect_err("out of reach");
         assert!(error.is_unanswered(), "{error}");
         assert!(error.to_string().starts_with("line 4:"), "{error}");
         assert!(error.to_string().contains("placement"), "{error}");

@@ -17,6 +17,7 @@ use crate::error::WriteError;
 use crate::field::{CorrectionField, Monitor, Request};
 use crate::merge::{Sample, merge};
 use crate::path::{Knowledge, Move, MoveKind, Path};
+use crate::turn::{Jump, follow_turns};
 use crate::write::WriteOptions;
 
 /// Points asked for in one call of the field.
@@ -30,11 +31,29 @@ pub(crate) struct Node {
     pub share: f64,
     pub before: Vector3<f64>,
     pub after: Vector3<f64>,
+    /// Shares between which the correction jumps, where it jumps inside the move.
+    pub bracket: [f64; 2],
+    /// Index of the jump at this node, see [`Division::jumps`].
+    pub jump: Option<usize>,
+}
+
+impl Node {
+    fn smooth(move_index: usize, share: f64, value: Vector3<f64>) -> Self {
+        Self {
+            move_index,
+            share,
+            before: value,
+            after: value,
+            bracket: [share; 2],
+            jump: None,
+        }
+    }
 }
 
 /// All nodes, by move and share.
 pub(crate) struct Division {
     pub nodes: Vec<Node>,
+    pub jumps: Vec<Jump>,
     pub evaluations: usize,
     /// Largest part of a correction along axes that the program never states, in mm.
     pub left_out_mm: f64,
@@ -132,9 +151,11 @@ pub(crate) fn divide(
             .cmp(&b.move_index)
             .then(a.share.total_cmp(&b.share))
     });
-    let nodes = merge(nodes, &samples, options.tolerance_mm);
+    let mut nodes = merge(nodes, &samples, options.tolerance_mm);
+    let jumps = follow_turns(&mut asker, &mut nodes, options)?;
     Ok(Division {
         nodes,
+        jumps,
         evaluations: asker.answered,
         left_out_mm: asker.left_out_mm,
     })
@@ -184,12 +205,7 @@ fn first_round(
             at += 2 * count + 1;
             for chord in 0..=count {
                 let (share, value) = (shares[2 * chord].share, values[2 * chord]);
-                nodes.push(Node {
-                    move_index,
-                    share,
-                    before: value,
-                    after: value,
-                });
+                nodes.push(Node::smooth(move_index, share, value));
             }
             for chord in 0..count {
                 open.push(Stretch {
@@ -203,12 +219,7 @@ fn first_round(
         } else if is_corrected_at_end(motion) {
             let value = answers[at];
             at += 1;
-            nodes.push(Node {
-                move_index,
-                share: 1.0,
-                before: value,
-                after: value,
-            });
+            nodes.push(Node::smooth(move_index, 1.0, value));
         }
     }
     Ok(open)
@@ -289,15 +300,12 @@ fn next_round(
                 share,
                 before: first,
                 after: last,
+                bracket: stretch.share,
+                jump: None,
             });
             continue;
         }
-        nodes.push(Node {
-            move_index,
-            share,
-            before: middle,
-            after: middle,
-        });
+        nodes.push(Node::smooth(move_index, share, middle));
         let [low, high] = match stretch.quarters {
             Some([low, high]) => [Some(low), Some(high)],
             None => [None, None],
@@ -321,16 +329,16 @@ fn next_round(
 }
 
 /// Asks the field and checks its answers.
-struct Asker<'a> {
-    path: &'a Path,
-    field: &'a dyn CorrectionField,
+pub(crate) struct Asker<'a> {
+    pub path: &'a Path,
+    pub field: &'a dyn CorrectionField,
     monitor: &'a dyn Monitor,
     answered: usize,
     left_out_mm: f64,
 }
 
 impl Asker<'_> {
-    fn request(&self, move_index: usize, share: f64) -> Request {
+    pub fn request(&self, move_index: usize, share: f64) -> Request {
         let motion = &self.path.moves[move_index];
         let tangent = if motion.known == Knowledge::Whole {
             motion.tangent(share)
@@ -342,10 +350,11 @@ impl Asker<'_> {
             share,
             position_mm: motion.point(share),
             tangent,
+            turning: None,
         }
     }
 
-    fn ask(&mut self, requests: &[Request]) -> Result<Vec<Vector3<f64>>, WriteError> {
+    pub fn ask(&mut self, requests: &[Request]) -> Result<Vec<Vector3<f64>>, WriteError> {
         let mut values = Vec::with_capacity(requests.len());
         let total = self.answered + requests.len();
         for batch in requests.chunks(BATCH) {

@@ -11,6 +11,7 @@ use crate::path::{
 };
 use crate::program::{Line, Program};
 use crate::render::{BlockWriter, ProgramStyle};
+use crate::turn::{Jump, Turn};
 use crate::write::{Corrected, Piece, WriteOptions};
 
 /// What the controller that runs the output holds at a line.
@@ -33,6 +34,7 @@ pub(crate) struct Step {
     /// Where to go, before rounding, in mm.
     pub target: Vector3<f64>,
     pub corner_step: bool,
+    pub turn: Option<Turn>,
     pub corrected: bool,
 }
 
@@ -42,6 +44,7 @@ pub(crate) struct Emitter<'a> {
     options: &'a WriteOptions,
     style: ProgramStyle,
     nodes: Vec<Node>,
+    jumps: Vec<Jump>,
     next_node: usize,
     state: OutputState,
     bytes: Vec<u8>,
@@ -103,6 +106,7 @@ impl<'a> Emitter<'a> {
                 ..Accounting::default()
             },
             nodes: division.nodes,
+            jumps: division.jumps,
             rate: Rate::default(),
             rate_in: Rate::default(),
         }
@@ -244,6 +248,7 @@ impl<'a> Emitter<'a> {
                 commanded_to: motion.end,
                 output_line: self.output_line - 1,
                 corner_step: false,
+                turn: None,
                 corrected: false,
             });
             return Ok(());
@@ -273,6 +278,7 @@ impl<'a> Emitter<'a> {
                 commanded_to: self.state.position,
                 output_line,
                 corner_step: step.corner_step,
+                turn: step.turn,
                 corrected: step.corrected,
             });
         }
@@ -296,6 +302,7 @@ impl<'a> Emitter<'a> {
             share_to: 1.0,
             target,
             corner_step: false,
+            turn: None,
             corrected,
         };
         let Some(end) = nodes.last() else {
@@ -308,27 +315,41 @@ impl<'a> Emitter<'a> {
         let mut steps = Vec::with_capacity(nodes.len());
         let mut share_from = 0.0;
         let mut reached = self.state.target;
-        let mut go = |target: Vector3<f64>, share_to: f64, corner_step: bool| {
-            steps.push(Step {
-                share_from,
-                share_to,
-                target,
-                corner_step,
-                corrected: true,
-            });
-            share_from = share_to;
-        };
+        let mut go =
+            |target: Vector3<f64>, share_to: f64, corner_step: bool, turn: Option<Turn>| {
+                steps.push(Step {
+                    share_from,
+                    share_to,
+                    target,
+                    corner_step,
+                    turn,
+                    corrected: true,
+                });
+                share_from = share_to;
+            };
         for (index, node) in nodes.iter().enumerate() {
             let point = motion.point(node.share);
             if index > 0 {
                 reached = point + node.before;
-                go(reached, node.share, false);
+                go(reached, node.share, false, None);
             }
             if index + 1 < nodes.len() {
                 let jump = (point + node.after - reached).norm();
                 if jump > smallest_step {
                     reached = point + node.after;
-                    go(reached, node.share, true);
+                    let jump = node.jump.map(|jump| &self.jumps[jump]);
+                    let mut done = 0.0;
+                    for &(part, correction) in jump.iter().flat_map(|jump| &jump.inner) {
+                        let turn = jump.map(|jump| jump.between(done, part));
+                        go(point + correction, node.share, true, turn);
+                        done = part;
+                    }
+                    go(
+                        reached,
+                        node.share,
+                        true,
+                        jump.map(|jump| jump.between(done, 1.0)),
+                    );
                 } else {
                     let taken_up = &mut self.accounting.largest_jump_taken_up_mm;
                     *taken_up = taken_up.max(jump);

@@ -14,6 +14,22 @@ pub struct Request {
     /// Direction of motion there, a unit vector; `None` where the move has no length or its start is
     /// not known.
     pub tangent: Option<Vector3<f64>>,
+    /// Inside a corner step: how far the load has turned. `None` on the path itself.
+    pub turning: Option<Turning>,
+}
+
+/// A point inside a corner step, where the tool stands on the part and the load turns from that of
+/// one place of the path to that of another, as far as `part` says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turning {
+    /// Move whose load holds before the step.
+    pub from_move: usize,
+    /// Share of that move.
+    pub from_share: f64,
+    /// Share of the request's own move whose load holds after the step.
+    pub to_share: f64,
+    /// 0 is before, 1 is after.
+    pub part: f64,
 }
 
 /// Why a field has no correction for a point.
@@ -41,6 +57,12 @@ impl FieldFailure {
 pub trait CorrectionField: Sync {
     /// Corrections in mm, part axes, to be added to the positions asked for.
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>>;
+
+    /// Whether the field knows what happens inside a corner step ([`Request::turning`]). Otherwise
+    /// such a step is one straight piece.
+    fn turns(&self) -> bool {
+        false
+    }
 }
 
 /// A closure that answers one request is a field.

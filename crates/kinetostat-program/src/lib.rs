@@ -61,6 +61,7 @@ mod path;
 mod program;
 mod render;
 mod syntax;
+mod turn;
 mod verify;
 mod verify_text;
 mod write;
@@ -69,7 +70,9 @@ pub use accounting::Accounting;
 pub use curve::{Arc, Curve};
 pub use dialect::{CODES, Code, Treatment};
 pub use error::{MapError, ProgramError, WriteError};
-pub use field::{CorrectionField, FieldFailure, Monitor, NoCorrection, Request, Unwatched};
+pub use field::{
+    CorrectionField, FieldFailure, Monitor, NoCorrection, Request, Turning, Unwatched,
+};
 pub use interpret::interpret;
 pub use map::CorrectionMap;
 pub use options::{BlockDelete, ReadOptions, Units};
@@ -77,5 +80,6 @@ pub use path::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
 };
 pub use program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
+pub use turn::Turn;
 pub use verify::{Verification, verify_written};
 pub use write::{Corrected, Piece, WriteOptions, write_corrected};

@@ -10,6 +10,7 @@ use crate::error::WriteError;
 use crate::field::{CorrectionField, Monitor};
 use crate::path::Path;
 use crate::program::Program;
+use crate::turn::Turn;
 
 /// How a corrected program is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,6 +118,8 @@ pub struct Piece {
     pub output_line: usize,
     /// A step at one place of the part, where the correction jumps.
     pub corner_step: bool,
+    /// Which part of the load's turn such a step covers.
+    pub turn: Option<Turn>,
     /// Whether the field's correction is in its end; otherwise the move is carried (its place is not
     /// known) or has no length.
     pub corrected: bool,

@@ -131,6 +131,7 @@ fn check_places(path: &Path, written: &Corrected, waves: &Waves, writing: &Write
                 share,
                 position_mm: motion.point(share),
                 tangent: motion.tangent(share),
+                turning: None,
             })
         };
         if !piece.corrected {

@@ -58,7 +58,7 @@ pub fn compensate_from<'m>(
     start: MechanismState,
 ) -> Result<Compensation<'m>> {
     let (mut solver, residual) = solve_target(near, desired, wrench, directions, start)?;
-    let equilibrium = conclude(&mut solver, *wrench, residual);
+    let equilibrium = conclude(&mut solver, *wrench, residual)?;
     Ok(Compensation {
         correction: pose_residual(&solver.target, desired),
         left_over: pose_residual(&equilibrium.tool, desired),
@@ -137,7 +137,37 @@ fn solve_target<'m>(
         Some((iterations, balance)) => balance.residual(iterations),
         None => fixed_point(&mut solver, desired, directions)?,
     };
+    let residual = undo_drift(&mut solver, desired, directions, residual);
     Ok((solver, residual))
+}
+
+/// A rotation about one axis is held to second order only while the tool turns about others: the
+/// rest is taken out and the machine solved again.
+fn undo_drift(
+    solver: &mut PlatformSolver<'_>,
+    desired: &Pose,
+    directions: [bool; 6],
+    mut residual: Residual,
+) -> Residual {
+    let tool = solver.mechanism.tool();
+    for _ in 0..4 {
+        let miss = pose_residual(desired, &solver.state.platforms[tool]);
+        let mut drift = Twist::zero();
+        for k in (3..6).filter(|&k| directions[k]) {
+            drift.0[k] = miss.0[k];
+        }
+        if drift.angular().norm() < 1e-14 || solver.unknowns == Unknowns::Pose {
+            break;
+        }
+        solver.state.platforms[tool] = crate::spatial::moved(&solver.state.platforms[tool], &drift);
+        match solver.solve(1.0, 0) {
+            Ok((iterations, balance)) => {
+                residual = balance.residual(residual.iterations + iterations);
+            }
+            Err(_) => break,
+        }
+    }
+    residual
 }
 
 /// The report's own iteration with `a = 1` [R 7.13], each step a robust equilibrium.

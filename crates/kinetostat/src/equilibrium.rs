@@ -492,6 +492,29 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
             value,
         });
     }
+    for load in &problem.loads {
+        let (values, node) = match load {
+            Load::Dead { node, wrench } => (wrench.0.as_slice().to_vec(), Some(*node)),
+            Load::Gravity(g) => (g.as_slice().to_vec(), None),
+            Load::Custom(_) => (Vec::new(), None),
+        };
+        if let Some(&value) = values.iter().find(|v| !v.is_finite()) {
+            return Err(Error::NotFinite {
+                place: format!("chain '{}'", chain.name()),
+                what: "a load".into(),
+                value,
+            });
+        }
+        if let Some(node) = node.filter(|&n| n > chain.tip()) {
+            return Err(Error::model(
+                format!("chain '{}'", chain.name()),
+                format!(
+                    "a load acts on node {node}, the last one is {}",
+                    chain.tip()
+                ),
+            ));
+        }
+    }
     let mut attempt = Attempt {
         problem,
         settings,

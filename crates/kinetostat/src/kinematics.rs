@@ -96,7 +96,7 @@ impl Kinematics {
             match element {
                 Element::Rigid(pose) => {
                     point += rotation * pose.translation.vector;
-                    if pose.rotation.w.abs() < 1.0 {
+                    if pose.rotation.imag() != Vector3::zeros() {
                         rotation *= pose.rotation.to_rotation_matrix().matrix();
                     }
                 }

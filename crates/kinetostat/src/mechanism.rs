@@ -253,10 +253,12 @@ impl MechanismBuilder {
             }
             let same = limb.nominal.coordinates == limb.actual.coordinates
                 && limb.nominal.actuators == limb.actual.actuators
+                && limb.nominal.springs == limb.actual.springs
+                && limb.nominal.bodies == limb.actual.bodies
                 && limb.nominal.nodes == limb.actual.nodes;
             if !same {
                 return fault(format!(
-                    "limb '{}': nominal and actual chain must have the same joints, springs and nodes",
+                    "limb '{}': nominal and actual chain must have the same joints, springs, masses and nodes",
                     limb.name
                 ));
             }

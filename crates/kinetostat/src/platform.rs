@@ -39,7 +39,7 @@ pub struct MechanismState {
 pub(crate) enum Unknowns {
     /// All platforms move; commands are given.
     Pose,
-    /// All platforms are held; wrenches follow.
+    /// The tool is held and its wrench follows; other platforms move.
     Held,
     /// The tool is held in the directions that are `true` and the nominal target moves there
     /// instead: compensation.
@@ -237,8 +237,9 @@ impl<'m> PlatformSolver<'m> {
             forces = forces.max(size(f));
         }
         let mut force = 0.0_f64;
-        if self.unknowns != Unknowns::Held {
-            for w in lack.iter().skip(1) {
+        for (k, w) in lack.iter().enumerate().skip(1) {
+            // Whoever holds the tool supplies what it lacks.
+            if self.unknowns != Unknowns::Held || k != m.tool {
                 force = force.max(size(w));
                 merit += size(w).powi(2);
             }
@@ -385,8 +386,8 @@ impl<'m> PlatformSolver<'m> {
     fn platform_step(&self, lack: &[Wrench]) -> Option<(Vec<Twist>, Twist, usize)> {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
-        if self.unknowns == Unknowns::Held {
-            return Some((vec![Twist::zero(); p], Twist::zero(), 0));
+        if self.unknowns == Unknowns::Held && p == 1 {
+            return Some((vec![Twist::zero()], Twist::zero(), 0));
         }
         let (mut a, by_target) = self.tangents();
         let mut b = DMatrix::zeros(6 * p, 1);
@@ -417,6 +418,20 @@ impl<'m> PlatformSolver<'m> {
         };
         for k in (0..6).filter(|&k| held[k]) {
             a.column_mut(tool + k).copy_from(&by_target.column(k));
+        }
+        if self.unknowns == Unknowns::Held {
+            // The tool stays; the other platforms find their places.
+            for k in 0..6 {
+                let unit = if k < 3 {
+                    1.0
+                } else {
+                    self.length * self.length
+                };
+                a.column_mut(tool + k).fill(0.0);
+                a.row_mut(tool + k).fill(0.0);
+                a[(tool + k, tool + k)] = self.stiffness * unit;
+                b[(tool + k, 0)] = 0.0;
+            }
         }
         let root = self.stiffness.sqrt();
         let scale: Vec<f64> = (0..6 * p)

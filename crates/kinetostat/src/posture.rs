@@ -216,6 +216,13 @@ impl Mechanism {
             if limb.to == moved.tool {
                 limb.platform_from_tip = inverse * limb.platform_from_tip;
             }
+            if limb.from == moved.tool {
+                for chain in [&mut limb.nominal, &mut limb.actual] {
+                    chain
+                        .elements
+                        .insert(0, crate::chain::Element::Rigid(inverse));
+                }
+            }
         }
         let platform = &mut moved.platforms[moved.tool];
         platform.home *= *tool;
@@ -319,6 +326,12 @@ impl<'m> Posture<'m> {
     /// Wrong sizes only; a singular stiffness is a result.
     pub fn stiffness(&self) -> Result<UnloadedStiffness> {
         let m = self.mechanism;
+        if m.platforms.len() > 2 {
+            return Err(Error::model(
+                format!("mechanism '{}'", m.name),
+                "its unloaded stiffness needs platforms between base and tool condensed: ask an equilibrium without load",
+            ));
+        }
         let mut total = Matrix6::zeros();
         let mut limbs = Vec::new();
         for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
@@ -358,7 +371,7 @@ impl<'m> Posture<'m> {
         start: MechanismState,
     ) -> Result<MechanismEquilibrium> {
         let (mut solver, residual) = self.settled(wrench, start)?;
-        Ok(conclude(&mut solver, *wrench, residual))
+        conclude(&mut solver, *wrench, residual)
     }
 
     /// Only where the platforms and limbs come to rest: [`Self::deflected_from`] without stiffness
@@ -370,11 +383,23 @@ impl<'m> Posture<'m> {
         Ok(self.settled(wrench, start)?.0.state)
     }
 
+    fn finite<'a>(&self, what: &str, mut values: impl Iterator<Item = &'a f64>) -> Result<()> {
+        match values.find(|x| !x.is_finite()) {
+            None => Ok(()),
+            Some(&value) => Err(Error::NotFinite {
+                place: format!("mechanism '{}'", self.mechanism.name),
+                what: what.into(),
+                value,
+            }),
+        }
+    }
+
     fn settled(
         &self,
         wrench: &Wrench,
         start: MechanismState,
     ) -> Result<(PlatformSolver<'m>, Residual)> {
+        self.finite("the wrench", wrench.0.iter())?;
         let mut solver = self.solver(start, Unknowns::Pose);
         solver.wrench = *wrench;
         match solver.solve_robustly() {
@@ -409,11 +434,12 @@ impl<'m> Posture<'m> {
     /// # Errors
     /// [`Error::NotConverged`], for instance for a pose that the limbs cannot follow.
     pub fn wrench_at(&self, pose: &Pose) -> Result<MechanismEquilibrium> {
+        self.finite("the pose", pose.to_homogeneous().iter())?;
         let mut state = self.rest_state();
         state.platforms[self.mechanism.tool] = *pose;
         let mut solver = self.solver(state, Unknowns::Held);
         let residual = solver.solve_robustly()?;
-        let mut result = conclude(&mut solver, Wrench::zero(), residual);
+        let mut result = conclude(&mut solver, Wrench::zero(), residual)?;
         // What the held tool still lacks is what its holder must apply.
         result.wrench = Wrench(-solver.finish().1[self.mechanism.tool].0);
         Ok(result)
@@ -589,14 +615,19 @@ pub(crate) fn conclude(
     solver: &mut PlatformSolver<'_>,
     wrench: Wrench,
     residual: Residual,
-) -> MechanismEquilibrium {
+) -> Result<MechanismEquilibrium> {
     let (tangent, _) = solver.finish();
     let m = solver.mechanism;
     let tool = m.tool;
-    let mut stiffness = condensed(&tangent, tool - 1);
-    // A dead wrench at the tool's own origin has no tangent.
-    stiffness = stiffness.map(|x| if x.is_finite() { x } else { 0.0 });
     let scale = solver.scale();
+    let stiffness = condensed(&tangent, tool - 1, scale);
+    if let Some(&value) = stiffness.iter().find(|x| !x.is_finite()) {
+        return Err(Error::NotFinite {
+            place: format!("mechanism '{}'", m.name),
+            what: "its tangent stiffness".into(),
+            value,
+        });
+    }
     let directions = balanced_directions(&stiffness, scale);
     let least = directions
         .iter()
@@ -631,13 +662,14 @@ pub(crate) fn conclude(
             }
         })
         .collect();
-    MechanismEquilibrium {
+    Ok(MechanismEquilibrium {
         tool: solver.state.platforms[tool],
         displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
         wrench,
         stiffness: CartesianStiffness { matrix: stiffness },
         platform: PlatformStability {
-            stable: least >= 0.0,
+            stable: least >= 0.0
+                && others_hold(&tangent, tool - 1, scale, solver.unknowns == Unknowns::Held),
             smallest_stiffness_n_per_m: least,
             free,
         },
@@ -645,11 +677,36 @@ pub(crate) fn conclude(
         limbs,
         residual,
         state: solver.state.clone(),
+    })
+}
+
+/// Whether the platforms' tangent has no negative direction; with `held`, while the tool is held.
+fn others_hold(
+    tangent: &DMatrix<f64>,
+    platform: usize,
+    scale: crate::chain::Scale,
+    held: bool,
+) -> bool {
+    let unit = |i: usize| {
+        let root = scale.stiffness.sqrt();
+        if i % 6 < 3 { root } else { root * scale.length }
+    };
+    let kept: Vec<usize> = (0..tangent.nrows())
+        .filter(|i| !held || i / 6 != platform)
+        .collect();
+    if tangent.nrows() == 6 || kept.is_empty() {
+        return true;
     }
+    let balanced = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
+        let (i, j) = (kept[a], kept[b]);
+        0.5 * (tangent[(i, j)] + tangent[(j, i)]) / (unit(i) * unit(j))
+    });
+    let eigenvalues = balanced.symmetric_eigenvalues();
+    eigenvalues.min() >= -1e-9 * eigenvalues.amax()
 }
 
 /// Stiffness of one platform with all others free: Schur complement.
-fn condensed(tangent: &DMatrix<f64>, platform: usize) -> Matrix6<f64> {
+fn condensed(tangent: &DMatrix<f64>, platform: usize, scale: crate::chain::Scale) -> Matrix6<f64> {
     let own: Vec<usize> = (6 * platform..6 * platform + 6).collect();
     let pick =
         |rows: &[usize], columns: &[usize]| tangent.select_rows(rows).select_columns(columns);
@@ -657,9 +714,18 @@ fn condensed(tangent: &DMatrix<f64>, platform: usize) -> Matrix6<f64> {
     let others: Vec<usize> = (0..tangent.nrows()).filter(|i| !own.contains(i)).collect();
     if !others.is_empty() {
         let mut b = pick(&others, &own);
-        let most = tangent.amax().max(f64::MIN_POSITIVE).sqrt();
-        let scale = vec![1.0 / most; others.len()];
-        crate::saddle::Saddle::new(pick(&others, &others), &scale, &scale).solve(&mut b);
+        let root = scale.stiffness.sqrt();
+        let units: Vec<f64> = others
+            .iter()
+            .map(|i| {
+                if i % 6 < 3 {
+                    1.0 / root
+                } else {
+                    1.0 / (root * scale.length)
+                }
+            })
+            .collect();
+        crate::saddle::Saddle::new(pick(&others, &others), &units, &units).solve(&mut b);
         k -= pick(&own, &others) * b;
     }
     k.fixed_view::<6, 6>(0, 0).into_owned()

@@ -157,7 +157,8 @@ pub fn moved(pose: &Pose, twist: &Twist) -> Pose {
 /// Stiffness of a platform or a chain's end: 6 x 6, `wrench = matrix * twist`, blocks N/m, N/rad,
 /// N m/m, N m/rad, base axes, at the stated point.
 ///
-/// Under a load with a moment `m` it is not symmetric: `K - K^T = blkdiag(0, -hat(m))` exactly.
+/// Under a load with a moment `m` it is not symmetric: `K - K^T = blkdiag(0, -hat(m))` exactly,
+/// unless dead moments act on inner nodes or loads are not conservative.
 /// [`Self::symmetric`] is the Hessian of the stored energy in exponential coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CartesianStiffness {

@@ -110,7 +110,6 @@ fn an_arm_may_correct_positions_only() {
 }
 
 #[test]
-#[ignore = "core fault C3: single corrected rotations drift to second order"]
 fn single_rotations_can_be_corrected_with_the_others_left() {
     let machine = heavy_arm();
     let mut rng = Rng(23);

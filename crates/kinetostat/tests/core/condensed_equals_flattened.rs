@@ -300,7 +300,6 @@ proptest! {
     }
 
     #[test]
-    #[ignore = "core fault C1: wrench_at holds all platforms"]
     fn a_prescribed_pose_of_the_tool_leaves_other_platforms_free(seed in any::<u64>()) {
         let mut rng = Rng(seed);
         let c = cut(&mut rng, 1, 5.0);
@@ -319,7 +318,6 @@ proptest! {
 }
 
 #[test]
-#[ignore = "core fault C4: limbs between moving platforms are summed as if they ended at the tool"]
 fn the_unloaded_stiffness_of_several_platforms_is_condensed_or_refused() {
     let mut rng = Rng(5);
     let c = cut(&mut rng, 0, 0.0);
@@ -360,7 +358,6 @@ fn compensation_of_several_platforms_closes_or_is_refused() {
 }
 
 #[test]
-#[ignore = "core fault C6: with_tool moves the tips of limbs that end at the tool, not the roots of limbs that start there"]
 fn another_tool_point_keeps_limbs_that_start_at_the_tool() {
     // A counterweight hangs on the tool: platform 'weight' is held by a limb from the tool.
     let mut rng = Rng(9);

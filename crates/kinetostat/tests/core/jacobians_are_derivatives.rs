@@ -45,7 +45,6 @@ proptest! {
 }
 
 #[test]
-#[ignore = "core fault C8: rigid rotations below 3e-8 rad are dropped"]
 fn tiny_rigid_rotations_are_kept() {
     for angle in [1e-7, 2e-8, 1e-9] {
         let chain = kinetostat::Chain::builder("c")

@@ -435,7 +435,6 @@ fn pressed_middle_platform(p: f64, k: f64) -> Mechanism {
 }
 
 #[test]
-#[ignore = "core fault C2: the verdict looks at the condensed tool only"]
 fn a_middle_platform_that_buckles_makes_the_machine_unstable() {
     for (share, stable) in [(0.5, true), (0.9, true), (1.1, false), (2.0, false)] {
         let k = 100.0;

@@ -388,7 +388,6 @@ fn limits_are_reported_not_refused() {
 }
 
 #[test]
-#[ignore = "core fault C7: wrenches, held poses and load nodes are not checked"]
 fn loads_that_are_no_numbers_or_act_nowhere_are_refused() {
     let machine = Orthoglide::default().build();
     let posture = machine.posture(&Pose::identity()).unwrap();

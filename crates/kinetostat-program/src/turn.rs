@@ -1,0 +1,153 @@
+//! What the tool does where the correction jumps: at a corner the load turns, a cut begins.
+//!
+//! The load is taken to go evenly from the one before to the one after while the tool steps from one
+//! corrected place to the other. Between the two the correction is no straight line, so a long step is
+//! divided like a block is: until straight pieces are within the tolerance.
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::divide::{Asker, Node, is_divided};
+use crate::error::WriteError;
+use crate::field::{Request, Turning};
+use crate::write::WriteOptions;
+
+/// The stretch of a turn that a corner step covers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Turn {
+    /// Move whose load holds before.
+    pub from_move: usize,
+    /// Share of that move.
+    pub from_share: f64,
+    /// Share of the step's own move at which its load is taken.
+    pub to_share: f64,
+    /// Part of the turn that is done before the step, 0 to 1.
+    pub part_from: f64,
+    /// Part of the turn that is done after the step, 0 to 1.
+    pub part_to: f64,
+}
+
+/// A jump of the correction and the corrections inside it.
+#[derive(Debug, Clone)]
+pub(crate) struct Jump {
+    pub from_move: usize,
+    pub from_share: f64,
+    pub to_share: f64,
+    /// Part of the turn and correction, in order, without the ends.
+    pub inner: Vec<(f64, Vector3<f64>)>,
+}
+
+impl Jump {
+    pub fn between(&self, part_from: f64, part_to: f64) -> Turn {
+        Turn {
+            from_move: self.from_move,
+            from_share: self.from_share,
+            to_share: self.to_share,
+            part_from,
+            part_to,
+        }
+    }
+}
+
+/// Halvings of one step at most: a thousandth of any jump is far below the tolerance.
+const DEPTH: u32 = 10;
+
+struct Stretch {
+    jump: usize,
+    node: usize,
+    part: [f64; 2],
+    ends: [Vector3<f64>; 2],
+    depth: u32,
+}
+
+/// Finds all jumps of the nodes, marks them there, and asks for the corrections inside.
+pub(crate) fn follow_turns(
+    asker: &mut Asker<'_>,
+    nodes: &mut [Node],
+    options: &WriteOptions,
+) -> Result<Vec<Jump>, WriteError> {
+    let mut jumps = Vec::new();
+    let mut open = Vec::new();
+    for index in 0..nodes.len() {
+        let node = nodes[index];
+        if !is_divided(&asker.path.moves[node.move_index]) {
+            continue;
+        }
+        let begins = index == 0 || nodes[index - 1].move_index != node.move_index;
+        let (from_move, from_share, to_share, before) = if begins {
+            let Some(last) = index.checked_sub(1).map(|i| nodes[i]) else {
+                continue;
+            };
+            (last.move_index, last.share, node.share, last.after)
+        } else {
+            let [from, to] = node.bracket;
+            (node.move_index, from, to, node.before)
+        };
+        if (node.after - before).norm() <= options.smallest_step_mm() {
+            continue;
+        }
+        nodes[index].jump = Some(jumps.len());
+        open.push(Stretch {
+            jump: jumps.len(),
+            node: index,
+            part: [0.0, 1.0],
+            ends: [before, node.after],
+            depth: 0,
+        });
+        jumps.push(Jump {
+            from_move,
+            from_share,
+            to_share,
+            inner: Vec::new(),
+        });
+    }
+    if !asker.field.turns() {
+        return Ok(jumps);
+    }
+    while !open.is_empty() {
+        let requests: Vec<Request> = open
+            .iter()
+            .map(|stretch| {
+                let (node, jump) = (nodes[stretch.node], &jumps[stretch.jump]);
+                Request {
+                    turning: Some(Turning {
+                        from_move: jump.from_move,
+                        from_share: jump.from_share,
+                        to_share: jump.to_share,
+                        part: 0.5 * (stretch.part[0] + stretch.part[1]),
+                    }),
+                    ..asker.request(node.move_index, node.share)
+                }
+            })
+            .collect();
+        let answers = asker.ask(&requests)?;
+        let mut next = Vec::new();
+        for (stretch, middle) in open.into_iter().zip(answers) {
+            let [from, to] = stretch.part;
+            let [first, last] = stretch.ends;
+            if (middle - first.lerp(&last, 0.5)).norm() <= options.tolerance_mm
+                || stretch.depth == DEPTH
+            {
+                continue;
+            }
+            let part = 0.5 * (from + to);
+            jumps[stretch.jump].inner.push((part, middle));
+            for (part, ends) in [
+                ([from, part], [first, middle]),
+                ([part, to], [middle, last]),
+            ] {
+                next.push(Stretch {
+                    part,
+                    ends,
+                    depth: stretch.depth + 1,
+                    ..stretch
+                });
+            }
+        }
+        open = next;
+    }
+    for jump in &mut jumps {
+        jump.inner.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    Ok(jumps)
+}
