@@ -18,8 +18,7 @@ const PROGRAM: &str = "\
 G21 G90 G17 G94
 T1 M6 (end mill, 8 mm)
 S8000 M3
-G0 Z10
-G0 X25 Y0
+G0 X25 Y0 Z10
 G0 Z2
 G1 Z-2 F200 (plunge)
 G3 X-25 Y0 I-25 J0 F600
@@ -36,7 +35,7 @@ model = "model.toml"
 program = "original.ngc"
 
 [placement]
-part_origin_mm = [50, 50, 150]  # program zero in base axes; part axes parallel to the base
+part_origin_mm = [20, 20, 120]  # program zero in base axes; part axes parallel to the base
 
 [tool]
 length_mm = 100                 # tip along z of the platform

@@ -7,18 +7,24 @@
 
 mod along;
 mod args;
+mod check;
 mod compensate;
+mod deflect;
 mod demo;
 mod diagnose;
 mod failure;
 mod input;
 mod job;
+mod models;
 mod orientation;
 mod output;
+mod place;
 mod points_csv;
 mod progress;
 mod screen;
 mod setting;
+mod shell;
+mod stiffness;
 mod summary;
 
 use std::process::ExitCode;
@@ -55,6 +61,11 @@ fn run(command: Command) -> Answer<()> {
     match command {
         Command::Demo(args) => demo::run(&args),
         Command::Compensate(args) => compensate::run(*args),
-        _ => Ok(()),
+        Command::Deflect(args) => deflect::run(*args),
+        Command::Stiffness(args) => stiffness::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Model(args) => models::run(&args),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     }
 }

@@ -266,7 +266,7 @@ fn keep(target: &Path) -> Option<tempfile::TempPath> {
     );
     let path = parent_of(target).join(name);
     fs::hard_link(target, &path).ok()?;
-    Some(tempfile::TempPath::from_path(path))
+    tempfile::TempPath::try_from_path(path).ok()
 }
 
 /// The same file under two names: links of either kind included.

@@ -37,7 +37,7 @@ pub(crate) fn verdict(result: &RunResult) -> String {
         format!(
             "As programmed, the tool would be up to {} mm off its path. With the compensated program it stays within {} mm{better}, solved again from the bytes as written.",
             mm(before),
-            mm(after)
+            fixed(after, 5)
         )
     } else {
         format!(
@@ -61,13 +61,13 @@ fn figures(result: &RunResult) -> String {
         row(&[
             "largest position error",
             &mm(s.max_position_error_before_mm),
-            &mm(s.max_position_error_after_mm),
+            &fixed(s.max_position_error_after_mm, 5),
             "mm",
         ]);
         row(&[
             "root mean square of it",
             &mm(s.rms_position_error_before_mm),
-            &mm(s.rms_position_error_after_mm),
+            &fixed(s.rms_position_error_after_mm, 5),
             "mm",
         ]);
         row(&["of that by rounding", "", &fixed(s.max_rounding_error_mm, 5), "mm"]);
@@ -131,7 +131,7 @@ fn figures(result: &RunResult) -> String {
     last("path at feed", fixed(s.feed_length_mm, 1), "mm");
     last("points solved", s.points.to_string(), "");
     last(
-        "smallest stiffness of the tool",
+        "smallest principal stiffness",
         number(s.smallest_stiffness_n_per_mm, 4),
         "N/mm",
     );

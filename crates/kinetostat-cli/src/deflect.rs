@@ -1,0 +1,390 @@
+//! `kinetostat deflect`: how far the tool is off, at one place or along a program.
+
+use std::path::Path;
+
+use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench};
+use serde::Serialize;
+
+use crate::along::{self, Aim, Files as Targets, tell};
+use crate::args::DeflectArgs;
+use crate::failure::{Answer, Failure};
+use crate::input::Files;
+use crate::job::looks_like_a_job;
+use crate::output::{Existing, Outputs};
+use crate::place::{Spot, spot};
+use crate::screen::{self, Stream, columns, fixed, number, triple, wrapped};
+use crate::setting::{JobFile, WritingFlags, machine, setting};
+use crate::summary;
+
+pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
+    let subject = Path::new(&args.subject);
+    let is_job = args.place.at.is_none()
+        && subject.is_file()
+        && Files::default().job(subject).is_ok_and(|t| looks_like_a_job(&t));
+    if is_job || args.program.program.is_some() {
+        if args.place.at.is_some() {
+            return Err(Failure::input(
+                "--at asks for one place, --program for all of a program: keep one of them",
+            ));
+        }
+        return along_program(&args, is_job);
+    }
+    at_place(&args)
+}
+
+fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
+    let files = Files::default();
+    let job = is_job
+        .then(|| JobFile::read(&files, Path::new(&args.subject)))
+        .transpose()?;
+    let named = (!is_job).then_some(args.subject.as_str());
+    let flags = WritingFlags {
+        json: args.json.as_deref(),
+        ..WritingFlags::default()
+    };
+    let mut setting = setting(&files, job.as_ref(), &args.program, &flags)?;
+    let mut chosen = setting.targets.clone();
+    // The job's outputs are those of the compensation: an analysis writes what is named here.
+    chosen.report.clone_from(&args.program.report);
+    chosen.points.clone_from(&args.program.points);
+    chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
+    let existing = existing(args);
+    let (machine, model) = machine(
+        &files,
+        job.as_ref(),
+        named,
+        &args.program,
+        &mut setting.inputs,
+    )?;
+    along::read_program(&setting)?;
+    let mut targets = Targets::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
+    let mut run = along::solve(Aim::Analyse, &machine, &setting, args.program.threads)?;
+    run.result
+        .warnings
+        .extend(model.warnings.iter().map(|w| format!("model: {}", w.message)));
+    targets.fill(&run)?;
+    let paths = targets.outputs.commit()?;
+    let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
+    tell(&text, to_screen.then_some(&run.result))
+}
+
+fn existing(args: &DeflectArgs) -> Existing {
+    if args.program.force_overwrite {
+        Existing::Replace
+    } else {
+        Existing::Refuse
+    }
+}
+
+/// The answer at one place, stable names with units.
+#[derive(Serialize)]
+struct Deflection {
+    schema: u32,
+    kinetostat_version: &'static str,
+    model: String,
+    model_source: String,
+    tool: String,
+    place: PlaceAsked,
+    force_n: [f64; 3],
+    moment_n_m: [f64; 3],
+    displacement_mm: [f64; 3],
+    displacement_size_mm: f64,
+    rotation_vector_deg: [f64; 3],
+    rotation_size_deg: f64,
+    actuators: Vec<ActuatorAnswer>,
+    limbs: Vec<LimbAnswer>,
+    smallest_principal_stiffness_n_per_mm: f64,
+    free_directions: usize,
+    platform_stable: bool,
+    stable: bool,
+    converged: bool,
+    iterations: usize,
+    warnings: Vec<String>,
+}
+
+/// Where it was asked.
+#[derive(Serialize)]
+pub(crate) struct PlaceAsked {
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rotation_vector_deg: [f64; 3],
+    pub(crate) axes: &'static str,
+    pub(crate) reference_point: &'static str,
+}
+
+#[derive(Serialize)]
+struct ActuatorAnswer {
+    name: String,
+    command: f64,
+    command_unit: &'static str,
+    force: f64,
+    force_unit: &'static str,
+}
+
+#[derive(Serialize)]
+struct LimbAnswer {
+    name: String,
+    force_n: [f64; 3],
+    moment_n_m: [f64; 3],
+    force_without_load_n: [f64; 3],
+    moment_without_load_n_m: [f64; 3],
+    stable: bool,
+    /// None without inner freedom; also where a passive motion is pushed out of line (then unstable).
+    buckling_margin: Option<f64>,
+    neutral_passive_joints: Vec<String>,
+}
+
+fn at_place(args: &DeflectArgs) -> Answer<()> {
+    refuse_program_flags(args)?;
+    let files = Files::default();
+    let spot = spot(
+        &files,
+        &args.subject,
+        &args.place,
+        args.program.tool_length_mm,
+        args.program.force.as_deref(),
+        args.program.moment.as_deref(),
+    )?;
+    let posture = spot.posture()?;
+    let loaded = posture.deflected_by(&spot.wrench)?;
+    let rest = posture.deflected_by(&Wrench::zero())?;
+    let answer = answer(&spot, &posture, &loaded, &rest);
+    let text = in_words(&spot, &answer);
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
+    let mut paths = Vec::new();
+    if let Some(path) = args.json.as_deref().filter(|_| !to_screen) {
+        let mut outputs = Outputs::new(existing(args), spot.inputs.clone());
+        let index = outputs.claim("result", path)?;
+        outputs.fill(index, along::json(&answer)?.as_bytes())?;
+        paths = outputs.commit()?;
+    }
+    if to_screen {
+        screen::print(Stream::Err, &text)?;
+        return screen::print_bytes(along::json(&answer)?.as_bytes());
+    }
+    screen::print(Stream::Out, &format!("{text}{}", along::written(&paths)))
+}
+
+/// Options that say something about a program are not dropped silently.
+fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
+    let p = &args.program;
+    let given = [
+        ("--report", p.report.is_some()),
+        ("--points", p.points.is_some()),
+        ("--milling", p.milling.is_some()),
+        ("--part-origin-mm", p.part_origin_mm.is_some()),
+        ("--part-orientation", p.part_orientation.is_some()),
+        ("--tool-orientation", p.tool_orientation.is_some()),
+        ("--below-z-mm", p.below_z_mm.is_some()),
+        ("--load-axes", p.load_axes.is_some()),
+        ("--scale", p.scale.is_some()),
+    ];
+    match given.iter().find(|(_, given)| *given) {
+        Some((name, _)) => Err(Failure::input(format!(
+            "{name} belongs to a run along a program; name the program with --program FILE or give a job file"
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn answer(
+    spot: &Spot,
+    posture: &Posture<'_>,
+    loaded: &MechanismEquilibrium,
+    rest: &MechanismEquilibrium,
+) -> Deflection {
+    let shift = loaded.displacement.linear() * 1e3;
+    let turn = loaded.displacement.angular().map(f64::to_degrees);
+    let mut warnings: Vec<String> = spot.warnings.clone();
+    if loaded.platform.free > 0 {
+        warnings.push(format!(
+            "the machine has {} direction(s) without any stiffness here: see `kinetostat stiffness`",
+            loaded.platform.free
+        ));
+    }
+    Deflection {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: spot.name.clone(),
+        model_source: spot.source.clone(),
+        tool: spot.tool_words.clone(),
+        place: spot.asked(),
+        force_n: spot.wrench.force().into(),
+        moment_n_m: spot.wrench.moment().into(),
+        displacement_mm: shift.into(),
+        displacement_size_mm: shift.norm(),
+        rotation_vector_deg: turn.into(),
+        rotation_size_deg: turn.norm(),
+        actuators: actuators(&spot.mechanism, posture, &loaded.actuator_forces()),
+        limbs: loaded
+            .limbs
+            .iter()
+            .zip(&rest.limbs)
+            .map(|(l, r)| LimbAnswer {
+                name: l.name.clone(),
+                force_n: l.wrench.force().into(),
+                moment_n_m: l.wrench.moment().into(),
+                force_without_load_n: r.wrench.force().into(),
+                moment_without_load_n_m: r.wrench.moment().into(),
+                stable: l.stability.stable,
+                buckling_margin: l.stability.margin.filter(|m| m.is_finite()),
+                neutral_passive_joints: l.stability.neutral.clone(),
+            })
+            .collect(),
+        smallest_principal_stiffness_n_per_mm: 1e-3 * loaded.platform.smallest_stiffness_n_per_m,
+        free_directions: loaded.platform.free,
+        platform_stable: loaded.platform.stable,
+        stable: loaded.stable(),
+        converged: true,
+        iterations: loaded.residual.iterations,
+        warnings,
+    }
+}
+
+fn actuators(
+    mechanism: &Mechanism,
+    posture: &Posture<'_>,
+    forces: &[f64],
+) -> Vec<ActuatorAnswer> {
+    let kinds = mechanism
+        .limbs()
+        .iter()
+        .flat_map(|l| l.nominal.actuators().iter().map(|a| a.kind));
+    mechanism
+        .actuator_names()
+        .into_iter()
+        .zip(kinds)
+        .zip(posture.commands())
+        .zip(forces)
+        .map(|(((name, kind), command), force)| {
+            let (factor, command_unit, force_unit) = match kind {
+                MotionKind::Prismatic => (1e3, "mm", "N"),
+                MotionKind::Revolute => (1_f64.to_degrees(), "deg", "N m"),
+            };
+            ActuatorAnswer {
+                name,
+                command: factor * command,
+                command_unit,
+                force: *force,
+                force_unit,
+            }
+        })
+        .collect()
+}
+
+fn in_words(spot: &Spot, a: &Deflection) -> String {
+    let mut out = spot.heading();
+    out.push_str(&wrapped(
+        &format!(
+            "The tool's tip moves by {} mm and turns by {} deg.",
+            fixed(a.displacement_size_mm, 4),
+            fixed(a.rotation_size_deg, 5)
+        ),
+        2,
+    ));
+    out.push('\n');
+    let row = |name: &str, v: [f64; 3], decimals: usize, unit: &str| {
+        let mut cells = vec![format!("{name}, {unit}")];
+        cells.extend(v.iter().map(|x| fixed(*x, decimals)));
+        cells
+    };
+    out.push_str(&columns(
+        &[
+            ["base axes", "x", "y", "z"].map(str::to_owned).to_vec(),
+            row("force on the tool", a.force_n, 3, "N"),
+            row("moment about its tip", a.moment_n_m, 3, "N m"),
+            row("displacement of the tip", a.displacement_mm, 6, "mm"),
+            row("rotation vector", a.rotation_vector_deg, 6, "deg"),
+        ],
+        2,
+    ));
+    out.push('\n');
+    let mut rows = vec![
+        ["actuator", "command", "", "force", ""]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for x in &a.actuators {
+        rows.push(vec![
+            x.name.clone(),
+            fixed(x.command, 4),
+            x.command_unit.to_owned(),
+            fixed(x.force, 3),
+            x.force_unit.to_owned(),
+        ]);
+    }
+    out.push_str(&columns(&rows, 2));
+    out.push_str("\nStability\n");
+    for limb in &a.limbs {
+        out.push_str(&screen::item(&limb_in_words(limb)));
+    }
+    let platform = if !a.platform_stable {
+        "the platform does NOT stay: a direction has negative stiffness".to_owned()
+    } else if a.free_directions > 0 {
+        format!(
+            "the platform stays, but {} direction(s) have no stiffness at all",
+            a.free_directions
+        )
+    } else {
+        format!(
+            "the platform stays; smallest principal stiffness {} N/mm",
+            number(a.smallest_principal_stiffness_n_per_mm, 4)
+        )
+    };
+    out.push_str(&screen::item(&platform));
+    out.push_str(&internal(a));
+    out.push_str(&summary::warnings(&a.warnings));
+    out
+}
+
+fn limb_in_words(limb: &LimbAnswer) -> String {
+    let margin = match limb.buckling_margin {
+        Some(mu) if mu < 0.0 => format!("mu {}: the load stretches it", number(mu, 3)),
+        Some(mu) => format!(
+            "mu {}, {} % of the way to buckling",
+            number(mu, 3),
+            number(100.0 * mu, 2)
+        ),
+        None if limb.stable => "it has no inner freedom that could buckle".to_owned(),
+        None => "a passive joint is pushed out of line".to_owned(),
+    };
+    let verdict = if limb.stable {
+        "keeps its shape"
+    } else {
+        "does NOT keep its shape: it snaps to another one"
+    };
+    let neutral = if limb.neutral_passive_joints.is_empty() {
+        String::new()
+    } else {
+        format!(
+            "; {} can turn for nothing",
+            limb.neutral_passive_joints.join(", ")
+        )
+    };
+    format!("limb '{}' {verdict} ({margin}){neutral}", limb.name)
+}
+
+/// What the limbs do to each other through the platform without any load on the tool.
+fn internal(a: &Deflection) -> String {
+    let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let any = a
+        .limbs
+        .iter()
+        .any(|l| size(&l.force_without_load_n) > 1e-6 || size(&l.moment_without_load_n_m) > 1e-6);
+    if !any {
+        return String::new();
+    }
+    let mut rows = vec![
+        ["without load on the tool", "force on its end, N", "moment, N m"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for l in &a.limbs {
+        rows.push(vec![
+            format!("limb '{}'", l.name),
+            triple(l.force_without_load_n, |x| fixed(x, 3)),
+            triple(l.moment_without_load_n_m, |x| fixed(x, 4)),
+        ]);
+    }
+    format!("\n{}", columns(&rows, 2))
+}

@@ -1,0 +1,147 @@
+//! A model, its tool, a place in the workspace and a load: what `deflect --at` and `stiffness` ask.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat::{Error, Mechanism, Pose, Posture, Wrench};
+use kinetostat_machining::straight_tool;
+use nalgebra::Vector3;
+
+use crate::args::PlaceArgs;
+use crate::deflect::PlaceAsked;
+use crate::failure::{Answer, Failure};
+use crate::input::Files;
+use crate::orientation;
+use crate::screen::{triple, wrapped};
+use crate::setting::{deviations_in_words, short, vector};
+
+/// Everything about one place.
+pub(crate) struct Spot {
+    pub(crate) name: String,
+    pub(crate) source: String,
+    pub(crate) tool_words: String,
+    pub(crate) mechanism: Mechanism,
+    pub(crate) target: Pose,
+    pub(crate) at_home: bool,
+    pub(crate) wrench: Wrench,
+    pub(crate) inputs: Vec<PathBuf>,
+    pub(crate) deviations: Vec<String>,
+    pub(crate) warnings: Vec<String>,
+}
+
+pub(crate) fn spot(
+    files: &Files,
+    model: &str,
+    place: &PlaceArgs,
+    tool_length_mm: Option<f64>,
+    force: Option<&[f64]>,
+    moment: Option<&[f64]>,
+) -> Answer<Spot> {
+    let (read, path) = files.model(model, Path::new(""))?;
+    let length = tool_length_mm.unwrap_or(0.0);
+    if !length.is_finite() || length.abs() > 1e5 {
+        return Err(Failure::input(format!(
+            "--tool-length-mm is {length}; tools are shorter than 100 m"
+        )));
+    }
+    let mechanism = read.mechanism.with_tool(&straight_tool(1e-3 * length));
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let target = match &place.at {
+        None => home,
+        Some(at) => {
+            let position = vector("--at", at)? * 1e-3;
+            if position.norm() > 1e4 {
+                return Err(Failure::input(
+                    "--at lies more than 10 km away; coordinates are in mm",
+                ));
+            }
+            let rotation = match &place.rotation {
+                Some(text) => orientation::option("--rotation", text)?,
+                None => home.rotation,
+            };
+            Pose::from_parts(position.into(), rotation)
+        }
+    };
+    let load = |name: &str, values: Option<&[f64]>| {
+        values.map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
+    };
+    Ok(Spot {
+        name: read.name().to_owned(),
+        source: match &path {
+            Some(_) => model.to_owned(),
+            None => format!("preset {model}"),
+        },
+        tool_words: if length == 0.0 {
+            "none: the platform's own point".to_owned()
+        } else {
+            format!("{} mm along z of the flange", short(length))
+        },
+        target,
+        at_home: place.at.is_none(),
+        wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),
+        inputs: path.into_iter().collect(),
+        deviations: deviations_in_words(&read),
+        warnings: read
+            .warnings
+            .iter()
+            .map(|w| format!("model: {}", w.message))
+            .collect(),
+        mechanism,
+    })
+}
+
+impl Spot {
+    /// The machine commanded for the place, within the limits of its actuators.
+    pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
+        let posture = self.mechanism.posture(&self.target)?;
+        if let Some((actuator, command, (low, high))) =
+            posture.limit_violations().into_iter().next()
+        {
+            return Err(Error::OutsideLimits {
+                actuator,
+                command,
+                low,
+                high,
+            }
+            .into());
+        }
+        Ok(posture)
+    }
+
+    pub(crate) fn asked(&self) -> PlaceAsked {
+        PlaceAsked {
+            position_mm: (self.target.translation.vector * 1e3).into(),
+            rotation_vector_deg: self
+                .target
+                .rotation
+                .scaled_axis()
+                .map(f64::to_degrees)
+                .into(),
+            axes: "base",
+            reference_point: "tip of the tool",
+        }
+    }
+
+    /// What was asked, in words.
+    pub(crate) fn heading(&self) -> String {
+        let position = self.target.translation.vector * 1e3;
+        let mut out = wrapped(
+            &format!(
+                "{} ({}), {} {} mm, tool {}",
+                self.name,
+                self.source,
+                if self.at_home { "at home," } else { "at" },
+                triple(position.into(), short),
+                orientation::in_words(&self.target.rotation)
+            ),
+            0,
+        );
+        if self.tool_words.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+            out.push_str(&wrapped(&format!("tool: {}", self.tool_words), 0));
+        }
+        for deviation in &self.deviations {
+            out.push_str(&wrapped(deviation, 0));
+        }
+        out.push('\n');
+        out
+    }
+}

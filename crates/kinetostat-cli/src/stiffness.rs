@@ -1,0 +1,300 @@
+//! `kinetostat stiffness`: the 6 x 6 matrix with units, axes and reference point.
+
+use kinetostat::{CartesianStiffness, ChainStiffness, Direction, DirectionKind};
+use nalgebra::Matrix6;
+use serde::Serialize;
+
+use crate::along;
+use crate::args::StiffnessArgs;
+use crate::deflect::PlaceAsked;
+use crate::failure::Answer;
+use crate::input::Files;
+use crate::place::{Spot, spot};
+use crate::screen::{self, Stream, columns, fixed, item, number, triple, wrapped};
+use crate::setting::short;
+use crate::summary;
+
+/// The answer, stable names with units.
+#[derive(Serialize)]
+struct Stiffness {
+    schema: u32,
+    kinetostat_version: &'static str,
+    model: String,
+    model_source: String,
+    tool: String,
+    place: PlaceAsked,
+    loaded: bool,
+    force_n: [f64; 3],
+    moment_n_m: [f64; 3],
+    /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad).
+    stiffness_n_m_rad: [[f64; 6]; 6],
+    /// Inverse, m and rad per N and N m; none where a direction is free.
+    compliance_m_rad_per_n: Option<[[f64; 6]; 6]>,
+    rank: usize,
+    principal_directions: Vec<Principal>,
+    limbs: Vec<LimbShare>,
+    warnings: Vec<String>,
+}
+
+/// One principal direction.
+#[derive(Serialize)]
+pub(crate) struct Principal {
+    pub(crate) kind: DirectionKind,
+    /// None where it is rigid (infinite).
+    pub(crate) stiffness_n_per_mm: Option<f64>,
+    pub(crate) translation_share: [f64; 3],
+    pub(crate) rotation_deg_per_mm: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct LimbShare {
+    name: String,
+    rank: usize,
+    free: usize,
+    rigid: usize,
+    negative: usize,
+    redundant_passive_joints: Vec<String>,
+}
+
+pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
+    let spot = spot(
+        &Files::default(),
+        &args.model,
+        &args.place,
+        args.tool_length_mm,
+        args.force.as_deref(),
+        args.moment.as_deref(),
+    )?;
+    let posture = spot.posture()?;
+    let loaded = args.force.is_some() || args.moment.is_some();
+    let answer = if loaded {
+        let e = posture.deflected_by(&spot.wrench)?;
+        let limbs: Vec<&ChainStiffness> = e.limbs.iter().map(|l| &l.stiffness).collect();
+        answer(&spot, true, &e.stiffness, &e.directions, &limbs)
+    } else {
+        let k = posture.stiffness()?;
+        let limbs: Vec<&ChainStiffness> = k.limbs.iter().collect();
+        answer(&spot, false, &k.cartesian, &k.directions, &limbs)
+    };
+    let text = in_words(&spot, &answer);
+    if args.json {
+        screen::print(Stream::Err, &text)?;
+        return screen::print_bytes(along::json(&answer)?.as_bytes());
+    }
+    screen::print(Stream::Out, &text)
+}
+
+fn answer(
+    spot: &Spot,
+    loaded: bool,
+    cartesian: &CartesianStiffness,
+    directions: &[Direction],
+    limbs: &[&ChainStiffness],
+) -> Stiffness {
+    let free = directions.iter().any(|d| d.kind == DirectionKind::Free);
+    Stiffness {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: spot.name.clone(),
+        model_source: spot.source.clone(),
+        tool: spot.tool_words.clone(),
+        place: spot.asked(),
+        loaded,
+        force_n: spot.wrench.force().into(),
+        moment_n_m: spot.wrench.moment().into(),
+        stiffness_n_m_rad: rows(&cartesian.matrix),
+        compliance_m_rad_per_n: if free {
+            None
+        } else {
+            cartesian.compliance().map(|c| rows(&c))
+        },
+        rank: directions
+            .iter()
+            .filter(|d| d.kind != DirectionKind::Free)
+            .count(),
+        principal_directions: directions.iter().map(principal).collect(),
+        limbs: limbs
+            .iter()
+            .zip(spot.mechanism.limbs())
+            .map(|(k, limb)| LimbShare {
+                name: limb.name.clone(),
+                rank: k.rank,
+                free: k.count(DirectionKind::Free),
+                rigid: k.count(DirectionKind::Rigid),
+                negative: k.count(DirectionKind::Negative),
+                redundant_passive_joints: k.redundant_passive.clone(),
+            })
+            .collect(),
+        warnings: spot.warnings.clone(),
+    }
+}
+
+fn rows(m: &Matrix6<f64>) -> [[f64; 6]; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))
+}
+
+pub(crate) fn principal(d: &Direction) -> Principal {
+    // Per millimetre of the longest part.
+    let turn = d.twist.angular().map(|x| 1e-3 * x.to_degrees());
+    Principal {
+        kind: d.kind,
+        stiffness_n_per_mm: d
+            .stiffness_n_per_m
+            .is_finite()
+            .then_some(1e-3 * d.stiffness_n_per_m),
+        translation_share: d.twist.linear().into(),
+        rotation_deg_per_mm: turn.into(),
+    }
+}
+
+fn in_words(spot: &Spot, a: &Stiffness) -> String {
+    let mut out = spot.heading();
+    let state = if a.loaded {
+        format!(
+            "Stiffness under the force {} N and the moment {} N m on the tool, with weights, preloads and deviations: what a further small force would meet.",
+            triple(a.force_n, short),
+            triple(a.moment_n_m, short)
+        )
+    } else {
+        "Stiffness of the unloaded machine as drawn (weights, preloads and deviations left out; give --force for the loaded one).".to_owned()
+    };
+    out.push_str(&wrapped(&state, 0));
+    out.push_str(&wrapped(
+        "Base axes, about the tool's tip. Rows: force in N, moment in N m; columns: motion in mm, rotation in rad.",
+        0,
+    ));
+    out.push('\n');
+    out.push_str(&matrix(
+        &a.stiffness_n_m_rad,
+        ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"],
+        ["per mm", "per mm", "per mm", "per rad", "per rad", "per rad"],
+        |i, j| {
+            let _ = i;
+            if j < 3 { 1e-3 } else { 1.0 }
+        },
+    ));
+    out.push_str(&asymmetry(spot, a));
+    if let Some(c) = &a.compliance_m_rad_per_n {
+        out.push_str("\nCompliance, its inverse: micrometres and microradians\n\n");
+        out.push_str(&matrix(
+            c,
+            ["dx, um", "dy, um", "dz, um", "rx, urad", "ry, urad", "rz, urad"],
+            ["per N", "per N", "per N", "per N m", "per N m", "per N m"],
+            |_, _| 1e6,
+        ));
+    } else {
+        out.push('\n');
+        out.push_str(&wrapped(
+            "There is no compliance: a direction is free, so a force along it meets nothing.",
+            0,
+        ));
+    }
+    out.push_str(&format!(
+        "\nPrincipal directions: {} of 6 have stiffness\n\n",
+        a.rank
+    ));
+    out.push_str(&principals(&a.principal_directions));
+    out.push_str("\nLimbs\n");
+    for limb in &a.limbs {
+        out.push_str(&item(&limb_in_words(limb)));
+    }
+    out.push_str(&summary::warnings(&a.warnings));
+    out
+}
+
+/// A 6 x 6 table; entries that are rounding noise beside the diagonal show as 0.
+fn matrix(
+    m: &[[f64; 6]; 6],
+    names: [&str; 6],
+    units: [&str; 6],
+    factor: impl Fn(usize, usize) -> f64,
+) -> String {
+    let mut header = vec![String::new()];
+    header.extend(units.map(str::to_owned));
+    let mut rows = vec![header];
+    for i in 0..6 {
+        let mut row = vec![names[i].to_owned()];
+        for j in 0..6 {
+            let noise = 1e-9 * (m[i][i] * m[j][j]).abs().sqrt();
+            row.push(if m[i][j].abs() <= noise {
+                "0".to_owned()
+            } else {
+                number(m[i][j] * factor(i, j), 5)
+            });
+        }
+        rows.push(row);
+    }
+    columns(&rows, 1)
+}
+
+/// Under a moment the matrix is not symmetric, which surprises who compares it with a table.
+fn asymmetry(spot: &Spot, a: &Stiffness) -> String {
+    let moment = spot.wrench.moment();
+    if !a.loaded || moment.norm() == 0.0 {
+        return String::new();
+    }
+    let k = &a.stiffness_n_m_rad;
+    format!(
+        "\n{}",
+        wrapped(
+            &format!(
+                "Under a moment the matrix is not symmetric: its rotational block differs from its transpose by the moment itself. Here K(mx, ry) - K(my, rx) = {} N m/rad, and the moment about z is {} N m. The symmetric part is the curvature of the stored energy.",
+                fixed(k[3][4] - k[4][3], 4),
+                fixed(moment.z, 4)
+            ),
+            0
+        )
+    )
+}
+
+/// Principal directions as a table.
+pub(crate) fn principals(list: &[Principal]) -> String {
+    let mut rows = vec![
+        ["kind", "N/mm", "moves along (x, y, z)", "turns, deg per mm"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for p in list {
+        rows.push(vec![
+            match p.kind {
+                DirectionKind::Free => "free",
+                DirectionKind::Finite => "stiff",
+                DirectionKind::Negative => "NEGATIVE",
+                DirectionKind::Rigid => "rigid",
+            }
+            .to_owned(),
+            p.stiffness_n_per_mm
+                .map_or_else(|| "infinite".to_owned(), |s| number(s, 4)),
+            triple(p.translation_share, |x| fixed(x, 3)),
+            triple(p.rotation_deg_per_mm, |x| fixed(x, 4)),
+        ]);
+    }
+    let mut out = columns(&rows, 2);
+    out.push_str(&wrapped(
+        "Rotations count at the machine's natural length, so that N/mm compares them.",
+        2,
+    ));
+    out
+}
+
+fn limb_in_words(limb: &LimbShare) -> String {
+    let mut parts = vec![format!("{} stiff directions", limb.rank)];
+    if limb.free > 0 {
+        parts.push(format!("{} free (passive joints)", limb.free));
+    }
+    if limb.rigid > 0 {
+        parts.push(format!("{} rigid", limb.rigid));
+    }
+    if limb.negative > 0 {
+        parts.push(format!("{} NEGATIVE", limb.negative));
+    }
+    let mut text = format!("limb '{}': {}", limb.name, parts.join(", "));
+    if !limb.redundant_passive_joints.is_empty() {
+        text.push_str(&format!(
+            "; {} can move while the end is held (redundant)",
+            limb.redundant_passive_joints.join(" and ")
+        ));
+    }
+    text
+}
+
