@@ -120,7 +120,8 @@ pub struct Summary {
     pub max_residual_rotation_deg: f64,
     /// Largest deviation of the tool's speed along the part from the programmed one, percent.
     pub max_speed_deviation_percent: f64,
-    /// Smallest principal stiffness of the tool along the path, N/mm.
+    /// Smallest stiffness of the tool's tip against a force along the path (softest direction, the
+    /// tool free to turn), N/mm.
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest buckling margin mu of any limb (1 is buckling); none for limbs without inner freedom.
     pub largest_buckling_margin: Option<f64>,
@@ -176,7 +177,7 @@ pub struct PointResult {
     pub actuator_force: Vec<f64>,
     /// Change of every actuator by the compensation, mm or deg.
     pub actuator_correction: Vec<f64>,
-    /// Smallest principal stiffness, N/mm.
+    /// Stiffness of the tool's tip against a force in its softest direction, N/mm.
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest buckling margin mu.
     pub buckling_margin: Option<f64>,

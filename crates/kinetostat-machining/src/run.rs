@@ -279,7 +279,7 @@ fn point<'m>(
     let turned = equilibrium.tool.rotation * posture.target().rotation.inverse();
     result.residual_rotation_deg = turned.angle().to_degrees();
     result.actuator_force = equilibrium.actuator_forces();
-    result.smallest_stiffness_n_per_mm = 1e-3 * equilibrium.platform.smallest_stiffness_n_per_m;
+    result.smallest_stiffness_n_per_mm = 1e-3 * equilibrium.stiffness_against_force();
     result.buckling_margin = equilibrium.margin().filter(|mu| mu.is_finite());
     result.stable = equilibrium.stable();
     Ok(result)

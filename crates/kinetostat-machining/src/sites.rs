@@ -32,12 +32,19 @@ fn starts(path: &Path) -> Vec<f64> {
         .iter()
         .map(|m| {
             let start = length;
-            if m.known == Knowledge::Whole {
-                length += m.length_mm();
-            }
+            length += known_length(m);
             start
         })
         .collect()
+}
+
+/// A move from a place that the program does not tell has no length that counts.
+fn known_length(motion: &Move) -> f64 {
+    if motion.known == Knowledge::Whole {
+        motion.length_mm()
+    } else {
+        0.0
+    }
 }
 
 /// Ends and middles of all blocks; arcs at every chord of `arc_tolerance_mm`.
@@ -57,7 +64,7 @@ pub(crate) fn of_path(
                 output_line: 0,
                 kind: kind(motion),
                 share,
-                path_mm: starts[i] + share * motion.length_mm(),
+                path_mm: starts[i] + share * known_length(motion),
                 desired,
                 commanded: desired,
                 wrench: load.wrench(placement, i, share),
@@ -109,7 +116,7 @@ pub(crate) fn of_written(
                     kind(motion)
                 },
                 share,
-                path_mm: starts[piece.move_index] + share * motion.length_mm(),
+                path_mm: starts[piece.move_index] + share * known_length(motion),
                 desired: motion.point(share),
                 commanded: commanded(piece, place),
                 wrench,

@@ -98,6 +98,23 @@ impl MechanismEquilibrium {
             .max_by(f64::total_cmp)
     }
 
+    /// Force (N) that moves the tool's origin by 1 m in its softest direction while the tool may
+    /// turn as it likes: what a person who pushes the tool feels. Zero if a direction is free,
+    /// negative if the tool runs away by itself.
+    #[must_use]
+    pub fn stiffness_against_force(&self) -> f64 {
+        let Some(compliance) = self.stiffness.symmetric().try_inverse() else {
+            return 0.0;
+        };
+        let moves = compliance.fixed_view::<3, 3>(0, 0).into_owned();
+        let eigenvalues = moves.symmetric_eigenvalues();
+        if eigenvalues.min() < 0.0 {
+            1.0 / eigenvalues.min()
+        } else {
+            1.0 / eigenvalues.max()
+        }
+    }
+
     /// Forces (N) or torques (N m) of the loads on all actuators, in the mechanism's order.
     #[must_use]
     pub fn actuator_forces(&self) -> Vec<f64> {
