@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use kinetostat_machining::{
-    LoadAlongPath, Run, RunResult, Task, analyse, compensate_program,
-};
+use kinetostat_machining::{LoadAlongPath, Run, RunResult, Task, analyse, compensate_program};
 use kinetostat_program::{Path as ToolPath, Program, ProgramError, interpret};
 
 use crate::failure::{Answer, Failure};
@@ -105,7 +103,10 @@ pub(crate) fn solve(
                 "model {} ({}), fingerprint {:016x}",
                 question.model, question.model_source, machine.fingerprint
             ),
-            format!("load {}", LoadAlongPath::new(machine.load, &path).in_words()),
+            format!(
+                "load {}",
+                LoadAlongPath::new(machine.load, &path).in_words()
+            ),
             format!("tool {}", question.tool),
             format!("placement {}", question.placement),
         ];
@@ -127,8 +128,7 @@ pub(crate) fn solve(
     };
     let result = in_threads(threads, work)?;
     progress.finish();
-    let mut run =
-        result.map_err(|error| Failure::from(error).within(&setting.program_name))?;
+    let mut run = result.map_err(|error| Failure::from(error).within(&setting.program_name))?;
     if let Some(limit) = setting.max_blocks_per_second
         && run.result.summary.blocks_per_second > limit
     {
@@ -162,8 +162,9 @@ pub(crate) fn in_threads<R: Send>(
 
 /// A result as JSON with a final newline.
 pub(crate) fn json<T: serde::Serialize>(value: &T) -> Answer<String> {
-    let mut text = serde_json::to_string_pretty(value)
-        .map_err(|error| Failure::input(format!("the result cannot be written as JSON: {error}")))?;
+    let mut text = serde_json::to_string_pretty(value).map_err(|error| {
+        Failure::input(format!("the result cannot be written as JSON: {error}"))
+    })?;
     text.push('\n');
     Ok(text)
 }

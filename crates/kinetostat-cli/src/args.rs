@@ -19,6 +19,7 @@ Exit codes:
 #[command(
     name = "kinetostat",
     version,
+    max_term_width = 80,
     arg_required_else_help = true,
     subcommand_required = true,
     after_help = EXIT_CODES,
@@ -72,7 +73,7 @@ pub(crate) struct DemoArgs {
     #[arg(long)]
     pub(crate) json: bool,
     /// Number of threads; all cores without it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) threads: Option<usize>,
 }
 
@@ -104,13 +105,13 @@ pub(crate) struct CompensateArgs {
     #[arg(long, help_heading = "Outputs")]
     pub(crate) no_header: bool,
     /// How far the straight pieces may leave the corrected path, micrometres [default: 0.5]
-    #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,
     /// Digits after the point in mm, one more in inches [default: 4]
-    #[arg(long, value_name = "N", help_heading = "Tolerances")]
+    #[arg(long, value_name = "N", help_heading = "Tolerances", value_parser = small)]
     pub(crate) decimals: Option<u8>,
     /// Warn if the written program asks for more blocks per second than this
-    #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) max_blocks_per_second: Option<f64>,
 }
 
@@ -147,13 +148,13 @@ pub(crate) struct StiffnessArgs {
     #[command(flatten)]
     pub(crate) place: PlaceArgs,
     /// Force on the tool's tip, N
-    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true)]
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) force: Option<Vec<f64>>,
     /// Moment on the tool about its tip, N m
-    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true)]
+    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) moment: Option<Vec<f64>>,
     /// Distance of the tool's tip along z of the flange, mm
-    #[arg(long, value_name = "L", allow_negative_numbers = true)]
+    #[arg(long, value_name = "L", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tool_length_mm: Option<f64>,
     /// Print the result as JSON; the text goes to the standard error
     #[arg(long)]
@@ -218,7 +219,7 @@ pub(crate) struct ManArgs {
 #[derive(Debug, Default, Args)]
 pub(crate) struct PlaceArgs {
     /// Place of the tool's tip in base axes, mm; home without it
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true)]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) at: Option<Vec<f64>>,
     /// Orientation of the tool there by a named convention, as in a_b_c_kuka_deg=0,0,90; without it,
     /// the orientation at home
@@ -249,10 +250,10 @@ pub(crate) struct ProgramArgs {
     #[arg(long, short, value_name = "FILE")]
     pub(crate) program: Option<PathBuf>,
     /// Distance of the tool's tip along z of the flange, mm
-    #[arg(long, value_name = "L", allow_negative_numbers = true, help_heading = "Placement")]
+    #[arg(long, value_name = "L", allow_negative_numbers = true, help_heading = "Placement", value_parser = number)]
     pub(crate) tool_length_mm: Option<f64>,
     /// Where the program's zero point lies in the machine's base, mm
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Placement")]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Placement", value_parser = number)]
     pub(crate) part_origin_mm: Option<Vec<f64>>,
     /// Orientation of the program's axes in the base, as in a_b_c_kuka_deg=90,0,0
     #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Placement")]
@@ -261,28 +262,28 @@ pub(crate) struct ProgramArgs {
     #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Placement")]
     pub(crate) tool_orientation: Option<String>,
     /// Length in the machine per length in the program [default: 1]
-    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "Placement")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "Placement", value_parser = number)]
     pub(crate) scale: Option<f64>,
     /// Force on the tool's tip, N: everywhere on feed moves (with --at: at that place)
-    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, help_heading = "Load")]
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, help_heading = "Load", value_parser = number)]
     pub(crate) force: Option<Vec<f64>>,
     /// Moment on the tool about its tip, N m
-    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, help_heading = "Load")]
+    #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, help_heading = "Load", value_parser = number)]
     pub(crate) moment: Option<Vec<f64>>,
     /// Axes of force and moment [default: base]
     #[arg(long, value_enum, value_name = "AXES", help_heading = "Load")]
     pub(crate) load_axes: Option<Axes>,
     /// Milling force instead, N: to the right of the feed, along it, along the part's z
-    #[arg(long, num_args = 3, value_names = ["RADIAL", "TANGENTIAL", "AXIAL"], allow_negative_numbers = true, conflicts_with_all = ["force", "moment", "load_axes"], help_heading = "Load")]
+    #[arg(long, num_args = 3, value_names = ["RADIAL", "TANGENTIAL", "AXIAL"], allow_negative_numbers = true, conflicts_with_all = ["force", "moment", "load_axes"], help_heading = "Load", value_parser = number)]
     pub(crate) milling: Option<Vec<f64>>,
     /// The load acts only below this height of the program, mm
-    #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = "Load")]
+    #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = "Load", value_parser = number)]
     pub(crate) below_z_mm: Option<f64>,
     /// Units of a program that does not say G20 or G21
     #[arg(long, value_enum, value_name = "UNITS", help_heading = "Reading")]
     pub(crate) units: Option<UnitsWord>,
     /// Largest difference of an arc's radii at start and end, mm [default: 0.005]
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, help_heading = "Reading")]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
     pub(crate) arc_tolerance: Option<f64>,
     /// Origin of a work coordinate system in the part, mm: G54=x,y,z (repeat for more)
     #[arg(long, value_name = "G54=X,Y,Z", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Reading")]
@@ -291,10 +292,10 @@ pub(crate) struct ProgramArgs {
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Reading")]
     pub(crate) block_delete: Option<BlockDeleteWord>,
     /// Where the tool stands before the first block, mm
-    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading")]
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
     pub(crate) start_position_mm: Option<Vec<f64>>,
     /// How far the chords of arcs may leave them, micrometres [default: 0.4]
-    #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances")]
+    #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances", value_parser = number)]
     pub(crate) chord_tolerance_um: Option<f64>,
     /// The report, one HTML file
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
@@ -306,8 +307,36 @@ pub(crate) struct ProgramArgs {
     #[arg(long, help_heading = "Outputs")]
     pub(crate) force_overwrite: bool,
     /// Number of threads; all cores without it. The result is the same
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) threads: Option<usize>,
+}
+
+/// A finite number with a decimal point.
+fn number(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err("a finite number is needed".to_owned()),
+        Err(_) if text.contains(',') => Err(
+            "a number is needed, with a decimal point and not a comma, and a space before the next"
+                .to_owned(),
+        ),
+        Err(_) => {
+            Err("a number is needed, as in 12.5; the unit is in the option's name".to_owned())
+        }
+    }
+}
+
+/// A whole number.
+fn whole(text: &str) -> Result<usize, String> {
+    text.trim()
+        .parse()
+        .map_err(|_| "a whole number is needed, as in 2".to_owned())
+}
+
+fn small(text: &str) -> Result<u8, String> {
+    text.trim()
+        .parse()
+        .map_err(|_| "a whole number from 3 to 8 is needed".to_owned())
 }
 
 const COMPENSATE_HELP: &str = r#"Examples:

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use kinetostat::{
-    Limb, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench,
-};
+use kinetostat::{Limb, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench};
 use kinetostat_model::Model;
 use serde::Serialize;
 
@@ -133,12 +131,7 @@ fn findings(model: &Model, source: String) -> Findings {
             .map(|(i, p)| PlatformFinding {
                 name: p.name.clone(),
                 home_position_mm: (p.home.translation.vector * 1e3).into(),
-                home_rotation_vector_deg: p
-                    .home
-                    .rotation
-                    .scaled_axis()
-                    .map(f64::to_degrees)
-                    .into(),
+                home_rotation_vector_deg: p.home.rotation.scaled_axis().map(f64::to_degrees).into(),
                 mass_kg: p.mass,
                 carries_the_tool: i == m.tool(),
             })
@@ -205,7 +198,14 @@ fn limb(m: &Mechanism, limb: &Limb) -> LimbFinding {
     }
 }
 
-const DIRECTIONS: [&str; 6] = ["x", "y", "z", "turn about x", "turn about y", "turn about z"];
+const DIRECTIONS: [&str; 6] = [
+    "x",
+    "y",
+    "z",
+    "turn about x",
+    "turn about y",
+    "turn about z",
+];
 
 fn at_home(
     m: &Mechanism,
@@ -216,7 +216,9 @@ fn at_home(
     let mut constrained = 0;
     for (i, found) in limbs.iter_mut().enumerate() {
         let k = &stiffness.limbs[i];
-        found.redundant_passive_joints.clone_from(&k.redundant_passive);
+        found
+            .redundant_passive_joints
+            .clone_from(&k.redundant_passive);
         found.stiffness_rank = Some(k.rank);
         found.constrained_directions = alone(m, posture, i);
         constrained += found.constrained_directions.unwrap_or(0);
@@ -301,7 +303,10 @@ fn in_words(f: &Findings, model: &Model) -> String {
     for l in &f.limbs {
         out.push_str(&format!(
             "\n{}",
-            wrapped(&format!("Limb '{}', from '{}' to '{}'", l.name, l.from, l.to), 0)
+            wrapped(
+                &format!("Limb '{}', from '{}' to '{}'", l.name, l.from, l.to),
+                0
+            )
         ));
         out.push_str(&limb_in_words(l));
     }
@@ -378,13 +383,19 @@ fn limb_in_words(l: &LimbFinding) -> String {
     out.push_str(&wrapped(&springs, 2));
     if l.mass_kg > 0.0 {
         out.push_str(&wrapped(
-            &format!("masses: {}, {} kg in all", list(&l.bodies), number(l.mass_kg, 5)),
+            &format!(
+                "masses: {}, {} kg in all",
+                list(&l.bodies),
+                number(l.mass_kg, 5)
+            ),
             2,
         ));
     }
     if let (Some(rank), Some(blocked)) = (l.stiffness_rank, l.constrained_directions) {
         out.push_str(&wrapped(
-            &format!("stiffness of rank {rank} at its end; blocks {blocked} of the tool's directions"),
+            &format!(
+                "stiffness of rank {rank} at its end; blocks {blocked} of the tool's directions"
+            ),
             2,
         ));
     }
@@ -403,7 +414,9 @@ fn limb_in_words(l: &LimbFinding) -> String {
 fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
     let mut out = String::from("\nAt home\n");
     let over = match h.degrees_of_over_constraint {
-        Some(0) => "no over-constraint: deviations shift the tool without straining the limbs".to_owned(),
+        Some(0) => {
+            "no over-constraint: deviations shift the tool without straining the limbs".to_owned()
+        }
         Some(n) => format!("{n} degree(s) of over-constraint: deviations strain the limbs"),
         None => "over-constraint not counted for machines with several platforms".to_owned(),
     };
@@ -428,19 +441,28 @@ fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
     };
     let moved = shift.iter().chain(&turn).any(|x| x.abs() > 1e-9);
     if moved {
-        out.push_str(&item(&format!(
-            "{cause} the tool is shifted by {} mm and turned by {} deg; inside, up to {} N and {} N m act on the limbs' ends",
+        let mut text = format!(
+            "{cause} the tool is shifted by {} mm and turned by {} deg",
             triple(shift, |x| fixed(x, 5)),
             triple(turn, |x| fixed(x, 5)),
-            fixed(h.largest_internal_force_n, 3),
-            fixed(h.largest_internal_moment_n_m, 4),
-        )));
+        );
+        if f.limbs.len() > 1 {
+            text.push_str(&format!(
+                "; inside, up to {} N and {} N m act on the limbs' ends",
+                fixed(h.largest_internal_force_n, 3),
+                fixed(h.largest_internal_moment_n_m, 4),
+            ));
+        }
+        out.push_str(&item(&text));
     } else {
         out.push_str(&item("without load the tool is where it is commanded"));
     }
     out.push_str(&item(&match (h.stable, h.largest_buckling_margin) {
         (true, Some(mu)) if mu.abs() > 1e-9 => {
-            format!("stable; largest share of the way to buckling {}", number(mu, 3))
+            format!(
+                "stable; largest share of the way to buckling {}",
+                number(mu, 3)
+            )
         }
         (true, _) => "stable".to_owned(),
         (false, _) => "NOT STABLE: it would jump to another shape".to_owned(),

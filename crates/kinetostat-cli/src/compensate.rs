@@ -58,10 +58,18 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     // A program that cannot be read is told before outputs are looked at.
     along::read_program(&setting)?;
     let mut targets = Targets::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
-    let mut run = along::solve(Aim::Compensate, &machine, &setting, args.run.program.threads)?;
-    run.result
-        .warnings
-        .extend(model.warnings.iter().map(|w| format!("model: {}", w.message)));
+    let mut run = along::solve(
+        Aim::Compensate,
+        &machine,
+        &setting,
+        args.run.program.threads,
+    )?;
+    run.result.warnings.extend(
+        model
+            .warnings
+            .iter()
+            .map(|w| format!("model: {}", w.message)),
+    );
     targets.fill(&run)?;
     let paths = targets.outputs.commit()?;
     let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
@@ -149,7 +157,10 @@ fn from_map(
             .map(|path| outputs.claim(what, path))
             .transpose()
     };
-    let (out, json_out) = (claim("corrected program", &t.program)?, claim("result", &t.json)?);
+    let (out, json_out) = (
+        claim("corrected program", &t.program)?,
+        claim("result", &t.json)?,
+    );
     let mut writing = setting.writing.clone();
     let name = map
         .file_name()
@@ -164,10 +175,9 @@ fn from_map(
         Failure::from(kinetostat_machining::RunError::Write(error)).within(&setting.program_name)
     };
     let progress = Progress::new();
-    let written =
-        write_corrected(&program, &path, &field, &writing, &progress).map_err(refuse)?;
-    let check = verify_written(&program, &path, &written, &setting.reading, &writing)
-        .map_err(refuse)?;
+    let written = write_corrected(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let check =
+        verify_written(&program, &path, &written, &setting.reading, &writing).map_err(refuse)?;
     progress.finish();
     let a = &written.accounting;
     let mut warnings: Vec<String> = path
@@ -194,11 +204,12 @@ fn from_map(
         outputs.fill(index, &written.bytes)?;
     }
     let paths = outputs.commit()?;
-    let row = |name: &str, value: String, unit: &str| {
-        vec![format!("{name}, {unit}"), value]
-    };
+    let row = |name: &str, value: String, unit: &str| vec![format!("{name}, {unit}"), value];
     let mut text = wrapped(
-        &format!("{} corrected by the table {}", setting.program_name, result.map),
+        &format!(
+            "{} corrected by the table {}",
+            setting.program_name, result.map
+        ),
         0,
     );
     text.push('\n');
@@ -216,7 +227,8 @@ fn from_map(
             row("blocks unchanged", a.blocks_carried.to_string(), "number"),
             row(
                 "most blocks per second",
-                a.peak_blocks_per_second.map_or("?".into(), |b| number(b, 3)),
+                a.peak_blocks_per_second
+                    .map_or("?".into(), |b| number(b, 3)),
                 "1/s",
             ),
         ],

@@ -20,7 +20,9 @@ pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
     let subject = Path::new(&args.subject);
     let is_job = args.place.at.is_none()
         && subject.is_file()
-        && Files::default().job(subject).is_ok_and(|t| looks_like_a_job(&t));
+        && Files::default()
+            .job(subject)
+            .is_ok_and(|t| looks_like_a_job(&t));
     if is_job || args.program.program.is_some() {
         if args.place.at.is_some() {
             return Err(Failure::input(
@@ -59,9 +61,12 @@ fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     along::read_program(&setting)?;
     let mut targets = Targets::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let mut run = along::solve(Aim::Analyse, &machine, &setting, args.program.threads)?;
-    run.result
-        .warnings
-        .extend(model.warnings.iter().map(|w| format!("model: {}", w.message)));
+    run.result.warnings.extend(
+        model
+            .warnings
+            .iter()
+            .map(|w| format!("model: {}", w.message)),
+    );
     targets.fill(&run)?;
     let paths = targets.outputs.commit()?;
     let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
@@ -241,11 +246,7 @@ fn answer(
     }
 }
 
-fn actuators(
-    mechanism: &Mechanism,
-    posture: &Posture<'_>,
-    forces: &[f64],
-) -> Vec<ActuatorAnswer> {
+fn actuators(mechanism: &Mechanism, posture: &Posture<'_>, forces: &[f64]) -> Vec<ActuatorAnswer> {
     let kinds = mechanism
         .limbs()
         .iter()
@@ -375,9 +376,13 @@ fn internal(a: &Deflection) -> String {
         return String::new();
     }
     let mut rows = vec![
-        ["without load on the tool", "force on its end, N", "moment, N m"]
-            .map(str::to_owned)
-            .to_vec(),
+        [
+            "without load on the tool",
+            "force on its end, N",
+            "moment, N m",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
     ];
     for l in &a.limbs {
         rows.push(vec![

@@ -119,10 +119,17 @@ impl Source<'_> {
             .replace("expected f64", "a number is needed")
             .replace("expected u32", "a whole number is needed")
             .replace("expected u8", "a small whole number is needed")
-            .replace("expected an array of length", "a list is needed; its length:")
+            .replace(
+                "expected an array of length",
+                "a list is needed; its length:",
+            )
             .replace("expected a string", "text in quotes is needed")
             .replace("expected a boolean", "true or false is needed");
-        self.error(span, &words, "correct this value; `kinetostat help compensate` shows a whole job file")
+        self.error(
+            span,
+            &words,
+            "correct this value; `kinetostat help compensate` shows a whole job file",
+        )
     }
 }
 
@@ -156,7 +163,10 @@ fn advice(found: &str, known: &[&str]) -> String {
     let with_unit: Vec<&str> = known
         .iter()
         .copied()
-        .filter(|k| k.strip_prefix(found).is_some_and(|rest| rest.starts_with('_')))
+        .filter(|k| {
+            k.strip_prefix(found)
+                .is_some_and(|rest| rest.starts_with('_'))
+        })
         .collect();
     if !with_unit.is_empty() {
         return format!("write the unit in the key: {}", with_unit.join(" or "));

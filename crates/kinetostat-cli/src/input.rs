@@ -41,9 +41,8 @@ impl Files {
             Some(bytes) => bytes.clone(),
             None => read("job file", path, MOST_JOB_BYTES)?,
         };
-        let refuse = |message: &str| {
-            Failure::input(format!("the job file '{}' {message}", path.display()))
-        };
+        let refuse =
+            |message: &str| Failure::input(format!("the job file '{}' {message}", path.display()));
         if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
             return Err(refuse("is written in UTF-16; save it as UTF-8"));
         }
@@ -52,8 +51,14 @@ impl Files {
         }
         let text = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
-            let line = error.as_bytes()[..at].iter().filter(|b| **b == b'\n').count() + 1;
-            refuse(&format!("is not UTF-8 text at line {line}; save it as UTF-8"))
+            let line = error.as_bytes()[..at]
+                .iter()
+                .filter(|b| **b == b'\n')
+                .count()
+                + 1;
+            refuse(&format!(
+                "is not UTF-8 text at line {line}; save it as UTF-8"
+            ))
         })?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
         if text.trim().is_empty() {

@@ -18,7 +18,10 @@ pub(crate) fn run(args: &ModelArgs) -> Answer<()> {
             out.push_str(&listed(
                 &[
                     ["kinetostat check NAME", "what it is, in words"],
-                    ["kinetostat model show NAME > my.toml", "a start for your own"],
+                    [
+                        "kinetostat model show NAME > my.toml",
+                        "a start for your own",
+                    ],
                 ]
                 .map(|row| row.map(str::to_owned).to_vec()),
                 2,

@@ -2,8 +2,8 @@
 //! only under the name of its convention.
 
 use kinetostat::Pose;
-use kinetostat_model::schema::Placement;
 use kinetostat_model::Model;
+use kinetostat_model::schema::Placement;
 use nalgebra::UnitQuaternion;
 
 use crate::failure::{Answer, Failure};
@@ -54,13 +54,17 @@ pub(crate) fn option(flag: &str, text: &str) -> Answer<UnitQuaternion<f64>> {
     if !CONVENTIONS.contains(&name) {
         let near = nearest(name, &CONVENTIONS)
             .map_or_else(String::new, |n| format!("did you mean '{n}'? "));
-        return Err(refuse(format!("'{name}' is no convention known here. {near}There are {names}")));
+        return Err(refuse(format!(
+            "'{name}' is no convention known here. {near}There are {names}"
+        )));
     }
     let numbers: Vec<f64> = values
         .split(',')
         .map(|v| v.trim().parse::<f64>().ok().filter(|x| x.is_finite()))
         .collect::<Option<_>>()
-        .ok_or_else(|| refuse("numbers with a decimal point, separated by commas, are needed".into()))?;
+        .ok_or_else(|| {
+            refuse("numbers with a decimal point, separated by commas, are needed".into())
+        })?;
     let needed = if name.starts_with("quaternion") { 4 } else { 3 };
     if numbers.len() != needed {
         return Err(refuse(format!(
@@ -110,7 +114,9 @@ pub(crate) fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
     known
         .iter()
         .map(|k| (strsim::damerau_levenshtein(given, k), *k))
-        .filter(|(distance, k)| *distance <= (k.chars().count().max(given.chars().count()) / 3).max(1))
+        .filter(|(distance, k)| {
+            *distance <= (k.chars().count().max(given.chars().count()) / 3).max(1)
+        })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, k)| k)
 }

@@ -58,11 +58,6 @@ impl Outputs {
         }
     }
 
-    /// Whether anything is to be written.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.claimed.is_empty()
-    }
-
     /// Checks a target before the long work begins: it may be written, and it is no input.
     pub(crate) fn claim(&mut self, what: &'static str, target: &Path) -> Answer<usize> {
         let refuse = |reason: &str| {
@@ -307,10 +302,8 @@ pub(crate) fn inside(root: &Path, written: &str) -> Result<PathBuf, String> {
         );
     }
     let target = root.join(path);
-    let (Ok(root), Ok(parent)) = (
-        fs::canonicalize(root),
-        fs::canonicalize(parent_of(&target)),
-    ) else {
+    let (Ok(root), Ok(parent)) = (fs::canonicalize(root), fs::canonicalize(parent_of(&target)))
+    else {
         // A missing directory is told when the output is claimed.
         return Ok(target);
     };
@@ -333,9 +326,7 @@ pub(crate) fn in_words(error: &std::io::Error) -> String {
         }
         ErrorKind::StorageFull => "the disk is full; free some space or choose another disk".into(),
         ErrorKind::QuotaExceeded => "your share of the disk is used up".into(),
-        ErrorKind::ReadOnlyFilesystem => {
-            "the disk is read-only; choose another place".into()
-        }
+        ErrorKind::ReadOnlyFilesystem => "the disk is read-only; choose another place".into(),
         ErrorKind::FileTooLarge => "the file would be larger than is allowed here".into(),
         ErrorKind::NotADirectory => "a part of the path is a file, not a directory".into(),
         ErrorKind::IsADirectory => "it is a directory; name a file".into(),

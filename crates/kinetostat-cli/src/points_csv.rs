@@ -26,11 +26,12 @@ pub(crate) fn table(question: &Question, points: &[PointResult]) -> Answer<Vec<u
     }
     for actuator in &question.actuators {
         let unit = &actuator.motion_unit;
-        header.push(text(&format!("actuator_correction_{unit} {}", actuator.name)));
+        header.push(text(&format!(
+            "actuator_correction_{unit} {}",
+            actuator.name
+        )));
     }
-    header.extend(
-        ["smallest_stiffness_n_per_mm", "buckling_margin", "status"].map(String::from),
-    );
+    header.extend(["smallest_stiffness_n_per_mm", "buckling_margin", "status"].map(String::from));
     writer.write_record(&header).map_err(failed)?;
     let mut row: Vec<String> = Vec::with_capacity(header.len());
     for point in points {
@@ -60,7 +61,11 @@ pub(crate) fn table(question: &Question, points: &[PointResult]) -> Answer<Vec<u
         row.extend(point.actuator_force.iter().map(f64::to_string));
         row.extend(point.actuator_correction.iter().map(f64::to_string));
         row.push(point.smallest_stiffness_n_per_mm.to_string());
-        row.push(point.buckling_margin.map_or_else(String::new, |m| m.to_string()));
+        row.push(
+            point
+                .buckling_margin
+                .map_or_else(String::new, |m| m.to_string()),
+        );
         row.push(if point.stable { "ok" } else { "unstable" }.into());
         writer.write_record(&row).map_err(failed)?;
     }

@@ -34,9 +34,9 @@ impl Progress {
     pub(crate) fn new() -> Self {
         let bar = screen::watched().then(|| {
             let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(8));
-            if let Ok(style) = ProgressStyle::with_template(
-                "{msg:36} {bar:20} {pos:>8}/{len} points, {eta} left",
-            ) {
+            if let Ok(style) =
+                ProgressStyle::with_template("{msg:36} {bar:20} {pos:>8}/{len} points, {eta} left")
+            {
                 bar.set_style(style);
             }
             bar

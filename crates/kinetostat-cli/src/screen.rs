@@ -150,7 +150,14 @@ fn aligned(rows: &[Vec<String>], indent: usize, right: impl Fn(usize) -> bool) -
 /// comma.
 pub(crate) fn number(value: f64, digits: i32) -> String {
     if !value.is_finite() {
-        return if value.is_nan() { "?" } else if value > 0.0 { "infinite" } else { "-infinite" }.into();
+        return if value.is_nan() {
+            "?"
+        } else if value > 0.0 {
+            "infinite"
+        } else {
+            "-infinite"
+        }
+        .into();
     }
     if value == 0.0 {
         return "0".into();

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Wrench};
-use kinetostat_machining::{CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, straight_tool};
+use kinetostat_machining::{
+    CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, straight_tool,
+};
 use kinetostat_model::Model;
 use kinetostat_program::{BlockDelete, ReadOptions, Units, WriteOptions};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -108,7 +110,10 @@ pub(crate) fn setting(
     let mut inputs: Vec<PathBuf> = job.iter().map(|j| j.path.clone()).collect();
     let path = match (&flags.program, job.and_then(|j| j.job.program.as_ref())) {
         (Some(path), _) => path.clone(),
-        (None, Some(written)) => job.map(JobFile::base).unwrap_or_default().join(written.get_ref()),
+        (None, Some(written)) => job
+            .map(JobFile::base)
+            .unwrap_or_default()
+            .join(written.get_ref()),
         (None, None) => {
             return Err(Failure::input(match job {
                 Some(j) => format!(
@@ -160,9 +165,10 @@ pub(crate) fn setting(
         (None, Some(v)) => Some(positive("max_blocks_per_second", *v.get_ref())?),
         _ => None,
     };
-    let program_name = path
-        .file_name()
-        .map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+    let program_name = path.file_name().map_or_else(
+        || path.display().to_string(),
+        |n| n.to_string_lossy().into_owned(),
+    );
     Ok(Setting {
         program,
         program_name,
@@ -199,7 +205,10 @@ fn targets(
             .map_err(|help| {
                 j.error(
                     written,
-                    &format!("the output '{}' is outside the job's directory", written.get_ref()),
+                    &format!(
+                        "the output '{}' is outside the job's directory",
+                        written.get_ref()
+                    ),
                     &help,
                 )
             })
@@ -391,10 +400,10 @@ fn with_deviations(model: Model, job: Option<&JobFile>) -> Answer<Model> {
         model = model
             .with_deviation(&d.limb, &d.at, &motion)
             .map_err(|error| {
-                let (message, help) = error
-                    .problems()
-                    .first()
-                    .map_or_else(|| (error.to_string(), String::new()), |p| (p.message.clone(), p.help.clone()));
+                let (message, help) = error.problems().first().map_or_else(
+                    || (error.to_string(), String::new()),
+                    |p| (p.message.clone(), p.help.clone()),
+                );
                 j.error(deviation, &message, &help)
             })?;
     }
@@ -553,16 +562,15 @@ fn load(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ProgramLoad> {
             "keep one of them",
         ));
     }
-    let constant = |force: Vector3<f64>, moment: Vector3<f64>, axes: Option<Axes>| {
-        CuttingLoad::Constant {
+    let constant =
+        |force: Vector3<f64>, moment: Vector3<f64>, axes: Option<Axes>| CuttingLoad::Constant {
             axes: match axes.unwrap_or(Axes::Base) {
                 Axes::Base => LoadAxes::Base,
                 Axes::Tool => LoadAxes::Tool,
                 Axes::Feed => LoadAxes::Feed,
             },
             wrench: Wrench::new(force, moment),
-        }
-    };
+        };
     let cutting = if let Some(v) = &flags.milling {
         let v = vector("--milling", v)?;
         CuttingLoad::Milling {
@@ -604,13 +612,21 @@ fn load(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ProgramLoad> {
     }
     if let (Some(j), Some(angle)) = (job, &table.gentle_corner_deg) {
         if !(0.0..=180.0).contains(angle.get_ref()) {
-            return Err(j.error(angle, "a corner turns by 0 to 180 degrees", "correct the angle"));
+            return Err(j.error(
+                angle,
+                "a corner turns by 0 to 180 degrees",
+                "correct the angle",
+            ));
         }
         load.gentle_corner = angle.get_ref().to_radians();
     }
     if let (Some(j), Some(length)) = (job, &table.turning_length_mm) {
         if *length.get_ref() <= 0.0 {
-            return Err(j.error(length, "a length above zero is needed", "write some millimetres"));
+            return Err(j.error(
+                length,
+                "a length above zero is needed",
+                "write some millimetres",
+            ));
         }
         load.turning_length_mm = *length.get_ref();
     }

@@ -167,7 +167,9 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
     out.push_str(&matrix(
         &a.stiffness_n_m_rad,
         ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"],
-        ["per mm", "per mm", "per mm", "per rad", "per rad", "per rad"],
+        [
+            "per mm", "per mm", "per mm", "per rad", "per rad", "per rad",
+        ],
         |i, j| {
             let _ = i;
             if j < 3 { 1e-3 } else { 1.0 }
@@ -178,7 +180,9 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
         out.push_str("\nCompliance, its inverse: micrometres and microradians\n\n");
         out.push_str(&matrix(
             c,
-            ["dx, um", "dy, um", "dz, um", "rx, urad", "ry, urad", "rz, urad"],
+            [
+                "dx, um", "dy, um", "dz, um", "rx, urad", "ry, urad", "rz, urad",
+            ],
             ["per N", "per N", "per N", "per N m", "per N m", "per N m"],
             |_, _| 1e6,
         ));
@@ -278,7 +282,7 @@ pub(crate) fn principals(list: &[Principal]) -> String {
 }
 
 fn limb_in_words(limb: &LimbShare) -> String {
-    let mut parts = vec![format!("{} stiff directions", limb.rank)];
+    let mut parts = vec![format!("{} stiff directions", limb.rank - limb.negative)];
     if limb.free > 0 {
         parts.push(format!("{} free (passive joints)", limb.free));
     }
@@ -286,7 +290,10 @@ fn limb_in_words(limb: &LimbShare) -> String {
         parts.push(format!("{} rigid", limb.rigid));
     }
     if limb.negative > 0 {
-        parts.push(format!("{} NEGATIVE", limb.negative));
+        parts.push(format!(
+            "{} negative, which its load pulls away (the others hold them)",
+            limb.negative
+        ));
     }
     let mut text = format!("limb '{}': {}", limb.name, parts.join(", "));
     if !limb.redundant_passive_joints.is_empty() {
@@ -297,4 +304,3 @@ fn limb_in_words(limb: &LimbShare) -> String {
     }
     text
 }
-

@@ -70,7 +70,12 @@ fn figures(result: &RunResult) -> String {
             &fixed(s.rms_position_error_after_mm, 5),
             "mm",
         ]);
-        row(&["of that by rounding", "", &fixed(s.max_rounding_error_mm, 5), "mm"]);
+        row(&[
+            "of that by rounding",
+            "",
+            &fixed(s.max_rounding_error_mm, 5),
+            "mm",
+        ]);
         row(&["largest correction", "", &mm(s.max_correction_mm), "mm"]);
         row(&[
             "tool tilt that stays",
@@ -90,13 +95,13 @@ fn figures(result: &RunResult) -> String {
             &s.blocks_out.to_string(),
             "",
         ]);
-        row(&["bytes", &s.bytes_in.to_string(), &s.bytes_out.to_string(), ""]);
         row(&[
-            "shortest piece",
+            "bytes",
+            &s.bytes_in.to_string(),
+            &s.bytes_out.to_string(),
             "",
-            &fixed(s.smallest_piece_mm, 3),
-            "mm",
         ]);
+        row(&["shortest piece", "", &fixed(s.smallest_piece_mm, 3), "mm"]);
         row(&[
             "most blocks per second",
             "",

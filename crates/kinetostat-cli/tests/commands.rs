@@ -1,0 +1,261 @@
+//! The other commands: they answer, at 80 columns, in the same words everywhere.
+
+mod common;
+
+use common::{contents, run, shell, workplace};
+use serde_json::Value;
+
+const PRESETS: [&str; 6] = [
+    "orthoglide",
+    "stewart_gough_a",
+    "stewart_gough_b",
+    "two_link",
+    "puu3",
+    "heavy_6r",
+];
+
+#[track_caller]
+fn narrow(text: &str) {
+    let wide: Vec<&str> = text.lines().filter(|l| l.chars().count() > 80).collect();
+    assert!(wide.is_empty(), "{wide:#?}");
+    assert!(!text.contains('\u{1b}'));
+}
+
+#[test]
+fn every_preset_is_checked_and_shown() {
+    let here = workplace();
+    let list = run(here.path(), &["model", "list"]).answered();
+    for preset in PRESETS {
+        assert!(list.out.contains(preset), "{}", list.out);
+        let said = run(here.path(), &["check", preset]).answered();
+        narrow(&said.out);
+        let shown = run(here.path(), &["model", "show", preset]).answered();
+        // What is shown is a model file.
+        std::fs::write(here.path().join("own.toml"), &shown.out).unwrap();
+        run(here.path(), &["check", "own.toml"]).answered();
+        let json = run(here.path(), &["check", preset, "--json"]).answered();
+        let found: Value = serde_json::from_str(&json.out).expect("JSON");
+        assert_eq!(found["schema"], 1);
+    }
+    let schema = run(here.path(), &["model", "schema"]).answered();
+    serde_json::from_str::<Value>(&schema.out).expect("JSON");
+}
+
+#[test]
+fn check_counts_mobility_and_over_constraint() {
+    let here = workplace();
+    let said = run(here.path(), &["check", "orthoglide", "--json"]).answered();
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(found["home"]["mobility"], 3);
+    assert_eq!(found["home"]["degrees_of_over_constraint"], 3);
+    assert_eq!(found["home"]["stiffness_rank"], 6);
+    let said = run(here.path(), &["check", "stewart_gough_b", "--json"]).answered();
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(found["home"]["mobility"], 6);
+    assert_eq!(found["home"]["degrees_of_over_constraint"], 0);
+}
+
+#[test]
+fn stiffness_has_units_axes_and_point() {
+    let here = workplace();
+    let said = run(
+        here.path(),
+        &["stiffness", "orthoglide", "--at", "0", "0", "0"],
+    )
+    .answered();
+    narrow(&said.out);
+    for needle in [
+        "Base axes",
+        "per mm",
+        "per rad",
+        "Compliance",
+        "Principal directions",
+    ] {
+        assert!(said.out.contains(needle), "{}", said.out);
+    }
+    let args = [
+        "stiffness",
+        "orthoglide",
+        "--at",
+        "20",
+        "20",
+        "120",
+        "--tool-length-mm",
+        "100",
+        "--force",
+        "215",
+        "-10",
+        "-25",
+        "--moment",
+        "0",
+        "0",
+        "3",
+        "--json",
+    ];
+    let said = run(here.path(), &args).answered();
+    narrow(&said.err);
+    assert!(said.err.contains("not symmetric"), "{}", said.err);
+    let k: Value = serde_json::from_str(&said.out).unwrap();
+    let entry = |i: usize, j: usize| k["stiffness_n_m_rad"][i][j].as_f64().unwrap();
+    assert!((entry(3, 4) - entry(4, 3) - 3.0).abs() < 1e-6);
+    assert!((entry(0, 5) - entry(5, 0)).abs() < 1e-6);
+}
+
+#[test]
+fn deflect_at_a_place() {
+    let here = workplace();
+    // Reference values, part 2, 2.5: Q0 under (215, -10, -25) N and (1, 21.5, 0) N m.
+    let said = run(
+        here.path(),
+        &[
+            "deflect",
+            "orthoglide",
+            "--at",
+            "0",
+            "0",
+            "0",
+            "--force",
+            "215",
+            "-10",
+            "-25",
+            "--moment",
+            "1",
+            "21.5",
+            "0",
+            "--json",
+        ],
+    )
+    .answered();
+    narrow(&said.err);
+    let d: Value = serde_json::from_str(&said.out).unwrap();
+    for (k, expected) in [0.07073714, -0.003349638, -0.009003996]
+        .into_iter()
+        .enumerate()
+    {
+        let found = d["displacement_mm"][k].as_f64().unwrap();
+        assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    }
+    for (k, expected) in [214.9902, -10.02927, -25.3176].into_iter().enumerate() {
+        let found = d["actuators"][k]["force"].as_f64().unwrap();
+        assert!((found - expected).abs() < 1e-3, "{found} {expected}");
+    }
+    assert_eq!(d["stable"], true);
+
+    // A rotation by a named convention; a file as output.
+    run(
+        here.path(),
+        &[
+            "deflect",
+            "heavy_6r",
+            "--at",
+            "1000",
+            "0",
+            "1200",
+            "--rotation",
+            "a_b_c_kuka_deg=0,90,0",
+            "--force",
+            "0",
+            "0",
+            "-500",
+            "--json",
+            "d.json",
+        ],
+    )
+    .answered();
+    assert!(here.path().join("d.json").exists());
+}
+
+#[test]
+fn help_completions_and_manual_pages() {
+    let here = workplace();
+    for command in [
+        &[][..],
+        &["demo"],
+        &["compensate"],
+        &["deflect"],
+        &["stiffness"],
+        &["check"],
+        &["model"],
+        &["model", "show"],
+    ] {
+        let mut args = command.to_vec();
+        args.push("--help");
+        let said = run(here.path(), &args).answered();
+        narrow(&said.out);
+    }
+    let help = run(here.path(), &["--help"]).answered().out;
+    assert!(
+        help.contains("Exit codes") && help.contains("not converged"),
+        "{help}"
+    );
+    for name in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let said = run(here.path(), &["completions", name]).answered();
+        assert!(said.out.contains("kinetostat"), "{name}");
+    }
+    assert!(
+        run(here.path(), &["man"])
+            .answered()
+            .out
+            .contains(".TH kinetostat")
+    );
+    std::fs::create_dir(here.path().join("man1")).unwrap();
+    run(here.path(), &["man", "--out", "man1"]).answered();
+    let pages = contents(&here.path().join("man1"));
+    assert!(
+        pages.keys().any(|p| p.ends_with("kinetostat-model-show.1")),
+        "{:?}",
+        pages.keys()
+    );
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_failure() {
+    let here = workplace();
+    let said = shell(here.path(), "$K model schema | head -1");
+    assert_eq!(said.code, 0);
+    assert!(said.err.is_empty(), "{}", said.err);
+}
+
+#[test]
+fn nothing_depends_on_the_locale() {
+    let here = workplace();
+    let line = |locale: &str, out: &str| {
+        let said = shell(
+            here.path(),
+            &format!("LC_ALL={locale} LANG={locale} $K demo --out {out} --json"),
+        );
+        assert_eq!(said.code, 0, "{said:?}");
+        said.out
+    };
+    assert_eq!(line("C", "a"), line("de_DE.UTF-8", "b"));
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupt_leaves_nothing_half_written() {
+    let here = workplace();
+    // Long enough to be still at work when the signal comes.
+    let mut text = String::from("G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F500\n");
+    for i in 0..60_000 {
+        let angle = f64::from(i) * 0.01;
+        text.push_str(&format!(
+            "G1 X{:.3} Y{:.3}\n",
+            30.0 * angle.cos(),
+            30.0 * angle.sin()
+        ));
+    }
+    std::fs::write(here.path().join("part.ngc"), text).unwrap();
+    let before = contents(here.path());
+    let mut child = common::command(here.path())
+        .args(["compensate", "job.toml", "--json", "r.json"])
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(1500));
+    let killed = shell(here.path(), &format!("kill -INT {}", child.id()));
+    assert_eq!(killed.code, 0, "{killed:?}");
+    let status = child.wait().unwrap();
+    assert_eq!(status.code(), Some(130), "{status:?}");
+    assert_eq!(contents(here.path()), before);
+}
