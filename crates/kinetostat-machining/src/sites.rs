@@ -132,16 +132,22 @@ pub(crate) fn of_written(
             }
             continue;
         }
+        // Beside a jump of the load inside a move, the load is the one before it or after it: within
+        // the micrometre in which it is located it steps, it does not turn gradually.
+        let neighbour = |index: Option<usize>| {
+            index
+                .and_then(|index| written.pieces.get(index))
+                .filter(|other| other.move_index == piece.move_index)
+                .and_then(|other| other.turn)
+        };
+        let lowest = neighbour(index.checked_sub(1)).map_or(0.0, |turn| turn.to_share);
+        let highest = neighbour(Some(index + 1)).map_or(1.0, |turn| turn.from_share);
+        let at =
+            |share: f64| load.wrench(placement, piece.move_index, share.max(lowest).min(highest));
         if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole {
-            let share = 0.5 * (piece.share_from + piece.share_to);
-            push(0.5, load.wrench(placement, piece.move_index, share), false);
+            push(0.5, at(0.5 * (piece.share_from + piece.share_to)), false);
         }
-        // A piece that ends at a jump of the load ends before it.
-        let next_turn = written.pieces.get(index + 1).and_then(|next| next.turn);
-        let share = next_turn
-            .filter(|turn| turn.from_move == piece.move_index)
-            .map_or(piece.share_to, |turn| turn.from_share);
-        push(1.0, load.wrench(placement, piece.move_index, share), true);
+        push(1.0, at(piece.share_to), true);
     }
     sites
 }
