@@ -6,11 +6,12 @@ use kinetostat_machining::{LoadAlongPath, Run, RunResult, Task, analyse, compens
 use kinetostat_program::{Path as ToolPath, Program, ProgramError, interpret};
 
 use crate::failure::{Answer, Failure};
+use crate::machine::Machine;
 use crate::output::{Existing, Outputs};
 use crate::points_csv;
 use crate::progress::Progress;
 use crate::screen::{self, Stream};
-use crate::setting::{Machine, Setting, Targets};
+use crate::setting::{Setting, Targets};
 
 /// What a run writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,8 +10,8 @@ use crate::along;
 use crate::args::CheckArgs;
 use crate::failure::Answer;
 use crate::input::Files;
+use crate::machine::{deviations_in_words, short};
 use crate::screen::{self, Stream, fixed, item, number, triple, wrapped};
-use crate::setting::{deviations_in_words, short};
 use crate::stiffness::{Principal, principal, principals};
 
 /// Findings, stable names with units.

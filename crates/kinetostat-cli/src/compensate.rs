@@ -11,10 +11,11 @@ use crate::along::{self, Aim, Files as Targets, tell};
 use crate::args::CompensateArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
+use crate::machine::machine;
 use crate::output::{Existing, Outputs};
 use crate::progress::Progress;
 use crate::screen::{self, Stream, columns, fixed, mm, number, wrapped};
-use crate::setting::{JobFile, Setting, WritingFlags, machine, setting};
+use crate::setting::{JobFile, Setting, WritingFlags, setting};
 use crate::summary;
 
 pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {

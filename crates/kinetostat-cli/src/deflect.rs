@@ -10,10 +10,11 @@ use crate::args::DeflectArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
+use crate::machine::machine;
 use crate::output::{Existing, Outputs};
 use crate::place::{Spot, spot};
 use crate::screen::{self, Stream, columns, fixed, number, triple, wrapped};
-use crate::setting::{JobFile, WritingFlags, machine, setting};
+use crate::setting::{JobFile, WritingFlags, setting};
 use crate::summary;
 
 pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
@@ -99,7 +100,8 @@ struct Deflection {
     rotation_size_deg: f64,
     actuators: Vec<ActuatorAnswer>,
     limbs: Vec<LimbAnswer>,
-    smallest_principal_stiffness_n_per_mm: f64,
+    /// Against a force in the softest direction, the tool free to turn.
+    smallest_stiffness_n_per_mm: f64,
     free_directions: usize,
     platform_stable: bool,
     stable: bool,
@@ -236,7 +238,7 @@ fn answer(
                 neutral_passive_joints: l.stability.neutral.clone(),
             })
             .collect(),
-        smallest_principal_stiffness_n_per_mm: 1e-3 * loaded.platform.smallest_stiffness_n_per_m,
+        smallest_stiffness_n_per_mm: 1e-3 * loaded.stiffness_against_force(),
         free_directions: loaded.platform.free,
         platform_stable: loaded.platform.stable,
         stable: loaded.stable(),
@@ -328,8 +330,8 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         )
     } else {
         format!(
-            "the platform stays; smallest principal stiffness {} N/mm",
-            number(a.smallest_principal_stiffness_n_per_mm, 4)
+            "the platform stays; a force in the softest direction meets {} N/mm",
+            number(a.smallest_stiffness_n_per_mm, 4)
         )
     };
     out.push_str(&screen::item(&platform));

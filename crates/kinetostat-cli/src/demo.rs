@@ -8,9 +8,10 @@ use crate::along::{self, Aim, Files as Targets, tell};
 use crate::args::{DemoArgs, ProgramArgs};
 use crate::failure::{Answer, Failure, safe};
 use crate::input::Files;
+use crate::machine::machine;
 use crate::output::{Existing, in_words};
 use crate::screen::{listed, wrapped};
-use crate::setting::{JobFile, WritingFlags, machine, setting};
+use crate::setting::{JobFile, WritingFlags, setting};
 use crate::summary;
 
 const PROGRAM: &str = "\

@@ -15,6 +15,7 @@ mod diagnose;
 mod failure;
 mod input;
 mod job;
+mod machine;
 mod models;
 mod orientation;
 mod output;

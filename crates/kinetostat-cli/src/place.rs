@@ -10,9 +10,10 @@ use crate::args::PlaceArgs;
 use crate::deflect::PlaceAsked;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
+use crate::machine::{deviations_in_words, short};
 use crate::orientation;
 use crate::screen::{triple, wrapped};
-use crate::setting::{deviations_in_words, short, vector};
+use crate::setting::vector;
 
 /// Everything about one place.
 pub(crate) struct Spot {

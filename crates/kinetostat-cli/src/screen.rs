@@ -163,7 +163,7 @@ pub(crate) fn number(value: f64, digits: i32) -> String {
         return "0".into();
     }
     let magnitude = value.abs().log10().floor() as i32;
-    if magnitude >= 7 || magnitude < -5 {
+    if !(-5..7).contains(&magnitude) {
         return format!("{value:.*e}", (digits - 1).max(0) as usize);
     }
     format!("{value:.*}", (digits - 1 - magnitude).clamp(0, 12) as usize)

@@ -2,23 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat::{Mechanism, Pose, Wrench};
-use kinetostat_machining::{
-    CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, straight_tool,
-};
-use kinetostat_model::Model;
 use kinetostat_program::{BlockDelete, ReadOptions, Units, WriteOptions};
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
 use crate::args::ProgramArgs;
 use crate::diagnose::Source;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::job::{Axes, BlockDeleteWord, Job, UnitsWord};
-use crate::orientation;
+use crate::job::{BlockDeleteWord, Job, UnitsWord};
 use crate::output::inside;
-use crate::screen::{fixed, triple};
 
 /// A job file that has been read: its text is kept for messages.
 #[derive(Clone, Debug)]
@@ -48,7 +41,7 @@ impl JobFile {
         self.path.parent().map(Path::to_owned).unwrap_or_default()
     }
 
-    fn error<T>(&self, at: &Spanned<T>, message: &str, help: &str) -> Failure {
+    pub(crate) fn error<T>(&self, at: &Spanned<T>, message: &str, help: &str) -> Failure {
         Source {
             file: &self.path.display().to_string(),
             text: &self.text,
@@ -76,16 +69,6 @@ pub(crate) struct Setting {
     pub(crate) targets: Targets,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
-}
-
-/// The machine with its tool, where the program lies, and what acts.
-pub(crate) struct Machine {
-    pub(crate) mechanism: Mechanism,
-    pub(crate) placement: Placement,
-    pub(crate) load: ProgramLoad,
-    pub(crate) question: Question,
-    /// Of the model's text and deviations.
-    pub(crate) fingerprint: u64,
 }
 
 /// Options that only the writing needs.
@@ -237,7 +220,7 @@ fn beside(near: &Path, program: &Path) -> PathBuf {
     near.with_file_name(name)
 }
 
-fn positive(name: &str, value: f64) -> Answer<f64> {
+pub(crate) fn positive(name: &str, value: f64) -> Answer<f64> {
     if value.is_finite() && value > 0.0 {
         Ok(value)
     } else {
@@ -247,7 +230,7 @@ fn positive(name: &str, value: f64) -> Answer<f64> {
     }
 }
 
-fn finite(name: &str, values: &[f64]) -> Answer<()> {
+pub(crate) fn finite(name: &str, values: &[f64]) -> Answer<()> {
     match values.iter().find(|v| !v.is_finite()) {
         Some(v) => Err(Failure::input(format!(
             "{name} holds {v}: finite numbers are needed"
@@ -329,315 +312,4 @@ fn work_offset(name: &str) -> Option<usize> {
     ]
     .iter()
     .position(|known| known.eq_ignore_ascii_case(name))
-}
-
-/// The machine, its tool, the placement and the load.
-pub(crate) fn machine(
-    files: &Files,
-    job: Option<&JobFile>,
-    flag_model: Option<&str>,
-    flags: &ProgramArgs,
-    inputs: &mut Vec<PathBuf>,
-) -> Answer<(Machine, Model)> {
-    let table = job.and_then(|j| j.job.model.as_ref());
-    let (named, base) = match (flag_model, table) {
-        (Some(named), _) => (named.to_owned(), PathBuf::new()),
-        (None, Some(named)) => (
-            named.get_ref().clone(),
-            job.map(JobFile::base).unwrap_or_default(),
-        ),
-        (None, None) => {
-            return Err(Failure::input(match job {
-                Some(j) => format!(
-                    "the job file '{}' names no model; write  model = \"orthoglide\"  at its top, or give --model MODEL",
-                    j.path.display()
-                ),
-                None => "no model is named; give a job file, or --model MODEL (a preset or a file); the presets are listed by `kinetostat model list`".to_owned(),
-            }));
-        }
-    };
-    let (model, path) = files.model(&named, &base)?;
-    inputs.extend(path.clone());
-    let model = with_deviations(model, job)?;
-    let fingerprint = fingerprint(&model);
-    let (tool, tool_words) = tool(job, flags)?;
-    let mechanism = model.mechanism.with_tool(&tool);
-    let placement = placement(job, flags, &mechanism)?;
-    let load = load(job, flags)?;
-    let source = match &path {
-        Some(_) => named,
-        None => format!("preset {named}"),
-    };
-    let question = Question {
-        model: model.name().to_owned(),
-        model_source: source,
-        model_deviations: deviations_in_words(&model),
-        placement: placement_in_words(&placement),
-        tool: tool_words,
-        ..Question::default()
-    };
-    Ok((
-        Machine {
-            mechanism,
-            placement,
-            load,
-            question,
-            fingerprint,
-        },
-        model,
-    ))
-}
-
-fn with_deviations(model: Model, job: Option<&JobFile>) -> Answer<Model> {
-    let Some(j) = job.filter(|j| !j.job.deviation.is_empty()) else {
-        return Ok(model);
-    };
-    let mut model = model;
-    for deviation in &j.job.deviation {
-        let d = deviation.get_ref();
-        let motion = orientation::pose(&d.moved_by)
-            .map_err(|(message, help)| j.error(deviation, &message, &help))?;
-        model = model
-            .with_deviation(&d.limb, &d.at, &motion)
-            .map_err(|error| {
-                let (message, help) = error.problems().first().map_or_else(
-                    || (error.to_string(), String::new()),
-                    |p| (p.message.clone(), p.help.clone()),
-                );
-                j.error(deviation, &message, &help)
-            })?;
-    }
-    Ok(model)
-}
-
-/// The deviations of a model, one sentence each.
-pub(crate) fn deviations_in_words(model: &Model) -> Vec<String> {
-    model
-        .document
-        .deviation
-        .iter()
-        .map(|d| {
-            let place = match d.at.as_str() {
-                "start" => "at its start".to_owned(),
-                "end" => "at its end".to_owned(),
-                name => format!("behind '{name}'"),
-            };
-            let Ok(motion) = orientation::pose(&d.moved_by) else {
-                return format!("limb '{}' is out of place {place}", d.limb);
-            };
-            let (shift, turn) = (
-                motion.translation.vector * 1e3,
-                motion.rotation.scaled_axis().map(f64::to_degrees),
-            );
-            let mut parts = Vec::new();
-            if shift.norm() > 0.0 {
-                parts.push(format!("shifted by {} mm", triple(shift.into(), short)));
-            }
-            if turn.norm() > 0.0 {
-                parts.push(format!("turned by {} deg", triple(turn.into(), short)));
-            }
-            if parts.is_empty() {
-                parts.push("not moved".to_owned());
-            }
-            format!("limb '{}' is {} {place}", d.limb, parts.join(" and "))
-        })
-        .collect()
-}
-
-/// A number as short as it can be at four decimals.
-pub(crate) fn short(value: f64) -> String {
-    let text = fixed(value, 4);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-fn tool(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<(Pose, String)> {
-    let straight = |length_mm: f64| {
-        if !length_mm.is_finite() || length_mm.abs() > 1e5 {
-            return Err(Failure::input(format!(
-                "the tool's length is {length_mm} mm; tools are shorter than 100 m"
-            )));
-        }
-        let words = if length_mm == 0.0 {
-            "none: the platform's own point".to_owned()
-        } else {
-            format!("{} mm along z of the flange", short(length_mm))
-        };
-        Ok((straight_tool(1e-3 * length_mm), words))
-    };
-    if let Some(length) = flags.tool_length_mm {
-        return straight(length);
-    }
-    let Some(j) = job else {
-        return straight(0.0);
-    };
-    match (&j.job.tool.length_mm, &j.job.tool.pose) {
-        (Some(_), Some(pose)) => Err(j.error(
-            pose,
-            "the tool is given twice: 'length_mm' and 'pose'",
-            "keep one of them",
-        )),
-        (Some(length), None) => straight(*length.get_ref()),
-        (None, Some(table)) => {
-            let pose = orientation::pose(table.get_ref())
-                .map_err(|(message, help)| j.error(table, &message, &help))?;
-            let tip = pose.translation.vector * 1e3;
-            Ok((
-                pose,
-                format!("tip at {} mm in the flange", triple(tip.into(), short)),
-            ))
-        }
-        (None, None) => straight(0.0),
-    }
-}
-
-fn placement(
-    job: Option<&JobFile>,
-    flags: &ProgramArgs,
-    mechanism: &Mechanism,
-) -> Answer<Placement> {
-    let table = job.map(|j| j.job.placement.clone()).unwrap_or_default();
-    let origin = match (&flags.part_origin_mm, table.part_origin_mm) {
-        (Some(v), _) => vector("--part-origin-mm", v)?,
-        (None, Some(v)) => v.into(),
-        _ => Vector3::zeros(),
-    };
-    let written = |at: &Option<Spanned<kinetostat_model::schema::Placement>>| {
-        let (Some(j), Some(table)) = (job, at) else {
-            return Ok(None);
-        };
-        let pose = orientation::pose(table.get_ref())
-            .map_err(|(message, help)| j.error(table, &message, &help))?;
-        if pose.translation.vector.norm() > 0.0 {
-            return Err(j.error(
-                table,
-                "this is an orientation, but a position is given in it",
-                "write the place of the part as part_origin_mm, the tool's tip under [tool]",
-            ));
-        }
-        Ok(Some(pose.rotation))
-    };
-    let part: UnitQuaternion<f64> = match &flags.part_orientation {
-        Some(text) => orientation::option("--part-orientation", text)?,
-        None => written(&table.part_orientation)?.unwrap_or_default(),
-    };
-    let home = mechanism.platforms()[mechanism.tool()].home.rotation;
-    let tool = match &flags.tool_orientation {
-        Some(text) => orientation::option("--tool-orientation", text)?,
-        None => written(&table.tool_orientation)?.unwrap_or(home),
-    };
-    let scale = match (flags.scale, table.scale) {
-        (Some(v), _) => positive("--scale", v)?,
-        (None, Some(v)) => positive("scale", v.into_inner())?,
-        _ => 1.0,
-    };
-    Ok(Placement {
-        base_from_part: Pose::from_parts((1e-3 * origin).into(), part),
-        tool_orientation: tool,
-        scale,
-    })
-}
-
-fn placement_in_words(placement: &Placement) -> String {
-    let origin = placement.base_from_part.translation.vector * 1e3;
-    let mut text = format!(
-        "program zero at {} mm in the base, axes {}; tool {}",
-        triple(origin.into(), short),
-        orientation::in_words(&placement.base_from_part.rotation),
-        orientation::in_words(&placement.tool_orientation),
-    );
-    if placement.scale != 1.0 {
-        text.push_str(&format!("; scaled by {}", placement.scale));
-    }
-    text
-}
-
-fn load(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ProgramLoad> {
-    let table = job.map(|j| j.job.load.clone()).unwrap_or_default();
-    if let (Some(j), Some(milling)) = (job, &table.milling)
-        && (table.force_n.is_some() || table.moment_n_m.is_some() || table.axes.is_some())
-    {
-        return Err(j.error(
-            milling,
-            "the load is given twice: 'milling' and 'force_n', 'moment_n_m' or 'axes'",
-            "keep one of them",
-        ));
-    }
-    let constant =
-        |force: Vector3<f64>, moment: Vector3<f64>, axes: Option<Axes>| CuttingLoad::Constant {
-            axes: match axes.unwrap_or(Axes::Base) {
-                Axes::Base => LoadAxes::Base,
-                Axes::Tool => LoadAxes::Tool,
-                Axes::Feed => LoadAxes::Feed,
-            },
-            wrench: Wrench::new(force, moment),
-        };
-    let cutting = if let Some(v) = &flags.milling {
-        let v = vector("--milling", v)?;
-        CuttingLoad::Milling {
-            radial: v.x,
-            tangential: v.y,
-            axial: v.z,
-        }
-    } else if flags.force.is_some() || flags.moment.is_some() {
-        // A force on the command line goes over a milling force of the job.
-        let part = |name: &str, flag: &Option<Vec<f64>>, written: Option<[f64; 3]>| match flag {
-            Some(v) => vector(name, v),
-            None => Ok(written.map_or_else(Vector3::zeros, Into::into)),
-        };
-        constant(
-            part("--force", &flags.force, table.force_n)?,
-            part("--moment", &flags.moment, table.moment_n_m)?,
-            flags.load_axes.or(table.axes),
-        )
-    } else if let Some(m) = &table.milling {
-        let m = m.get_ref();
-        CuttingLoad::Milling {
-            radial: m.radial_n,
-            tangential: m.tangential_n,
-            axial: m.axial_n,
-        }
-    } else if table.force_n.is_some() || table.moment_n_m.is_some() {
-        constant(
-            table.force_n.unwrap_or_default().into(),
-            table.moment_n_m.unwrap_or_default().into(),
-            flags.load_axes.or(table.axes),
-        )
-    } else {
-        CuttingLoad::None
-    };
-    let mut load = ProgramLoad::new(cutting);
-    load.below_z_mm = flags.below_z_mm.or(table.below_z_mm);
-    if let Some(z) = load.below_z_mm {
-        finite("the height below which the load acts", &[z])?;
-    }
-    if let (Some(j), Some(angle)) = (job, &table.gentle_corner_deg) {
-        if !(0.0..=180.0).contains(angle.get_ref()) {
-            return Err(j.error(
-                angle,
-                "a corner turns by 0 to 180 degrees",
-                "correct the angle",
-            ));
-        }
-        load.gentle_corner = angle.get_ref().to_radians();
-    }
-    if let (Some(j), Some(length)) = (job, &table.turning_length_mm) {
-        if *length.get_ref() <= 0.0 {
-            return Err(j.error(
-                length,
-                "a length above zero is needed",
-                "write some millimetres",
-            ));
-        }
-        load.turning_length_mm = *length.get_ref();
-    }
-    Ok(load)
-}
-
-/// A number that changes with every character of the model and with its deviations (FNV-1a): it
-/// tells in a program's header which model it was made for.
-fn fingerprint(model: &Model) -> u64 {
-    let text = model.to_toml().unwrap_or_else(|_| model.text.clone());
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }

@@ -9,9 +9,9 @@ use crate::args::StiffnessArgs;
 use crate::deflect::PlaceAsked;
 use crate::failure::Answer;
 use crate::input::Files;
+use crate::machine::short;
 use crate::place::{Spot, spot};
 use crate::screen::{self, Stream, columns, fixed, item, number, triple, wrapped};
-use crate::setting::short;
 use crate::summary;
 
 /// The answer, stable names with units.

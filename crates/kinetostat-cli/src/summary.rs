@@ -136,7 +136,7 @@ fn figures(result: &RunResult) -> String {
     last("path at feed", fixed(s.feed_length_mm, 1), "mm");
     last("points solved", s.points.to_string(), "");
     last(
-        "smallest principal stiffness",
+        "softest direction of the tool",
         number(s.smallest_stiffness_n_per_mm, 4),
         "N/mm",
     );

@@ -1,0 +1,171 @@
+//! Wrong programs and maps.
+
+use crate::common::PROGRAM;
+use crate::{Case, case, changed};
+
+const CUT: [&str; 4] = ["compensate", "job.toml", "--program", "bad.ngc"];
+
+pub fn programs() -> Vec<Case> {
+    let p = |text: &str| vec![("bad.ngc", text.as_bytes().to_vec())];
+    let changed = |from: &str, to: &str| vec![("bad.ngc", changed(PROGRAM, from, to))];
+    vec![
+        case(
+            "program: no units",
+            changed("G21 ", ""),
+            &CUT,
+            1,
+            &["bad.ngc", "line 2", "units", "G21"],
+        ),
+        case(
+            "program: tool radius compensation",
+            changed("G1 Z-1", "G41 D1\nG1 Z-1"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 3", "G41"],
+        ),
+        case(
+            "program: canned cycle",
+            changed("G1 Z-1 F300", "G81 Z-1 R2 F300"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 3", "G81"],
+        ),
+        case(
+            "program: an arc that is none",
+            changed("I0 J-20", "I0 J-21"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 5", "radius", "arc"],
+        ),
+        case(
+            "program: subroutine",
+            changed("M2", "M98 P100\nM2"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 7", "M98"],
+        ),
+        case(
+            "program: variable",
+            changed("X20", "X#1"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 2", "#1"],
+        ),
+        case(
+            "program: comma for a point",
+            changed("X20", "X20,5"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 2"],
+        ),
+        case(
+            "program: two points",
+            changed("X20", "X2.0.5"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 2"],
+        ),
+        case(
+            "program: open comment",
+            changed("M2", "M2 (end"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 7", "comment"],
+        ),
+        case(
+            "program: escape codes in a comment",
+            changed("M2", "M98 (\u{1b}[2J\u{7})\nM2"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 7"],
+        ),
+        case(
+            "program: nothing in it",
+            p(""),
+            &CUT,
+            1,
+            &["bad.ngc", "empty"],
+        ),
+        case(
+            "program: binary",
+            vec![("bad.ngc", vec![0, 1, 2, 3])],
+            &CUT,
+            1,
+            &["bad.ngc", "line 1"],
+        ),
+        case(
+            "program: UTF-16",
+            vec![("bad.ngc", vec![0xff, 0xfe, b'G', 0])],
+            &CUT,
+            1,
+            &["bad.ngc", "UTF-16"],
+        ),
+        case(
+            "program: no motion",
+            p("G21 G90\nM2\n"),
+            &CUT,
+            1,
+            &["bad.ngc", "no motion"],
+        ),
+        case(
+            "program: directory",
+            vec![],
+            &["compensate", "job.toml", "--program", "."],
+            1,
+            &["directory"],
+        ),
+        case(
+            "program: compensated already",
+            vec![(
+                "bad.ngc",
+                format!("(kinetostat: compensated program)\n{PROGRAM}").into_bytes(),
+            )],
+            &CUT,
+            1,
+            &["bad.ngc", "line 1", "compensated already"],
+        ),
+        case(
+            "program: out of reach",
+            changed("G0 Z5\n", "G0 Z5\nG1 Y900\n"),
+            &CUT,
+            2,
+            &["bad.ngc", "line 7", "leg"],
+        ),
+        case(
+            "program: beyond the map",
+            vec![(
+                "map.csv",
+                b"x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n0,0,0,0,0,0\n10,0,0,0,0,0\n".to_vec(),
+            )],
+            &[
+                "compensate",
+                "--map",
+                "map.csv",
+                "--program",
+                "part.ngc",
+                "--out",
+                "o.ngc",
+            ],
+            2,
+            &["part.ngc", "line 2", "outside the map"],
+        ),
+        case(
+            "map: a column too few",
+            vec![(
+                "map.csv",
+                b"x_mm,y_mm,z_mm,dx_mm,dy_mm\n0,0,0,0,0\n".to_vec(),
+            )],
+            &[
+                "compensate",
+                "--map",
+                "map.csv",
+                "--program",
+                "part.ngc",
+                "--out",
+                "o.ngc",
+            ],
+            1,
+            &["map.csv", "dz_mm"],
+        ),
+    ]
+}
