@@ -249,7 +249,7 @@ model = "orthoglide"
 program = "PROGRAM"
 
 [placement]
-part_origin_mm = [-80, 50, 0]
+part_origin_mm = [-60, 70, 100]
 
 [tool]
 length_mm = 100
@@ -259,7 +259,7 @@ LOAD
 
 [output]
 program = "out.ngc"
-result = "result.json"
+json = "result.json"
 "#;
 const CONSTANT: &str = "force_n = [215, -10, -25]\naxes = \"base\"";
 const MILLING: &str = "milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }";
