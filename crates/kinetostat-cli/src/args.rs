@@ -119,7 +119,8 @@ pub(crate) struct CompensateArgs {
 ///
 /// With --at: displacement and rotation under a load at one place, actuator forces and stability.
 /// With a job file, or with --program: the same along a whole program, with report and tables;
-/// nothing is compensated.
+/// nothing is compensated. The outputs that a job file names are those of `compensate`: name what
+/// you want here with --report, --points and --json.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = DEFLECT_HELP)]
 pub(crate) struct DeflectArgs {

@@ -335,6 +335,11 @@ fn in_words(f: &Findings, model: &Model) -> String {
     out
 }
 
+/// `1 actuator`, `3 actuators`.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 fn turned(v: [f64; 3]) -> String {
     if v.iter().all(|x| x.abs() < 1e-9) {
         "parallel to the base".to_owned()
@@ -373,9 +378,9 @@ fn limb_in_words(l: &LimbFinding) -> String {
         2,
     ));
     let mut springs = format!(
-        "springs: {} ({} coordinates)",
+        "springs: {} ({})",
         list(&l.springs),
-        l.spring_coordinates
+        counted(l.spring_coordinates, "coordinate")
     );
     if !l.preloaded_springs.is_empty() {
         springs.push_str(&format!("; preloaded: {}", list(&l.preloaded_springs)));
@@ -417,21 +422,29 @@ fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         Some(0) => {
             "no over-constraint: deviations shift the tool without straining the limbs".to_owned()
         }
-        Some(n) => format!("{n} degree(s) of over-constraint: deviations strain the limbs"),
+        Some(1) => "1 degree of over-constraint: deviations strain the limbs".to_owned(),
+        Some(n) => format!("{n} degrees of over-constraint: deviations strain the limbs"),
         None => "over-constraint not counted for machines with several platforms".to_owned(),
     };
     out.push_str(&item(&format!(
-        "mobility {} with {} actuators; {over}",
-        h.mobility, h.actuators
+        "mobility {} with {}; {over}",
+        h.mobility,
+        counted(h.actuators, "actuator")
     )));
-    out.push_str(&item(&format!(
-        "the machine can correct by itself: {}",
-        if h.correctable_directions.is_empty() {
-            "nothing".to_owned()
-        } else {
-            h.correctable_directions.join(", ")
-        }
-    )));
+    out.push_str(&item(&if h.mobility > h.actuators {
+        format!(
+            "{} of these motions no actuator holds",
+            h.mobility - h.actuators
+        )
+    } else {
+        format!(
+            "the machine can correct by itself: {}",
+            match h.correctable_directions.as_slice() {
+                [] => "nothing".to_owned(),
+                list => list.join(", "),
+            }
+        )
+    }));
     let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
     let cause = match (f.deviations.is_empty(), f.mass_kg > 0.0) {
         (true, false) => "without load the tool is where it is commanded",

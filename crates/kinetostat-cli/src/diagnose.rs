@@ -105,26 +105,42 @@ impl Source<'_> {
             );
         }
         if let Some(missing) = quoted(message, "missing field ") {
+            let example = match missing.as_str() {
+                "schema" => "1",
+                _ => "...",
+            };
             return self.error(
                 span,
                 &format!("the key '{missing}' is missing"),
-                &format!("add  {missing} = ..."),
+                &format!("add  {missing} = {example}"),
+            );
+        }
+        if let Some((given, needed)) = message
+            .strip_prefix("invalid length ")
+            .and_then(|rest| rest.split_once(", expected an array of length "))
+        {
+            return self.error(
+                span,
+                &format!("{needed} values are needed, {given} are given"),
+                "write them as [x, y, z]",
             );
         }
         let words = message
             .replace("invalid type: ", "found ")
             .replace("invalid value: ", "found ")
-            .replace("invalid length ", "the number of values is ")
-            .replace("floating point ", "number ")
+            .replace("found string ", "found the text ")
+            .replace("found integer ", "found the number ")
+            .replace("found floating point ", "found the number ")
             .replace("expected f64", "a number is needed")
             .replace("expected u32", "a whole number is needed")
             .replace("expected u8", "a small whole number is needed")
-            .replace(
-                "expected an array of length",
-                "a list is needed; its length:",
-            )
+            .replace("expected an array", "a list is needed")
             .replace("expected a string", "text in quotes is needed")
             .replace("expected a boolean", "true or false is needed");
+        let words = match words.split_once("expected struct ") {
+            Some((before, _)) => format!("{before}a table {{ key = value, ... }} is needed"),
+            None => words,
+        };
         self.error(
             span,
             &words,

@@ -99,7 +99,21 @@ impl From<kinetostat::Error> for Failure {
             }
             _ => "",
         };
-        let message = format!("{error}{advice}");
+        let told = match &error {
+            // Millimetres and degrees, as the place was asked for.
+            kinetostat::Error::Unreachable {
+                place,
+                distance_m,
+                angle_rad,
+                ..
+            } => format!(
+                "{place}: the place cannot be reached; the nearest that was found is {:.3} mm and {:.3} deg away",
+                1e3 * distance_m,
+                angle_rad.to_degrees()
+            ),
+            other => other.to_string(),
+        };
+        let message = format!("{told}{advice}");
         if error.is_unanswered() {
             Self::unanswered(message)
         } else {

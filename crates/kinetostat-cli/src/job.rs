@@ -143,9 +143,9 @@ pub(crate) enum BlockDeleteWord {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TolerancesTable {
-    pub path_um: Option<f64>,
-    pub chord_um: Option<f64>,
-    pub decimals: Option<u8>,
+    pub path_um: Option<Spanned<f64>>,
+    pub chord_um: Option<Spanned<f64>>,
+    pub decimals: Option<Spanned<u8>>,
     pub max_blocks_per_second: Option<Spanned<f64>>,
 }
 

@@ -16,7 +16,7 @@ use crate::input::Files;
 use crate::job::Axes;
 use crate::orientation;
 use crate::screen::{fixed, triple};
-use crate::setting::{JobFile, finite, positive, vector};
+use crate::setting::{JobFile, above_zero, chosen, finite, vector};
 
 /// The machine with its tool, where the program lies, and what acts.
 pub(crate) struct Machine {
@@ -222,11 +222,13 @@ fn placement(
         Some(text) => orientation::option("--tool-orientation", text)?,
         None => written(&table.tool_orientation)?.unwrap_or(home),
     };
-    let scale = match (flags.scale, table.scale) {
-        (Some(v), _) => positive("--scale", v)?,
-        (None, Some(v)) => positive("scale", v.into_inner())?,
-        _ => 1.0,
-    };
+    let scale = chosen(
+        job,
+        ("--scale", flags.scale),
+        table.scale.as_ref(),
+        above_zero,
+    )?
+    .unwrap_or(1.0);
     Ok(Placement {
         base_from_part: Pose::from_parts((1e-3 * origin).into(), part),
         tool_orientation: tool,

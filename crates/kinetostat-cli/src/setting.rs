@@ -115,39 +115,42 @@ pub(crate) fn setting(
         again: writing.again,
         ..WriteOptions::default()
     };
-    let um = |name: &str, value: f64| {
-        if (1e-3..=1e4).contains(&value) {
-            Ok(1e-3 * value)
-        } else {
-            Err(Failure::input(format!(
-                "{name} is {value}: 0.001 to 10000 micrometres are allowed"
-            )))
-        }
-    };
-    if let Some(v) = writing.tolerance_um.or(tolerances.path_um) {
-        write.tolerance_mm = um("the tolerance of the path", v)?;
+    if let Some(mm) = chosen(
+        job,
+        ("--tolerance-um", writing.tolerance_um),
+        tolerances.path_um.as_ref(),
+        micrometres,
+    )? {
+        write.tolerance_mm = mm;
     }
-    if let Some(v) = flags.chord_tolerance_um.or(tolerances.chord_um) {
-        write.chord_tolerance_mm = um("the tolerance of chords", v)?;
+    if let Some(mm) = chosen(
+        job,
+        ("--chord-tolerance-um", flags.chord_tolerance_um),
+        tolerances.chord_um.as_ref(),
+        micrometres,
+    )? {
+        write.chord_tolerance_mm = mm;
     }
-    write.decimals = writing.decimals.or(tolerances.decimals);
-    if let Some(decimals) = write.decimals
-        && !(3..=8).contains(&decimals)
-    {
-        return Err(Failure::input(format!(
-            "the number of decimals is {decimals}: 3 to 8 are allowed; 4 keep the rounding below 0.1 micrometres"
-        )));
-    }
+    write.decimals = chosen(
+        job,
+        ("--decimals", writing.decimals),
+        tolerances.decimals.as_ref(),
+        |decimals| {
+            if (3..=8).contains(&decimals) {
+                Ok(decimals)
+            } else {
+                Err("3 to 8 decimals can be written; 4 keep the rounding below 0.1 micrometres")
+            }
+        },
+    )?;
     let header = job.and_then(|j| j.job.output.header).unwrap_or(true);
     write.header = (header && !writing.no_header).then(Vec::new);
-    let max_blocks_per_second = match (
-        writing.max_blocks_per_second,
+    let max_blocks_per_second = chosen(
+        job,
+        ("--max-blocks-per-second", writing.max_blocks_per_second),
         tolerances.max_blocks_per_second.as_ref(),
-    ) {
-        (Some(v), _) => Some(positive("--max-blocks-per-second", v)?),
-        (None, Some(v)) => Some(positive("max_blocks_per_second", *v.get_ref())?),
-        _ => None,
-    };
+        above_zero,
+    )?;
     let program_name = path.file_name().map_or_else(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
@@ -220,13 +223,44 @@ fn beside(near: &Path, program: &Path) -> PathBuf {
     near.with_file_name(name)
 }
 
-pub(crate) fn positive(name: &str, value: f64) -> Answer<f64> {
+/// The value of an option, or else of the job file, if it is allowed; a refusal shows where it was
+/// given.
+pub(crate) fn chosen<T: Copy + std::fmt::Display, U>(
+    job: Option<&JobFile>,
+    (flag, given): (&str, Option<T>),
+    written: Option<&Spanned<T>>,
+    allowed: impl Fn(T) -> Result<U, &'static str>,
+) -> Answer<Option<U>> {
+    if let Some(value) = given {
+        return allowed(value)
+            .map(Some)
+            .map_err(|reason| Failure::input(format!("{flag} is {value}: {reason}")));
+    }
+    match (job, written) {
+        (Some(j), Some(value)) => allowed(*value.get_ref()).map(Some).map_err(|reason| {
+            j.error(
+                value,
+                &format!("the value {} is not allowed here", value.get_ref()),
+                reason,
+            )
+        }),
+        _ => Ok(None),
+    }
+}
+
+pub(crate) fn above_zero(value: f64) -> Result<f64, &'static str> {
     if value.is_finite() && value > 0.0 {
         Ok(value)
     } else {
-        Err(Failure::input(format!(
-            "{name} is {value}: a number above zero is needed"
-        )))
+        Err("a number above zero is needed")
+    }
+}
+
+fn micrometres(value: f64) -> Result<f64, &'static str> {
+    if (1e-3..=1e4).contains(&value) {
+        Ok(1e-3 * value)
+    } else {
+        Err("a tolerance is 0.001 to 10000 micrometres")
     }
 }
 
@@ -257,10 +291,13 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
         }),
         ..ReadOptions::default()
     };
-    match (flags.arc_tolerance, table.arc_tolerance_mm) {
-        (Some(v), _) => reading.arc_tolerance_mm = positive("--arc-tolerance", v)?,
-        (None, Some(v)) => reading.arc_tolerance_mm = positive("arc_tolerance_mm", v.into_inner())?,
-        _ => {}
+    if let Some(mm) = chosen(
+        job,
+        ("--arc-tolerance", flags.arc_tolerance),
+        table.arc_tolerance_mm.as_ref(),
+        above_zero,
+    )? {
+        reading.arc_tolerance_mm = mm;
     }
     if let Some(word) = flags.block_delete.or(table.block_delete) {
         reading.block_delete = match word {

@@ -216,10 +216,15 @@ fn matrix(
     let mut header = vec![String::new()];
     header.extend(units.map(str::to_owned));
     let mut rows = vec![header];
+    // The largest entry of the translational, and of the rotational, diagonal.
+    let scale = |i: usize| {
+        let block = if i < 3 { 0..3 } else { 3..6 };
+        block.map(|k| m[k][k].abs()).fold(0.0, f64::max)
+    };
     for i in 0..6 {
         let mut row = vec![names[i].to_owned()];
         for j in 0..6 {
-            let noise = 1e-9 * (m[i][i] * m[j][j]).abs().sqrt();
+            let noise = 1e-9 * (scale(i) * scale(j)).sqrt();
             row.push(if m[i][j].abs() <= noise {
                 "0".to_owned()
             } else {
@@ -282,16 +287,16 @@ pub(crate) fn principals(list: &[Principal]) -> String {
 }
 
 fn limb_in_words(limb: &LimbShare) -> String {
-    let mut parts = vec![format!("{} stiff directions", limb.rank - limb.negative)];
+    let mut parts = vec![format!("stiff in {} of 6", limb.rank - limb.negative)];
     if limb.free > 0 {
-        parts.push(format!("{} free (passive joints)", limb.free));
+        parts.push(format!("free in {} (passive joints)", limb.free));
     }
     if limb.rigid > 0 {
-        parts.push(format!("{} rigid", limb.rigid));
+        parts.push(format!("rigid in {}", limb.rigid));
     }
     if limb.negative > 0 {
         parts.push(format!(
-            "{} negative, which its load pulls away (the others hold them)",
+            "negative in {}, where its load pulls it away (the others hold it)",
             limb.negative
         ));
     }

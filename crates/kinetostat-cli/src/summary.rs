@@ -30,7 +30,10 @@ pub(crate) fn verdict(result: &RunResult) -> String {
     let mut text = if result.question.compensated {
         let after = s.max_position_error_after_mm;
         let better = if after > 0.0 && before > 2.0 * after {
-            format!(", {} times less", number((before / after).round(), 2))
+            format!(
+                ", about {} times less",
+                number(two_digits(before / after), 2)
+            )
         } else {
             String::new()
         };
@@ -49,6 +52,12 @@ pub(crate) fn verdict(result: &RunResult) -> String {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }
     text
+}
+
+/// Rounded to two digits: a ratio is not known better.
+fn two_digits(value: f64) -> f64 {
+    let unit = 10_f64.powf(value.log10().floor() - 1.0);
+    (value / unit).round() * unit
 }
 
 fn figures(result: &RunResult) -> String {
