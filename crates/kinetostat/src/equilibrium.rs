@@ -528,49 +528,63 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
         ),
         offset: Twist::zero(),
     };
-    let mut failure = None;
-    // As given; then slightly out of line, because a straight or flat posture has no linear answer.
-    for nudge in [0.0, 1e-3, 3e-2] {
+    let mut spent = 0;
+    let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
         let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
         let mut wrench = Wrench::zero();
+        attempt.offset = Twist::zero();
         match attempt.newton(&mut x, &mut wrench, 1.0, settings.picard_steps) {
-            Ok((iterations, balance)) => return Ok(attempt.finish(x, wrench, iterations, &balance)),
-            Err((iterations, balance)) => {
-                failure.get_or_insert((iterations, balance, x));
+            Ok((iterations, balance)) => Some((x, wrench, iterations, balance)),
+            Err((iterations, _)) => {
+                spent += iterations;
+                None
             }
         }
+    };
+    // As given; then slightly out of line, because a straight or flat posture has no linear answer.
+    for nudge in [0.0, 1e-3, 3e-2] {
+        if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
+            return Ok(attempt.finish(x, wrench, iterations, &balance));
+        }
     }
-    let (spent, balance, last) = match grow_load(&mut attempt) {
+    let failure = match grow_load(&mut attempt) {
         Ok((x, wrench, iterations, balance)) => {
             return Ok(attempt.finish(x, wrench, iterations, &balance));
         }
-        Err(share) => {
-            let (spent, balance, last) = failure.unwrap_or((
-                0,
-                Balance {
-                    closure: f64::NAN,
-                    torque: f64::NAN,
-                    loads: 1.0,
-                },
-                problem.posture.clone(),
-            ));
-            ((spent, share), balance, last)
-        }
+        Err(failure) => failure,
     };
+    // The way from rest may end at a fold although equilibria exist elsewhere.
+    for nudge in [0.3, 0.8, 1.5, 2.5] {
+        if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
+            return Ok(attempt.finish(x, wrench, iterations, &balance));
+        }
+    }
     Err(Error::NotConverged {
         place: format!("chain '{}'", chain.name()),
-        iterations: spent.0,
-        residual_position_m: balance.closure / chain.scale().stiffness.sqrt(),
-        residual_torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
-        load_factor: spent.1,
-        last,
+        iterations: spent + failure.iterations,
+        residual_position_m: failure.balance.closure / chain.scale().stiffness.sqrt(),
+        residual_torque: failure.balance.torque
+            / failure.balance.loads.max(LEAST_LOAD * natural(chain)),
+        load_factor: failure.share,
+        last: failure.last,
     })
+}
+
+/// How far the growing load came.
+struct Failure {
+    /// Largest share with an equilibrium.
+    share: f64,
+    /// Coordinates of that equilibrium.
+    last: Vec<f64>,
+    /// What it lacks at the full load.
+    balance: Balance,
+    iterations: usize,
 }
 
 /// Loads, preloads and closure grow together from the unloaded posture.
 fn grow_load(
     attempt: &mut Attempt<'_, '_>,
-) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), f64> {
+) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), Failure> {
     let problem = attempt.problem;
     let mut x = nudged(problem.chain, &problem.posture, 1e-3);
     let mut wrench = Wrench::zero();
@@ -597,7 +611,15 @@ fn grow_load(
                 iterations += spent;
                 step *= 0.5;
                 if step < attempt.settings.smallest_load_step {
-                    return Err(share);
+                    attempt.offset = Twist::zero();
+                    let (closure, lack) = attempt.evaluate(&x, &wrench, 1.0);
+                    let balance = attempt.measure(&attempt.end_rows(&closure, &lack), &wrench);
+                    return Err(Failure {
+                        share,
+                        last: x,
+                        balance,
+                        iterations,
+                    });
                 }
             }
         }
