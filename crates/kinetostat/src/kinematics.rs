@@ -180,6 +180,18 @@ impl Kinematics {
         jacobian
     }
 
+    /// Hessian of dead wrenches on nodes (index, wrench about the node's origin, base axes):
+    /// `H = d(sum_j J_j^T G_j)/dy`, (n + r \[+ 6\]) square, N m/rad, N/rad, N/m by generalised velocity;
+    /// `H_ij - H_ji = m.(w_j x w_i)`, so it is symmetric iff no moments act (or all axes are
+    /// parallel). The symmetric part is the second derivative in exponential coordinates.
+    #[must_use]
+    pub fn hessian(&self, wrenches: &[(usize, Wrench)]) -> DMatrix<f64> {
+        let count = self.velocity_count();
+        let mut hessian = DMatrix::zeros(count, count);
+        self.load_terms(wrenches, &mut vec![0.0; count], &mut hessian);
+        hessian
+    }
+
     /// Torques `sum_j J_j^T G_j` of dead wrenches on nodes (about the node's origin, base axes) and
     /// their derivative, the Hessian `H`, by all generalised velocities; [R 4.21] in closed form on
     /// SO(3): with `z` the axes, `M` the moment of all outer loads about the axis' point, `S` their

@@ -9,7 +9,17 @@ use nalgebra::{DVector, Matrix6, Vector3};
 
 use crate::oracle::{Flat, Frames, springs};
 
-/// `K - K^T = blkdiag(0, -hat(m))` to `tolerance` of the size of `K`, rotations measured at `length`.
+/// `K - K^T - blkdiag(0, -hat(m))` as a share of the size of `K`, rotations measured at `length`.
+pub fn antisymmetric_error(k: &Matrix6<f64>, moment: &Vector3<f64>, length: f64) -> f64 {
+    let mut expected = Matrix6::zeros();
+    expected
+        .fixed_view_mut::<3, 3>(3, 3)
+        .copy_from(&-hat(moment));
+    let unit = |i: usize| if i < 3 { 1.0 } else { 1.0 / length };
+    let balanced = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] * unit(i) * unit(j));
+    balanced(&(k - k.transpose() - expected)).amax() / balanced(k).amax().max(1e-300)
+}
+
 #[track_caller]
 pub fn assert_antisymmetric_part(
     k: &Matrix6<f64>,
@@ -17,13 +27,7 @@ pub fn assert_antisymmetric_part(
     length: f64,
     tolerance: f64,
 ) {
-    let mut expected = Matrix6::zeros();
-    expected
-        .fixed_view_mut::<3, 3>(3, 3)
-        .copy_from(&-hat(moment));
-    let unit = |i: usize| if i < 3 { 1.0 } else { 1.0 / length };
-    let balanced = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] * unit(i) * unit(j));
-    let left = balanced(&(k - k.transpose() - expected)).amax() / balanced(k).amax().max(1e-300);
+    let left = antisymmetric_error(k, moment, length);
     assert!(
         left <= tolerance,
         "K - K^T is not blkdiag(0, -hat(m)): off by {left:.2e}"

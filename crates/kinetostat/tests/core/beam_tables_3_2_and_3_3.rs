@@ -5,7 +5,7 @@ use kinetostat::{BeamSection, Chain, MotionKind, Pose, unloaded_stiffness};
 use nalgebra::{Matrix6, Vector3};
 use serde_json::Value;
 
-fn section(beam: &Value) -> (BeamSection, f64) {
+pub fn section(beam: &Value) -> (BeamSection, f64) {
     let n = |key: &str| number(&beam[key]);
     (
         BeamSection {
@@ -18,6 +18,23 @@ fn section(beam: &Value) -> (BeamSection, f64) {
         },
         n("L"),
     )
+}
+
+/// A beam with the case's joint at its root or at its end.
+pub fn beam(case: &Value, section: &BeamSection, length: f64, at_root: bool) -> Chain {
+    let (kind, axis) = joint(case);
+    let builder = Chain::builder("beam");
+    if at_root {
+        builder
+            .passive("q", kind, axis, 0.0)
+            .link("beam", section, length)
+    } else {
+        builder
+            .link("beam", section, length)
+            .passive("q", kind, axis, 0.0)
+    }
+    .build()
+    .unwrap()
 }
 
 fn joint(case: &Value) -> (MotionKind, Vector3<f64>) {
@@ -33,7 +50,7 @@ fn joint(case: &Value) -> (MotionKind, Vector3<f64>) {
     (kind, axis)
 }
 
-fn expand(entries: &Value) -> Matrix6<f64> {
+pub fn expand(entries: &Value) -> Matrix6<f64> {
     let mut m = Matrix6::zeros();
     for (key, value) in entries.as_object().unwrap() {
         let digit = |i: usize| key[i..=i].parse::<usize>().unwrap() - 1;
@@ -97,13 +114,7 @@ fn trivial_passive_joints_change_a_beam_as_in_table_3_2() {
     let (section, length) = section(&file["beam"]);
     let k0 = section.cantilever(length);
     for case in file["cases"].as_array().unwrap() {
-        let (kind, axis) = joint(case);
-        let chain = Chain::builder("beam")
-            .link("beam", &section, length)
-            .passive("q", kind, axis, 0.0)
-            .build()
-            .unwrap();
-        compare(case, &chain, &k0);
+        compare(case, &beam(case, &section, length, false), &k0);
     }
 }
 
@@ -113,12 +124,6 @@ fn quasi_trivial_passive_joints_change_a_beam_as_in_table_3_3() {
     let (section, length) = section(&file["beam"]);
     let k0 = section.cantilever(length);
     for case in file["cases"].as_array().unwrap() {
-        let (kind, axis) = joint(case);
-        let chain = Chain::builder("beam")
-            .passive("q", kind, axis, 0.0)
-            .link("beam", &section, length)
-            .build()
-            .unwrap();
-        compare(case, &chain, &k0);
+        compare(case, &beam(case, &section, length, true), &k0);
     }
 }

@@ -9,12 +9,12 @@ use nalgebra::{Vector3, vector};
 
 const POSITION: [bool; 6] = [true, true, true, false, false, false];
 
-fn heavy_arm() -> Mechanism {
+pub fn heavy_arm() -> Mechanism {
     Mechanism::serial(arm(true), Pose::identity(), vector![0.0, 0.0, -9.81]).unwrap()
 }
 
 /// A target the arm reaches, and the joints that reach it.
-fn reachable(machine: &Mechanism, rng: &mut Rng) -> (Pose, LimbPosture) {
+pub fn reachable(machine: &Mechanism, rng: &mut Rng) -> (Pose, LimbPosture) {
     let limb = &machine.limbs()[0].nominal;
     let (low, high) = (
         [-2.0, -0.8, -0.4, -2.0, 0.4, -2.0],

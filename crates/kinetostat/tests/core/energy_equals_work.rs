@@ -25,66 +25,105 @@ fn integral(mut f: impl FnMut(f64) -> f64) -> f64 {
         .sum()
 }
 
+/// Energy stored, and work of the end wrench and of the dead loads.
+pub struct Balance {
+    pub stored: f64,
+    pub work: f64,
+    pub dead: f64,
+}
+
+impl Balance {
+    /// What is left over, as a share of the largest.
+    pub fn error(&self) -> f64 {
+        let size = self.stored.abs().max(self.work.abs()).max(self.dead.abs());
+        (self.stored - self.work - self.dead).abs() / size
+    }
+}
+
+/// Along a path of poses of a random chain; `None` where the path has no start.
+pub fn balance_of_chain(seed: u64) -> Option<Balance> {
+    let mut rng = Rng(seed);
+    let recipe = Recipe {
+        stages: 3,
+        passive: 2,
+        preload: 0.02,
+        ..Recipe::default()
+    };
+    let r = random_chain(&mut rng, &recipe);
+    let loads = vec![
+        Load::Gravity(rng.axis() * 9.81),
+        Load::Dead {
+            node: rng.below(r.chain.nodes().len()),
+            wrench: Wrench::new(rng.vector(80.0), Vector3::zeros()),
+        },
+    ];
+    let start = r.tip();
+    let way = Twist::new(rng.vector(0.02), rng.vector(0.05));
+    let near = std::cell::RefCell::new(r.posture.clone());
+    let solve = |s: f64| {
+        let mut problem = r.problem(EndCondition::pose(moved(&start, &Twist(way.0 * s))));
+        problem.loads.clone_from(&loads);
+        problem.posture.clone_from(&near.borrow());
+        let settings = Settings {
+            torque: 1e-12,
+            ..Settings::default()
+        };
+        let e = solve_chain(&problem, &settings)?;
+        assert_chain_equilibrium(&problem, &e);
+        near.borrow_mut().clone_from(&e.coordinates);
+        Ok::<_, kinetostat::Error>((problem, e))
+    };
+    let (problem, first) = solve(0.0).ok()?;
+    let work = integral(|s| way.dot(&solve(s).expect("path").1.wrench));
+    let (_, last) = solve(1.0).expect("end");
+    let dead = crate::common::invariants::node_wrenches(&problem)
+        .iter()
+        .map(|(node, w)| {
+            let d = last.nodes[*node].translation.vector - first.nodes[*node].translation.vector;
+            w.force().dot(&d)
+        })
+        .sum();
+    let stored = last.energy - first.energy;
+    Some(Balance { stored, work, dead })
+}
+
+/// Of the Orthoglide at a point of the report, loaded slowly with a pure force.
+pub fn balance_of_machine(index: usize) -> Balance {
+    let machine = Orthoglide::default().build();
+    let posture = machine.posture(&orthoglide_point(index)).unwrap();
+    // A pure force is dead along the whole path: its work is the integral of F ds.
+    let force = vector![215.0, -60.0, 90.0];
+    let at = |s: f64| {
+        let e = posture
+            .deflected_by(&Wrench::new(force * s, Vector3::zeros()))
+            .unwrap();
+        assert_equilibrium(&posture, &e);
+        e
+    };
+    // Integration by parts: int F(s).p'(s) ds = F.p(1) - int F'.p ds, F' = force.
+    let end = at(1.0);
+    let work = force.dot(&end.displacement.linear())
+        - integral(|s| force.dot(&at(s).displacement.linear()));
+    Balance {
+        stored: end.limbs.iter().map(|l| l.energy).sum(),
+        work,
+        dead: 0.0,
+    }
+}
+
 proptest! {
     #![proptest_config(cases(16))]
     #[test]
     fn energy_equals_work_along_a_path_of_poses(seed in any::<u64>()) {
-        let mut rng = Rng(seed);
-        let r = random_chain(&mut rng, &Recipe { stages: 3, passive: 2, preload: 0.02, ..Recipe::default() });
-        let loads = vec![
-            Load::Gravity(rng.axis() * 9.81),
-            Load::Dead { node: rng.below(r.chain.nodes().len()), wrench: Wrench::new(rng.vector(80.0), Vector3::zeros()) },
-        ];
-        let start = r.tip();
-        let way = Twist::new(rng.vector(0.02), rng.vector(0.05));
-        let near = std::cell::RefCell::new(r.posture.clone());
-        let solve = |s: f64| {
-            let mut problem = r.problem(EndCondition::pose(moved(&start, &Twist(way.0 * s))));
-            problem.loads.clone_from(&loads);
-            problem.posture.clone_from(&near.borrow());
-            let e = solve_chain(&problem, &Settings { torque: 1e-12, ..Settings::default() })?;
-            assert_chain_equilibrium(&problem, &e);
-            near.borrow_mut().clone_from(&e.coordinates);
-            Ok::<_, kinetostat::Error>((problem, e))
-        };
-        let Ok((problem, first)) = solve(0.0) else { return Ok(()); };
-        let work = integral(|s| way.dot(&solve(s).expect("path").1.wrench));
-        let (_, last) = solve(1.0).expect("end");
-        let dead: f64 = crate::common::invariants::node_wrenches(&problem)
-            .iter()
-            .map(|(node, w)| {
-                let d = last.nodes[*node].translation.vector - first.nodes[*node].translation.vector;
-                w.force().dot(&d)
-            })
-            .sum();
-        let stored = last.energy - first.energy;
-        let size = stored.abs().max(work.abs()).max(dead.abs());
-        prop_assert!((stored - work - dead).abs() < 1e-7 * size, "stored {stored:e}, work {work:e}, dead {dead:e}");
+        let Some(b) = balance_of_chain(seed) else { return Ok(()); };
+        prop_assert!(b.error() < 1e-7, "stored {:e}, work {:e}, dead {:e}", b.stored, b.work, b.dead);
     }
 }
 
 #[test]
 fn a_slowly_loaded_machine_stores_the_work_of_its_load() {
-    let machine = Orthoglide::default().build();
     for index in 0..5 {
-        let posture = machine.posture(&orthoglide_point(index)).unwrap();
-        // A pure force is dead along the whole path: its work is the integral of F ds.
-        let force = vector![215.0, -60.0, 90.0];
-        let at = |s: f64| {
-            let e = posture
-                .deflected_by(&Wrench::new(force * s, Vector3::zeros()))
-                .unwrap();
-            assert_equilibrium(&posture, &e);
-            e
-        };
-        // Integration by parts: int F(s).p'(s) ds = F.p(1) - int F'.p ds, F' = force.
-        let end = at(1.0);
-        let work = force.dot(&end.displacement.linear())
-            - integral(|s| force.dot(&at(s).displacement.linear()));
-        let stored: f64 = end.limbs.iter().map(|l| l.energy).sum();
-        assert!(
-            (stored / work - 1.0).abs() < 1e-9,
-            "{index}: {stored:e} {work:e}"
-        );
+        let b = balance_of_machine(index);
+        assert!(b.error() < 1e-9, "{index}: {:e} {:e}", b.stored, b.work);
     }
 }

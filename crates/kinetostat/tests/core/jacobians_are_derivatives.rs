@@ -6,41 +6,62 @@ use kinetostat::{Kinematics, Twist, moved, pose_residual};
 use nalgebra::Vector6;
 use proptest::prelude::*;
 
+/// Largest difference of the Jacobians of all nodes of a random chain from fourth-order central
+/// differences of the nodes' poses, and where it is.
+pub fn jacobian_error(seed: u64) -> (f64, String) {
+    let mut rng = Rng(seed);
+    let recipe = Recipe {
+        passive: 5,
+        ..Recipe::default()
+    };
+    let r = random_chain(&mut rng, &recipe);
+    let (n, c) = (r.chain.coordinate_count(), r.commands.len());
+    let x: Vec<f64> = r.posture.iter().map(|v| v + 0.3 * rng.signed()).collect();
+    let kinematics = Kinematics::new(&r.chain, &r.base, &x, &r.commands, true);
+    assert_eq!(kinematics.velocity_count(), n + c + 6);
+    let at = |index: usize, s: f64| {
+        let (mut x, mut commands, mut base) = (x.clone(), r.commands.clone(), r.base);
+        if index < n {
+            x[index] += s;
+        } else if index < n + c {
+            commands[index - n] += s;
+        } else {
+            let mut t = Vector6::zeros();
+            t[index - n - c] = s;
+            base = moved(&base, &Twist(t));
+        }
+        Kinematics::new(&r.chain, &base, &x, &commands, true)
+    };
+    let h = 2e-3;
+    let mut worst = (0.0, String::new());
+    for index in 0..n + c + 6 {
+        let near: Vec<_> = [-2.0, -1.0, 1.0, 2.0]
+            .iter()
+            .map(|s| at(index, s * h))
+            .collect();
+        for node in 0..r.chain.nodes().len() {
+            let centre = kinematics.node_pose(node);
+            let d: Vec<_> = near
+                .iter()
+                .map(|k| pose_residual(&k.node_pose(node), &centre).0)
+                .collect();
+            let column = (8.0 * (d[2] - d[1]) - (d[3] - d[0])) / (12.0 * h);
+            let error = (column - kinematics.jacobian(node).column(index)).amax();
+            // NaN counts as the worst.
+            if error.is_nan() || error > worst.0 {
+                worst = (error, format!("node {node} velocity {index}"));
+            }
+        }
+    }
+    worst
+}
+
 proptest! {
     #![proptest_config(cases(24))]
     #[test]
     fn jacobians_at_every_node_agree_with_differences(seed in any::<u64>()) {
-        let mut rng = Rng(seed);
-        let r = random_chain(&mut rng, &Recipe { passive: 5, ..Recipe::default() });
-        let (n, c) = (r.chain.coordinate_count(), r.commands.len());
-        let x: Vec<f64> = r.posture.iter().map(|v| v + 0.3 * rng.signed()).collect();
-        let kinematics = Kinematics::new(&r.chain, &r.base, &x, &r.commands, true);
-        prop_assert_eq!(kinematics.velocity_count(), n + c + 6);
-        let at = |index: usize, s: f64| {
-            let (mut x, mut commands, mut base) = (x.clone(), r.commands.clone(), r.base);
-            if index < n {
-                x[index] += s;
-            } else if index < n + c {
-                commands[index - n] += s;
-            } else {
-                let mut t = Vector6::zeros();
-                t[index - n - c] = s;
-                base = moved(&base, &Twist(t));
-            }
-            Kinematics::new(&r.chain, &base, &x, &commands, true)
-        };
-        let h = 2e-3;
-        for index in 0..n + c + 6 {
-            let near: Vec<_> = [-2.0, -1.0, 1.0, 2.0].iter().map(|s| at(index, s * h)).collect();
-            for node in 0..r.chain.nodes().len() {
-                let centre = kinematics.node_pose(node);
-                let d: Vec<_> =
-                    near.iter().map(|k| pose_residual(&k.node_pose(node), &centre).0).collect();
-                let column = (8.0 * (d[2] - d[1]) - (d[3] - d[0])) / (12.0 * h);
-                let own = kinematics.jacobian(node).column(index).into_owned();
-                prop_assert!((column - own).amax() < 2e-10, "node {node} velocity {index}: {:e}", (column - own).amax());
-            }
-        }
+        let (error, place) = jacobian_error(seed);
+        prop_assert!(error < 2e-10, "{place}: {error:e}");
     }
 }
 
@@ -58,5 +79,45 @@ fn tiny_rigid_rotations_are_kept() {
             (found / (2.0 * angle) - 1.0).abs() < 1e-6,
             "{angle:e}: {found:e}"
         );
+    }
+}
+
+#[test]
+fn the_hessian_is_the_derivative_of_the_torques_of_dead_wrenches_on_any_node() {
+    use kinetostat::{Kinematics, Wrench};
+    for seed in 0..20 {
+        let mut rng = crate::common::Rng(0x4e55 + seed);
+        let r = crate::common::random_chain(&mut rng, &crate::common::Recipe::default());
+        let chain = &r.chain;
+        let home = r
+            .problem(kinetostat::EndCondition::wrench(Wrench::zero()))
+            .posture;
+        let wrenches: Vec<(usize, Wrench)> = (0..chain.nodes().len())
+            .map(|node| (node, rng.wrench(300.0, 40.0)))
+            .collect();
+        let n = chain.coordinate_count();
+        let torques = |x: &[f64]| {
+            let k = Kinematics::new(chain, &r.base, x, &r.commands, false);
+            wrenches.iter().fold(
+                nalgebra::DVector::zeros(k.velocity_count()),
+                |sum, (node, w)| sum + k.jacobian(*node).transpose() * w.0,
+            )
+        };
+        let hessian = Kinematics::new(chain, &r.base, &home, &r.commands, false).hessian(&wrenches);
+        let step = 1e-5;
+        for j in 0..n {
+            let mut there = home.clone();
+            there[j] += step;
+            let mut back = home.clone();
+            back[j] -= step;
+            let column = (torques(&there) - torques(&back)) / (2.0 * step);
+            for i in 0..n {
+                let error = (hessian[(i, j)] - column[i]).abs();
+                assert!(
+                    error < 1e-6 * hessian.amax(),
+                    "seed {seed}: H[{i}][{j}] off by {error}"
+                );
+            }
+        }
     }
 }

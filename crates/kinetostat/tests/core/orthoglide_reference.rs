@@ -9,9 +9,18 @@ use kinetostat::{MechanismEquilibrium, Pose, Role, Twist, Wrench, compensate};
 use nalgebra::{Matrix6, Vector3};
 use serde_json::Value;
 
-fn target(point: &Value) -> Pose {
+pub fn target(point: &Value) -> Pose {
     let p = numbers(&point["point"]);
     Pose::translation(p[0] * 1e-3, p[1] * 1e-3, p[2] * 1e-3)
+}
+
+/// SI compliance -> N, mm: m/N to mm/N, 1/N stays, rad/(N m) to rad/(N mm).
+pub fn compliance_to_mm(c: &Matrix6<f64>) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| match (i < 3, j < 3) {
+        (true, true) => c[(i, j)] * 1e3,
+        (false, false) => c[(i, j)] * 1e-3,
+        _ => c[(i, j)],
+    })
 }
 
 /// SI stiffness -> N, mm: N/m to N/mm, N stays, N m to N mm.
@@ -23,7 +32,7 @@ fn to_mm(k: &Matrix6<f64>) -> Matrix6<f64> {
     })
 }
 
-fn milling(file: &Value) -> Wrench {
+pub fn milling(file: &Value) -> Wrench {
     let w = numbers(&file["wrench"]);
     Wrench::new(
         Vector3::new(w[0], w[1], w[2]),
@@ -31,12 +40,12 @@ fn milling(file: &Value) -> Wrench {
     )
 }
 
-fn mm(twist: &Twist) -> [f64; 3] {
+pub fn mm(twist: &Twist) -> [f64; 3] {
     let d = twist.linear() * 1e3;
     [d.x, d.y, d.z]
 }
 
-fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
@@ -60,12 +69,7 @@ fn unloaded_compliance_and_legs_of_section_2_4() {
             close(q, leg.coordinates[joints[1]], number(&own["q2"]), 1e-12);
         }
         let k = posture.stiffness().unwrap();
-        let c = k.cartesian.compliance().unwrap();
-        let c_mm = Matrix6::from_fn(|i, j| match (i < 3, j < 3) {
-            (true, true) => c[(i, j)] * 1e3,
-            (false, false) => c[(i, j)] * 1e-3,
-            _ => c[(i, j)],
-        });
+        let c_mm = compliance_to_mm(&k.cartesian.compliance().unwrap());
         let expected = matrix(&computed["C"]);
         for i in 0..6 {
             for j in 0..6 {

@@ -1,12 +1,13 @@
 //! Platforms on six two-force legs [R 3.34, 3.35]: spherical joints at both ends of an axial spring,
 //! legs that end at different points of the platform.
 
+use crate::beam_tables_3_2_and_3_3::expand;
 use crate::common::{close, golden, number, numbers};
 use kinetostat::{ActuatorSpec, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose};
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Vector3;
 use serde_json::Value;
 
-fn machine(file: &Value, case: &Value, arm_in_chain: bool) -> Mechanism {
+pub fn machine(file: &Value, case: &Value, arm_in_chain: bool) -> Mechanism {
     let (r_base, r_top, h) = (number(&file["R"]), number(&file["r"]), number(&file["h"]));
     let mut builder = Mechanism::builder("stewart");
     let tool = builder.platform(Platform::new("tool", Pose::translation(0.0, 0.0, h)));
@@ -52,12 +53,7 @@ fn six_two_force_legs_have_the_stiffness_of_eqs_3_34_and_3_35() {
             let machine = machine(&file, case, arm_in_chain);
             let home = machine.platforms()[machine.tool()].home;
             let k = machine.posture(&home).unwrap().stiffness().unwrap();
-            let mut expected = Matrix6::zeros();
-            for (key, value) in case["computed"].as_object().unwrap() {
-                let digit = |i: usize| key[i..=i].parse::<usize>().unwrap() - 1;
-                expected[(digit(0), digit(1))] = number(value);
-                expected[(digit(1), digit(0))] = number(value);
-            }
+            let expected = expand(&case["computed"]);
             for i in 0..6 {
                 for j in 0..6 {
                     let found = k.cartesian.matrix[(i, j)];

@@ -6,9 +6,10 @@ use kinetostat::{
     Chain, ChainProblem, EndCondition, Load, MotionKind, Pose, Prescribed, Wrench, solve_chain,
 };
 use nalgebra::{Matrix2, Vector3, vector};
+use serde_json::Value;
 
 /// Hinge, link, torsion spring with theta0 = -30 deg, link, hinge; planar in x y.
-fn chain() -> Chain {
+pub fn chain() -> Chain {
     Chain::builder("two links")
         .passive("q1", MotionKind::Revolute, Vector3::z(), 0.0)
         .translation(vector![1.0, 0.0, 0.0])
@@ -26,25 +27,31 @@ fn chain() -> Chain {
         .unwrap()
 }
 
+/// The chain of a case under its load on the middle, the end held at its place and free to turn.
+pub fn loaded<'c>(chain: &'c Chain, a0: f64, case: &Value) -> (ChainProblem<'c>, f64) {
+    let (g, dx) = (number(&case["g"]), number(&case["dx"]));
+    let load = g * 4.0 * a0.sin();
+    // Position prescribed, rotation free: the end hinge sees to that when its angle is free.
+    let mut end = EndCondition::pose(Pose::translation(2.0 * a0.cos() + dx, 0.0, 0.0));
+    end.prescribed[5] = Prescribed::Wrench;
+    let mut problem = ChainProblem::new(chain, end);
+    problem.posture = vec![a0, -2.0 * a0, a0];
+    problem.loads = vec![Load::Dead {
+        node: chain.node("middle").unwrap(),
+        wrench: Wrench::new(vector![0.0, -load, 0.0], Vector3::zeros()),
+    }];
+    (problem, load)
+}
+
 #[test]
 fn the_loaded_two_link_chain_has_the_closed_form_of_eqs_4_31_and_4_32() {
     let file = golden("table_5_2.json");
     let chain = chain();
     let a0 = number(&file["alpha0_deg"]).to_radians();
-    let middle = chain.node("middle").unwrap();
     for case in file["cases"].as_array().unwrap() {
         let (g, dx, own) = (number(&case["g"]), number(&case["dx"]), &case["computed"]);
         let label = format!("G/G* {g}, dx {dx}");
-        let load = g * 4.0 * a0.sin();
-        // Position prescribed, rotation free: the end hinge sees to that when its angle is free.
-        let mut end = EndCondition::pose(Pose::translation(2.0 * a0.cos() + dx, 0.0, 0.0));
-        end.prescribed[5] = Prescribed::Wrench;
-        let mut problem = ChainProblem::new(&chain, end);
-        problem.posture = vec![a0, -2.0 * a0, a0];
-        problem.loads = vec![Load::Dead {
-            node: middle,
-            wrench: Wrench::new(vector![0.0, -load, 0.0], Vector3::zeros()),
-        }];
+        let (problem, load) = loaded(&chain, a0, case);
         let e = solve_chain(&problem, &Default::default())
             .unwrap_or_else(|error| panic!("{label}: {error}"));
         assert_chain_equilibrium(&problem, &e);
