@@ -444,13 +444,17 @@ fn golden(figures: &mut Vec<Figure>) -> Result<()> {
         .output()
         .context("cannot run the golden tests")?;
     let text = String::from_utf8_lossy(&output.stdout);
+    let mut found = Vec::new();
     for line in text.lines() {
         if let Some(at) = line.find("figure {") {
             let figure: Figure = serde_json::from_str(&line[at + 7..])
                 .with_context(|| format!("a test printed a figure that cannot be read: {line}"))?;
-            figures.push(figure);
+            found.push(figure);
         }
     }
+    // Tests run side by side: their order is not the same in every run.
+    found.sort_by(|a, b| a.name.cmp(&b.name));
+    figures.append(&mut found);
     if !output.status.success() {
         figures.push(Figure::yes("golden tests pass", false));
     }

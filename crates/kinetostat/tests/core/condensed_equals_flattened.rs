@@ -124,16 +124,16 @@ fn a_heavy_arm_under_gravity_and_two_kilonewton() {
 }
 
 /// A chain in two parts with the description of both and of the whole.
-struct Cut {
+pub struct Cut {
     whole: Mechanism,
-    parts: Mechanism,
+    pub parts: Mechanism,
     whole_posture: Vec<LimbPosture>,
-    part_posture: Vec<LimbPosture>,
-    target: Pose,
+    pub part_posture: Vec<LimbPosture>,
+    pub target: Pose,
 }
 
 /// The parts joined at a platform whose frame is `platform` seen from the first part's tip.
-fn cut(rng: &mut Rng, passive: usize, mass: f64) -> Cut {
+pub fn cut(rng: &mut Rng, passive: usize, mass: f64) -> Cut {
     let recipe = Recipe {
         stages: 2,
         passive,

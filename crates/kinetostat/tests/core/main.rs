@@ -19,6 +19,7 @@ mod compensation_closes;
 mod condensed_equals_flattened;
 mod end_conditions_are_consistent;
 mod energy_equals_work;
+mod figures;
 mod free_rigid_and_redundant_directions;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
