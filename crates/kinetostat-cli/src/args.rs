@@ -93,10 +93,10 @@ pub(crate) struct CompensateArgs {
     pub(crate) out: Option<PathBuf>,
     /// Corrections from a table instead of a model: CSV with the columns
     /// x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm on a full grid
-    #[arg(long, value_name = "FILE", conflicts_with = "model")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "force", "moment", "load_axes", "milling", "below_z_mm", "tool_length_mm", "part_origin_mm", "part_orientation", "tool_orientation", "scale", "report", "points"])]
     pub(crate) map: Option<PathBuf>,
     /// Write the program as it was read, byte for byte
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["map", "json", "report", "points", "again"])]
     pub(crate) no_compensation: bool,
     /// Compensate a program that is marked as compensated once more
     #[arg(long)]

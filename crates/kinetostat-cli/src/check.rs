@@ -445,6 +445,12 @@ fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
             }
         )
     }));
+    if h.stiffness_rank < 6 {
+        out.push_str(&item(&format!(
+            "no spring holds the tool in {} of 6 directions (see the table below)",
+            6 - h.stiffness_rank
+        )));
+    }
     let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
     let cause = match (f.deviations.is_empty(), f.mass_kg > 0.0) {
         (true, false) => "without load the tool is where it is commanded",

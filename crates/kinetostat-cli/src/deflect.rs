@@ -172,6 +172,9 @@ fn at_place(args: &DeflectArgs) -> Answer<()> {
     screen::print(Stream::Out, &format!("{text}{}", along::written(&paths)))
 }
 
+/// A displacement by this share of the machine's size is no deflection any more.
+const LARGE: f64 = 0.05;
+
 /// Options that say something about a program are not dropped silently.
 fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
     let p = &args.program;
@@ -185,6 +188,12 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
         ("--below-z-mm", p.below_z_mm.is_some()),
         ("--load-axes", p.load_axes.is_some()),
         ("--scale", p.scale.is_some()),
+        ("--units", p.units.is_some()),
+        ("--arc-tolerance", p.arc_tolerance.is_some()),
+        ("--work-offset", !p.work_offset.is_empty()),
+        ("--block-delete", p.block_delete.is_some()),
+        ("--start-position-mm", p.start_position_mm.is_some()),
+        ("--chord-tolerance-um", p.chord_tolerance_um.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((name, _)) => Err(Failure::input(format!(
@@ -207,6 +216,18 @@ fn answer(
         warnings.push(format!(
             "the machine has {} direction(s) without any stiffness here: see `kinetostat stiffness`",
             loaded.platform.free
+        ));
+    }
+    let length = spot
+        .mechanism
+        .limbs()
+        .iter()
+        .map(|l| l.nominal.scale().length)
+        .fold(0.0, f64::max);
+    if shift.norm() > LARGE * 1e3 * length {
+        warnings.push(format!(
+            "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",
+            number(100.0 * shift.norm() / (1e3 * length), 2)
         ));
     }
     Deflection {

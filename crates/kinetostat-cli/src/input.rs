@@ -11,7 +11,7 @@ use kinetostat_model::{Model, preset_text, read_model};
 use crate::failure::{Answer, Failure};
 
 /// Largest program or map that is read, bytes.
-const MOST_BYTES: u64 = 2 << 30;
+const MOST_BYTES: u64 = 512 << 20;
 /// Largest job file.
 const MOST_JOB_BYTES: u64 = 1 << 20;
 

@@ -183,21 +183,30 @@ impl Outputs {
             }
             let (target, what) = (claimed.target, claimed.what);
             // The old file stays reachable under a second name until all is done.
-            let kept = if replace && target.exists() {
-                keep(&target)
-            } else {
-                None
+            let kept = match fs::symlink_metadata(&target) {
+                Ok(found) if replace && found.is_file() => keep(&target).map(Some),
+                _ => Ok(None),
             };
-            let result = if replace {
+            let (kept, ready) = match kept {
+                Ok(kept) => (kept, Ok(())),
+                Err(error) => (None, Err(error)),
+            };
+            let result = if ready.is_err() {
+                ready
+            } else if replace {
                 // Between the first look and now the name may have become a link.
                 match fs::symlink_metadata(&target) {
                     Ok(found) if !found.is_file() => Err(std::io::Error::other(
                         "something else has taken its name meanwhile",
                     )),
-                    _ => claimed.file.persist(&target).map_err(|e| e.error),
+                    _ => claimed.file.persist(&target).map(drop).map_err(|e| e.error),
                 }
             } else {
-                claimed.file.persist_noclobber(&target).map_err(|e| e.error)
+                claimed
+                    .file
+                    .persist_noclobber(&target)
+                    .map(drop)
+                    .map_err(|e| e.error)
             };
             if let Err(error) = result {
                 for (path, kept) in done.into_iter().rev() {
@@ -252,16 +261,14 @@ fn temporary(parent: &Path, name: &std::ffi::OsStr) -> std::io::Result<NamedTemp
     Ok(file)
 }
 
-/// A second name of the file as it is now.
-fn keep(target: &Path) -> Option<tempfile::TempPath> {
-    let name = format!(
-        ".{}.{}.kept",
-        target.file_name()?.to_string_lossy(),
-        std::process::id()
-    );
-    let path = parent_of(target).join(name);
-    fs::hard_link(target, &path).ok()?;
-    tempfile::TempPath::try_from_path(path).ok()
+/// A second name of the file as it is now; a copy where the disk knows no second names.
+fn keep(target: &Path) -> std::io::Result<tempfile::TempPath> {
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let path = parent_of(target).join(format!(".{name}.{}.kept", std::process::id()));
+    if fs::hard_link(target, &path).is_err() {
+        fs::copy(target, &path)?;
+    }
+    tempfile::TempPath::try_from_path(path)
 }
 
 /// The same file under two names: links of either kind included.
@@ -332,5 +339,68 @@ pub(crate) fn in_words(error: &std::io::Error) -> String {
         ErrorKind::IsADirectory => "it is a directory; name a file".into(),
         ErrorKind::InvalidFilename => "the name is too long or not allowed here".into(),
         _ => error.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two outputs, the second of which cannot be put in place any more.
+    fn fails_at_the_second(existing: Existing, before: Option<&str>) -> Option<String> {
+        let here = tempfile::tempdir().unwrap();
+        let (one, two) = (here.path().join("one"), here.path().join("two"));
+        if let Some(text) = before {
+            fs::write(&one, text).unwrap();
+        }
+        let mut outputs = Outputs::new(existing, Vec::new());
+        for path in [&one, &two] {
+            let index = outputs.claim("output", path).unwrap();
+            outputs.fill(index, b"new").unwrap();
+        }
+        fs::create_dir(&two).unwrap();
+        let failure = outputs.commit().unwrap_err();
+        assert!(failure.plain.contains("no output was changed"));
+        let left = fs::read_dir(here.path()).unwrap().count();
+        assert_eq!(left, 1 + usize::from(before.is_some()));
+        fs::read_to_string(&one).ok()
+    }
+
+    #[test]
+    fn what_was_put_in_place_is_taken_back() {
+        assert_eq!(fails_at_the_second(Existing::Refuse, None), None);
+        assert_eq!(fails_at_the_second(Existing::Replace, None), None);
+        let old = fails_at_the_second(Existing::Replace, Some("old"));
+        assert_eq!(old.as_deref(), Some("old"));
+    }
+
+    #[test]
+    fn outputs_dropped_unused_leave_nothing() {
+        let here = tempfile::tempdir().unwrap();
+        let mut outputs = Outputs::new(Existing::Refuse, Vec::new());
+        let index = outputs.claim("output", &here.path().join("a")).unwrap();
+        outputs.fill(index, b"text").unwrap();
+        drop(outputs);
+        assert_eq!(fs::read_dir(here.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_job_stays_in_its_directory() {
+        let here = tempfile::tempdir().unwrap();
+        for good in ["a.ngc", "./a.ngc", "sub/a.ngc", "a b.ngc", "größer.ngc"] {
+            assert!(inside(here.path(), good).is_ok(), "{good}");
+        }
+        for bad in [
+            "../a",
+            "/a",
+            "sub/../../a",
+            "",
+            " ",
+            "C:\\a",
+            "\\\\server\\a",
+            "NUL:",
+        ] {
+            assert!(inside(here.path(), bad).is_err(), "{bad}");
+        }
     }
 }
