@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat::{Mechanism, MotionKind, Pose, Posture, Wrench};
+use kinetostat::{Mechanism, Pose, Posture, Wrench};
 use kinetostat_machining::straight_tool;
 use nalgebra::Vector3;
 
@@ -94,40 +94,8 @@ impl Spot {
     /// The machine commanded for the place, within the limits of its actuators.
     pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
         let posture = self.mechanism.posture(&self.target)?;
-        if let Some((actuator, command, (low, high))) =
-            posture.limit_violations().into_iter().next()
-        {
-            return Err(Failure::unanswered(
-                self.outside(&actuator, command, low, high),
-            ));
-        }
+        posture.within_limits()?;
         Ok(posture)
-    }
-
-    /// A command beyond its limits, in the units that people set limits in.
-    fn outside(&self, actuator: &str, command: f64, low: f64, high: f64) -> String {
-        let kinds = self
-            .mechanism
-            .limbs()
-            .iter()
-            .flat_map(|l| l.nominal.actuators().iter().map(|a| a.kind));
-        let kind = self
-            .mechanism
-            .actuator_names()
-            .into_iter()
-            .zip(kinds)
-            .find(|(name, _)| name == actuator)
-            .map_or(MotionKind::Prismatic, |(_, kind)| kind);
-        let (factor, unit) = match kind {
-            MotionKind::Prismatic => (1e3, "mm"),
-            MotionKind::Revolute => (1_f64.to_degrees(), "deg"),
-        };
-        format!(
-            "the place cannot be reached: actuator '{actuator}' would have to go to {} {unit}, its limits are {} .. {} {unit}; choose a place inside the workspace, or check the limits and the tool's length",
-            short(factor * command),
-            short(factor * low),
-            short(factor * high),
-        )
     }
 
     pub(crate) fn asked(&self) -> PlaceAsked {

@@ -80,7 +80,7 @@ pub enum RunError {
     },
     /// The written program would be worse somewhere.
     #[error(
-        "line {line}: compensated, this block would end {after_mm:.6} mm off, more than the {before_mm:.6} mm without compensation; nothing was written. Tighten `tolerance_um`, allow more decimals, or report this with the job"
+        "line {line}: compensated, this block would end {after_mm:.6} mm off, more than the {before_mm:.6} mm without compensation; nothing was written. Tighten the path tolerance, allow more decimals, or report this with the job"
     )]
     Worse {
         /// Line of the program, from 1.

@@ -1,7 +1,16 @@
 //! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
 //! finding (singular, unstable, redundant) is a field of a result.
 
+use crate::chain::MotionKind;
 use crate::spatial::{Pose, Wrench};
+
+/// A joint's value in the unit that people read.
+fn in_words(kind: MotionKind, value: f64) -> String {
+    match kind {
+        MotionKind::Prismatic => format!("{:.4} mm", value * 1e3),
+        MotionKind::Revolute => format!("{:.4} deg", value.to_degrees()),
+    }
+}
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -72,7 +81,8 @@ pub enum Error {
     },
     /// The actuators cannot bring the end there.
     #[error(
-        "{place}: the target cannot be reached; nearest pose found is {distance_m:.4e} m and {angle_rad:.3e} rad away"
+        "{place}: the target cannot be reached; the nearest pose found is {:.4} mm and {:.4} deg away",
+        distance_m * 1e3, angle_rad.to_degrees()
     )]
     Unreachable {
         /// Limb or mechanism.
@@ -85,12 +95,13 @@ pub enum Error {
         nearest: Box<Pose>,
     },
     /// A command lies outside the limits of its actuator.
-    #[error(
-        "actuator '{actuator}': the command {command:.6} is outside its limits {low:.6} .. {high:.6} (m or rad)"
-    )]
+    #[error("actuator '{actuator}': the command {} is outside its limits {} .. {}",
+        in_words(*kind, *command), in_words(*kind, *low), in_words(*kind, *high))]
     OutsideLimits {
         /// Name of the actuator.
         actuator: String,
+        /// Slide or rotation.
+        kind: MotionKind,
         /// Command needed, m or rad.
         command: f64,
         /// Lower limit.

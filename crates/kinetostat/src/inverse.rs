@@ -79,7 +79,18 @@ pub fn inverse_kinematics(
 pub(crate) fn command_rates(chain: &Chain, base: &Pose, posture: &LimbPosture) -> DMatrix<f64> {
     let search = Search::new(chain, base, &Pose::identity());
     let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands, false);
-    let (inverse, _) = pseudo_inverse(&search.jacobian(&kinematics));
+    let jacobian = search.jacobian(&kinematics);
+    // Least squares by the normal equations where the joints are certainly independent.
+    let inverse = (jacobian.transpose() * &jacobian)
+        .cholesky()
+        .filter(|c| {
+            let d = c.l_dirty().diagonal();
+            d.min() > 1e-4 * d.max()
+        })
+        .map_or_else(
+            || pseudo_inverse(&jacobian).0,
+            |c| c.solve(&jacobian.transpose()),
+        );
     let (passive, r) = (search.passive.len(), posture.commands.len());
     let weights = search.weights();
     DMatrix::from_fn(r, 6, |i, j| inverse[(passive + i, j)] * weights[j])

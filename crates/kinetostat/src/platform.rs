@@ -19,9 +19,10 @@ use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
 use crate::loading::Load;
 use crate::mechanism::Mechanism;
-use crate::saddle::Saddle;
+use crate::saddle::{Saddle, column_space, complement, rows_certainly_independent};
 use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, rotational, shift_matrix};
+use crate::stiffness::balanced_jacobian;
 
 /// Poses, coordinates and end wrenches of a mechanism: where an iteration starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,9 +52,39 @@ pub(crate) enum Unknowns {
 struct Linear {
     /// (6 + n) x (1 + 6 + r \[+ 6\]): wrench and coordinates.
     solution: DMatrix<f64>,
+    /// Factors of the bordered system, kept while its tangent still serves.
+    saddle: Option<Saddle>,
+    /// Wrenches on the tip that the limb carries without any motion, 6 x k: the tip cannot move
+    /// along them. Empty for a limb that can be strained in every direction.
+    rigid: DMatrix<f64>,
     /// Rows of the reaction on a moving base before substitution: torque, d/dx, d/dF, d/dbase.
     system: System,
     closure: Twist,
+}
+
+impl Linear {
+    /// Closure and unbalanced torques as first column.
+    fn right_hand_side(&self, b: &mut DMatrix<f64>) {
+        for k in 0..6 {
+            b[(k, 0)] = self.closure.0[k];
+        }
+        for row in 0..self.system.spring_torque.len() {
+            b[(6 + row, 0)] = -self.system.unbalanced(row);
+        }
+    }
+}
+
+/// See [`Linear::rigid`].
+fn rigid_wrenches(system: &System, factors: &[f64]) -> DMatrix<f64> {
+    let jacobian = balanced_jacobian(system, factors);
+    if rows_certainly_independent(&jacobian) {
+        return DMatrix::zeros(6, 0);
+    }
+    let mut blocked = complement(&column_space(&jacobian));
+    for (mut row, factor) in blocked.row_iter_mut().zip(factors) {
+        row *= *factor;
+    }
+    blocked
 }
 
 /// A mechanism's equilibrium being solved.
@@ -124,6 +155,8 @@ impl<'m> PlatformSolver<'m> {
             .zip(&posture)
             .map(|(l, p)| Linear {
                 solution: DMatrix::zeros(0, 0),
+                saddle: None,
+                rigid: DMatrix::zeros(6, 0),
                 system: System::new(
                     &l.actual,
                     &state.platforms[l.from],
@@ -265,37 +298,42 @@ impl<'m> PlatformSolver<'m> {
 
     /// Solves every limb's bordered system for closure, end, command and base motions.
     fn linearise(&mut self, with_hessian: bool) {
-        for (i, limb) in self.mechanism.limbs.iter().enumerate() {
-            let linear = &mut self.linear[i];
+        for (linear, factors) in self.linear.iter_mut().zip(&self.factors) {
             let system = &linear.system;
             let n = system.spring_torque.len();
             let extra = system.kinematics.velocity_count() - n;
             let mut b = DMatrix::zeros(6 + n, 7 + extra);
+            linear.right_hand_side(&mut b);
             for k in 0..6 {
-                b[(k, 0)] = linear.closure.0[k];
                 b[(k, 1 + k)] = 1.0;
                 for j in 0..extra {
                     b[(k, 7 + j)] = -system.jacobian[(k, n + j)];
                 }
             }
-            for row in 0..n {
-                b[(6 + row, 0)] = -system.unbalanced(row);
-                for j in 0..extra {
-                    b[(6 + row, 7 + j)] = if with_hessian {
-                        -system.hessian[(row, n + j)]
-                    } else {
-                        0.0
-                    };
+            if with_hessian {
+                for row in 0..n {
+                    for j in 0..extra {
+                        b[(6 + row, 7 + j)] = -system.hessian[(row, n + j)];
+                    }
                 }
             }
-            Saddle::new(
-                system.bordered(with_hessian),
-                &self.factors[i],
-                &self.factors[i],
-            )
-            .solve(&mut b);
+            let saddle = Saddle::new(system.bordered(with_hessian), factors, factors);
+            saddle.solve(&mut b);
+            linear.rigid = rigid_wrenches(system, factors);
+            linear.saddle = Some(saddle);
             linear.solution = b;
-            debug_assert_eq!(limb.actual.coordinate_count(), n);
+        }
+    }
+
+    /// New residuals with the tangent as it is.
+    fn renew_residuals(&mut self) {
+        for linear in &mut self.linear {
+            let mut b = DMatrix::zeros(linear.solution.nrows(), 1);
+            linear.right_hand_side(&mut b);
+            if let Some(saddle) = &linear.saddle {
+                saddle.solve(&mut b);
+            }
+            linear.solution.column_mut(0).copy_from(&b.column(0));
         }
     }
 
@@ -382,12 +420,49 @@ impl<'m> PlatformSolver<'m> {
         (by_pose, by_target)
     }
 
-    /// One Newton step: motions of the platforms (6P) and of the nominal target (6).
-    fn platform_step(&self, lack: &[Wrench]) -> Option<(Vec<Twist>, Twist, usize)> {
+    /// Motions that no limb can follow: rows `N^T (motion of the tip)` over the platforms' motions,
+    /// k x 6P, and what they must be, k.
+    fn rigid_rows(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let m = self.mechanism;
+        let p = m.platforms.len() - 1;
+        let count = self.linear.iter().map(|l| l.rigid.ncols()).sum();
+        let (mut rows, mut needed) = (DMatrix::zeros(count, 6 * p), DVector::zeros(count));
+        let mut at = 0;
+        for (i, limb) in m.limbs.iter().enumerate() {
+            let linear = &self.linear[i];
+            let k = linear.rigid.ncols();
+            if k == 0 {
+                continue;
+            }
+            let normal = linear.rigid.transpose();
+            let t = shift_matrix(&self.arm(i));
+            rows.view_mut((at, 6 * (limb.to - 1)), (k, 6))
+                .copy_from(&(&normal * t));
+            if limb.from != 0 {
+                let first = linear.system.kinematics.velocity_count() - 6;
+                let by_base = &normal * linear.system.jacobian.columns(first, 6);
+                rows.view_mut((at, 6 * (limb.from - 1)), (k, 6))
+                    .copy_from(&-by_base);
+            }
+            needed
+                .rows_mut(at, k)
+                .copy_from(&-(&normal * linear.closure.0));
+            at += k;
+        }
+        (rows, needed)
+    }
+
+    /// One Newton step: motions of the platforms (6P), of the nominal target (6), and the wrenches
+    /// that limbs carry rigidly.
+    fn platform_step(&self, lack: &[Wrench]) -> Option<(Vec<Twist>, Twist, Vec<Wrench>)> {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
         if self.unknowns == Unknowns::Held && p == 1 {
-            return Some((vec![Twist::zero()], Twist::zero(), 0));
+            return Some((
+                vec![Twist::zero()],
+                Twist::zero(),
+                vec![Wrench::zero(); m.limbs.len()],
+            ));
         }
         let (mut a, by_target) = self.tangents();
         let mut b = DMatrix::zeros(6 * p, 1);
@@ -434,7 +509,7 @@ impl<'m> PlatformSolver<'m> {
             }
         }
         let root = self.stiffness.sqrt();
-        let scale: Vec<f64> = (0..6 * p)
+        let mut scale: Vec<f64> = (0..6 * p)
             .map(|i| {
                 if i % 6 < 3 {
                     1.0 / root
@@ -443,8 +518,23 @@ impl<'m> PlatformSolver<'m> {
                 }
             })
             .collect();
-        let saddle = Saddle::new(a, &scale, &scale);
-        saddle.solve(&mut b);
+        let (mut rigid, needed) = self.rigid_rows();
+        let count = rigid.nrows();
+        if count > 0 {
+            // What is held does not move; its rows ask nothing of it.
+            let still = |k: usize| held[k] || self.unknowns == Unknowns::Held;
+            for k in (0..6).filter(|&k| still(k)) {
+                rigid.column_mut(tool + k).fill(0.0);
+            }
+            a = a.resize(6 * p + count, 6 * p + count, 0.0);
+            a.view_mut((6 * p, 0), (count, 6 * p)).copy_from(&rigid);
+            a.view_mut((0, 6 * p), (6 * p, count))
+                .copy_from(&rigid.transpose());
+            b = b.resize(6 * p + count, 1, 0.0);
+            b.view_mut((6 * p, 0), (count, 1)).copy_from(&needed);
+            scale.resize(6 * p + count, 1.0);
+        }
+        Saddle::new(a, &scale, &scale).solve(&mut b);
         if b.iter().any(|x| !x.is_finite()) {
             return None;
         }
@@ -456,11 +546,27 @@ impl<'m> PlatformSolver<'m> {
             target.0[k] = motions[m.tool - 1].0[k];
             motions[m.tool - 1].0[k] = 0.0;
         }
-        Some((motions, target, saddle.deficiency))
+        let mut at = 6 * p;
+        let carried = self
+            .linear
+            .iter()
+            .map(|linear| {
+                let k = linear.rigid.ncols();
+                let wrench = &linear.rigid * b.view((at, 0), (k, 1));
+                at += k;
+                Wrench(wrench.fixed_view::<6, 1>(0, 0).into_owned())
+            })
+            .collect();
+        Some((motions, target, carried))
     }
 
     /// Changes of wrench and coordinates of every limb that follow from a platform step.
-    fn limb_steps(&self, motions: &[Twist], target: &Twist) -> Vec<DVector<f64>> {
+    fn limb_steps(
+        &self,
+        motions: &[Twist],
+        target: &Twist,
+        carried: &[Wrench],
+    ) -> Vec<DVector<f64>> {
         let m = self.mechanism;
         let motion = |platform: usize| {
             if platform == 0 {
@@ -478,6 +584,8 @@ impl<'m> PlatformSolver<'m> {
                 let t = shift_matrix(&self.arm(i));
                 let end = t * motion(limb.to).0;
                 let mut step = solution.column(0) + solution.view((0, 1), (rows, 6)) * end;
+                let mut wrench = step.rows_mut(0, 6);
+                wrench += carried[i].0;
                 let r = limb.actual.actuators().len();
                 if !self.rates.is_empty() && r > 0 {
                     let commands = &self.rates[i] * t * target.0;
@@ -501,7 +609,6 @@ impl<'m> PlatformSolver<'m> {
                 Err(_) => return false,
             }
         }
-        self.refresh_rates();
         true
     }
 
@@ -524,15 +631,25 @@ impl<'m> PlatformSolver<'m> {
     ) -> std::result::Result<(usize, MechanismBalance), (usize, MechanismBalance)> {
         self.share = share;
         let (mut now, mut lack) = self.evaluate();
+        // A tangent that gains this much in one step (squared) serves for the next step too.
+        const STILL_GOOD: f64 = 1e-5;
+        let mut fresh = true;
         for iteration in 0..self.settings.iterations {
             if self.converged(&now) && iteration > 0 {
                 return Ok((iteration, now));
             }
-            self.linearise(iteration >= picard);
-            let Some((motions, target, _)) = self.platform_step(&lack) else {
+            if fresh {
+                self.linearise(iteration >= picard);
+                if matches!(self.unknowns, Unknowns::Target(_)) {
+                    self.refresh_rates();
+                }
+            } else {
+                self.renew_residuals();
+            }
+            let Some((motions, target, carried)) = self.platform_step(&lack) else {
                 return Err((iteration, now));
             };
-            let steps = self.limb_steps(&motions, &target);
+            let steps = self.limb_steps(&motions, &target, &carried);
             let mut length = 1.0_f64;
             for (limb, step) in self.mechanism.limbs.iter().zip(&steps) {
                 length = length.min(step_limit(&limb.actual, step.iter().skip(6).copied()));
@@ -564,6 +681,7 @@ impl<'m> PlatformSolver<'m> {
                 let (next, missing) = self.evaluate();
                 let better = reached && next.merit <= merit * (1.0 - 0.1 * length);
                 if better || (reached && (iteration < picard || self.converged(&next))) {
+                    fresh = iteration < picard || next.merit > STILL_GOOD * merit;
                     (now, lack) = (next, missing);
                     break;
                 }
@@ -594,7 +712,13 @@ impl<'m> PlatformSolver<'m> {
     /// As given, and failing that with loads and closures that grow from the unloaded posture.
     pub fn solve_robustly(&mut self) -> Result<crate::equilibrium::Residual> {
         let start = self.state.clone();
-        let picard = self.settings.picard_steps;
+        // A state that carries load already is better than the report's first step from rest.
+        let loaded = self.state.wrenches.iter().any(|w| *w != Wrench::zero());
+        let picard = if loaded {
+            0
+        } else {
+            self.settings.picard_steps
+        };
         let first = match self.solve(1.0, picard) {
             Ok((iterations, balance)) => return Ok(balance.residual(iterations)),
             Err(failed) => failed,

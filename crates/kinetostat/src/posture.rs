@@ -3,14 +3,16 @@
 //!
 //! The thing right of the bar is a [`Posture`]; the thing left of it is an argument.
 
-use nalgebra::{DMatrix, Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
+use crate::chain::{MotionKind, Scale};
 use crate::equilibrium::Residual;
 use crate::error::{Error, Result};
-use crate::inverse::{LimbPosture, blocked_motions, inverse_kinematics};
+use crate::inverse::{LimbPosture, blocked_motions, command_rates, inverse_kinematics};
 use crate::mechanism::Mechanism;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
+use crate::saddle::{column_space, complement};
 use crate::settings::Settings;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual, shift_matrix};
 use crate::stability::{ShapeStability, shape_stability};
@@ -312,6 +314,30 @@ impl<'m> Posture<'m> {
             .collect()
     }
 
+    /// That no command lies outside its limits.
+    ///
+    /// # Errors
+    /// [`Error::OutsideLimits`] for the first that does.
+    pub fn within_limits(&self) -> Result<()> {
+        let Some((actuator, command, (low, high))) = self.limit_violations().into_iter().next()
+        else {
+            return Ok(());
+        };
+        let limbs = self.mechanism.limbs.iter();
+        let kind = limbs
+            .flat_map(|l| &l.nominal.actuators)
+            .zip(self.mechanism.actuator_names())
+            .find(|(_, name)| *name == actuator)
+            .map_or(MotionKind::Prismatic, |(a, _)| a.kind);
+        Err(Error::OutsideLimits {
+            actuator,
+            kind,
+            command,
+            low,
+            high,
+        })
+    }
+
     /// State with all springs at rest and the platforms where they are meant to be.
     #[must_use]
     pub fn rest_state(&self) -> MechanismState {
@@ -360,7 +386,17 @@ impl<'m> Posture<'m> {
             limbs.push(k);
         }
         let scale = self.solver(self.rest_state(), Unknowns::Pose).scale();
-        let directions = balanced_directions(&total, scale);
+        let arms = m
+            .limbs
+            .iter()
+            .map(|limb| self.target.rotation * limb.platform_from_tip.translation.vector);
+        let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
+        let own = limbs
+            .iter()
+            .zip(arms)
+            .zip(scales)
+            .map(|((k, arm), scale)| (k, arm, scale));
+        let directions = balanced_directions(&total, scale, own);
         Ok(UnloadedStiffness {
             cartesian: CartesianStiffness { matrix: total },
             directions,
@@ -574,11 +610,34 @@ impl<'m> Posture<'m> {
         DMatrix::from_columns(&kept)
     }
 
+    /// Motions that the actuators drive, as an orthonormal basis, 6 x k (rotations in units of the
+    /// natural length): [`Self::mobility`] without what passive joints allow on their own.
+    #[must_use]
+    pub fn commanded_motions(&self) -> DMatrix<f64> {
+        let m = self.mechanism;
+        let basis = self.mobility();
+        let length = self
+            .solver(self.rest_state(), Unknowns::Pose)
+            .scale()
+            .length;
+        let mut driven = DMatrix::zeros(basis.ncols(), basis.ncols());
+        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
+            let t =
+                shift_matrix(&(self.target.rotation * limb.platform_from_tip.translation.vector));
+            let mut motions = basis.clone();
+            motions.rows_mut(3, 3).unscale_mut(length);
+            let rates =
+                command_rates(&limb.nominal, &m.platforms[limb.from].home, joints) * t * motions;
+            driven += rates.transpose() * rates;
+        }
+        basis * column_space(&driven)
+    }
+
     /// Base directions `x y z rx ry rz` of the tool that the machine can correct by itself:
-    /// a choice, translations first, of as many as it has degrees of freedom.
+    /// a choice, translations first, of as many as its actuators drive.
     #[must_use]
     pub fn correctable(&self) -> [bool; 6] {
-        let basis = self.mobility();
+        let basis = self.commanded_motions();
         let mut chosen = [false; 6];
         let mut rows: Vec<nalgebra::DVector<f64>> = Vec::new();
         for (i, flag) in chosen.iter_mut().enumerate() {
@@ -620,11 +679,37 @@ impl UnloadedStiffness {
     }
 }
 
-fn balanced_directions(matrix: &Matrix6<f64>, scale: crate::chain::Scale) -> Vec<Direction> {
+/// Principal directions of a platform's stiffness; motions that a limb (its own stiffness and the
+/// arm to its tip) cannot follow are rigid.
+fn balanced_directions<'a>(
+    matrix: &Matrix6<f64>,
+    scale: Scale,
+    limbs: impl Iterator<Item = (&'a ChainStiffness, Vector3<f64>, Scale)>,
+) -> Vec<Direction> {
     let root = scale.stiffness.sqrt();
     let factor = |i: usize| if i < 3 { root } else { root * scale.length };
     let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (factor(i) * factor(j)));
-    directions(scale, &balanced, &DMatrix::identity(6, 6))
+    let mut blocked: Vec<DVector<f64>> = Vec::new();
+    for (limb, arm, own) in limbs {
+        for direction in limb
+            .directions
+            .iter()
+            .filter(|d| d.kind == DirectionKind::Rigid)
+        {
+            // The limb's balanced normal, as a wrench on the platform, in the platform's balance.
+            let t = direction.twist.0;
+            let square = own.length * own.length;
+            let wrench = Vector6::from_fn(|k, _| if k < 3 { t[k] } else { t[k] * square });
+            let on_platform = shift_matrix(&arm).transpose() * wrench;
+            blocked.push(DVector::from_fn(6, |k, _| on_platform[k] / factor(k)).normalize());
+        }
+    }
+    let range = if blocked.is_empty() {
+        DMatrix::identity(6, 6)
+    } else {
+        complement(&column_space(&DMatrix::from_columns(&blocked)))
+    };
+    directions(scale, &balanced, &range)
 }
 
 /// Stiffness, stability and limbs at a solved state.
@@ -645,16 +730,7 @@ pub(crate) fn conclude(
             value,
         });
     }
-    let directions = balanced_directions(&stiffness, scale);
-    let least = directions
-        .iter()
-        .map(|d| d.stiffness_n_per_m)
-        .fold(f64::INFINITY, f64::min);
-    let free = directions
-        .iter()
-        .filter(|d| d.kind == DirectionKind::Free)
-        .count();
-    let limbs = m
+    let limbs: Vec<LimbEquilibrium> = m
         .limbs
         .iter()
         .enumerate()
@@ -679,6 +755,26 @@ pub(crate) fn conclude(
             }
         })
         .collect();
+    // With platforms in between, what blocks the tool is not one limb's affair.
+    let own =
+        limbs
+            .iter()
+            .zip(&m.limbs)
+            .filter_map(|(limb, description): (&LimbEquilibrium, _)| {
+                let arm = solver.state.platforms[tool].rotation
+                    * description.platform_from_tip.translation.vector;
+                (description.from == 0 && description.to == tool)
+                    .then(|| (&limb.stiffness, arm, description.actual.scale()))
+            });
+    let directions = balanced_directions(&stiffness, scale, own);
+    let least = directions
+        .iter()
+        .map(|d| d.stiffness_n_per_m)
+        .fold(f64::INFINITY, f64::min);
+    let free = directions
+        .iter()
+        .filter(|d| d.kind == DirectionKind::Free)
+        .count();
     Ok(MechanismEquilibrium {
         tool: solver.state.platforms[tool],
         displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
@@ -698,12 +794,7 @@ pub(crate) fn conclude(
 }
 
 /// Whether the platforms' tangent has no negative direction; with `held`, while the tool is held.
-fn others_hold(
-    tangent: &DMatrix<f64>,
-    platform: usize,
-    scale: crate::chain::Scale,
-    held: bool,
-) -> bool {
+fn others_hold(tangent: &DMatrix<f64>, platform: usize, scale: Scale, held: bool) -> bool {
     let unit = |i: usize| {
         let root = scale.stiffness.sqrt();
         if i % 6 < 3 { root } else { root * scale.length }
@@ -723,7 +814,7 @@ fn others_hold(
 }
 
 /// Stiffness of one platform with all others free: Schur complement.
-fn condensed(tangent: &DMatrix<f64>, platform: usize, scale: crate::chain::Scale) -> Matrix6<f64> {
+fn condensed(tangent: &DMatrix<f64>, platform: usize, scale: Scale) -> Matrix6<f64> {
     let own: Vec<usize> = (6 * platform..6 * platform + 6).collect();
     let pick =
         |rows: &[usize], columns: &[usize]| tangent.select_rows(rows).select_columns(columns);

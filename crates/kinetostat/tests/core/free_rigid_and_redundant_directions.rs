@@ -259,3 +259,37 @@ fn a_singular_platform_names_the_push_it_cannot_take() {
         Err(other) => panic!("{other}"),
     }
 }
+
+#[test]
+fn a_planar_machine_carries_what_pushes_it_out_of_its_plane() {
+    use kinetostat::{ActuatorSpec, Chain, DirectionKind, Mechanism, MotionKind, Pose, Wrench};
+    use nalgebra::{Vector3, vector};
+    let z = Vector3::z();
+    let mut drive = ActuatorSpec::new(MotionKind::Revolute, z, 500.0);
+    drive.home = -0.6;
+    let chain = Chain::builder("two links")
+        .passive("shoulder", MotionKind::Revolute, z, 0.3)
+        .translation(vector![1.0, 0.0, 0.0])
+        .actuator("elbow", drive)
+        .translation(vector![1.0, 0.0, 0.0])
+        .passive("wrist", MotionKind::Revolute, z, 0.3)
+        .build()
+        .unwrap();
+    let machine = Mechanism::serial(chain, Pose::identity(), Vector3::zeros()).unwrap();
+    let home = Pose::translation(2.0 * 0.3_f64.cos(), 0.0, 0.0);
+    let posture = machine.posture(&home).unwrap();
+    let k = posture.stiffness().unwrap();
+    let count = |kind| k.directions.iter().filter(|d| d.kind == kind).count();
+    // z, rx, ry are blocked by the joints; across and about z the passive joints are free.
+    assert_eq!(count(DirectionKind::Rigid), 3);
+    assert_eq!(count(DirectionKind::Free), 2);
+    assert_eq!(count(DirectionKind::Finite), 1);
+    let push = Wrench::new(vector![20.0, 0.0, 70.0], vector![5.0, -3.0, 0.0]);
+    let e = posture.deflected_by(&push).unwrap();
+    crate::common::assert_equilibrium(&posture, &e);
+    assert!((e.limbs[0].wrench.0 - push.0).norm() < 1e-6);
+    assert!(e.displacement.0[2].abs() < 1e-15 && e.displacement.0[0] > 0.0);
+    let in_plane = Wrench::new(vector![20.0, 0.0, 0.0], Vector3::zeros());
+    let flat = posture.deflected_by(&in_plane).unwrap();
+    assert!((flat.displacement.0 - e.displacement.0).norm() < 1e-12);
+}
