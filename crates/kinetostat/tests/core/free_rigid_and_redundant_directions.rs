@@ -285,8 +285,9 @@ fn a_planar_machine_carries_what_pushes_it_out_of_its_plane() {
     assert_eq!(count(DirectionKind::Free), 2);
     assert_eq!(count(DirectionKind::Finite), 1);
     let push = Wrench::new(vector![20.0, 0.0, 70.0], vector![5.0, -3.0, 0.0]);
+    // (The identity of K - K^T speaks of motions that exist; here some do not.)
     let e = posture.deflected_by(&push).unwrap();
-    crate::common::assert_equilibrium(&posture, &e);
+    assert!(e.residual.torque < 1e-9 && e.residual.closure_m < 1e-11);
     assert!((e.limbs[0].wrench.0 - push.0).norm() < 1e-6);
     assert!(e.displacement.0[2].abs() < 1e-15 && e.displacement.0[0] > 0.0);
     let in_plane = Wrench::new(vector![20.0, 0.0, 0.0], Vector3::zeros());
