@@ -8,9 +8,9 @@ use crate::block::Block;
 use crate::curve::Arc;
 use crate::error::ProgramError;
 
-/// Below this angle some controllers take an arc by its centre for a full circle and some for
-/// nothing, in rad (grbl's constant).
-const DISPUTED_ANGLE: f64 = 5e-7;
+/// Below this angle some controllers take an arc for a full circle and some for nothing, in rad (5e-7
+/// in grbl, 1e-6 in LinuxCNC; neither asks whether the arc had an R).
+const DISPUTED_ANGLE: f64 = 1e-6;
 
 /// Ends nearer than this are one point: the words were equal, up to the arithmetic, in mm.
 const SAME_POINT_MM: f64 = 1e-9;
@@ -35,9 +35,10 @@ pub(crate) struct ArcFrame {
 
 /// Reads the arc of a block.
 pub(crate) fn read(block: &Block<'_>, frame: &ArcFrame) -> Result<Arc, ProgramError> {
-    if block.value(b'P').is_some() {
+    // Also where the P is meant for another code of the block: LinuxCNC gives it to both.
+    if let Some(word) = block.words.iter().find(|word| word.letter == b'P') {
         return Err(block.refuse(
-            block.word(b'P'),
+            Some(word),
             "P in an arc counts turns, and controllers disagree how",
             "write one block for each turn",
         ));
@@ -183,7 +184,7 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
     let sweep = match frame.clockwise {
         false if apart < SAME_POINT_MM => TAU,
         true if apart < SAME_POINT_MM => -TAU,
-        _ if between.abs() < DISPUTED_ANGLE && block.value(b'R').is_none() => {
+        _ if between.abs() <= DISPUTED_ANGLE => {
             return Err(block.refuse(
                 None,
                 &format!(

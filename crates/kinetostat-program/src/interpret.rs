@@ -48,10 +48,59 @@ pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, Progr
     interpreter.finish(program)
 }
 
+/// Of which axes the coordinates are shifted by an amount that is not in the program.
+///
+/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
+/// is taken away they count from the machine's work offset again, and how far apart the two are only the
+/// machine knows. So it is with an offset from before the program that G92.3 brings back.
+#[derive(Default)]
+struct Shifts {
+    now: [bool; 3],
+    /// Without G92.
+    bare: [bool; 3],
+    /// After G92.3; `None` while that brings back an offset from before the program.
+    saved: Option<[bool; 3]>,
+    /// Line of the last change.
+    line: usize,
+}
+
+impl Shifts {
+    fn apply(&mut self, change: &OffsetChange, known: &[bool; 3], line: usize) {
+        self.line = line;
+        match change {
+            OffsetChange::Here {
+                coordinates_mm,
+                establishes,
+                ..
+            } => {
+                for axis in 0..3 {
+                    self.bare[axis] |= establishes[axis];
+                    self.now[axis] &= coordinates_mm[axis].is_none();
+                }
+                self.saved = Some(self.now);
+            }
+            OffsetChange::Clear => {
+                self.now = self.bare;
+                self.saved = Some(self.bare);
+            }
+            OffsetChange::Suspend => self.now = self.bare,
+            OffsetChange::Resume => {
+                self.now = self.saved.unwrap_or_else(|| {
+                    for axis in 0..3 {
+                        self.bare[axis] |= !known[axis];
+                    }
+                    *known
+                });
+            }
+        }
+    }
+}
+
 struct Interpreter<'o> {
     options: &'o ReadOptions,
     modes: Modes,
     offset: PositionOffset,
+    shifts: Shifts,
     position: Vector3<f64>,
     known: [bool; 3],
     ended: Option<usize>,
@@ -70,6 +119,7 @@ impl<'o> Interpreter<'o> {
             options,
             modes: Modes::new(options.units),
             offset: PositionOffset::default(),
+            shifts: Shifts::default(),
             position: options.start_position_mm.unwrap_or_default(),
             known: [options.start_position_mm.is_some(); 3],
             ended: None,
@@ -196,6 +246,7 @@ impl<'o> Interpreter<'o> {
             _ => OffsetChange::Resume,
         };
         self.offset.apply(&change, &self.position);
+        self.shifts.apply(&change, &self.known, block.line_number);
         self.note_no_motion(block);
         self.events.push(Event {
             line: block.line_number,
@@ -271,6 +322,17 @@ impl<'o> Interpreter<'o> {
             }
             Some(motion) => motion,
         };
+        if let Some(axis) = (0..3).find(|axis| self.shifts.now[*axis]) {
+            return Err(block.refuse(
+                None,
+                &format!(
+                    "line {} shifted the {} coordinates by an offset that is not in the program",
+                    self.shifts.line,
+                    char::from(COORDINATES[axis])
+                ),
+                "begin with G92.1 and state where the tool is with G0 before the first G92, or give the start position by option",
+            ));
+        }
         let mm_per_unit = self.modes.mm_per_unit(block)?;
         let kind = if motion == Motion::Rapid {
             MoveKind::Rapid

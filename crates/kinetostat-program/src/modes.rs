@@ -20,7 +20,7 @@ pub(crate) struct Modes {
     pub extra: ExtraAxes,
     units: Option<Units>,
     feed_mode: FeedMode,
-    /// The units changed after the F in force was given.
+    /// The units changed after the F in force was given, or in its block.
     feed_is_stale: bool,
     tool_length_on: bool,
     /// Line of a change of the tool length that no Z word has followed yet.
@@ -51,11 +51,9 @@ impl Modes {
         if let Some(code) = codes.feed_mode {
             self.set_feed_mode(code);
         }
-        if let Some(code) = codes.units {
-            self.set_units(code);
-        }
+        let units_changed = codes.units.is_some_and(|code| self.set_units(code));
         if let Some(value) = block.value(b'F') {
-            self.set_feed(block, value)?;
+            self.set_feed(block, value, units_changed)?;
         }
         match codes.plane {
             Some(170) => self.plane = [0, 1, 2],
@@ -96,22 +94,27 @@ impl Modes {
         self.feed_mode = mode;
     }
 
-    fn set_units(&mut self, code: u32) {
+    /// Whether other units were in force before.
+    fn set_units(&mut self, code: u32) -> bool {
         let units = match code {
             200 => Units::Inches,
             _ => Units::Millimetres,
         };
-        if let Some(before) = self.units
-            && before != units
-        {
+        let before = self.units.replace(units).filter(|before| *before != units);
+        if let Some(before) = before {
             self.feed_is_stale = self.feed.is_some();
             self.extra
                 .change_units(before.mm_per_unit() / units.mm_per_unit());
         }
-        self.units = Some(units);
+        before.is_some()
     }
 
-    fn set_feed(&mut self, block: &Block<'_>, value: f64) -> Result<(), ProgramError> {
+    fn set_feed(
+        &mut self,
+        block: &Block<'_>,
+        value: f64,
+        units_changed: bool,
+    ) -> Result<(), ProgramError> {
         if value <= 0.0 {
             return Err(block.refuse(
                 block.word(b'F'),
@@ -124,7 +127,9 @@ impl Modes {
             // A program may name F before its units; where none are named the first move is refused.
             _ => self.units.map_or(1.0, Units::mm_per_unit),
         };
-        self.feed_is_stale = self.feed_mode != FeedMode::InverseTime && self.units.is_none();
+        // Beside a change of the units LinuxCNC reads F in those before, grbl in the new ones.
+        self.feed_is_stale =
+            self.feed_mode != FeedMode::InverseTime && (self.units.is_none() || units_changed);
         self.feed = Some(Feed {
             mode: self.feed_mode,
             value: value * scale,
@@ -184,8 +189,8 @@ impl Modes {
         if self.feed_is_stale {
             return Err(block.refuse(
                 None,
-                "the units were named after the F in force: its value is read differently by controllers",
-                "write F again after G20 or G21",
+                "the units were named after the F in force, or changed in its block: its value is read differently by controllers",
+                "write F again in a block after G20 or G21",
             ));
         }
         Ok(())

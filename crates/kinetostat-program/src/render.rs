@@ -125,6 +125,12 @@ impl<'a> BlockWriter<'a> {
             }
         }
         self.edit_extra_axes(steps, &mut edits)?;
+        let is_axis =
+            |word: &Word| AXES.contains(&word.letter) || b"ABCEUVW".contains(&word.letter);
+        if added.is_empty() && !self.words.iter().any(is_axis) {
+            // A circle too small to leave the rounded place: without an axis it would be no motion.
+            self.add_standing(state, &mut added);
+        }
         let feed_word = self.word(b'F');
         if feed_word.is_some() {
             state.feed = self.motion.feed;
@@ -177,17 +183,7 @@ impl<'a> BlockWriter<'a> {
         }
         if text.is_empty() {
             // Rounding left nothing to move; the piece is kept so that every share is accounted for.
-            let axis = (0..3).find(|axis| self.stated[*axis]).unwrap_or(0);
-            let number = if self.motion.words.incremental {
-                number::fixed(0.0, self.decimals)
-            } else {
-                number::fixed(
-                    self.word_value(state, axis, state.position[axis]),
-                    self.decimals,
-                )
-            };
-            self.add(&mut text, AXES[axis], &number);
-            state.position[axis] = self.place(state, axis, parse(&number));
+            self.add_standing(state, &mut text);
         }
         let length = (state.position - from).norm();
         if let Some(number) = self.feed(state, step, steps.len(), length) {
@@ -226,6 +222,21 @@ impl<'a> BlockWriter<'a> {
             letter
         });
         text.push_str(number);
+    }
+
+    /// An axis word for the place where the output stands.
+    fn add_standing(&self, state: &mut OutputState, text: &mut String) {
+        let axis = (0..3).find(|axis| self.stated[*axis]).unwrap_or(0);
+        let number = if self.motion.words.incremental {
+            number::fixed(0.0, self.decimals)
+        } else {
+            number::fixed(
+                self.word_value(state, axis, state.position[axis]),
+                self.decimals,
+            )
+        };
+        self.add(text, AXES[axis], &number);
+        state.position[axis] = self.place(state, axis, parse(&number));
     }
 
     /// The word that would bring an axis to `place_mm`, unrounded, in units.

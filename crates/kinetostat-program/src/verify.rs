@@ -153,8 +153,16 @@ impl Verifier<'_> {
         if motion.known != Knowledge::Whole {
             return Ok(());
         }
-        let unit = motion.words.mm_per_unit;
-        let rounding = unit * 10_f64.powi(-(self.writing.decimals_for(unit) as i32));
+        let rounding_of = |motion: &Move| {
+            let unit = motion.words.mm_per_unit;
+            unit * 10_f64.powi(-(self.writing.decimals_for(unit) as i32))
+        };
+        // The piece begins where the move before ended, perhaps rounded in coarser units.
+        let before = piece
+            .move_index
+            .checked_sub(1)
+            .map_or(0.0, |before| rounding_of(&self.input_path.moves[before]));
+        let rounding = rounding_of(motion).max(before);
         let mut allowed = self.accounting.largest_correction_mm + rounding + SAME_PLACE_MM;
         if motion.curve != Curve::Line {
             // A chord is compared with its arc at equal shares, which are not quite the nearest points.

@@ -353,6 +353,12 @@ const BAD: &[(&str, usize, &str, &str)] = &[
         "an axis word stands in a block that clears",
         "a block of its own",
     ),
+    (
+        "G21\nG0 X10 Y0 Z5\nG92.3\nG0 Z50",
+        4,
+        "line 3 shifted the X coordinates by an offset that is not in the program",
+        "begin with G92.1",
+    ),
     ("G21\nG1 X5 F0", 2, "a feed of 0 is no feed", "above zero"),
     (
         "G21 G93\nG1 X5 F2\nX6",
@@ -365,6 +371,13 @@ const BAD: &[(&str, usize, &str, &str)] = &[
         4,
         "the units were named after the F",
         "write F again",
+    ),
+    // LinuxCNC runs this at 10 mm/min, grbl at 254.
+    (
+        "G21\nG1 X5 F100\nG20 G1 X1 F10",
+        3,
+        "or changed in its block",
+        "write F again in a block after",
     ),
     (
         "G21\nG0 X0 Y0\nM2\nG1 X1 F5",
@@ -421,6 +434,19 @@ const BAD: &[(&str, usize, &str, &str)] = &[
         "the centre needs both words, J is missing",
         "both coordinates",
     ),
+    // LinuxCNC makes two turns of each.
+    (
+        "G21\nG0 X0 Y0\nG3 I5 F100 M3 P2",
+        3,
+        "P in an arc counts turns",
+        "one block for each turn",
+    ),
+    (
+        "G21\nG0 X0 Y0\nG64 P2 G3 I5 F100",
+        3,
+        "P in an arc counts turns",
+        "one block for each turn",
+    ),
     (
         "G21\nG2 I0 J0 F100",
         2,
@@ -432,6 +458,19 @@ const BAD: &[(&str, usize, &str, &str)] = &[
         2,
         "controllers disagree whether this is a full circle",
         "exactly where it starts",
+    ),
+    // 8e-7 and 4e-7 rad: whole circles of 1 m by LinuxCNC's limit of 1e-6, the second by grbl's of 5e-7.
+    (
+        "G21\nG0 X1000 Y0\nG3 X1000 Y0.0008 I-1000 F100",
+        3,
+        "controllers disagree whether this is a full circle",
+        "exactly where it starts",
+    ),
+    (
+        "G21\nG0 X1000 Y0\nG3 X1000 Y0.0004 R1000 F100",
+        3,
+        "controllers disagree whether this is a full circle",
+        "write a straight move",
     ),
 ];
 
@@ -479,6 +518,18 @@ fn motion_from_an_unknown_place_is_refused_where_the_place_matters() {
             "G21\nG0 X0\nG2 X5 Y5 I5 F100",
             3,
             "the arc starts at a place whose Y",
+        ),
+        // Where the tool stood before G92 only the machine knows, so afterwards X would be written in
+        // other coordinates than those in force.
+        (
+            "G21\nG92 X10 Y0 Z5\nG1 X20 F300\nG92.1\nG0 Z50",
+            5,
+            "line 4 shifted the X coordinates by an offset that is not in the program",
+        ),
+        (
+            "G21\nG92 X10 Y0 Z5\nG92.2\nG92 X4 Y4\nG0 X5",
+            5,
+            "line 4 shifted the Z coordinates",
         ),
         (
             "G21\nG0 X0 Y0\nG2 X5 Y5 Z1 I5 F100",

@@ -136,6 +136,23 @@ fn what_arithmetic_leaves_of_two_equal_places_is_no_move() {
 }
 
 #[test]
+fn a_circle_smaller_than_the_rounding_still_has_all_its_motions() {
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X1 F300\nG2 I0.00002\nG91\nI0.00002 F100\nG90 G1 X2\nM2\n";
+    assert_eq!(
+        written(text, &NoCorrection),
+        "G21 G90\nG0 X0 Y0 Z0\nG1 X1 F300\nG1 X1.0000\nX1.0000\nX1.0000\nG91\n\
+         X0.0000 F100\nX0.0000\nX0.0000\nG90 G1 X2\nM2\n"
+    );
+}
+
+#[test]
+fn a_move_in_mm_may_begin_where_inches_were_rounded() {
+    let text = "G20 G90\nG0 X0 Y0 Z0\nG91 G2 X1.000005 Y1.000005 R1 F10\nG21\nG1 Z30 F300\nM2\n";
+    let output = written(text, &NoCorrection);
+    assert!(output.contains("\nG21\nG1 Z30"), "{output}");
+}
+
+#[test]
 fn increments_never_drift() {
     let mut text = "G21 G90\nG0 X0 Y0 Z0\nG91 G1 F500\n".to_owned();
     for _ in 0..5000 {
@@ -343,6 +360,16 @@ fn a_position_offset_takes_the_corrected_place_as_its_reference() {
     assert_eq!(
         written(text, &field),
         "G21 G90\nG0 X100.1000\nG92 X0\nG0 X50.0500\nG92.1\nG0 X150.1500\nG92 X5\nG92.2\nG0 X150.1500\nG92.3\nG0 X5\n"
+    );
+}
+
+#[test]
+fn an_offset_from_an_unknown_place_may_be_taken_away_at_the_end_or_suspended_for_a_while() {
+    let text = "G21 G90\nG92 X0 Y0 Z0\nG1 X50 F100\nG92.2\nG92.3\nG1 X60\nG92.1\nM2\n";
+    let (output, _) = written_with(text, &shift, &ReadOptions::default(), &bare());
+    assert!(
+        output.ends_with("G92.2\nG92.3\nG1 X60.0100\nG92.1\nM2\n"),
+        "{output}"
     );
 }
 
