@@ -9,8 +9,10 @@ use crate::chain::{
     Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
 };
 use crate::error::{Error, Result};
+use crate::link::{LinkConvention, LinkSpec};
+use crate::parallelogram::ParallelogramLaw;
 use crate::spatial::Pose;
-use crate::spring::{ParallelogramLaw, SpringBlock, SpringLaw};
+use crate::spring::{Segment, SpringBlock, SpringLaw};
 
 /// An actuator as the builder takes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +90,7 @@ impl ChainBuilder {
         }
     }
 
-    fn fault(&mut self, text: String) {
+    pub(crate) fn fault(&mut self, text: String) {
         self.mistake.get_or_insert(text);
     }
 
@@ -284,6 +286,20 @@ impl ChainBuilder {
         law: SpringLaw,
         rest: Vec<f64>,
     ) -> Self {
+        self.add_springs(name, directions, false, law, rest);
+        self
+    }
+
+    /// Coordinates are numbered as the directions; their motions follow each other in that order or,
+    /// with `rotations_first`, rotations before translations.
+    pub(crate) fn add_springs(
+        &mut self,
+        name: &str,
+        directions: &[usize],
+        rotations_first: bool,
+        law: SpringLaw,
+        rest: Vec<f64>,
+    ) {
         if directions.is_empty()
             || directions.windows(2).any(|w| w[0] >= w[1])
             || directions.iter().any(|&d| d > 5)
@@ -291,39 +307,38 @@ impl ChainBuilder {
             self.fault(format!(
                 "spring '{name}': directions must increase and lie in 0..6"
             ));
-            return self;
+            return;
         }
         let first = self.chain.coordinates.len();
+        let mut motions = Vec::with_capacity(directions.len());
         for &d in directions {
             let (kind, axis) = SIX[d];
-            let index =
-                self.coordinate(format!("{name}.{}", SIX_NAMES[d]), Role::Spring, kind, 0.0);
-            self.motion(
-                kind,
-                Unit::new_unchecked(unit(axis)),
-                Some(Drive { index, ratio: 1.0 }),
-                None,
-            );
+            let name = format!("{name}.{}", SIX_NAMES[d]);
+            motions.push((kind, axis, self.coordinate(name, Role::Spring, kind, 0.0)));
+        }
+        if rotations_first {
+            motions.sort_by_key(|&(kind, ..)| kind == MotionKind::Prismatic);
+        }
+        for (kind, axis, index) in motions {
+            let axis = Unit::new_unchecked(unit(axis));
+            self.motion(kind, axis, Some(Drive { index, ratio: 1.0 }), None);
         }
         self.block(name, first, rest, law);
-        self
     }
 
-    /// A straight elastic link along local x: the offset, then the spring at its far end [R 3.26].
+    /// Declares the spring written last a piece of a link.
+    pub(crate) fn last_spring_is(&mut self, segment: Segment) {
+        if let Some(block) = self.chain.springs.last_mut() {
+            block.segment = Some(segment);
+        }
+    }
+
+    /// A straight elastic link along local x: the offset, then the spring at its far end [R 3.26],
+    /// one segment by the report's convention. [`Self::link_with`] has the others.
     #[must_use]
     pub fn link(self, name: &str, section: &BeamSection, length: f64) -> Self {
-        if !(length.is_finite() && length > 0.0) {
-            let mut this = self;
-            this.fault(format!(
-                "link '{name}': its length is {length}, a positive number of metres is needed"
-            ));
-            return this;
-        }
-        self.translation(Vector3::new(length, 0.0, 0.0)).spring6(
-            name,
-            &section.cantilever(length),
-            [0.0; 6],
-        )
+        let spec = LinkSpec::beam(*section, length).convention(LinkConvention::TranslationsFirst);
+        self.link_with(name, &spec)
     }
 
     /// A bar parallelogram along local x that swings about local y: `Ry(q2) Tx(length) V5 Ry(-q2)`,
@@ -410,6 +425,7 @@ impl ChainBuilder {
             first,
             rest,
             law,
+            segment: None,
         };
         if block.rest.iter().any(|x| !x.is_finite()) {
             self.fault(format!("spring '{name}': its rest position is not finite"));
@@ -427,6 +443,16 @@ impl ChainBuilder {
                 block.len(),
                 k.nrows(),
                 k.ncols()
+            ));
+        }
+        let least_length = match &block.law {
+            SpringLaw::Bowing(law) => law.length - f64::MIN_POSITIVE,
+            SpringLaw::Logarithm(law) => law.length,
+            _ => 0.0,
+        };
+        if !(least_length.is_finite() && least_length >= 0.0) {
+            return Some(format!(
+                "spring '{name}': the length of its segment is not a positive number of metres"
             ));
         }
         if k.iter().any(|x| !x.is_finite()) {

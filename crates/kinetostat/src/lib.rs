@@ -78,15 +78,21 @@
 //! equilibrium, stiffness, stability <- mechanism, inverse <- platform <- posture <- compensation`.
 
 mod beam;
+mod bowing;
 mod builder;
 mod chain;
 mod compensation;
 mod equilibrium;
 mod error;
 mod inverse;
+mod jet;
 mod kinematics;
+mod link;
+mod link_load;
 mod loading;
+mod logarithm;
 mod mechanism;
+mod parallelogram;
 mod platform;
 mod posture;
 mod saddle;
@@ -95,8 +101,10 @@ mod spatial;
 mod spring;
 mod stability;
 mod stiffness;
+mod uniform;
 
 pub use beam::BeamSection;
+pub use bowing::BowingLaw;
 pub use builder::{ActuatorSpec, ChainBuilder};
 pub use chain::{
     Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
@@ -108,8 +116,12 @@ pub use equilibrium::{
 pub use error::{Error, Result};
 pub use inverse::{LimbPosture, inverse_kinematics};
 pub use kinematics::Kinematics;
+pub use link::{LinkConvention, LinkElasticity, LinkSpec};
+pub use link_load::{LinkLoad, link_loads};
 pub use loading::{Load, NodeLoad, NodeTangent};
+pub use logarithm::LogarithmLaw;
 pub use mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
+pub use parallelogram::ParallelogramLaw;
 pub use platform::MechanismState;
 pub use posture::{
     LimbEquilibrium, LinearAssembly, MechanismEquilibrium, PlatformStability, Posture,
@@ -120,6 +132,6 @@ pub use settings::Settings;
 pub use spatial::{
     CartesianStiffness, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix, turn_matrix,
 };
-pub use spring::{ParallelogramLaw, SpringBlock, SpringLaw};
+pub use spring::{Segment, SpringBlock, SpringLaw};
 pub use stability::ShapeStability;
 pub use stiffness::{ChainStiffness, Direction, DirectionKind, unloaded_stiffness};

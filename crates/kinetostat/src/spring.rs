@@ -4,8 +4,12 @@
 //! constant matrix is the simplest law. What a block stores is the virtual joint's energy: the
 //! torque that the chain must apply to it is the gradient.
 
-use nalgebra::{DMatrix, Matrix6};
+use nalgebra::{DMatrix, Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
+
+use crate::bowing::BowingLaw;
+use crate::logarithm::LogarithmLaw;
+use crate::parallelogram::ParallelogramLaw;
 
 /// How a spring block answers a deflection.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,46 +19,21 @@ pub enum SpringLaw {
     Linear(DMatrix<f64>),
     /// Two parallel bars lumped into one spring: see [`ParallelogramLaw`].
     Parallelogram(Box<ParallelogramLaw>),
+    /// A beam segment that shortens as it bends: see [`BowingLaw`]. Six coordinates.
+    Bowing(Box<BowingLaw>),
+    /// A spring in exponential coordinates: see [`LogarithmLaw`]. Six coordinates.
+    Logarithm(Box<LogarithmLaw>),
 }
 
-/// A bar parallelogram of width `d` seen as one link: five spring coordinates at the distal end
-/// of the bar, `x, y, rx, ry, rz` in the bar's frame (u along the bars, then the axis of the
-/// parallelogram's pivots, then the direction across); the sixth, `z`, is the parallelogram's own
-/// free motion and belongs to the passive coordinate `inclination` (q2).
-///
-/// With the bar's matrix `K` and `c = cos q2, s = sin q2` (reference: Orthoglide literature, with
-/// the sign of the (4,6) entry for this sense of q2):
-/// `2 [K11; K22, K26; K44 + d^2 c^2 K22/4, d^2 sin(2 q2) K22/8; d^2 c^2 K11/4; K66 + d^2 s^2 K22/4]`.
-/// `q2` is the one of the commanded posture: the block's matrix is constant while the machine
-/// bends about that posture.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ParallelogramLaw {
-    /// Stiffness of one bar at its distal end, 6 x 6, cantilever (N/m, N/rad, N m/rad).
-    pub bar: Matrix6<f64>,
-    /// Distance of the two bars, m.
-    pub width: f64,
-    /// Index of the passive coordinate that inclines the parallelogram.
-    pub inclination: usize,
-}
-
-impl ParallelogramLaw {
-    /// The 5 x 5 matrix at inclination `q2` (rad), order `x, y, rx, ry, rz`.
-    #[must_use]
-    pub fn matrix(&self, q2: f64) -> nalgebra::Matrix5<f64> {
-        let (s, c) = q2.sin_cos();
-        let k = &self.bar;
-        let d2 = self.width * self.width;
-        let mut m = nalgebra::Matrix5::zeros();
-        m[(0, 0)] = k[(0, 0)];
-        m[(1, 1)] = k[(1, 1)];
-        m[(1, 4)] = k[(1, 5)];
-        m[(2, 2)] = k[(3, 3)] + d2 * c * c * k[(1, 1)] / 4.0;
-        m[(2, 4)] = d2 * (2.0 * q2).sin() * k[(1, 1)] / 8.0;
-        m[(3, 3)] = d2 * c * c * k[(0, 0)] / 4.0;
-        m[(4, 4)] = k[(5, 5)] + d2 * s * s * k[(1, 1)] / 4.0;
-        m.fill_lower_triangle_with_upper_triangle();
-        2.0 * m
-    }
+/// What a six-dimensional law answers to a deflection.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Response {
+    /// J.
+    pub energy: f64,
+    /// Its gradient, N or N m.
+    pub torque: Vector6<f64>,
+    /// Its second derivative.
+    pub tangent: Matrix6<f64>,
 }
 
 /// A named group of spring coordinates with one law.
@@ -68,6 +47,20 @@ pub struct SpringBlock {
     pub rest: Vec<f64>,
     /// The law.
     pub law: SpringLaw,
+    /// The piece of an elastic link that this spring stands for, if it is one.
+    #[serde(default)]
+    pub segment: Option<Segment>,
+}
+
+/// A piece of an elastic link along local x.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Segment {
+    /// Name of the link.
+    pub link: String,
+    /// Length of the whole link, m.
+    pub link_length: f64,
+    /// Smaller of the link's two bending stiffnesses `EI`, N m^2.
+    pub bending_stiffness: f64,
 }
 
 impl SpringBlock {
@@ -94,15 +87,26 @@ impl SpringBlock {
         torque: &mut [f64],
         tangent: &mut DMatrix<f64>,
     ) -> f64 {
-        match &self.law {
+        let deflection =
+            || Vector6::from_fn(|i, _| values[self.first + i] - preload * self.rest[i]);
+        let response = match &self.law {
             SpringLaw::Linear(matrix) => {
-                self.add_constant(matrix, values, preload, torque, tangent)
+                return self.add_constant(matrix, values, preload, torque, tangent);
             }
             SpringLaw::Parallelogram(law) => {
                 let matrix = law.matrix(posture[law.inclination]);
-                self.add_constant(&matrix, values, preload, torque, tangent)
+                return self.add_constant(&matrix, values, preload, torque, tangent);
+            }
+            SpringLaw::Bowing(law) => law.respond(&deflection()),
+            SpringLaw::Logarithm(law) => law.respond(&deflection()),
+        };
+        for i in 0..6 {
+            torque[self.first + i] += response.torque[i];
+            for j in 0..6 {
+                tangent[(self.first + i, self.first + j)] += response.tangent[(i, j)];
             }
         }
+        response.energy
     }
 
     fn add_constant<R, C, S>(
@@ -141,6 +145,91 @@ impl SpringBlock {
                 let m = law.matrix(posture[law.inclination]);
                 DMatrix::from_fn(5, 5, |i, j| m[(i, j)])
             }
+            SpringLaw::Bowing(law) => DMatrix::from_fn(6, 6, |i, j| law.matrix[(i, j)]),
+            SpringLaw::Logarithm(law) => {
+                let m = law.at_rest();
+                DMatrix::from_fn(6, 6, |i, j| m[(i, j)])
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BeamSection;
+
+    fn respond(block: &SpringBlock, x: &[f64; 6]) -> (f64, Vec<f64>, DMatrix<f64>) {
+        let (mut torque, mut tangent) = (vec![0.0; 6], DMatrix::zeros(6, 6));
+        let energy = block.add(x, &[0.0; 6], 1.0, &mut torque, &mut tangent);
+        (energy, torque, tangent)
+    }
+
+    #[test]
+    fn torque_and_tangent_are_derivatives_of_the_energy() {
+        let section = BeamSection {
+            youngs_modulus: 1.0,
+            shear_modulus: 0.4,
+            area: 5.0,
+            second_moment_y: 0.3,
+            second_moment_z: 0.7,
+            torsion_constant: 0.5,
+        };
+        // Every coupling that a matrix from finite elements may have.
+        let matrix = section.cantilever(0.8)
+            + Matrix6::from_fn(|i, j| 0.02 * ((1 + i + j + i * j) as f64).sin());
+        let laws = [
+            SpringLaw::Bowing(Box::new(BowingLaw {
+                matrix,
+                length: 0.8,
+            })),
+            SpringLaw::Logarithm(Box::new(LogarithmLaw {
+                matrix,
+                length: 0.0,
+            })),
+            SpringLaw::Logarithm(Box::new(LogarithmLaw {
+                matrix,
+                length: 0.8,
+            })),
+        ];
+        for law in laws {
+            let block = SpringBlock {
+                name: "s".into(),
+                first: 0,
+                rest: vec![0.01, -0.02, 0.03, 0.02, -0.01, 0.04],
+                law,
+                segment: None,
+            };
+            for x in [
+                [0.1, -0.3, 0.2, 0.4, -0.6, 0.5],
+                [-0.2, 0.5, 0.1, -1.0, 1.2, 0.9],
+                [0.01, -0.02, 0.03, 0.02, -0.01, 0.04],
+            ] {
+                let (_, torque, tangent) = respond(&block, &x);
+                assert!((&tangent - tangent.transpose()).amax() < 1e-14);
+                for k in 0..6 {
+                    let at = |s: f64| {
+                        let mut moved = x;
+                        moved[k] += s * 1e-3;
+                        respond(&block, &moved)
+                    };
+                    let [a, b, c, d] = [at(1.0), at(-1.0), at(2.0), at(-2.0)];
+                    let slope = (8.0 * (a.0 - b.0) - (c.0 - d.0)) / 12e-3;
+                    assert!(
+                        (slope - torque[k]).abs() < 1e-9,
+                        "{k}: {slope} {}",
+                        torque[k]
+                    );
+                    for i in 0..6 {
+                        let slope = (8.0 * (a.1[i] - b.1[i]) - (c.1[i] - d.1[i])) / 12e-3;
+                        assert!((slope - tangent[(i, k)]).abs() < 1e-9, "{i} {k}");
+                    }
+                }
+            }
+            let (energy, torque, tangent) =
+                respond(&block, &[0.01, -0.02, 0.03, 0.02, -0.01, 0.04]);
+            assert!(energy == 0.0 && torque.iter().all(|t| t.abs() < 1e-15));
+            assert!((tangent - block.stiffness_at(&[])).amax() < 1e-14);
         }
     }
 }

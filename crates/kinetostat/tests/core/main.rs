@@ -23,6 +23,7 @@ mod figures;
 mod free_rigid_and_redundant_directions;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
+mod links_that_bend;
 mod orthoglide_reference;
 mod shapes_and_their_stability;
 mod stewart_gough_3_34_and_3_35;

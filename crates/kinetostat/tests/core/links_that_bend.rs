@@ -1,0 +1,646 @@
+//! Links in segments: columns, the elastica, roll-up and the bend in space.
+//!
+//! Closed forms: Euler's columns, the inextensible elastica, a circle. The table of conventions is
+//! that of `LinkConvention`'s module; published values name their source where they stand.
+
+use crate::common::{close, same_stiffness};
+use kinetostat::{
+    BeamSection, BowingLaw, Chain, ChainBuilder, ChainProblem, EndCondition, Equilibrium,
+    LinkConvention, LinkSpec, Load, MotionKind, Pose, Settings, SpringLaw, Twist, Wrench, hat,
+    moved, shift_matrix, solve_chain, unloaded_stiffness,
+};
+use nalgebra::{Matrix3, Matrix6, Vector3, vector};
+use std::f64::consts::PI;
+
+use LinkConvention::{
+    Bowing, ConstantStrain, Exponential, Middle, RotationsFirst, TranslationsFirst,
+};
+
+/// `EI = 1` in the plane x y, everything else (almost) rigid.
+fn flat() -> BeamSection {
+    BeamSection {
+        youngs_modulus: 1.0,
+        shear_modulus: 1.0,
+        area: 1e6,
+        second_moment_y: 1e4,
+        second_moment_z: 1.0,
+        torsion_constant: 1e4,
+    }
+}
+
+/// A section with six different stiffnesses.
+fn general() -> BeamSection {
+    BeamSection {
+        youngs_modulus: 2.1e11,
+        shear_modulus: 8.0e10,
+        area: 6e-4,
+        second_moment_y: 3e-8,
+        second_moment_z: 7e-8,
+        torsion_constant: 9e-8,
+    }
+}
+
+fn link(n: usize, convention: LinkConvention) -> LinkSpec {
+    LinkSpec::beam(flat(), 1.0)
+        .segments(n)
+        .convention(convention)
+}
+
+fn cantilever(spec: &LinkSpec) -> Chain {
+    Chain::builder("cantilever")
+        .link_with("link", spec)
+        .build()
+        .unwrap()
+}
+
+fn solve(problem: &ChainProblem<'_>) -> Equilibrium {
+    solve_chain(problem, &Settings::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn force(x: f64, y: f64, z: f64) -> EndCondition {
+    EndCondition::wrench(Wrench::new(vector![x, y, z], Vector3::zeros()))
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Support {
+    Clamped,
+    Pinned,
+    Free,
+}
+use Support::{Clamped, Free, Pinned};
+
+/// A column along x between a clamped or pinned root and a clamped, pinned or free end.
+fn column(root: Support, spec: &LinkSpec, end: Support) -> Chain {
+    let hinge =
+        |b: ChainBuilder, name: &str| b.passive(name, MotionKind::Revolute, Vector3::z(), 0.0);
+    let mut b = Chain::builder("column");
+    if root == Pinned {
+        b = hinge(b, "root");
+    }
+    b = b.link_with("column", spec);
+    if end != Clamped {
+        b = hinge(b, "end");
+    }
+    if end == Free {
+        b = b.passive("side", MotionKind::Prismatic, Vector3::y(), 0.0);
+    }
+    b.build().unwrap()
+}
+
+/// The straight column under an axial force (compression < 0).
+fn straight(chain: &Chain, force: f64) -> Equilibrium {
+    let end = Pose::translation(1.0 + force / flat().area, 0.0, 0.0);
+    let e = solve(&ChainProblem::new(chain, EndCondition::pose(end)));
+    close("axial", e.wrench.0[0], force, 1e-6 * force.abs());
+    e
+}
+
+/// The verdict by the inertia of the bordered matrix (Sylvester's law), which needs no assumption
+/// about the springs: as many positive eigenvalues as the end has directions.
+fn holds(chain: &Chain, force: f64) -> bool {
+    straight(chain, force).stability.inertia.positive == 6
+}
+
+/// Smallest load at which the shape fails, in Euler loads; `sign` is -1 for compression, +1 for
+/// tension. `None`: none up to 100. An eigenvalue counts as zero within a small band: the load is
+/// the middle of it.
+fn critical(chain: &Chain, sign: f64) -> Option<f64> {
+    let inertia = |load: f64| straight(chain, sign * load * PI * PI).stability.inertia;
+    let mut beyond = 0.05;
+    while inertia(beyond).positive == 6 {
+        beyond *= 1.05;
+        if beyond > 100.0 {
+            return None;
+        }
+    }
+    let edge = |inside: &dyn Fn(f64) -> bool| {
+        let (mut low, mut high) = (beyond / 1.1, beyond);
+        while high - low > 1e-9 * high {
+            let middle = 0.5 * (low + high);
+            if inside(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    };
+    let first = edge(&|load| inertia(load).positive == 6 && inertia(load).zero == 0);
+    let last = edge(&|load| inertia(load).positive == 6);
+    Some(0.5 * (first + last))
+}
+
+/// Theory note, section 4, to its digits (there, as here, EA / EI = 1e6 / m^2: the limit of an
+/// inextensible column is 1.98548 where 1.986 stands, 1.00003 where 1.00004 stands).
+#[test]
+fn pinned_columns_buckle_as_in_the_table_of_conventions() {
+    type Row = (
+        LinkConvention,
+        [Option<f64>; 4],
+        [f64; 4],
+        [Option<f64>; 3],
+        [f64; 3],
+    );
+    let some = |v: [f64; 4]| v.map(Some);
+    let pulled = |v: [f64; 3]| v.map(Some);
+    let three = [5e-4; 4];
+    let table: [Row; 6] = [
+        (
+            TranslationsFirst,
+            [None, Some(1.986), Some(1.233), Some(1.053)],
+            three,
+            pulled([0.304, 1.22, 4.86]),
+            [5e-4, 5e-3, 5e-3],
+        ),
+        (
+            RotationsFirst,
+            some([0.131, 0.390, 0.714, 0.908]),
+            three,
+            pulled([0.94, 3.8, 15.0]),
+            [5e-3, 0.05, 0.5],
+        ),
+        (
+            Middle,
+            some([0.334, 0.708, 0.907, 0.975]),
+            [5.1e-4, 5e-4, 5e-4, 5e-4],
+            pulled([0.74, 3.0, 12.0]),
+            [5e-3, 0.05, 0.5],
+        ),
+        (
+            Exponential,
+            some([0.405, 0.752, 0.913, 0.975]),
+            three,
+            pulled([1.2, 4.9, 19.0]),
+            [0.05, 0.05, 0.5],
+        ),
+        (
+            ConstantStrain,
+            some([1.216, 1.216, 1.052, 1.013]),
+            three,
+            [None; 3],
+            [0.0; 3],
+        ),
+        (
+            Bowing,
+            some([1.216, 1.0075, 1.0005, 1.00004]),
+            [5e-4, 5e-5, 5e-5, 5e-6],
+            [None; 3],
+            [0.0; 3],
+        ),
+    ];
+    for (convention, pushed, digits, pulled, digits_pulled) in table {
+        let found = |n, sign| critical(&column(Pinned, &link(n, convention), Pinned), sign);
+        for (k, n) in [1, 2, 4, 8].into_iter().enumerate() {
+            check(
+                &format!("{convention:?}, {n}"),
+                found(n, -1.0),
+                pushed[k],
+                digits[k],
+            );
+        }
+        for (k, n) in [1, 2, 4].into_iter().enumerate() {
+            let label = format!("{convention:?}, {n}, tension");
+            check(&label, found(n, 1.0), pulled[k], digits_pulled[k]);
+        }
+    }
+}
+
+#[track_caller]
+fn check(label: &str, found: Option<f64>, expected: Option<f64>, tolerance: f64) {
+    match (found, expected) {
+        (Some(a), Some(b)) => close(label, a, b, tolerance),
+        (Some(a), None) => panic!("{label}: buckles at {a}, should not"),
+        (None, Some(b)) => panic!("{label}: never buckles, should at {b}"),
+        (None, None) => {}
+    }
+}
+
+#[test]
+fn eulers_columns_buckle_within_a_thousandth_at_8_segments_and_never_in_tension() {
+    // Clamped-pinned: tan(x) = x at x = 4.493409457909.
+    let cases = [
+        (Pinned, Pinned, 1.0),
+        (Clamped, Free, 0.25),
+        (Clamped, Clamped, 4.0),
+        (Clamped, Pinned, (4.493_409_457_909_f64 / PI).powi(2)),
+    ];
+    for (root, end, exact) in cases {
+        for n in [1, 2, 4, 8] {
+            let chain = column(root, &link(n, Bowing), end);
+            let label = format!("{root:?} {end:?} {n}");
+            for load in [0.5, 5.0, 20.0, 100.0] {
+                assert!(
+                    holds(&chain, load * PI * PI),
+                    "{label}: fails in tension at {load}"
+                );
+            }
+            if n == 8 {
+                let found = critical(&chain, -1.0).unwrap();
+                close(&label, found / exact, 1.0, 1e-3);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_column_in_space_buckles_in_its_softer_plane() {
+    let section = general();
+    let length = 0.7;
+    let spec = LinkSpec::beam(section, length).segments(8);
+    let chain = Chain::builder("strut")
+        .passive_universal("root", Vector3::y(), Vector3::z())
+        .link_with("strut", &spec)
+        .passive_universal("end", Vector3::z(), Vector3::y())
+        .build()
+        .unwrap();
+    let softer = section.youngs_modulus * section.second_moment_y;
+    let euler = PI * PI * softer / (length * length);
+    for (share, holds) in [(0.99, true), (1.01, false)] {
+        let push = share * euler;
+        let shorter = push / (section.youngs_modulus * section.area);
+        let end = Pose::translation(length * (1.0 - shorter), 0.0, 0.0);
+        let e = solve(&ChainProblem::new(&chain, EndCondition::pose(end)));
+        assert_eq!(e.stability.inertia.positive == 6, holds, "{share}");
+        let loads = e.link_loads(&chain);
+        assert_eq!(loads.len(), 1);
+        assert_eq!(loads[0].link, "strut");
+        close("axial force", loads[0].axial_force, -push, 1e-6 * push);
+        close("Euler load", loads[0].euler_load, euler, 1e-9 * euler);
+        close("share", loads[0].share, share, 1e-6);
+        let most = e.stability.mode.iter().enumerate();
+        let most = most.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap();
+        assert!(
+            chain.coordinates()[most.0].name.ends_with('2')
+                || chain.coordinates()[most.0].name.ends_with('1')
+        );
+    }
+}
+
+/// Error of the deflection at the end of a cantilever under `P L^2 / EI = 10`, exact 0.810609024880.
+/// Starts from the plain convention's equilibrium, shortened by its bow: with an axis this stiff
+/// (EA L^2 / EI = 1e6) the way from rest is long.
+fn elastica(n: usize, convention: LinkConvention) -> f64 {
+    let plain = cantilever(&link(n, TranslationsFirst));
+    let mut start = solve(&ChainProblem::new(&plain, force(0.0, 10.0, 0.0))).coordinates;
+    if convention == Bowing {
+        let h = 1.0 / n as f64;
+        for k in 0..n {
+            let (w, p) = (start[6 * k + 1], start[6 * k + 5]);
+            start[6 * k] -= 0.6 * w * w / h - 0.1 * w * p + h * p * p / 15.0;
+        }
+    }
+    let chain = cantilever(&link(n, convention));
+    let mut problem = ChainProblem::new(&chain, force(0.0, 10.0, 0.0));
+    problem.posture = start;
+    let e = solve(&problem);
+    e.tip.translation.y - 0.810_609_024_880
+}
+
+#[test]
+fn the_elastica_converges_as_in_the_theory_note() {
+    for (convention, expected, digits) in [
+        (
+            TranslationsFirst,
+            [0.139, 0.0259, 0.0065],
+            [5e-4, 5e-5, 5e-5],
+        ),
+        (Middle, [0.009, -0.0081, -0.0028], [5e-4, 5e-5, 5e-5]),
+        (Bowing, [0.152, 0.0168, 0.0019], [5e-4, 5e-5, 5e-5]),
+    ] {
+        for (k, n) in [2, 4, 8].into_iter().enumerate() {
+            let found = elastica(n, convention);
+            close(
+                &format!("{convention:?} {n}"),
+                found,
+                expected[k],
+                digits[k],
+            );
+        }
+    }
+    // What the documentation of `LinkSpec::segments` recommends.
+    close("32 segments", elastica(32, Bowing), 0.0, 1e-4);
+}
+
+#[test]
+fn an_end_moment_rolls_a_cantilever_up_to_a_circle() {
+    for (convention, n, tolerance) in [
+        (Bowing, 16, 1e-3),
+        (Bowing, 32, 2e-4),
+        (Exponential, 16, 1e-2),
+    ] {
+        let half = LinkSpec::beam(flat(), 0.5)
+            .segments(n / 2)
+            .convention(convention);
+        let chain = Chain::builder("roll")
+            .link_with("first", &half)
+            .node("middle")
+            .link_with("second", &half)
+            .build()
+            .unwrap();
+        let moment = Wrench::new(Vector3::zeros(), vector![0.0, 0.0, 2.0 * PI]);
+        let e = solve(&ChainProblem::new(&chain, EndCondition::wrench(moment)));
+        let label = format!("{convention:?} {n}");
+        // Angles of the segments add up to a full turn, and the end comes back to the root.
+        let angle: f64 = e.coordinates.iter().skip(5).step_by(6).sum();
+        close(&label, angle, 2.0 * PI, 1e-9);
+        close(&label, e.tip.translation.vector.norm(), 0.0, 1e-9);
+        let middle = e.nodes[chain.node("middle").unwrap()].translation;
+        close(&label, middle.x, 0.0, tolerance);
+        close(&label, middle.y, 1.0 / PI, tolerance);
+        close(&label, e.energy, 0.5 * (2.0 * PI).powi(2), 1e-6);
+    }
+}
+
+/// Stiffness at the end of a cantilever that shears, from its compliance.
+fn shearing(section: &BeamSection, shear: f64, length: f64) -> Matrix6<f64> {
+    let mut compliance = section.cantilever(length).try_inverse().unwrap();
+    compliance[(1, 1)] += length / shear;
+    compliance[(2, 2)] += length / shear;
+    compliance.try_inverse().unwrap()
+}
+
+/// End of the 45-degree arc (radius 100, in the plane x y, root along x) under a dead force on it, by
+/// shooting: `dr/ds = R (e1 + C_n^-1 R^T f)`, `dR/ds = R hat(k0 + C_m^-1 R^T m)`,
+/// `m = (r_end - r) x f`, Runge-Kutta in s and Newton in `r_end`. No kinetostat in it.
+fn arc_by_shooting(stretch: Vector3<f64>, bend: Vector3<f64>, f: Vector3<f64>) -> Vector3<f64> {
+    let steps = 400;
+    let ds = 25.0 * PI / f64::from(steps);
+    let reached = |end: &Vector3<f64>| {
+        let rates = |r: &Vector3<f64>, q: &Matrix3<f64>| {
+            let force = q.transpose() * f;
+            let moment = q.transpose() * (end - r).cross(&f);
+            let strain = Vector3::x() + force.component_div(&stretch);
+            let curvature = vector![0.0, 0.0, 0.01] + moment.component_div(&bend);
+            (q * strain, q * hat(&curvature))
+        };
+        let (mut r, mut q) = (Vector3::zeros(), Matrix3::identity());
+        for _ in 0..steps {
+            let (r1, q1) = rates(&r, &q);
+            let (r2, q2) = rates(&(r + r1 * (0.5 * ds)), &(q + q1 * (0.5 * ds)));
+            let (r3, q3) = rates(&(r + r2 * (0.5 * ds)), &(q + q2 * (0.5 * ds)));
+            let (r4, q4) = rates(&(r + r3 * ds), &(q + q3 * ds));
+            r += (r1 + (r2 + r3) * 2.0 + r4) * (ds / 6.0);
+            q += (q1 + (q2 + q3) * 2.0 + q4) * (ds / 6.0);
+        }
+        r
+    };
+    let mut end = vector![70.0, 29.0, 0.0];
+    for load in 0..60 {
+        let miss = reached(&end) - end;
+        if load > 3 && miss.norm() < 1e-11 {
+            return end;
+        }
+        let slope = Matrix3::from_columns(&[0, 1, 2].map(|k| {
+            let mut moved = end;
+            moved[k] += 1e-5;
+            (reached(&moved) - moved - miss) / 1e-5
+        }));
+        let step = -(slope.try_inverse().unwrap() * miss);
+        end += step * (5.0 / step.norm()).min(1.0);
+    }
+    panic!("shooting: no convergence")
+}
+
+/// Bathe and Bolourchi (1979): a cantilever bent to 45 degrees, radius 100 in, section 1 in x 1 in,
+/// E = 1e7 psi, no Poisson effect, a force across its plane at the end. Published places of the end:
+/// theirs, and Simo and Vu-Quoc (1986, example 7.5, eight elements).
+#[test]
+fn the_45_degree_bend_of_bathe_and_bolourchi() {
+    let section = BeamSection {
+        youngs_modulus: 1e7,
+        shear_modulus: 5e6,
+        area: 1.0,
+        second_moment_y: 1.0 / 12.0,
+        second_moment_z: 1.0 / 12.0,
+        torsion_constant: 1.0 / 6.0,
+    };
+    for (load, bathe, simo) in [
+        (300.0, [59.2, 22.5, 39.5], [58.84, 22.33, 40.08]),
+        (600.0, [47.2, 15.9, 53.4], [47.23, 15.79, 53.37]),
+    ] {
+        let shear = 5e6;
+        let exact = arc_by_shooting(
+            vector![1e7, shear, shear],
+            vector![1e7 / 6.0 / 2.0, 1e7 / 12.0, 1e7 / 12.0],
+            vector![0.0, 0.0, load],
+        );
+        let mut errors = Vec::new();
+        for n in [8, 16, 32] {
+            let turn = 0.25 * PI / f64::from(n);
+            let chord = 200.0 * (0.5 * turn).sin();
+            let spec = LinkSpec::matrix(shearing(&section, shear, chord), chord);
+            let half_turn = Pose::rotation(vector![0.0, 0.0, 0.5 * turn]);
+            let mut b = Chain::builder("bend");
+            for k in 0..n {
+                b = b
+                    .rigid(half_turn)
+                    .link_with(&format!("arc {k}"), &spec)
+                    .rigid(half_turn);
+            }
+            let chain = b.build().unwrap();
+            let e = solve(&ChainProblem::new(&chain, force(0.0, 0.0, load)));
+            errors.push((e.tip.translation.vector - exact).norm());
+            if n == 32 {
+                for k in 0..3 {
+                    let found = e.tip.translation.vector[k];
+                    close("Bathe, Bolourchi", found, bathe[k], 0.7);
+                    close("Simo, Vu-Quoc", found, simo[k], 0.12);
+                }
+            }
+        }
+        println!("45-degree bend, {load} lb: {exact:?}, errors with 8, 16, 32 links: {errors:?}");
+        for (error, most) in errors.iter().zip([0.06, 0.015, 0.004]) {
+            assert!(*error < most, "{errors:?}");
+        }
+    }
+}
+
+/// A cantilever's matrix with principal axes turned about x, shear, and an eccentric axis.
+fn coupled(length: f64) -> Matrix6<f64> {
+    let straight = shearing(&general(), 2e7, length);
+    let turn = Pose::rotation(vector![0.4, 0.0, 0.0]);
+    let turn = kinetostat::turn_matrix(&turn.rotation.to_rotation_matrix());
+    let shift = shift_matrix(&vector![0.0, 0.02, -0.01]);
+    shift.transpose() * turn * straight * turn.transpose() * shift
+}
+
+#[test]
+fn the_unloaded_stiffness_is_exact_for_any_number_of_segments() {
+    let length = 0.7;
+    for convention in [
+        TranslationsFirst,
+        RotationsFirst,
+        Middle,
+        Exponential,
+        Bowing,
+    ] {
+        for n in [1, 2, 7] {
+            for (exact, spec) in [
+                (
+                    general().cantilever(length),
+                    LinkSpec::beam(general(), length),
+                ),
+                (
+                    general().cantilever(length),
+                    LinkSpec::matrix(general().cantilever(length), length),
+                ),
+                (coupled(length), LinkSpec::matrix(coupled(length), length)),
+            ] {
+                let chain = cantilever(&spec.segments(n).convention(convention));
+                let zero = vec![0.0; 6 * n];
+                let k = unloaded_stiffness(&chain, &Pose::identity(), &zero, &[]).unwrap();
+                same_stiffness(
+                    &format!("{convention:?} {n}"),
+                    &k.cartesian.matrix,
+                    &exact,
+                    1e-9,
+                );
+            }
+        }
+    }
+    // A constant strain is too stiff for one segment: 4 EI / L^3 instead of 3.
+    let lateral = |n: usize| {
+        let chain = cantilever(&link(n, ConstantStrain));
+        let k = unloaded_stiffness(&chain, &Pose::identity(), &vec![0.0; 6 * n], &[]).unwrap();
+        1.0 / k.cartesian.compliance().unwrap()[(1, 1)]
+    };
+    close("1", lateral(1), 4.0, 1e-4);
+    close("16", lateral(16), 3.0, 1e-2);
+}
+
+#[test]
+fn only_beams_are_divided_and_the_refusal_says_so() {
+    let build = |spec: LinkSpec| Chain::builder("c").link_with("rod", &spec).build();
+    let error = |spec: LinkSpec| build(spec).unwrap_err().to_string();
+    let mut tapered = general().cantilever(0.7);
+    tapered[(1, 5)] *= 1.05;
+    tapered[(5, 1)] *= 1.05;
+    assert!(build(LinkSpec::matrix(tapered, 0.7)).is_ok());
+    let text = error(LinkSpec::matrix(tapered, 0.7).segments(4));
+    assert!(
+        text.contains("link 'rod'") && text.contains("uniform beam"),
+        "{text}"
+    );
+    let mut stiff = general().cantilever(0.7).try_inverse().unwrap();
+    stiff[(1, 1)] *= 0.9;
+    let text = error(LinkSpec::matrix(stiff.try_inverse().unwrap(), 0.7).segments(2));
+    assert!(text.contains("uniform beam"), "{text}");
+    let text = error(LinkSpec::matrix(-Matrix6::identity(), 0.7).segments(2));
+    assert!(text.contains("positive definite"), "{text}");
+    let text = error(LinkSpec::matrix(-Matrix6::identity(), 0.7));
+    assert!(text.contains("not positive"), "{text}");
+    let text = error(LinkSpec::beam(general(), 0.7).segments(0));
+    assert!(text.contains("at least 1"), "{text}");
+    let text = error(LinkSpec::beam(general(), f64::NAN));
+    assert!(text.contains("length is NaN"), "{text}");
+    let law = SpringLaw::Bowing(Box::new(BowingLaw {
+        matrix: Matrix6::identity(),
+        length: 0.0,
+    }));
+    let text = Chain::builder("c")
+        .springs("s", &[0, 1, 2, 3, 4, 5], law.clone(), vec![0.0; 6])
+        .build()
+        .unwrap_err()
+        .to_string();
+    assert!(text.contains("length"), "{text}");
+    let text = Chain::builder("c")
+        .springs("s", &[0, 1], law, vec![0.0; 2])
+        .build()
+        .unwrap_err()
+        .to_string();
+    assert!(text.contains("'s'"), "{text}");
+}
+
+/// Energy is work, and the stiffness the derivative of the wrench, in space and far from straight.
+#[test]
+fn stiffness_and_work_of_bent_links_agree_with_differences() {
+    for convention in [Bowing, Exponential, ConstantStrain, RotationsFirst, Middle] {
+        for spec in [
+            LinkSpec::beam(general(), 0.7),
+            LinkSpec::matrix(coupled(0.7), 0.7),
+        ] {
+            let chain = cantilever(&spec.segments(3).convention(convention));
+            let push = Wrench::new(vector![-900.0, 1500.0, -900.0], vector![60.0, 100.0, -50.0]);
+            let bent = solve(&ChainProblem::new(&chain, EndCondition::wrench(push)));
+            let held = bent.tip;
+            let at = |pose: Pose| {
+                let mut problem = ChainProblem::new(&chain, EndCondition::pose(pose));
+                problem.posture.clone_from(&bent.coordinates);
+                solve(&problem)
+            };
+            let e = at(held);
+            let k = e.stiffness.cartesian.matrix;
+            let mut found = Matrix6::zeros();
+            for j in 0..6 {
+                let step = 1e-5;
+                let mut twist = nalgebra::Vector6::zeros();
+                twist[j] = step;
+                let (up, down) = (
+                    at(moved(&held, &Twist(twist))),
+                    at(moved(&held, &Twist(-twist))),
+                );
+                let column = (up.wrench.0 - down.wrench.0) / (2.0 * step);
+                found.set_column(j, &column);
+                let work = e.wrench.0[j];
+                let size = if j < 3 {
+                    e.wrench.force().norm()
+                } else {
+                    e.wrench.moment().norm()
+                };
+                close(
+                    &format!("{convention:?} work {j}"),
+                    (up.energy - down.energy) / (2.0 * step),
+                    work,
+                    3e-4 * size,
+                );
+            }
+            same_stiffness(&format!("{convention:?}"), &k, &found, 1e-5);
+        }
+    }
+}
+
+#[test]
+fn a_preloaded_bent_link_rests_where_its_spring_does() {
+    let rest = vec![1e-4, 0.02, -0.01, 0.03, 0.02, 0.05];
+    let law = SpringLaw::Bowing(Box::new(BowingLaw {
+        matrix: general().cantilever(0.7),
+        length: 0.7,
+    }));
+    let chain = Chain::builder("bent")
+        .translation(vector![0.7, 0.0, 0.0])
+        .springs("s", &[0, 1, 2, 3, 4, 5], law, rest.clone())
+        .build()
+        .unwrap();
+    let e = solve(&ChainProblem::new(&chain, force(0.0, 0.0, 0.0)));
+    for (x, r) in e.coordinates.iter().zip(&rest) {
+        close("rest", *x, *r, 1e-9);
+    }
+    close("energy", e.energy, 0.0, 1e-9);
+}
+
+#[test]
+fn every_link_reports_its_axial_load() {
+    let slim = LinkSpec::beam(general(), 1.0).segments(2);
+    let chain = Chain::builder("two")
+        .link_with("lower", &slim)
+        .node("knee")
+        .link_with("upper", &LinkSpec::matrix(general().cantilever(0.5), 0.5))
+        .link("plain", &general(), 0.1)
+        .build()
+        .unwrap();
+    let mut problem = ChainProblem::new(&chain, force(-100.0, 0.0, 0.0));
+    problem.loads = vec![Load::Dead {
+        node: chain.node("knee").unwrap(),
+        wrench: Wrench::new(vector![300.0, 0.0, 0.0], Vector3::zeros()),
+    }];
+    let loads = solve(&problem).link_loads(&chain);
+    let names: Vec<&str> = loads.iter().map(|l| l.link.as_str()).collect();
+    assert_eq!(names, ["lower", "upper", "plain"]);
+    close("lower", loads[0].axial_force, 200.0, 1e-6);
+    close("lower", loads[0].share, 0.0, 0.0);
+    close("upper", loads[1].axial_force, -100.0, 1e-6);
+    let euler = PI * PI * 2.1e11 * 3e-8;
+    close("upper", loads[1].euler_load, euler / 0.25, 1e-6 * euler);
+    close("upper", loads[1].share, 100.0 * 0.25 / euler, 1e-9);
+    close("plain", loads[2].euler_load, euler / 0.01, 1e-6 * euler);
+}
