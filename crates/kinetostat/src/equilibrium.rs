@@ -16,6 +16,8 @@ use serde::{Deserialize, Serialize};
 use crate::chain::{Chain, MotionKind, Role};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
+use crate::load_check::check_loads;
+use crate::load_energy::is_conservative;
 use crate::loading::{Load, NodeTangent};
 use crate::saddle::Saddle;
 use crate::settings::Settings;
@@ -129,6 +131,8 @@ pub struct Equilibrium {
     pub spring_torques: Vec<f64>,
     /// Energy stored in the springs, J.
     pub energy: f64,
+    /// All loads have a potential; if not, statements about energy do not hold.
+    pub conservative: bool,
     /// Tangent stiffness at the end, with what is free, rigid, negative and redundant.
     pub stiffness: ChainStiffness,
     /// Whether the chain keeps its shape while its end is held.
@@ -492,29 +496,7 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
             value,
         });
     }
-    for load in &problem.loads {
-        let (values, node) = match load {
-            Load::Dead { node, wrench } => (wrench.0.as_slice().to_vec(), Some(*node)),
-            Load::Gravity(g) => (g.as_slice().to_vec(), None),
-            Load::Custom(_) => (Vec::new(), None),
-        };
-        if let Some(&value) = values.iter().find(|v| !v.is_finite()) {
-            return Err(Error::NotFinite {
-                place: format!("chain '{}'", chain.name()),
-                what: "a load".into(),
-                value,
-            });
-        }
-        if let Some(node) = node.filter(|&n| n > chain.tip()) {
-            return Err(Error::model(
-                format!("chain '{}'", chain.name()),
-                format!(
-                    "a load acts on node {node}, the last one is {}",
-                    chain.tip()
-                ),
-            ));
-        }
-    }
+    check_loads(problem)?;
     let mut attempt = Attempt {
         problem,
         settings,
@@ -665,6 +647,7 @@ impl Attempt<'_, '_> {
                 .collect(),
             spring_torques: self.system.spring_torque.clone(),
             energy: self.system.energy,
+            conservative: is_conservative(self.problem),
             coordinates: x,
             wrench,
             stiffness,

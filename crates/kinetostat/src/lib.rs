@@ -81,18 +81,28 @@ mod beam;
 mod bowing;
 mod builder;
 mod chain;
+mod chain_blocks;
 mod compensation;
+mod compliance;
+mod directions;
+mod elimination;
 mod equilibrium;
 mod error;
+mod follower;
+mod function_load;
 mod inverse;
 mod jet;
 mod kinematics;
+mod length_law;
 mod link;
 mod link_load;
+mod load_check;
+mod load_energy;
 mod loading;
 mod logarithm;
 mod mechanism;
 mod parallelogram;
+mod passive_rules;
 mod platform;
 mod posture;
 mod saddle;
@@ -101,6 +111,7 @@ mod spatial;
 mod spring;
 mod stability;
 mod stiffness;
+mod strut;
 mod uniform;
 
 pub use beam::BeamSection;
@@ -109,19 +120,33 @@ pub use builder::{ActuatorSpec, ChainBuilder};
 pub use chain::{
     Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
 };
+pub use chain_blocks::ChainBlocks;
 pub use compensation::{Compensation, compensate, compensate_from, target_under_load};
+pub use compliance::CartesianCompliance;
+pub use directions::{Direction, DirectionKind, Share};
+pub use elimination::{Applied, Inapplicable, LoadedClosedForm, Recursion};
 pub use equilibrium::{
     ChainProblem, EndCondition, Equilibrium, Prescribed, Residual, solve_chain, unloaded_tip,
 };
 pub use error::{Error, Result};
+pub use follower::{Follower, PointForce};
+pub use function_load::FunctionLoad;
 pub use inverse::{LimbPosture, inverse_kinematics};
 pub use kinematics::Kinematics;
+pub use length_law::{LengthFunction, LengthLaw, LengthResponse};
 pub use link::{LinkConvention, LinkElasticity, LinkSpec};
 pub use link_load::{LinkLoad, link_loads};
+pub use load_check::{TangentCheck, check_tangents};
+pub use load_energy::{is_conservative, load_energy};
 pub use loading::{Load, NodeLoad, NodeTangent};
 pub use logarithm::LogarithmLaw;
 pub use mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
 pub use parallelogram::ParallelogramLaw;
+pub use passive_rules::{
+    Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,
+    planar_with_slide_along_x, planar_with_slide_along_y, with_hinge_at, with_hinge_at_end,
+    with_hinge_at_root, with_slide, with_spherical_joint_at_end, with_universal_joint_at_end,
+};
 pub use platform::MechanismState;
 pub use posture::{
     LimbEquilibrium, LinearAssembly, MechanismEquilibrium, PlatformStability, Posture,
@@ -134,4 +159,5 @@ pub use spatial::{
 };
 pub use spring::{Segment, SpringBlock, SpringLaw};
 pub use stability::ShapeStability;
-pub use stiffness::{ChainStiffness, Direction, DirectionKind, unloaded_stiffness};
+pub use stiffness::{ChainStiffness, unloaded_stiffness};
+pub use strut::{Anchor, Strut};

@@ -10,39 +10,16 @@
 //! (passive joints), finite, negative (under load) and rigid (motions that the chain cannot make,
 //! whose stiffness is infinite).
 
-use nalgebra::{DMatrix, Matrix6, Vector6};
-use serde::{Deserialize, Serialize};
+use nalgebra::{DMatrix, Matrix6};
 
-use crate::chain::{Chain, Role, Scale};
+use crate::chain::{Chain, Role};
+pub(crate) use crate::directions::directions;
+pub(crate) use crate::directions::{Direction, DirectionKind};
+use crate::directions::{Share, free_by_joints, largest, shares};
 use crate::equilibrium::{System, balance};
 use crate::error::Result;
-use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement, rows_certainly_independent};
+use crate::saddle::{Saddle, column_space, complement, rows_certainly_independent};
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
-
-/// Kind of a direction of the end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DirectionKind {
-    /// Moves without force.
-    Free,
-    /// Positive stiffness.
-    Finite,
-    /// Negative stiffness: pulls away by itself under a dead load.
-    Negative,
-    /// The chain cannot move that way: infinite stiffness.
-    Rigid,
-}
-
-/// A principal direction of the (symmetric part of the) stiffness.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Direction {
-    /// Free, finite, negative or rigid.
-    pub kind: DirectionKind,
-    /// Stiffness along it, N/m (rotations referred to the natural length); infinite if rigid.
-    pub stiffness_n_per_m: f64,
-    /// The motion, scaled so that its longest part (m, or rad times the natural length) is 1 m.
-    pub twist: Twist,
-}
 
 /// Stiffness of a chain at its tip.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +44,27 @@ impl ChainStiffness {
     #[must_use]
     pub fn count(&self, kind: DirectionKind) -> usize {
         self.directions.iter().filter(|d| d.kind == kind).count()
+    }
+
+    /// What moves when the end of `chain` (the one that this is the stiffness of) moves by a small
+    /// twist (m, rad): passive joints and springs in the chain's order, nothing left out.
+    #[must_use]
+    pub fn behind(&self, chain: &Chain, twist: &Twist) -> Vec<Share> {
+        self.behind_named(chain, "", twist)
+    }
+
+    /// With a prefix to all names.
+    pub(crate) fn behind_named(&self, chain: &Chain, prefix: &str, twist: &Twist) -> Vec<Share> {
+        let mut motion = vec![0.0; chain.coordinate_count()];
+        for (role, rows) in [
+            (Role::Passive, &self.passive),
+            (Role::Spring, &self.springs),
+        ] {
+            for (k, index) in chain.indices_of(role).into_iter().enumerate() {
+                motion[index] = (rows.row(k) * twist.0)[0];
+            }
+        }
+        shares(chain, prefix, &motion)
     }
 }
 
@@ -159,7 +157,8 @@ pub(crate) fn chain_stiffness(
     };
     let balanced = Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]));
 
-    let directions = directions(chain.scale(), &balanced, &range);
+    let mut directions = directions(chain.scale(), &balanced, &range);
+    free_by_joints(chain, &jacobian, &mut directions);
     let rank = directions
         .iter()
         .filter(|d| matches!(d.kind, DirectionKind::Finite | DirectionKind::Negative))
@@ -168,16 +167,26 @@ pub(crate) fn chain_stiffness(
         let indices = chain.indices_of(role);
         DMatrix::from_fn(indices.len(), 6, |k, j| answer[(6 + indices[k], j)])
     };
-    ChainStiffness {
+    let mut stiffness = ChainStiffness {
         cartesian: CartesianStiffness {
             matrix: answer.fixed_view::<6, 6>(0, 0).into_owned(),
         },
         passive: rows(Role::Passive),
         springs: rows(Role::Spring),
         rank,
-        directions,
+        directions: Vec::new(),
         redundant_passive: names_in(chain, &redundant),
+    };
+    for direction in &mut directions {
+        if matches!(
+            direction.kind,
+            DirectionKind::Free | DirectionKind::Negative
+        ) {
+            direction.behind = largest(stiffness.behind(chain, &direction.twist));
+        }
     }
+    stiffness.directions = directions;
+    stiffness
 }
 
 /// Wrench and coordinates per unit motion of the tip, (6 + n) x 6, over the motions that the chain
@@ -212,59 +221,4 @@ fn unit_motions(
         };
         balanced * factors[i] * factors[j]
     })
-}
-
-/// Principal directions of a balanced stiffness within the motions that exist.
-pub(crate) fn directions(
-    scale: Scale,
-    balanced: &Matrix6<f64>,
-    range: &DMatrix<f64>,
-) -> Vec<Direction> {
-    let twist = |balanced: &Vector6<f64>| {
-        let v = Vector6::from_fn(|i, _| {
-            if i < 3 {
-                balanced[i]
-            } else {
-                balanced[i] / scale.length
-            }
-        });
-        let linear = v.fixed_rows::<3>(0).norm();
-        let angular = v.fixed_rows::<3>(3).norm() * scale.length;
-        Twist(v / linear.max(angular).max(f64::MIN_POSITIVE))
-    };
-    let mut list = Vec::with_capacity(6);
-    for column in complement(range).column_iter() {
-        list.push(Direction {
-            kind: DirectionKind::Rigid,
-            stiffness_n_per_m: f64::INFINITY,
-            twist: twist(&Vector6::from_fn(|i, _| column[i])),
-        });
-    }
-    let symmetric = 0.5 * (balanced + balanced.transpose());
-    let within = range.transpose() * symmetric * range;
-    let eigen = within.symmetric_eigen();
-    let most = eigen.eigenvalues.amax();
-    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-    order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
-    for i in order {
-        let value = eigen.eigenvalues[i];
-        let kind = if value.abs() <= 100.0 * RANK_TOLERANCE * most || most == 0.0 {
-            DirectionKind::Free
-        } else if value > 0.0 {
-            DirectionKind::Finite
-        } else {
-            DirectionKind::Negative
-        };
-        let motion = range * eigen.eigenvectors.column(i);
-        list.push(Direction {
-            kind,
-            stiffness_n_per_m: if kind == DirectionKind::Free {
-                0.0
-            } else {
-                value * scale.stiffness
-            },
-            twist: twist(&Vector6::from_fn(|i, _| motion[i])),
-        });
-    }
-    list
 }

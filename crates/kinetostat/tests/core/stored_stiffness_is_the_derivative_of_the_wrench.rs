@@ -22,7 +22,7 @@ fn tight() -> Settings {
 }
 
 /// Fourth-order differences of the wrench over re-solved poses.
-fn differences(problem: &ChainProblem<'_>, e: &Equilibrium, h: f64) -> Matrix6<f64> {
+pub fn differences(problem: &ChainProblem<'_>, e: &Equilibrium, h: f64) -> Matrix6<f64> {
     let mut k = Matrix6::zeros();
     for column in 0..6 {
         let at = |s: f64| {
