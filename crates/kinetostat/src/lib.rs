@@ -75,8 +75,10 @@
 //! # Order of the modules
 //!
 //! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <-
-//! equilibrium, stiffness, stability <- mechanism, inverse <- platform <- posture <- compensation`.
+//! equilibrium, stiffness, stability <- mechanism, inverse <- platform, platform_step <- posture <-
+//! assembly, mobility, compensation`.
 
+mod assembly;
 mod beam;
 mod bowing;
 mod builder;
@@ -101,9 +103,11 @@ mod load_energy;
 mod loading;
 mod logarithm;
 mod mechanism;
+mod mobility;
 mod parallelogram;
 mod passive_rules;
 mod platform;
+mod platform_step;
 mod posture;
 mod saddle;
 mod settings;
@@ -114,6 +118,7 @@ mod stiffness;
 mod strut;
 mod uniform;
 
+pub use assembly::LinearAssembly;
 pub use beam::BeamSection;
 pub use bowing::BowingLaw;
 pub use builder::{ActuatorSpec, ChainBuilder};
@@ -149,8 +154,7 @@ pub use passive_rules::{
 };
 pub use platform::MechanismState;
 pub use posture::{
-    LimbEquilibrium, LinearAssembly, MechanismEquilibrium, PlatformStability, Posture,
-    UnloadedStiffness,
+    LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
 };
 pub use saddle::Inertia;
 pub use settings::Settings;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::chain::{MotionKind, Scale};
 use crate::equilibrium::Residual;
 use crate::error::{Error, Result};
-use crate::inverse::{LimbPosture, blocked_motions, command_rates, inverse_kinematics};
+use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::mechanism::Mechanism;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::saddle::{column_space, complement};
@@ -23,10 +23,10 @@ use crate::stiffness::{
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
 #[derive(Clone, Debug)]
 pub struct Posture<'m> {
-    mechanism: &'m Mechanism,
+    pub(crate) mechanism: &'m Mechanism,
     settings: Settings,
-    target: Pose,
-    limbs: Vec<LimbPosture>,
+    pub(crate) target: Pose,
+    pub(crate) limbs: Vec<LimbPosture>,
 }
 
 /// Whether the platform stays where it is.
@@ -125,19 +125,6 @@ impl MechanismEquilibrium {
             .flat_map(|l| l.actuator_forces.iter().copied())
             .collect()
     }
-}
-
-/// First-order assembly of limbs with errors, no external load [R 6.15-6.20].
-#[derive(Clone, Debug)]
-pub struct LinearAssembly {
-    /// Motion of the tool from its nominal target.
-    pub shift: Twist,
-    /// Wrench on every limb's tip, base axes; their sum about the tool is zero.
-    pub wrenches: Vec<Wrench>,
-    /// Change of the passive joints of every limb, m or rad.
-    pub passive: Vec<Vec<f64>>,
-    /// Deflection of the springs of every limb, m or rad.
-    pub springs: Vec<Vec<f64>>,
 }
 
 impl Mechanism {
@@ -350,6 +337,11 @@ impl<'m> Posture<'m> {
         }
     }
 
+    /// Natural length and stiffness of the mechanism.
+    pub(crate) fn scale(&self) -> Scale {
+        self.solver(self.rest_state(), Unknowns::Pose).scale()
+    }
+
     fn solver(&self, state: MechanismState, unknowns: Unknowns) -> PlatformSolver<'m> {
         let mut solver = PlatformSolver::new(
             self.mechanism,
@@ -385,7 +377,7 @@ impl<'m> Posture<'m> {
             total += k.cartesian.shifted(&arm, &Wrench::zero()).matrix;
             limbs.push(k);
         }
-        let scale = self.solver(self.rest_state(), Unknowns::Pose).scale();
+        let scale = self.scale();
         let arms = m
             .limbs
             .iter()
@@ -496,164 +488,6 @@ impl<'m> Posture<'m> {
         // What the held tool still lacks is what its holder must apply.
         result.wrench = Wrench(-solver.finish().1[self.mechanism.tool].0);
         Ok(result)
-    }
-
-    /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes.
-    #[must_use]
-    pub fn assembly_errors(&self) -> Vec<Twist> {
-        let m = self.mechanism;
-        m.limbs
-            .iter()
-            .zip(&self.limbs)
-            .map(|(limb, joints)| {
-                let base = m.platforms[limb.from].home;
-                let tip = |chain| {
-                    crate::equilibrium::unloaded_tip(
-                        chain,
-                        &base,
-                        &joints.coordinates,
-                        &joints.commands,
-                    )
-                };
-                pose_residual(&tip(&limb.actual), &tip(&limb.nominal))
-            })
-            .collect()
-    }
-
-    /// First-order platform shift and internal wrenches for given limb errors `eps_i` (base axes,
-    /// at each limb's tip), no external load:
-    /// `Dt = (sum T^T K T)^-1 sum T^T K eps`, `F_i = K_i (T_i Dt - eps_i)`.
-    ///
-    /// # Errors
-    /// Wrong sizes only.
-    pub fn linear_assembly(&self, errors: &[Twist]) -> Result<LinearAssembly> {
-        let m = self.mechanism;
-        if errors.len() != m.limbs.len() {
-            return Err(Error::Size {
-                place: format!("mechanism '{}'", m.name),
-                what: "limb errors",
-                expected: m.limbs.len(),
-                found: errors.len(),
-            });
-        }
-        let own = self.stiffness()?;
-        let shifts: Vec<Matrix6<f64>> = m
-            .limbs
-            .iter()
-            .map(|l| shift_matrix(&(self.target.rotation * l.platform_from_tip.translation.vector)))
-            .collect();
-        let mut pull = Vector6::zeros();
-        for ((k, t), e) in own.limbs.iter().zip(&shifts).zip(errors) {
-            pull += t.transpose() * k.cartesian.matrix * e.0;
-        }
-        let length = self
-            .solver(self.rest_state(), Unknowns::Pose)
-            .scale()
-            .length;
-        let scale = [1.0, 1.0, 1.0, 1.0 / length, 1.0 / length, 1.0 / length];
-        let total = own.cartesian.matrix;
-        let mut b = DMatrix::from_column_slice(6, 1, pull.as_slice());
-        crate::saddle::Saddle::new(DMatrix::from_fn(6, 6, |i, j| total[(i, j)]), &scale, &scale)
-            .solve(&mut b);
-        let shift = Twist(b.fixed_view::<6, 1>(0, 0).into_owned());
-        let mut result = LinearAssembly {
-            shift,
-            wrenches: Vec::new(),
-            passive: Vec::new(),
-            springs: Vec::new(),
-        };
-        for ((k, t), e) in own.limbs.iter().zip(&shifts).zip(errors) {
-            let motion = t * shift.0 - e.0;
-            result.wrenches.push(Wrench(k.cartesian.matrix * motion));
-            result
-                .passive
-                .push((&k.passive * motion).iter().copied().collect());
-            result
-                .springs
-                .push((&k.springs * motion).iter().copied().collect());
-        }
-        Ok(result)
-    }
-
-    /// Motions that the nominal machine can command or make freely, as an orthonormal basis, 6 x k
-    /// (rotations in units of the natural length).
-    #[must_use]
-    pub fn mobility(&self) -> DMatrix<f64> {
-        let m = self.mechanism;
-        let length = self
-            .solver(self.rest_state(), Unknowns::Pose)
-            .scale()
-            .length;
-        let mut blocked = DMatrix::zeros(6, 6);
-        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
-            let base = m.platforms[limb.from].home;
-            let own = limb.nominal.scale().length;
-            let t =
-                shift_matrix(&(self.target.rotation * limb.platform_from_tip.translation.vector));
-            // From the mechanism's units to SI, to the tip, to the limb's units.
-            let mut to_limb = DMatrix::from_fn(6, 6, |i, j| t[(i, j)]);
-            for k in 0..3 {
-                to_limb.row_mut(3 + k).scale_mut(own);
-                to_limb.column_mut(3 + k).unscale_mut(length);
-            }
-            let p = blocked_motions(&limb.nominal, &base, joints) * to_limb;
-            blocked += p.transpose() * p;
-        }
-        let eigen = blocked.symmetric_eigen();
-        let kept: Vec<_> = (0..6)
-            .filter(|&i| eigen.eigenvalues[i].abs() < 1e-9)
-            .map(|i| eigen.eigenvectors.column(i).into_owned())
-            .collect();
-        if kept.is_empty() {
-            return DMatrix::zeros(6, 0);
-        }
-        DMatrix::from_columns(&kept)
-    }
-
-    /// Motions that the actuators drive, as an orthonormal basis, 6 x k (rotations in units of the
-    /// natural length): [`Self::mobility`] without what passive joints allow on their own.
-    #[must_use]
-    pub fn commanded_motions(&self) -> DMatrix<f64> {
-        let m = self.mechanism;
-        let basis = self.mobility();
-        let length = self
-            .solver(self.rest_state(), Unknowns::Pose)
-            .scale()
-            .length;
-        let mut driven = DMatrix::zeros(basis.ncols(), basis.ncols());
-        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
-            let t =
-                shift_matrix(&(self.target.rotation * limb.platform_from_tip.translation.vector));
-            let mut motions = basis.clone();
-            motions.rows_mut(3, 3).unscale_mut(length);
-            let rates =
-                command_rates(&limb.nominal, &m.platforms[limb.from].home, joints) * t * motions;
-            driven += rates.transpose() * rates;
-        }
-        basis * column_space(&driven)
-    }
-
-    /// Base directions `x y z rx ry rz` of the tool that the machine can correct by itself:
-    /// a choice, translations first, of as many as its actuators drive.
-    #[must_use]
-    pub fn correctable(&self) -> [bool; 6] {
-        let basis = self.commanded_motions();
-        let mut chosen = [false; 6];
-        let mut rows: Vec<nalgebra::DVector<f64>> = Vec::new();
-        for (i, flag) in chosen.iter_mut().enumerate() {
-            let mut row = basis.row(i).transpose();
-            let size = row.norm();
-            for r in &rows {
-                let share = row.dot(r);
-                row -= r * share;
-            }
-            if row.norm() > 1e-6 * size.max(1e-3) && row.norm() > 1e-6 {
-                row.normalize_mut();
-                rows.push(row);
-                *flag = true;
-            }
-        }
-        chosen
     }
 }
 
