@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::curve::Curve;
+use crate::curve::{Curve, NO_LENGTH_MM};
 use crate::emit::{OutputState, Step, motion_of};
 use crate::error::WriteError;
 use crate::number;
@@ -414,6 +414,12 @@ impl<'a> BlockWriter<'a> {
             .motion
             .length_between_mm(step.share_from, step.share_to);
         let whole_mm = self.motion.length_mm();
+        // A piece that stands still for all but the last bit of its sums has no speed to keep.
+        let written_mm = if written_mm > NO_LENGTH_MM {
+            written_mm
+        } else {
+            0.0
+        };
         let moves = part_mm > 0.0 && written_mm > 0.0;
         let value = match feed.mode {
             FeedMode::InverseTime if pieces == 1 => return None,

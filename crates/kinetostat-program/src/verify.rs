@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::accounting::Accounting;
-use crate::curve::Curve;
+use crate::curve::{Curve, NO_LENGTH_MM};
 use crate::error::{ProgramError, WriteError};
 use crate::interpret::interpret;
 use crate::options::ReadOptions;
@@ -204,12 +204,12 @@ impl Verifier<'_> {
         let part = motion.length_between_mm(piece.share_from, piece.share_to);
         let known = motion.known == Knowledge::Whole;
         let speed = match feed.mode {
-            FeedMode::InverseTime if piece.corner_step && length > 0.0 => {
+            FeedMode::InverseTime if piece.corner_step && length > NO_LENGTH_MM => {
                 written.value * length / motion.length_mm()
             }
             FeedMode::InverseTime if part > 0.0 => written.value * part / motion.length_mm(),
             FeedMode::PerMinute | FeedMode::PerRevolution
-                if known && part > 0.0 && length > 0.0 =>
+                if known && part > 0.0 && length > NO_LENGTH_MM =>
             {
                 written.value * part / length
             }

@@ -153,6 +153,27 @@ fn a_move_in_mm_may_begin_where_inches_were_rounded() {
 }
 
 #[test]
+fn a_piece_that_only_the_last_bit_moves_keeps_the_feed() {
+    // Found by comparing with LinuxCNC: a piece of 1e-14 mm was written with F0.000000000001.
+    let text = "G20\nG00 X-0.389864 Y-0.78 Z.759\nG2 X-0.79967 Y-.28141 J.41771\nG1 Z1.00232\nG91\n\
+                G03 Y.12721 Z0.20134 R-0.24247\nY-.68257 Z.72885 R-.68404\nY0.2 G92\nG90.1 G19 G01 Y+0.0333\n\
+                G3 Y-0.10384 Z.14075 J0.086 K1.93251\nG01 G90 Z2.2457 Y.72635\nR-0.01334 G3 Z2.25054\n\
+                R-0.85653 Z3.46143 F0.0100\n";
+    let field = |request: &Request| {
+        let at = &request.position_mm;
+        let smooth = Vector3::new(
+            0.21 * (at.x / 31.0).sin() + 0.04,
+            0.16 * (at.y / 27.0).cos() - 0.05 * (at.x / 90.0).sin(),
+            0.12 * ((at.x + at.y) / 43.0).sin() - 0.002 * at.z,
+        );
+        let steps = Vector3::new((at.x / 17.0).floor(), (at.y / 11.0).floor(), 0.0) * 0.011;
+        Ok(smooth + steps + request.tangent.unwrap_or_default() * 0.07)
+    };
+    let (output, _) = written_with(text, &field, &ReadOptions::default(), &bare());
+    assert!(!output.contains("F0.0000"), "{output}");
+}
+
+#[test]
 fn increments_never_drift() {
     let mut text = "G21 G90\nG0 X0 Y0 Z0\nG91 G1 F500\n".to_owned();
     for _ in 0..5000 {
