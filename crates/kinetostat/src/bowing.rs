@@ -22,16 +22,12 @@
 //! know it: their columns are too stiff and fail in tension). Bending of a segment must stay
 //! moderate (`p` well below one): that is what the segments are for. Torsion under bending (lateral
 //! buckling) comes from the segments too.
-//!
-//! The tangent of a segment stays positive definite only below the segment's own buckling load.
-//! Beyond it the inertia in [`crate::ShapeStability`] still judges the shape; its margin does not,
-//! because it measures by the springs' tangent.
 
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::jet::{Jet, quadratic};
-use crate::logarithm::with_rotation_vector;
+use crate::logarithm::{angles, with_rotation_vector};
 use crate::spring::Response;
 
 /// Energy of a beam segment that shortens as it bends; see [`crate::LinkConvention::Bowing`].
@@ -58,6 +54,17 @@ impl BowingLaw {
             strain[0] = strain[0] + own - (w * p).scaled(0.1 * sign);
         }
         strain
+    }
+
+    /// The deflection (m, rad) whose strain is that of `deflection` plus the linearised change by
+    /// `step`: a stiff axis would otherwise answer every step of bending by a huge force.
+    pub(crate) fn follow(&self, deflection: &Vector6<f64>, step: &Vector6<f64>) -> Vector6<f64> {
+        let strain = self.strain(deflection);
+        let next = Vector6::from_fn(|i, _| strain[i].value + strain[i].gradient.dot(step));
+        let angles = angles(&next.fixed_rows::<3>(3).into_owned());
+        let mut found = Vector6::new(0.0, next[1], next[2], angles.x, angles.y, angles.z);
+        found[0] = next[0] - self.strain(&found)[0].value;
+        found
     }
 
     /// Energy (J), torques and tangent at a deflection (m, rad).

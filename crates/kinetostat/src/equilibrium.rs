@@ -10,7 +10,7 @@
 //! Newton on the bordered system under step control, and falls back on growing the load from an
 //! unloaded posture. A failure says up to which share of the load it came.
 
-use nalgebra::{DMatrix, Matrix6xX, Rotation3, Vector6};
+use nalgebra::{DMatrix, Matrix6, Matrix6xX, Rotation3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::{Chain, MotionKind, Role};
@@ -154,6 +154,8 @@ pub(crate) struct System {
     pub spring_torque: Vec<f64>,
     /// Its derivative, n x n.
     pub spring_tangent: DMatrix<f64>,
+    /// Change of the tangent since rest, per block of six coordinates: first coordinate, matrix.
+    pub spring_geometric: Vec<(usize, Matrix6<f64>)>,
     pub energy: f64,
     wrenches: Vec<(usize, Wrench)>,
     tangents: Vec<NodeTangent>,
@@ -175,6 +177,7 @@ impl System {
             hessian: DMatrix::zeros(all, all),
             spring_torque: vec![0.0; n],
             spring_tangent: DMatrix::zeros(n, n),
+            spring_geometric: Vec::new(),
             energy: 0.0,
             wrenches: Vec::new(),
             tangents: Vec::new(),
@@ -210,6 +213,7 @@ impl System {
             .add_tangents(&self.tangents, &mut self.hessian);
         self.spring_torque.fill(0.0);
         self.spring_tangent.fill(0.0);
+        self.spring_geometric.clear();
         self.energy = 0.0;
         for block in chain.springs() {
             self.energy += block.add(
@@ -218,6 +222,7 @@ impl System {
                 factor,
                 &mut self.spring_torque,
                 &mut self.spring_tangent,
+                &mut self.spring_geometric,
             );
         }
     }
@@ -450,6 +455,9 @@ impl Attempt<'_, '_> {
             loop {
                 for (i, value) in x.iter_mut().enumerate() {
                     *value = x0[i] + length * step[(6 + i, 0)];
+                }
+                for block in self.problem.chain.springs() {
+                    block.follow(&x0, share, x);
                 }
                 wrench.0 = w0.0 + length * step.fixed_view::<6, 1>(0, 0);
                 (closure, lack) = self.evaluate(x, wrench, share);

@@ -11,7 +11,7 @@ use crate::spring::Response;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Jet {
     pub value: f64,
-    gradient: Vector6<f64>,
+    pub gradient: Vector6<f64>,
     curvature: Matrix6<f64>,
 }
 

@@ -14,7 +14,7 @@
 //! segment's length, `e / a` is the change of a strain that is constant along the segment. The
 //! derivatives are exact: every quantity carries its gradient and second derivative.
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::jet::{Jet, angle_per_sine, cross, logarithm_factor, quadratic, square};
@@ -36,6 +36,25 @@ impl LogarithmLaw {
     pub(crate) fn at_rest(&self) -> Matrix6<f64> {
         let rates = to_middle(self.length);
         rates.transpose() * self.matrix * rates
+    }
+
+    /// The deflection (m, rad) whose strain is that of `deflection` plus the linearised change by
+    /// `step`: the exponential of that strain.
+    pub(crate) fn follow(&self, deflection: &Vector6<f64>, step: &Vector6<f64>) -> Vector6<f64> {
+        let strain = logarithm(deflection, self.length);
+        let next = Vector6::from_fn(|i, _| strain[i].value + strain[i].gradient.dot(step));
+        let rho = Vector3::new(next[0] + self.length, next[1], next[2]);
+        let turn = Vector3::new(next[3], next[4], next[5]);
+        let t = turn.norm();
+        let (a, b) = if t > 1e-4 {
+            ((1.0 - t.cos()) / (t * t), (t - t.sin()) / t.powi(3))
+        } else {
+            (0.5, 1.0 / 6.0)
+        };
+        let once = turn.cross(&rho);
+        let p = rho + once * a + turn.cross(&once) * b;
+        let angles = angles(&turn);
+        Vector6::new(p.x - self.length, p.y, p.z, angles.x, angles.y, angles.z)
     }
 
     /// Energy (J), torques and tangent at a deflection (m, rad).
@@ -74,6 +93,16 @@ pub(crate) fn with_rotation_vector(deflection: &Vector6<f64>) -> [Jet; 6] {
     [x, y, z, a, b, c]
 }
 
+/// Angles of `Rx(rx) Ry(ry) Rz(rz)` with a given rotation vector.
+pub(crate) fn angles(turn: &Vector3<f64>) -> Vector3<f64> {
+    let r = Rotation3::from_scaled_axis(*turn);
+    Vector3::new(
+        (-r[(1, 2)]).atan2(r[(2, 2)]),
+        r[(0, 2)].clamp(-1.0, 1.0).asin(),
+        (-r[(0, 1)]).atan2(r[(0, 0)]),
+    )
+}
+
 /// `log(Tx(length) T) - (length, 0, 0, 0, 0, 0)` with derivatives.
 fn logarithm(deflection: &Vector6<f64>, length: f64) -> [Jet; 6] {
     let turn = turn(deflection);
@@ -93,7 +122,6 @@ fn logarithm(deflection: &Vector6<f64>, length: f64) -> [Jet; 6] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
 
     #[test]
     fn the_logarithm_is_that_of_rotations() {
@@ -116,5 +144,10 @@ mod tests {
             + w.cross(&rho) * ((1.0 - t.cos()) / (t * t))
             + w.cross(&w.cross(&rho)) * ((t - t.sin()) / t.powi(3));
         assert!((p - Vector3::new(0.1, -0.2, 0.3)).norm() < 1e-14);
+        for length in [0.0, 0.7] {
+            let matrix = Matrix6::identity();
+            let back = LogarithmLaw { matrix, length }.follow(&d, &Vector6::zeros());
+            assert!((back - d).norm() < 1e-14, "{back}");
+        }
     }
 }

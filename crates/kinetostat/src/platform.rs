@@ -324,6 +324,10 @@ impl<'m> PlatformSolver<'m> {
                     for (j, x) in self.state.coordinates[i].iter_mut().enumerate() {
                         *x = start.0.coordinates[i][j] + length * step[6 + j];
                     }
+                    for block in self.mechanism.limbs[i].actual.springs() {
+                        let from = &start.0.coordinates[i];
+                        block.follow(from, self.share, &mut self.state.coordinates[i]);
+                    }
                 }
                 let reached = !retargets || {
                     self.target = moved(&start.2, &Twist(target.0 * length));

@@ -79,6 +79,9 @@ impl SpringBlock {
     /// Adds this block's energy gradient to `torque` (all coordinates of the chain) and its second
     /// derivative to `tangent` (n x n); returns the energy (J). `values` are the coordinates,
     /// `posture` those of the commanded, unloaded posture, `preload` scales `theta0` (1 is the real one).
+    /// A law whose tangent depends on the deflection appends its first coordinate and the change of
+    /// the tangent since rest to `geometric`: like the loads' Hessian, it decides about stability.
+    #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
     pub(crate) fn add(
         &self,
         values: &[f64],
@@ -86,10 +89,11 @@ impl SpringBlock {
         preload: f64,
         torque: &mut [f64],
         tangent: &mut DMatrix<f64>,
+        geometric: &mut Vec<(usize, Matrix6<f64>)>,
     ) -> f64 {
         let deflection =
             || Vector6::from_fn(|i, _| values[self.first + i] - preload * self.rest[i]);
-        let response = match &self.law {
+        let (response, at_rest) = match &self.law {
             SpringLaw::Linear(matrix) => {
                 return self.add_constant(matrix, values, preload, torque, tangent);
             }
@@ -97,8 +101,8 @@ impl SpringBlock {
                 let matrix = law.matrix(posture[law.inclination]);
                 return self.add_constant(&matrix, values, preload, torque, tangent);
             }
-            SpringLaw::Bowing(law) => law.respond(&deflection()),
-            SpringLaw::Logarithm(law) => law.respond(&deflection()),
+            SpringLaw::Bowing(law) => (law.respond(&deflection()), law.matrix),
+            SpringLaw::Logarithm(law) => (law.respond(&deflection()), law.at_rest()),
         };
         for i in 0..6 {
             torque[self.first + i] += response.torque[i];
@@ -106,7 +110,26 @@ impl SpringBlock {
                 tangent[(self.first + i, self.first + j)] += response.tangent[(i, j)];
             }
         }
+        geometric.push((self.first, response.tangent - at_rest));
         response.energy
+    }
+
+    /// Corrects `to`, which is `from` plus a step of an iteration, to second order: a law that is
+    /// linear in other coordinates than these takes the step in its own.
+    pub(crate) fn follow(&self, from: &[f64], preload: f64, to: &mut [f64]) {
+        if self.len() != 6 {
+            return;
+        }
+        let own = self.first..self.first + self.len();
+        let rest = Vector6::from_column_slice(&self.rest) * preload;
+        let now = Vector6::from_column_slice(&from[own.clone()]);
+        let step = Vector6::from_column_slice(&to[own.clone()]) - now;
+        let next = match &self.law {
+            SpringLaw::Linear(_) | SpringLaw::Parallelogram(_) => return,
+            SpringLaw::Bowing(law) => law.follow(&(now - rest), &step),
+            SpringLaw::Logarithm(law) => law.follow(&(now - rest), &step),
+        };
+        to[own].copy_from_slice((next + rest).as_slice());
     }
 
     fn add_constant<R, C, S>(
@@ -161,7 +184,14 @@ mod tests {
 
     fn respond(block: &SpringBlock, x: &[f64; 6]) -> (f64, Vec<f64>, DMatrix<f64>) {
         let (mut torque, mut tangent) = (vec![0.0; 6], DMatrix::zeros(6, 6));
-        let energy = block.add(x, &[0.0; 6], 1.0, &mut torque, &mut tangent);
+        let energy = block.add(
+            x,
+            &[0.0; 6],
+            1.0,
+            &mut torque,
+            &mut tangent,
+            &mut Vec::new(),
+        );
         (energy, torque, tangent)
     }
 

@@ -36,12 +36,23 @@ pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -
     let jacobian = balanced_jacobian(system, factors);
     let range = column_space(&jacobian);
     let rank = range.ncols();
-    let hessian = DMatrix::from_fn(n, n, |i, j| {
+    let mut hessian = DMatrix::from_fn(n, n, |i, j| {
         0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * factors[6 + i] * factors[6 + j]
     });
-    let springs = DMatrix::from_fn(n, n, |i, j| {
+    let mut springs = DMatrix::from_fn(n, n, |i, j| {
         system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
     });
+    // What a deflection changed in the springs is the load's doing; at rest they are positive definite.
+    for &(first, matrix) in &system.spring_geometric {
+        for i in 0..6 {
+            for j in 0..6 {
+                let (row, column) = (first + i, first + j);
+                let change = matrix[(i, j)] * factors[6 + row] * factors[6 + column];
+                hessian[(row, column)] -= change;
+                springs[(row, column)] -= change;
+            }
+        }
+    }
     let rows = if rank == 6 {
         jacobian.clone()
     } else {
