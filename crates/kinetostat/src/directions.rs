@@ -111,23 +111,34 @@ fn axis_in_words(axis: &Vector3<f64>) -> String {
     format!("[{:.3}, {:.3}, {:.3}]", clean.x, clean.y, clean.z)
 }
 
+impl Share {
+    /// The motion in metres, a rotation at the given natural length.
+    pub(crate) fn size(&self, length: f64) -> f64 {
+        match self.kind {
+            MotionKind::Prismatic => self.motion,
+            MotionKind::Revolute => self.motion * length,
+        }
+    }
+}
+
 /// Motion of the chain's coordinates (m, rad) as shares.
 pub(crate) fn shares(chain: &Chain, prefix: &str, motion: &[f64]) -> Vec<Share> {
     let length = chain.scale().length;
-    let size = |i: usize| match chain.coordinates()[i].kind {
-        MotionKind::Prismatic => motion[i],
-        MotionKind::Revolute => motion[i] * length,
-    };
-    let total: f64 = (0..motion.len()).map(|i| size(i) * size(i)).sum();
-    (0..motion.len())
-        .map(|i| Share {
-            name: format!("{prefix}{}", chain.coordinates()[i].name),
-            role: chain.coordinates()[i].role,
-            kind: chain.coordinates()[i].kind,
-            motion: motion[i],
-            share: size(i) * size(i) / total.max(f64::MIN_POSITIVE),
+    let named = chain.coordinates().iter().zip(motion);
+    let mut list: Vec<Share> = named
+        .map(|(coordinate, &motion)| Share {
+            name: format!("{prefix}{}", coordinate.name),
+            role: coordinate.role,
+            kind: coordinate.kind,
+            motion,
+            share: 0.0,
         })
-        .collect()
+        .collect();
+    let total: f64 = list.iter().map(|s| s.size(length).powi(2)).sum();
+    for share in &mut list {
+        share.share = share.size(length).powi(2) / total.max(f64::MIN_POSITIVE);
+    }
+    list
 }
 
 /// The largest shares of all that move, in falling order, adding up to one.

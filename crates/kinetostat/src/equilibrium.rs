@@ -211,6 +211,14 @@ impl System {
             .load_terms(&self.wrenches, &mut self.torque, &mut self.hessian);
         self.kinematics
             .add_tangents(&self.tangents, &mut self.hessian);
+        // A load without a tangent here has no equilibrium here that could be judged.
+        let tangents = self.tangents.iter();
+        if tangents
+            .flat_map(|t| t.matrix.iter())
+            .any(|x| !x.is_finite())
+        {
+            self.torque.fill(f64::NAN);
+        }
         self.spring_torque.fill(0.0);
         self.spring_tangent.fill(0.0);
         self.spring_geometric.clear();

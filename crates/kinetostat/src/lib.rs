@@ -80,6 +80,7 @@
 
 mod assembly;
 mod beam;
+mod behind;
 mod bowing;
 mod builder;
 mod chain;

@@ -507,29 +507,72 @@ fn a_wrong_tangent_is_found() {
 /// A function that stops giving numbers somewhere ends the iteration, not the program.
 #[test]
 fn a_function_that_turns_into_nan_on_the_way_ends_in_an_error() {
-    let mut rng = Rng(5);
-    let r = random_chain(
-        &mut rng,
-        &Recipe {
+    for seed in 0..12 {
+        let mut rng = Rng(seed);
+        let recipe = Recipe {
             stages: 2,
             passive: 2,
             ..Recipe::default()
-        },
-    );
-    let tip = r.chain.tip();
-    let edge = r.tip().translation.vector.x + 1e-3;
-    let cliff = FunctionLoad::new("cliff", vec![tip], move |poses| {
-        let x = poses[0].translation.x;
-        vec![Wrench::new(
-            vector![(edge - x).sqrt() * 1e6, 0.0, 0.0],
-            Vector3::zeros(),
-        )]
-    });
-    let mut problem = r.problem(EndCondition::pose(moved(
-        &r.tip(),
-        &Twist::new(vector![0.05, 0.0, 0.0], Vector3::zeros()),
-    )));
-    problem.loads = vec![Load::function(cliff)];
-    let answer = solve_chain(&problem, &Settings::default());
-    assert!(answer.is_err(), "{answer:?}");
+        };
+        let r = random_chain(&mut rng, &recipe);
+        let tip = r.chain.tip();
+        let end = r.tip().translation.vector.x;
+        // At the edge itself the wrench is a number and its tangent is none.
+        let (edge, way) = [(1e-3, 0.05), (0.05, 0.05), (1e-3, 1e-3)][rng.below(3)];
+        let cliff = FunctionLoad::new("cliff", vec![tip], move |poses| {
+            let x = poses[0].translation.x;
+            let pull = (end + edge - x).sqrt() * 1e3;
+            vec![Wrench::new(vector![pull, 0.0, 0.0], Vector3::zeros())]
+        });
+        let step = Twist::new(vector![way, 0.0, 0.0], Vector3::zeros());
+        let mut problem = r.problem(EndCondition::pose(moved(&r.tip(), &step)));
+        problem.loads = vec![Load::function(cliff)];
+        let answer = solve_chain(&problem, &Settings::default());
+        assert!(answer.is_err(), "{answer:?}");
+    }
+}
+
+/// A rocker between two slides: pushed in, the tool moves along y by the slides of both limbs.
+#[test]
+fn a_machine_names_the_joints_of_its_limbs() {
+    use kinetostat::{BeamSection, DirectionKind, Limb, Mechanism, Platform};
+    let tube = BeamSection::tube(2.1e11, 8e10, 0.03, 0.02);
+    let chain = |name: &str| {
+        Chain::builder(name)
+            .passive("slide", MotionKind::Prismatic, Vector3::y(), 0.0)
+            .link("rod", &tube, 0.5)
+            .build()
+            .unwrap()
+    };
+    let mut builder = Mechanism::builder("rocker");
+    let tool = builder.platform(Platform::new("tool", Pose::translation(0.5, 0.0, 0.0)));
+    for name in ["left", "right"] {
+        builder = builder.limb(Limb {
+            name: name.into(),
+            from: 0,
+            to: tool,
+            platform_from_tip: Pose::identity(),
+            nominal: chain(name),
+            actual: chain(name),
+        });
+    }
+    let machine = builder.build().unwrap();
+    let posture = machine.posture(&Pose::translation(0.5, 0.0, 0.0)).unwrap();
+    let k = posture.stiffness().unwrap();
+    let free: Vec<_> = k
+        .directions
+        .iter()
+        .filter(|d| d.kind == DirectionKind::Free)
+        .collect();
+    assert_eq!(free.len(), 1);
+    let behind = k.behind(&posture, &free[0].twist);
+    let names: Vec<&str> = behind.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, ["left: slide", "right: slide"]);
+    close("share", behind[0].share, 0.5, 1e-9);
+    close("motion", behind[1].motion.abs(), 1.0, 1e-9);
+    let pushed = Wrench::new(vector![100.0, 0.0, 0.0], Vector3::zeros());
+    let e = posture.deflected_by(&pushed).unwrap();
+    let behind = e.behind(&machine, &Twist::new(Vector3::x(), Vector3::zeros()));
+    let names: Vec<&str> = behind.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, ["left: rod.x", "right: rod.x"]);
 }
