@@ -538,7 +538,7 @@ def compare_moves(found, moves, events, name, source):
     kept, here = [], [0.0] * 3
     for event in events:
         # A motion word without axes is a move without length to LinuxCNC and none to kinetostat.
-        if event[0] in lines or event[2] != here:
+        if event[0] in lines or math.dist(event[2], here) > PLACE_MM:
             kept.append(event)
         here = event[2]
     events = kept
