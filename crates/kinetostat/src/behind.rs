@@ -1,6 +1,6 @@
 //! Which joints and springs of which limb move when a machine's tool moves.
 
-use crate::directions::{Share, largest};
+use crate::directions::{Direction, DirectionKind, Share, largest};
 use crate::mechanism::Mechanism;
 use crate::posture::{MechanismEquilibrium, Posture, UnloadedStiffness};
 use crate::spatial::{Pose, Twist};
@@ -15,6 +15,24 @@ impl UnloadedStiffness {
         let limbs = self.limbs.iter();
         limbs_behind(posture.mechanism(), posture.target(), limbs, twist)
     }
+
+    /// With names at its free directions.
+    pub(crate) fn named(mut self, posture: &Posture<'_>) -> Self {
+        for i in 0..self.directions.len() {
+            if loose(&self.directions[i]) {
+                self.directions[i].behind = self.behind(posture, &self.directions[i].twist);
+            }
+        }
+        self
+    }
+}
+
+/// A direction of which a person asks what lets it go.
+fn loose(direction: &Direction) -> bool {
+    matches!(
+        direction.kind,
+        DirectionKind::Free | DirectionKind::Negative
+    )
 }
 
 impl MechanismEquilibrium {
@@ -23,6 +41,16 @@ impl MechanismEquilibrium {
     pub fn behind(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter().map(|limb| &limb.stiffness);
         limbs_behind(mechanism, &self.tool, limbs, twist)
+    }
+
+    /// With names at its free and negative directions.
+    pub(crate) fn named(mut self, mechanism: &Mechanism) -> Self {
+        for i in 0..self.directions.len() {
+            if loose(&self.directions[i]) {
+                self.directions[i].behind = self.behind(mechanism, &self.directions[i].twist);
+            }
+        }
+        self
     }
 }
 

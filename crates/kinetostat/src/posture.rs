@@ -389,11 +389,12 @@ impl<'m> Posture<'m> {
             .zip(scales)
             .map(|((k, arm), scale)| (k, arm, scale));
         let directions = balanced_directions(&total, scale, own);
-        Ok(UnloadedStiffness {
+        let answer = UnloadedStiffness {
             cartesian: CartesianStiffness { matrix: total },
             directions,
             limbs,
-        })
+        };
+        Ok(answer.named(self))
     }
 
     /// `f^-1(F | t0)`: where the tool goes under a dead wrench at its origin [R 6.28-6.30], with
@@ -609,7 +610,7 @@ pub(crate) fn conclude(
         .iter()
         .filter(|d| d.kind == DirectionKind::Free)
         .count();
-    Ok(MechanismEquilibrium {
+    let answer = MechanismEquilibrium {
         tool: solver.state.platforms[tool],
         displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
         wrench,
@@ -624,7 +625,8 @@ pub(crate) fn conclude(
         limbs,
         residual,
         state: solver.state.clone(),
-    })
+    };
+    Ok(answer.named(m))
 }
 
 /// Whether the platforms' tangent has no negative direction; with `held`, while the tool is held.
