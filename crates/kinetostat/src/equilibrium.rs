@@ -157,6 +157,8 @@ pub(crate) struct System {
     /// Change of the tangent since rest, per block of six coordinates: first coordinate, matrix.
     pub spring_geometric: Vec<(usize, Matrix6<f64>)>,
     pub energy: f64,
+    /// Loads that grow along a curve, on top of those given to [`Self::evaluate`], and their factor.
+    pub pattern: (Vec<Load>, f64),
     wrenches: Vec<(usize, Wrench)>,
     tangents: Vec<NodeTangent>,
 }
@@ -179,6 +181,7 @@ impl System {
             spring_tangent: DMatrix::zeros(n, n),
             spring_geometric: Vec::new(),
             energy: 0.0,
+            pattern: (Vec::new(), 0.0),
             wrenches: Vec::new(),
             tangents: Vec::new(),
             kinematics,
@@ -202,7 +205,9 @@ impl System {
         self.jacobian = self.kinematics.jacobian(chain.tip());
         self.wrenches.clear();
         self.tangents.clear();
-        for load in loads {
+        let (pattern, grown) = (&self.pattern.0, self.pattern.1);
+        let growing = pattern.iter().map(|load| (load, grown));
+        for (load, factor) in loads.iter().map(|load| (load, factor)).chain(growing) {
             load.add_wrenches(chain, &self.kinematics, factor, &mut self.wrenches);
             load.add_tangents(&self.kinematics, factor, &mut self.tangents);
         }
@@ -317,7 +322,7 @@ pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 
 pub(crate) const LEAST_LOAD: f64 = 1e-9;
 
 /// Unit of balanced residuals: square root of the energy of a deflection by the natural length.
-fn natural(chain: &Chain) -> f64 {
+pub(crate) fn natural(chain: &Chain) -> f64 {
     chain.scale().stiffness.sqrt() * chain.scale().length
 }
 
@@ -491,12 +496,8 @@ impl Attempt<'_, '_> {
     }
 }
 
-/// Solves for the equilibrium of a chain.
-///
-/// # Errors
-/// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last
-/// iterate where no equilibrium was found.
-pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Equilibrium> {
+/// Checks lengths, nodes and that all numbers of a problem are finite.
+pub(crate) fn check_problem(problem: &ChainProblem<'_>) -> Result<()> {
     let chain = problem.chain;
     chain.check(&problem.posture, &problem.commands)?;
     let numbers = problem
@@ -512,7 +513,17 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
             value,
         });
     }
-    check_loads(problem)?;
+    check_loads(problem)
+}
+
+/// Solves for the equilibrium of a chain.
+///
+/// # Errors
+/// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last
+/// iterate where no equilibrium was found.
+pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Equilibrium> {
+    check_problem(problem)?;
+    let chain = problem.chain;
     let mut attempt = Attempt {
         problem,
         settings,
@@ -653,17 +664,41 @@ impl Attempt<'_, '_> {
     ) -> Equilibrium {
         self.offset = Twist::zero();
         self.evaluate(&x, &wrench, 1.0);
-        let chain = self.problem.chain;
-        let stiffness = chain_stiffness(chain, &self.system, &self.factors, None);
-        let stability = shape_stability(chain, &self.system, &self.factors);
+        self.system.equilibrium(
+            self.problem.chain,
+            &self.factors,
+            x,
+            wrench,
+            is_conservative(self.problem),
+            iterations,
+            balance,
+        )
+    }
+}
+
+impl System {
+    /// Everything that is known about the state at which the system was evaluated.
+    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
+    pub fn equilibrium(
+        &self,
+        chain: &Chain,
+        factors: &[f64],
+        x: Vec<f64>,
+        wrench: Wrench,
+        conservative: bool,
+        iterations: usize,
+        balance: &Balance,
+    ) -> Equilibrium {
+        let stiffness = chain_stiffness(chain, self, factors, None);
+        let stability = shape_stability(chain, self, factors);
         Equilibrium {
-            tip: self.system.kinematics.tip_pose(),
+            tip: self.kinematics.tip_pose(),
             nodes: (0..chain.nodes().len())
-                .map(|i| self.system.kinematics.node_pose(i))
+                .map(|i| self.kinematics.node_pose(i))
                 .collect(),
-            spring_torques: self.system.spring_torque.clone(),
-            energy: self.system.energy,
-            conservative: is_conservative(self.problem),
+            spring_torques: self.spring_torque.clone(),
+            energy: self.energy,
+            conservative,
             coordinates: x,
             wrench,
             stiffness,

@@ -81,14 +81,18 @@
 mod assembly;
 mod beam;
 mod behind;
+mod bifurcation;
 mod bowing;
+mod branches;
 mod builder;
 mod chain;
 mod chain_blocks;
 mod compensation;
 mod compliance;
+mod critical;
 mod directions;
 mod elimination;
+mod equilibria;
 mod equilibrium;
 mod error;
 mod follower;
@@ -110,6 +114,7 @@ mod passive_rules;
 mod platform;
 mod platform_step;
 mod posture;
+mod reduced;
 mod saddle;
 mod settings;
 mod spatial;
@@ -121,7 +126,9 @@ mod uniform;
 
 pub use assembly::LinearAssembly;
 pub use beam::BeamSection;
+pub use bifurcation::{Special, SpecialKind};
 pub use bowing::BowingLaw;
+pub use branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Curves, Jump, follow};
 pub use builder::{ActuatorSpec, ChainBuilder};
 pub use chain::{
     Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
@@ -129,8 +136,10 @@ pub use chain::{
 pub use chain_blocks::ChainBlocks;
 pub use compensation::{Compensation, compensate, compensate_from, target_under_load};
 pub use compliance::CartesianCompliance;
+pub use critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
 pub use directions::{Direction, DirectionKind, Share};
 pub use elimination::{Applied, Inapplicable, LoadedClosedForm, Recursion};
+pub use equilibria::{Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria};
 pub use equilibrium::{
     ChainProblem, EndCondition, Equilibrium, Prescribed, Residual, solve_chain, unloaded_tip,
 };
@@ -157,6 +166,7 @@ pub use platform::MechanismState;
 pub use posture::{
     LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
 };
+pub use reduced::{LoadPattern, Parameter};
 pub use saddle::Inertia;
 pub use settings::Settings;
 pub use spatial::{

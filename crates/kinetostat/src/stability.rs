@@ -32,9 +32,19 @@ pub struct ShapeStability {
 }
 
 pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -> ShapeStability {
+    stability_within(chain, system, factors, &balanced_jacobian(system, factors))
+}
+
+/// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
+/// per held motion. The whole end held gives [`shape_stability`].
+pub(crate) fn stability_within(
+    chain: &Chain,
+    system: &System,
+    factors: &[f64],
+    jacobian: &DMatrix<f64>,
+) -> ShapeStability {
     let n = system.spring_torque.len();
-    let jacobian = balanced_jacobian(system, factors);
-    let range = column_space(&jacobian);
+    let range = column_space(jacobian);
     let rank = range.ncols();
     let mut hessian = DMatrix::from_fn(n, n, |i, j| {
         0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * factors[6 + i] * factors[6 + j]
@@ -53,10 +63,10 @@ pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -
             }
         }
     }
-    let rows = if rank == 6 {
+    let rows = if rank == jacobian.nrows() {
         jacobian.clone()
     } else {
-        range.transpose() * &jacobian
+        range.transpose() * jacobian
     };
 
     let mut bordered = DMatrix::zeros(rank + n, rank + n);
@@ -70,7 +80,7 @@ pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -
     let inertia = inertia(bordered);
 
     // Neutral passive motions leave the verdict unless a load pushes them.
-    let passive = passive_null_space(chain, &jacobian);
+    let passive = passive_null_space(chain, jacobian);
     let pushed = (passive.transpose() * &hessian * &passive).amax();
     let neutral = passive.ncols() > 0 && pushed <= 1e-9 * hessian.amax().max(f64::MIN_POSITIVE);
     let mut taken_out = DMatrix::zeros(n, rank + if neutral { passive.ncols() } else { 0 });
@@ -107,7 +117,7 @@ pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -
 }
 
 /// Largest eigenvalue of the pencil `a v = mu b v`, `b` positive semi-definite, and its vector.
-fn margin(a: &DMatrix<f64>, b: &DMatrix<f64>) -> (Option<f64>, Option<DVector<f64>>) {
+pub(crate) fn margin(a: &DMatrix<f64>, b: &DMatrix<f64>) -> (Option<f64>, Option<DVector<f64>>) {
     if a.nrows() == 0 {
         return (None, None);
     }

@@ -13,10 +13,12 @@ mod common;
 #[path = "../oracle/mod.rs"]
 mod oracle;
 
+mod all_equilibria;
 mod beam_tables_3_2_and_3_3;
 mod change_of_frame_and_reference_point;
 mod compensation_closes;
 mod condensed_equals_flattened;
+mod curves_and_bifurcations;
 mod end_conditions_are_consistent;
 mod energy_equals_work;
 mod figures;

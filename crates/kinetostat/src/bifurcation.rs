@@ -1,0 +1,583 @@
+//! Limit points and bifurcation points between two steps of a curve: found, located, classified.
+//!
+//! Along a path with tangent `t`, a displacement (or load) limit is a zero of the parameter's (or its
+//! conjugate's) rate; a simple bifurcation a change of sign of `det [G_z; t^T]`. Bifurcation points are
+//! refined by Newton on
+//!
+//! ```text
+//! G(z) + beta psi = 0,   G_z^T psi = 0,   psi^T psi = 1
+//! ```
+//!
+//! which is regular there, and told apart by the second derivatives along the null vectors.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+use crate::branches::{CurvePoint, Tangent, Tracer, tangent};
+use crate::reduced::{Corrected, Reduced, Row, bordered};
+
+/// What is special about a point of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpecialKind {
+    /// Limit point of the load: under a dead load the chain jumps (snap-through).
+    LoadLimit,
+    /// Limit point of the displacement: under prescribed motion the chain jumps (snap-back).
+    DisplacementLimit,
+    /// Two branches cross, one of them turns back there: buckling of a symmetric chain.
+    Pitchfork,
+    /// Two branches cross and both go on.
+    Transcritical,
+    /// Several modes become critical together.
+    Multiple {
+        /// Number of independent critical modes.
+        modes: usize,
+    },
+}
+
+impl SpecialKind {
+    /// True where branches cross.
+    #[must_use]
+    pub fn is_bifurcation(self) -> bool {
+        !matches!(self, Self::LoadLimit | Self::DisplacementLimit)
+    }
+}
+
+/// A limit point or a bifurcation point.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// Which kind.
+    pub kind: SpecialKind,
+    /// The equilibrium there.
+    pub point: CurvePoint,
+    /// Motion of all coordinates (m, rad; largest component 1): of the critical mode at a
+    /// bifurcation, along the curve at a limit point.
+    pub mode: Vec<f64>,
+    /// Uncertainty of the place in natural units.
+    pub accuracy: f64,
+    /// Branches through it: indices into [`crate::Curves::branches`].
+    pub branches: Vec<usize>,
+    /// True if the curve is stable on one side of it at least (for a limit point: under the kind of
+    /// load that it limits).
+    pub stable_side: bool,
+    /// Directions of the branches other than the one on which it was found.
+    pub(crate) directions: Vec<DVector<f64>>,
+}
+
+/// Null directions of an `m x (m + 1)` matrix, the most certain first, with their singular values.
+fn null_directions(matrix: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
+    let m = matrix.nrows();
+    if !matrix.iter().all(|v| v.is_finite()) {
+        return Vec::new();
+    }
+    let svd = bordered(matrix, &DVector::zeros(m + 1)).svd(false, true);
+    let mut list: Vec<(f64, DVector<f64>)> = match &svd.v_t {
+        Some(v) => (0..=m)
+            .map(|k| (svd.singular_values[k], v.row(k).transpose()))
+            .collect(),
+        None => Vec::new(),
+    };
+    list.sort_by(|a, b| a.0.total_cmp(&b.0));
+    list
+}
+
+/// Direction in which a curve starts: the null direction, and among several the one along which the
+/// parameter changes most.
+pub(crate) fn start_direction(matrix: &DMatrix<f64>) -> DVector<f64> {
+    let m = matrix.nrows();
+    let list = null_directions(matrix);
+    let most = list.last().map_or(1.0, |l| l.0);
+    let null: Vec<&DVector<f64>> = list
+        .iter()
+        .enumerate()
+        .filter(|(k, l)| *k == 0 || l.0 < 1e-9 * most)
+        .map(|(_, l)| &l.1)
+        .collect();
+    let mut sum = DVector::zeros(m + 1);
+    for v in &null {
+        sum += *v * v[m];
+    }
+    if sum.norm() > 1e-9 {
+        sum.normalize()
+    } else {
+        let mut first = DVector::zeros(m + 1);
+        if let Some(v) = null.first() {
+            first.copy_from(v);
+        }
+        first
+    }
+}
+
+/// States between two points of a curve, by their share of the way.
+struct Segment<'s> {
+    here: &'s CurvePoint,
+    there: &'s CurvePoint,
+}
+
+impl Segment<'_> {
+    fn at(&self, reduced: &mut Reduced<'_, '_>, share: f64) -> Option<(Corrected, Tangent)> {
+        let t = &self.here.tangent;
+        let guess = &self.here.z + (&self.there.z - &self.here.z) * share;
+        let c = reduced.correct(&guess, &Row::Plane(t, t.dot(&guess)), 10)?;
+        if (&c.z - &guess).norm() > (&self.there.z - &self.here.z).norm() {
+            return None;
+        }
+        let next = tangent(&c.matrix, t)?;
+        Some((c, next))
+    }
+
+    /// Zero of a function of the state (Illinois), as a share of the way.
+    fn root(
+        &self,
+        reduced: &mut Reduced<'_, '_>,
+        mut low: (f64, f64),
+        mut high: (f64, f64),
+        width: f64,
+        f: &dyn Fn(&mut Reduced<'_, '_>, &Corrected, &Tangent) -> f64,
+    ) -> f64 {
+        let mut side = 0;
+        for _ in 0..60 {
+            if (high.0 - low.0).abs() < width || low.1 == 0.0 || high.1 == 0.0 {
+                break;
+            }
+            let mut share = high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1);
+            if !(share > low.0 && share < high.0) {
+                share = 0.5 * (low.0 + high.0);
+            }
+            let value = match self.at(reduced, share) {
+                Some((c, t)) => f(reduced, &c, &t),
+                None => break,
+            };
+            if !value.is_finite() {
+                break;
+            }
+            if value == 0.0 {
+                return share;
+            }
+            if (value > 0.0) == (high.1 > 0.0) {
+                high = (share, value);
+                if side == 1 {
+                    low.1 *= 0.5;
+                }
+                side = 1;
+            } else {
+                low = (share, value);
+                if side == -1 {
+                    high.1 *= 0.5;
+                }
+                side = -1;
+            }
+        }
+        if low.1.abs() < high.1.abs() {
+            low.0
+        } else {
+            high.0
+        }
+    }
+}
+
+/// Limit and bifurcation points between two neighbouring points of a curve; `None` if the test functions
+/// promise a bifurcation that is not there: the step jumped to another branch nearby.
+pub(crate) fn between(
+    tracer: &mut Tracer<'_, '_, '_>,
+    here: &CurvePoint,
+    there: &CurvePoint,
+    before: Option<&Tangent>,
+    after: &Tangent,
+) -> Option<Vec<Special>> {
+    let mut found: Vec<(f64, Special)> = Vec::new();
+    let segment = Segment { here, there };
+    let m = tracer.reduced.count();
+    if let Some(before) = before {
+        let u = |k: usize| here.unstable[k].abs_diff(there.unstable[k]);
+        let even = before.sign == after.sign && (u(0) > 1 || u(1) > 1);
+        if before.sign != after.sign || even {
+            match bifurcation(tracer, &segment, before, after, even) {
+                Some(special) => found.push(special),
+                None if even => {}
+                None => return None,
+            }
+        }
+    }
+    // Rates of the parameter and of its conjugate.
+    let mut shares: Vec<(bool, f64)> = Vec::new();
+    for conjugate in [false, true] {
+        let rate = |reduced: &mut Reduced<'_, '_>, matrix: &DMatrix<f64>, t: &DVector<f64>| {
+            if conjugate {
+                let row = reduced.conjugate_row(matrix);
+                row.dot(t) / row.norm().max(f64::MIN_POSITIVE)
+            } else {
+                t[m]
+            }
+        };
+        let (_, _, first) = tracer.reduced.linearised(&here.z);
+        let a = rate(&mut tracer.reduced, &first, &here.tangent);
+        let (_, _, last) = tracer.reduced.linearised(&there.z);
+        let b = rate(&mut tracer.reduced, &last, &there.tangent);
+        // A rate that is zero throughout (a locked end) has no limit point. A zero right at the
+        // first point was found in the step before.
+        if a.abs() < 1e-9 || (b.abs() < 1e-9 && a.abs() < 1e-6) {
+            continue;
+        }
+        let root = |reduced: &mut Reduced<'_, '_>, low: (f64, f64), high: (f64, f64)| {
+            segment.root(reduced, low, high, 1e-13, &|reduced, c, t| {
+                rate(reduced, &c.matrix, &t.direction)
+            })
+        };
+        if b.abs() < 1e-9 {
+            shares.push((conjugate, 1.0));
+        } else if a * b < 0.0 {
+            shares.push((conjugate, root(&mut tracer.reduced, (0.0, a), (1.0, b))));
+        } else if a.abs().min(b.abs()) < 0.5 {
+            // Two limit points within one step: the rate dips through zero and comes back.
+            let f = |reduced: &mut Reduced<'_, '_>, share: f64| {
+                let (c, t) = segment.at(reduced, share)?;
+                Some(rate(reduced, &c.matrix, &t.direction))
+            };
+            if let Some((share, value)) = dip(&mut tracer.reduced, a, b, &f)
+                && value * a < 0.0
+            {
+                let middle = (share, value);
+                shares.push((conjugate, root(&mut tracer.reduced, (0.0, a), middle)));
+                shares.push((conjugate, root(&mut tracer.reduced, middle, (1.0, b))));
+            }
+        }
+    }
+    for (conjugate, share) in shares {
+        let Some((c, t)) = segment.at(&mut tracer.reduced, share) else {
+            continue;
+        };
+        // The branch that turns back at a pitchfork has its limit there.
+        let step = (&there.z - &here.z).norm();
+        let pitchfork = found
+            .iter()
+            .any(|(_, s)| (&s.point.z - &c.z).norm() < 1e-5 * (1.0 + step) + 10.0 * s.accuracy);
+        let known = tracer
+            .specials
+            .iter()
+            .any(|s| s.kind.is_bifurcation() && (&s.point.z - &c.z).norm() < 1e-5 * (1.0 + step));
+        if pitchfork || known {
+            continue;
+        }
+        let load = conjugate != tracer.reduced.is_load();
+        let mode = largest_one(tracer.reduced.motion(&t.direction));
+        let stable = |p: &CurvePoint| if load { p.dead.stable } else { p.held.stable };
+        let point = tracer.describe(&c, t.direction);
+        found.push((
+            share,
+            Special {
+                kind: if load {
+                    SpecialKind::LoadLimit
+                } else {
+                    SpecialKind::DisplacementLimit
+                },
+                point,
+                mode,
+                accuracy: 1e-12,
+                branches: Vec::new(),
+                stable_side: stable(here) || stable(there),
+                directions: Vec::new(),
+            },
+        ));
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(found.into_iter().map(|f| f.1).collect())
+}
+
+/// Where a function of the share of the way, `a` and `b` of one sign at the ends, comes nearest to zero or
+/// beyond it: parabolas through three values, a few times.
+fn dip(
+    reduced: &mut Reduced<'_, '_>,
+    a: f64,
+    b: f64,
+    f: &dyn Fn(&mut Reduced<'_, '_>, f64) -> Option<f64>,
+) -> Option<(f64, f64)> {
+    let (mut low, mut high) = ((0.0, a), (1.0, b));
+    let mut middle = (0.5, f(reduced, 0.5)?);
+    for _ in 0..8 {
+        if middle.1 * a < 0.0 {
+            return Some(middle);
+        }
+        let (d1, d2) = (
+            (middle.1 - low.1) / (middle.0 - low.0),
+            (high.1 - middle.1) / (high.0 - middle.0),
+        );
+        let bend = (d2 - d1) / (high.0 - low.0);
+        // Nearest to zero must be inside, and the parabola must come near it.
+        if bend * a <= 0.0 || d1 * a >= 0.0 || d2 * a <= 0.0 {
+            return None;
+        }
+        let vertex = 0.5 * (low.0 + middle.0) - 0.5 * d1 / bend;
+        if !(vertex > low.0 && vertex < high.0) || (vertex - middle.0).abs() < 1e-4 {
+            return None;
+        }
+        let next = (vertex, f(reduced, vertex)?);
+        let (left, right) = if next.0 < middle.0 {
+            (next, middle)
+        } else {
+            (middle, next)
+        };
+        if left.1 * a < right.1 * a {
+            (middle, high) = (left, right);
+        } else {
+            (low, middle) = (left, right);
+        }
+    }
+    None
+}
+
+/// Scales a motion so that its largest component is 1.
+fn largest_one(motion: Vec<f64>) -> Vec<f64> {
+    let most = motion
+        .iter()
+        .copied()
+        .fold(0.0_f64, |m, x| if x.abs() > m.abs() { x } else { m });
+    if most == 0.0 {
+        return motion;
+    }
+    motion.iter().map(|x| x / most).collect()
+}
+
+fn bifurcation(
+    tracer: &mut Tracer<'_, '_, '_>,
+    segment: &Segment<'_>,
+    before: &Tangent,
+    after: &Tangent,
+    even: bool,
+) -> Option<(f64, Special)> {
+    let step = (&segment.there.z - &segment.here.z).norm();
+    let share = if even {
+        // Counted modes change without a change of sign: halve on the count.
+        let count = segment.here.unstable;
+        let differs = move |reduced: &mut Reduced<'_, '_>, c: &Corrected| {
+            reduced.evaluate(&c.z);
+            let same = (0..2).all(|k| {
+                let (_, u) = reduced.stability(&c.matrix, k == 0);
+                u == count[k]
+            });
+            if same { 1.0 } else { -1.0 }
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            let (c, _) = segment.at(&mut tracer.reduced, middle)?;
+            if differs(&mut tracer.reduced, &c) > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
+    } else {
+        let reference = before.logarithm.max(after.logarithm);
+        let value = move |t: &Tangent| t.sign * (t.logarithm - reference).exp();
+        segment.root(
+            &mut tracer.reduced,
+            (0.0, value(before)),
+            (1.0, value(after)),
+            1e-9,
+            &move |_, _, t| value(t),
+        )
+    };
+    // Right at the point the tangent is undefined: beside it the corrector still works.
+    let guess = match segment.at(&mut tracer.reduced, share) {
+        Some((c, _)) => c.z,
+        None => &segment.here.z + (&segment.there.z - &segment.here.z) * share,
+    };
+    let refined = if even {
+        None
+    } else {
+        refine(&mut tracer.reduced, &guess).filter(|z| (z - &guess).norm() < 0.5 * step)
+    };
+    let refined_missing = refined.is_none();
+    let accuracy = if refined.is_some() { 1e-10 } else { 1e-6 };
+    let z = refined.unwrap_or(guess);
+    let (_, balance, matrix) = tracer.reduced.linearised(&z);
+    let list = null_directions(&matrix);
+    let most = list.last()?.0;
+    if refined_missing && list.get(1).is_none_or(|l| l.0 > 1e-5 * most) {
+        return None;
+    }
+    let null: Vec<DVector<f64>> = list
+        .iter()
+        .enumerate()
+        .filter(|(k, l)| *k < 2 || l.0 < 1e-5 * most)
+        .map(|(_, l)| l.1.clone())
+        .collect();
+    let m = tracer.reduced.count();
+    let mean = (&segment.here.tangent + &segment.there.tangent).normalize();
+    // The path's own direction within the null space, and what is left of it.
+    let own = |vectors: &[DVector<f64>]| {
+        let mut sum = DVector::zeros(m + 1);
+        for v in vectors {
+            sum += v * v.dot(&mean);
+        }
+        let size = sum.norm();
+        if size > 1e-12 {
+            sum / size
+        } else {
+            mean.clone()
+        }
+    };
+    let (kind, path, directions, mode) = if null.len() == 2 {
+        let psi = left_null(&matrix);
+        let (path, other) = tangents(&mut tracer.reduced, &z, &psi, &null, &own(&null));
+        let flat = |d: &DVector<f64>| d[m].abs() < 1e-4;
+        let kind = if flat(&path) || flat(&other) {
+            SpecialKind::Pitchfork
+        } else {
+            SpecialKind::Transcritical
+        };
+        // The mode is the null motion at a fixed parameter; where both keep it, the other branch.
+        let mode = if path[m].abs() > 1e-9 {
+            &other - &path * (other[m] / path[m])
+        } else {
+            other.clone()
+        };
+        (kind, path, vec![other], mode)
+    } else {
+        let path = own(&null);
+        let mut rest = Vec::new();
+        for v in &null {
+            let mut v = v - &path * path.dot(v);
+            for d in &rest {
+                let d: &DVector<f64> = d;
+                v -= d * d.dot(&v);
+            }
+            if v.norm() > 1e-3 {
+                rest.push(v.normalize());
+            }
+        }
+        let mode = rest.first().cloned().unwrap_or_else(|| path.clone());
+        let modes = null.len() - 1;
+        (SpecialKind::Multiple { modes }, path, rest, mode)
+    };
+    let corrected = Corrected {
+        z,
+        matrix,
+        balance,
+        iterations: 0,
+    };
+    let mode = largest_one(tracer.reduced.motion(&mode));
+    let point = tracer.describe(&corrected, path);
+    let (here, there) = (segment.here, segment.there);
+    Some((
+        share,
+        Special {
+            kind,
+            point,
+            mode,
+            accuracy,
+            branches: Vec::new(),
+            stable_side: here.held.stable || there.held.stable,
+            directions,
+        },
+    ))
+}
+
+/// Unit left null vector of an `m x (m + 1)` matrix of rank `m - 1`.
+fn left_null(matrix: &DMatrix<f64>) -> DVector<f64> {
+    let m = matrix.nrows();
+    if !matrix.iter().all(|v| v.is_finite()) {
+        return DVector::zeros(m);
+    }
+    let svd = matrix.clone().svd(true, false);
+    let least = svd.singular_values.imin();
+    svd.u
+        .map_or_else(|| DVector::zeros(m), |u| u.column(least).into_owned())
+}
+
+/// Step of the differences of `G_z` in balanced units.
+const DIFFERENCE: f64 = 1e-5;
+
+/// Derivative of `G_z(z) ` along `p`, by central differences.
+fn change(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, p: &DVector<f64>) -> DMatrix<f64> {
+    let (_, _, plus) = reduced.linearised(&(z + p * DIFFERENCE));
+    let (_, _, minus) = reduced.linearised(&(z - p * DIFFERENCE));
+    (plus - minus) / (2.0 * DIFFERENCE)
+}
+
+/// Newton on the extended system of a simple bifurcation point.
+fn refine(reduced: &mut Reduced<'_, '_>, guess: &DVector<f64>) -> Option<DVector<f64>> {
+    let m = reduced.count();
+    let mut z = guess.clone();
+    let (_, _, matrix) = reduced.linearised(&z);
+    let mut psi = left_null(&matrix);
+    let mut beta = 0.0;
+    let size = 2 * m + 2;
+    let mut last = f64::INFINITY;
+    for _ in 0..12 {
+        let (lack, balance, g) = reduced.linearised(&z);
+        let mut residual = DVector::zeros(size);
+        residual.rows_mut(0, m).copy_from(&(&lack + &psi * beta));
+        residual
+            .rows_mut(m, m + 1)
+            .copy_from(&(g.transpose() * &psi));
+        residual[size - 1] = psi.norm_squared() - 1.0;
+        if last < 1e-9 && reduced.converged(&balance) {
+            return Some(z);
+        }
+        if !g.iter().all(|v| v.is_finite()) {
+            return None;
+        }
+        let mut a = DMatrix::zeros(size, size);
+        a.view_mut((0, 0), (m, m + 1)).copy_from(&g);
+        for i in 0..m {
+            a[(i, m + 1 + i)] = beta;
+            a[(i, size - 1)] = psi[i];
+            a[(size - 1, m + 1 + i)] = 2.0 * psi[i];
+        }
+        a.view_mut((m, m + 1), (m + 1, m)).copy_from(&g.transpose());
+        for j in 0..=m {
+            let mut p = DVector::zeros(m + 1);
+            p[j] = 1.0;
+            let column = change(reduced, &z, &p).transpose() * &psi;
+            a.view_mut((m, j), (m + 1, 1)).copy_from(&column);
+        }
+        let step = a.lu().solve(&(-residual))?;
+        let length = step.norm();
+        if !length.is_finite() || length > 10.0 * last.min(1.0) {
+            return None;
+        }
+        last = length;
+        z += step.rows(0, m + 1);
+        psi += step.rows(m + 1, m);
+        beta += step[size - 1];
+    }
+    let (_, balance) = reduced.evaluate(&z);
+    (last < 1e-8 && reduced.converged(&balance)).then_some(z)
+}
+
+/// Directions of the two branches through a simple bifurcation: roots of
+/// `a11 x^2 + 2 a12 x y + a22 y^2 = 0`, `a_ij = psi^T G_zz phi_i phi_j`. The path's own comes first.
+fn tangents(
+    reduced: &mut Reduced<'_, '_>,
+    z: &DVector<f64>,
+    psi: &DVector<f64>,
+    null: &[DVector<f64>],
+    own: &DVector<f64>,
+) -> (DVector<f64>, DVector<f64>) {
+    // Basis: the path as it was seen, and across.
+    let first = own.clone();
+    let pick = if null[0].dot(own).abs() < null[1].dot(own).abs() {
+        &null[0]
+    } else {
+        &null[1]
+    };
+    let second = (pick - own * own.dot(pick)).normalize();
+    let d1 = change(reduced, z, &first);
+    let d2 = change(reduced, z, &second);
+    let a11 = psi.dot(&(&d1 * &first));
+    let a12 = 0.5 * (psi.dot(&(&d1 * &second)) + psi.dot(&(&d2 * &first)));
+    let a22 = psi.dot(&(&d2 * &second));
+    // `first` is nearly a root: a11 is small. x/y of the other from the larger root.
+    let discriminant = a12 * a12 - a11 * a22;
+    if discriminant <= 0.0 || a12.abs() < 1e-9 * (a11.abs() + a22.abs() + 1e-9) {
+        return (first, second);
+    }
+    let q = -(a12 + a12.signum() * discriminant.sqrt());
+    // Roots for (x, y): x/y = q / a11 = large (the path) and a22 / q.
+    let path = (&first + &second * (a11 / q)).normalize();
+    let other = (&first * (a22 / q) + &second).normalize();
+    (path, other)
+}

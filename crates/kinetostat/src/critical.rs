@@ -1,0 +1,210 @@
+//! Critical load factor of a load pattern: how many times a pattern of loads can grow until the
+//! chain loses its stability, by the eigenvalue of the first load step and by following the path.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+use crate::bifurcation::SpecialKind;
+use crate::branches::{CurvePoint, CurveSettings, Tracer, follow_until};
+use crate::equilibrium::{ChainProblem, Equilibrium, solve_chain};
+use crate::error::Result;
+use crate::reduced::{LoadPattern, Parameter, Reduced};
+use crate::saddle::{Saddle, column_space, complement};
+use crate::stability::margin;
+
+/// What must stay stable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Judged {
+    /// The shape, with the whole end held where the load has brought it.
+    Shape,
+    /// The shape and the end, under the conditions as prescribed.
+    ShapeAndEnd,
+}
+
+/// Where stability is lost.
+#[derive(Clone, Debug)]
+pub struct CriticalPoint {
+    /// Load factor.
+    pub factor: f64,
+    /// What happens there; `None` where the held shape alone becomes critical, which is no special
+    /// point of the path.
+    pub kind: Option<SpecialKind>,
+    /// Motion of all coordinates in the critical mode (m, rad), largest component 1.
+    pub mode: Vec<f64>,
+    /// The equilibrium there.
+    pub equilibrium: Equilibrium,
+}
+
+/// Critical load factor of a pattern.
+#[derive(Clone, Debug)]
+pub struct CriticalLoad {
+    /// Linear prediction: `1/mu` of the stresses of the first load step in the unloaded posture;
+    /// `None` if that load never destabilises it.
+    pub linear: Option<f64>,
+    /// Mode of the linear prediction (m, rad), largest component 1; empty without one.
+    pub linear_mode: Vec<f64>,
+    /// First loss of stability on the path; `None` if there is none up to `reached`.
+    pub exact: Option<CriticalPoint>,
+    /// Largest load factor to which the path was followed.
+    pub reached: f64,
+}
+
+/// Smallest positive factor of `pattern` at which the chain becomes unstable, on the path from the
+/// problem's own equilibrium (its loads count, the pattern comes on top).
+/// `settings.range.1` is the largest factor tried, infinity if need be.
+///
+/// # Errors
+/// Wrong input, or no equilibrium at factor 0. A chain that is unstable at factor 0 has the critical
+/// factor 0.
+pub fn critical_load_factor(
+    problem: &ChainProblem<'_>,
+    pattern: &LoadPattern,
+    judged: Judged,
+    settings: &CurveSettings,
+) -> Result<CriticalLoad> {
+    let parameter = Parameter::Load(pattern.clone());
+    let start = solve_chain(problem, &settings.solver)?;
+    let mut reduced = Reduced::new(problem, Some(&parameter), &settings.solver)?;
+    let z = reduced.start(&start.coordinates, &start.wrench, 0.0)?;
+    let (linear, linear_mode) = linear_prediction(&mut reduced, &z, judged);
+
+    let mut settings = settings.clone();
+    settings.branches = 1;
+    settings.range.0 = settings.range.0.min(-1e-9);
+    if settings.largest_change.is_none() {
+        settings.largest_change = linear.map(|f| f / 6.0);
+    }
+    let unstable = move |p: &CurvePoint| match judged {
+        Judged::Shape => !p.equilibrium.stability.stable,
+        Judged::ShapeAndEnd => !p.dead.stable,
+    };
+    let curves = follow_until(problem, &parameter, &start, 0.0, &settings, Some(&unstable))?;
+    let points = &curves.branches[0].points;
+    let mut reached = points.iter().map(|p| p.parameter).fold(0.0, f64::max);
+    let exact = match points.iter().position(unstable) {
+        None => None,
+        Some(0) => Some(CriticalPoint {
+            factor: 0.0,
+            kind: None,
+            mode: mode_of(&points[0], judged),
+            equilibrium: points[0].equilibrium.clone(),
+        }),
+        Some(i) => {
+            let special = curves.specials.iter().find(|s| {
+                judged == Judged::ShapeAndEnd
+                    && s.kind != SpecialKind::DisplacementLimit
+                    && between(&points[i - 1], &s.point, &points[i])
+            });
+            Some(match special {
+                Some(s) => CriticalPoint {
+                    factor: s.point.parameter,
+                    kind: Some(s.kind),
+                    mode: s.mode.clone(),
+                    equilibrium: s.point.equilibrium.clone(),
+                },
+                None => {
+                    let mut tracer = Tracer {
+                        reduced,
+                        settings: &settings,
+                        specials: Vec::new(),
+                    };
+                    let p = tracer.verdict_change(&points[i - 1], &points[i], &unstable);
+                    CriticalPoint {
+                        factor: p.parameter,
+                        kind: None,
+                        mode: mode_of(&p, judged),
+                        equilibrium: p.equilibrium,
+                    }
+                }
+            })
+        }
+    };
+    if let Some(exact) = &exact {
+        reached = reached.max(exact.factor);
+    }
+    Ok(CriticalLoad {
+        linear,
+        linear_mode,
+        exact,
+        reached,
+    })
+}
+
+fn mode_of(p: &CurvePoint, judged: Judged) -> Vec<f64> {
+    match judged {
+        Judged::Shape => p.equilibrium.stability.mode.clone(),
+        Judged::ShapeAndEnd => p.dead.mode.clone(),
+    }
+}
+
+/// True if a state lies on the step from `a` to `b`.
+fn between(a: &CurvePoint, s: &CurvePoint, b: &CurvePoint) -> bool {
+    let along = (&s.z - &a.z).dot(&a.tangent);
+    let step = (&b.z - &a.z).dot(&a.tangent);
+    along >= -1e-9 && along <= step + 1e-9
+}
+
+/// Largest eigenvalue of the stresses per unit factor against the stiffness, in the posture at
+/// factor 0: `(N^T dH/df N) v = (1/f) (N^T (K - H) N) v`.
+fn linear_prediction(
+    reduced: &mut Reduced<'_, '_>,
+    z: &DVector<f64>,
+    judged: Judged,
+) -> (Option<f64>, Vec<f64>) {
+    let (r, m) = (reduced.reactions(), reduced.count());
+    let n = reduced.coordinates_count();
+    let (_, _, matrix) = reduced.linearised(z);
+    let at_rest = reduced.curvature();
+    let rows = match judged {
+        Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
+        Judged::Shape => crate::stiffness::balanced_jacobian(&reduced.system, &reduced.factors),
+    };
+    // Reactions per unit factor; the posture stays.
+    let ones = vec![1.0; m];
+    let mut step = DMatrix::zeros(m, 1);
+    step.column_mut(0)
+        .copy_from(&(-matrix.column(m) / reduced.sigma));
+    Saddle::new(matrix.columns(0, m).into_owned(), &ones, &ones).solve(&mut step);
+    let mut ahead = z.clone();
+    for i in 0..r {
+        ahead[i] += step[(i, 0)];
+    }
+    ahead[m] += 1.0 / reduced.sigma;
+    reduced.evaluate(&ahead);
+    let stress = reduced.curvature() - &at_rest;
+    reduced.evaluate(z);
+    let range = column_space(&rows);
+    let mut all = (range.transpose() * &rows).transpose();
+    // Motions that change nothing are no modes: those of them that the held directions leave free.
+    for v in reduced
+        .neutral_motions()
+        .iter()
+        .flat_map(|v| v.column_iter())
+    {
+        if (&rows * v).amax() < 1e-9 * rows.amax().max(f64::MIN_POSITIVE) {
+            let k = all.ncols();
+            all = all.insert_column(k, 0.0);
+            all.set_column(k, &v);
+        }
+    }
+    let null = complement(&all);
+    let (mu, mode) = margin(
+        &(null.transpose() * stress * &null),
+        &(-(null.transpose() * at_rest * &null)),
+    );
+    match (mu, mode) {
+        (Some(mu), Some(v)) if mu > 0.0 && mu.is_finite() => {
+            let mut whole = DVector::zeros(m + 1);
+            whole.rows_mut(r, n).copy_from(&(&null * v));
+            let motion = reduced.motion(&whole);
+            let most = motion
+                .iter()
+                .copied()
+                .fold(0.0_f64, |a, x| if x.abs() > a.abs() { x } else { a });
+            let most = if most == 0.0 { 1.0 } else { most };
+            (Some(1.0 / mu), motion.iter().map(|x| x / most).collect())
+        }
+        _ => (None, Vec::new()),
+    }
+}

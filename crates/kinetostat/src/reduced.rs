@@ -1,0 +1,692 @@
+//! The conditions of equilibrium of a chain as a regular system: only reactions that can exist, in
+//! units in which all unknowns are comparable.
+//!
+//! ```text
+//! unknowns  a (reactions), x (coordinates), lambda (what grows along a curve)
+//! 0 = -R^T (pose(x), pose*(lambda))                        closure where the pose is prescribed
+//! 0 = J^T F + sum J_j^T G_j - K_theta (theta - theta0)      F = R a + prescribed part(lambda)
+//! ```
+//!
+//! `R` spans the reactions of the directions in which the chain can move at all (a planar chain has
+//! three of six), so that a zero of the determinant of `[0 R^T J; J^T R H - K]` is a fold or a
+//! bifurcation and never a matter of how the chain was written down. Passive motions that change
+//! nothing (strut spin) are held by their own projector.
+
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+
+use crate::chain::Role;
+use crate::equilibrium::{
+    Balance, ChainProblem, Equilibrium, Prescribed, System, balance, check_problem, natural, nudged,
+};
+use crate::error::{Error, Result};
+use crate::load_energy::is_conservative;
+use crate::loading::Load;
+use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
+use crate::settings::Settings;
+use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, turn_matrix};
+use crate::stability::{ShapeStability, stability_within};
+
+/// Loads that grow together: at factor `f` the chain carries its own loads plus `f` times these.
+#[derive(Clone, Debug, Default)]
+pub struct LoadPattern {
+    /// Wrench on the end, about its origin, base axes (N, N m); only directions in which the end
+    /// condition prescribes the wrench.
+    pub end: Wrench,
+    /// Loads on the nodes.
+    pub loads: Vec<Load>,
+}
+
+/// What grows along a curve of equilibria.
+#[derive(Clone, Debug)]
+pub enum Parameter {
+    /// The end is moved by `value * twist` from the pose that the problem prescribes: base axes, at
+    /// the end's origin, only directions in which the pose is prescribed. With a unit twist the
+    /// parameter is in m (rad) and its conjugate, the end's force (moment) along the twist, in N
+    /// (N m).
+    Displacement(Twist),
+    /// A pattern of loads is multiplied by the parameter (a pure number). The conjugate is the
+    /// displacement along the pattern since the curve's start: factor times it is work (J).
+    Load(LoadPattern),
+}
+
+impl Parameter {
+    /// Motion of the end along one of the six directions `x y z rx ry rz` of the end condition's
+    /// axes, 1 m or 1 rad per unit.
+    #[must_use]
+    pub fn along(axes: &nalgebra::Rotation3<f64>, direction: usize) -> Self {
+        let unit = Vector6::from_fn(|i, _| f64::from(u8::from(i == direction)));
+        Self::Displacement(Twist(turn_matrix(axes) * unit))
+    }
+
+    /// A wrench on the end, base axes.
+    #[must_use]
+    pub fn end_wrench(wrench: Wrench) -> Self {
+        Self::Load(LoadPattern {
+            end: wrench,
+            loads: Vec::new(),
+        })
+    }
+}
+
+/// What closes the system of equilibrium along a curve.
+pub(crate) enum Row<'v> {
+    /// `normal . z = offset`.
+    Plane(&'v DVector<f64>, f64),
+    /// The parameter has this value.
+    Parameter(f64),
+    /// The conjugate has this value.
+    Conjugate(f64),
+}
+
+/// A state that satisfies equilibrium.
+pub(crate) struct Corrected {
+    pub z: DVector<f64>,
+    /// `[dG/du dG/dlambda]`, m x (m + 1), balanced.
+    pub matrix: DMatrix<f64>,
+    pub balance: Balance,
+    pub iterations: usize,
+}
+
+pub(crate) struct Reduced<'p, 'a> {
+    pub problem: &'p ChainProblem<'a>,
+    parameter: Option<&'p Parameter>,
+    pub settings: Settings,
+    pub factors: Vec<f64>,
+    pub system: System,
+    /// Orthonormal directions of the reactions, balanced base axes, 6 x r.
+    range: DMatrix<f64>,
+    /// Prescribed wrench and what grows of it, base axes.
+    given: Vector6<f64>,
+    grown: Vector6<f64>,
+    /// Passive motions that change nothing.
+    neutral: usize,
+    /// Parameter per balanced unit.
+    pub sigma: f64,
+    /// Square root of the natural energy.
+    unit: f64,
+    /// All loads, those that grow included, have a potential.
+    conservative: bool,
+    /// Poses of the nodes at the start, for the displacement along a load pattern.
+    reference: Vec<Pose>,
+}
+
+/// Largest part of `v` (in the given balance) that lies in directions that are prescribed otherwise.
+fn misplaced(v: &Vector6<f64>, turn: &Matrix6<f64>, wrong: impl Fn(usize) -> bool) -> bool {
+    let local = turn.transpose() * v;
+    let most = local.amax();
+    (0..6).any(|k| wrong(k) && local[k].abs() > 1e-9 * most)
+}
+
+impl<'p, 'a> Reduced<'p, 'a> {
+    pub fn new(
+        problem: &'p ChainProblem<'a>,
+        parameter: Option<&'p Parameter>,
+        settings: &Settings,
+    ) -> Result<Self> {
+        check_problem(problem)?;
+        let chain = problem.chain;
+        let factors = balance(chain, &problem.posture);
+        let mut system = System::new(
+            chain,
+            &problem.base,
+            &problem.posture,
+            &problem.commands,
+            false,
+        );
+        let turn = turn_matrix(&problem.end.axes);
+        let is_pose = |k: usize| problem.end.prescribed[k] == Prescribed::Pose;
+        let projector = |wanted: &dyn Fn(usize) -> bool| {
+            let mut sum = Matrix6::zeros();
+            for k in (0..6).filter(|&k| wanted(k)) {
+                sum += turn.column(k) * turn.column(k).transpose();
+            }
+            sum
+        };
+        let mut grown = Vector6::zeros();
+        let mut conservative = is_conservative(problem);
+        match parameter {
+            Some(Parameter::Displacement(twist)) => {
+                check_numbers(problem, "the direction of a curve", &twist.0)?;
+                if twist.0.amax() == 0.0 || misplaced(&twist.0, &turn, |k| !is_pose(k)) {
+                    return Err(Error::model(
+                        format!("chain '{}'", chain.name()),
+                        "the direction of a displacement must not vanish and must lie in directions in which the end condition prescribes the pose",
+                    ));
+                }
+            }
+            Some(Parameter::Load(pattern)) => {
+                check_numbers(problem, "the load pattern", &pattern.end.0)?;
+                if misplaced(&pattern.end.0, &turn, is_pose) {
+                    return Err(Error::model(
+                        format!("chain '{}'", chain.name()),
+                        "the end wrench of a load pattern must lie in directions in which the end condition prescribes the wrench",
+                    ));
+                }
+                let mut loaded = problem.clone();
+                loaded.loads.clone_from(&pattern.loads);
+                loaded.end.wrench = pattern.end;
+                check_problem(&loaded)?;
+                conservative &= is_conservative(&loaded);
+                grown = pattern.end.0;
+                system.pattern.0.clone_from(&pattern.loads);
+            }
+            None => {}
+        }
+        let given = projector(&|k| !is_pose(k)) * problem.end.wrench.0;
+        let mut reduced = Self {
+            problem,
+            parameter,
+            settings: *settings,
+            factors,
+            system,
+            range: DMatrix::zeros(6, 0),
+            given,
+            grown,
+            neutral: 0,
+            sigma: 1.0,
+            unit: natural(chain),
+            conservative,
+            reference: Vec::new(),
+        };
+        reduced.find_range(&turn);
+        reduced.find_neutral();
+        Ok(reduced)
+    }
+
+    /// Reactions that can exist: the union of the Jacobian's range over several postures.
+    fn find_range(&mut self, turn: &Matrix6<f64>) {
+        let problem = self.problem;
+        let chain = problem.chain;
+        let held: Vec<usize> = (0..6)
+            .filter(|&k| problem.end.prescribed[k] == Prescribed::Pose)
+            .collect();
+        let frame = DMatrix::from_fn(6, held.len(), |i, k| turn[(i, held[k])]);
+        let n = chain.coordinate_count();
+        let sizes = [0.0, 0.4, -0.9, 1.7];
+        let mut all = DMatrix::zeros(held.len(), n * sizes.len());
+        for (k, size) in sizes.into_iter().enumerate() {
+            let x = nudged(chain, &problem.posture, size);
+            self.system
+                .kinematics
+                .update(chain, &problem.base, &x, &problem.commands);
+            self.system.jacobian = self.system.kinematics.jacobian(chain.tip());
+            all.columns_mut(k * n, n)
+                .copy_from(&(frame.transpose() * self.balanced_jacobian()));
+        }
+        self.range = frame * column_space(&all);
+    }
+
+    /// Passive motions that change nothing, wherever the chain is and whatever its reactions are.
+    fn find_neutral(&mut self) {
+        let problem = self.problem;
+        let passive = problem.chain.indices_of(Role::Passive).len();
+        let mut least = passive;
+        for (k, size) in [0.3, -0.7, 1.3].into_iter().enumerate() {
+            if least == 0 {
+                break;
+            }
+            let x = nudged(problem.chain, &problem.posture, size);
+            let mut z = self.state(&x, &Wrench::zero(), 0.0);
+            for i in 0..self.reactions() {
+                z[i] = 0.2 * ((i + k) as f64 + 0.4).sin();
+            }
+            z[self.count()] = 0.3;
+            self.evaluate(&z);
+            let columns = self.passive_columns();
+            if !columns.iter().all(|v| v.is_finite()) {
+                continue;
+            }
+            let singular = columns.singular_values();
+            let most = singular.amax();
+            let free = singular
+                .iter()
+                .filter(|s| **s <= 100.0 * RANK_TOLERANCE * most)
+                .count();
+            least = least.min(free + passive.saturating_sub(singular.len()));
+        }
+        self.neutral = least;
+    }
+
+    /// Columns of the passive joints in `[R^T J; H]`, balanced.
+    fn passive_columns(&self) -> DMatrix<f64> {
+        let passive = self.problem.chain.indices_of(Role::Passive);
+        let (n, r) = (self.coordinates_count(), self.reactions());
+        let rows = self.range.transpose() * self.balanced_jacobian();
+        DMatrix::from_fn(r + n, passive.len(), |i, j| {
+            if i < r {
+                rows[(i, passive[j])]
+            } else {
+                self.hessian(i - r, passive[j])
+            }
+        })
+    }
+
+    fn hessian(&self, i: usize, j: usize) -> f64 {
+        self.system.hessian[(i, j)] * self.factors[6 + i] * self.factors[6 + j]
+    }
+
+    fn balanced_jacobian(&self) -> DMatrix<f64> {
+        crate::stiffness::balanced_jacobian(&self.system, &self.factors)
+    }
+
+    /// Number of reactions.
+    pub fn reactions(&self) -> usize {
+        self.range.ncols()
+    }
+
+    /// True if the parameter is a load factor.
+    pub fn is_load(&self) -> bool {
+        matches!(self.parameter, Some(Parameter::Load(_)))
+    }
+
+    pub fn coordinates_count(&self) -> usize {
+        self.problem.chain.coordinate_count()
+    }
+
+    /// Number of equations.
+    pub fn count(&self) -> usize {
+        self.reactions() + self.coordinates_count()
+    }
+
+    /// Unknowns `(a, x, lambda)` from physical quantities.
+    pub fn state(&self, coordinates: &[f64], wrench: &Wrench, value: f64) -> DVector<f64> {
+        let (r, m) = (self.reactions(), self.count());
+        let reaction = wrench.0 - self.given - self.grown * value;
+        let scaled = DVector::from_fn(6, |i, _| reaction[i] / (self.factors[i] * self.unit));
+        let a = self.range.transpose() * scaled;
+        DVector::from_fn(m + 1, |i, _| {
+            if i < r {
+                a[i]
+            } else if i < m {
+                coordinates[i - r] / (self.factors[6 + i - r] * self.unit)
+            } else {
+                value / self.sigma
+            }
+        })
+    }
+
+    /// Coordinates (m, rad) of a state.
+    pub fn coordinates(&self, z: &DVector<f64>) -> Vec<f64> {
+        let r = self.reactions();
+        (0..self.coordinates_count())
+            .map(|i| z[r + i] * self.factors[6 + i] * self.unit)
+            .collect()
+    }
+
+    /// Physical motion of the coordinates (m, rad) along a direction of states.
+    pub fn motion(&self, direction: &DVector<f64>) -> Vec<f64> {
+        self.coordinates(direction)
+    }
+
+    /// Wrench on the end (base axes) of a state.
+    pub fn wrench(&self, z: &DVector<f64>) -> Wrench {
+        let balanced = &self.range * z.rows(0, self.reactions());
+        let reaction = Vector6::from_fn(|i, _| balanced[i] * self.factors[i] * self.unit);
+        Wrench(reaction + self.given + self.grown * self.value(z))
+    }
+
+    /// Parameter of a state.
+    pub fn value(&self, z: &DVector<f64>) -> f64 {
+        z[self.count()] * self.sigma
+    }
+
+    /// Evaluates the system at a state; returns what equilibrium lacks, balanced, and its measure.
+    pub fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance) {
+        let p = self.problem;
+        let value = self.value(z);
+        let (x, wrench) = (self.coordinates(z), self.wrench(z));
+        self.system.pattern.1 = value;
+        self.system.evaluate(
+            p.chain,
+            &p.base,
+            &p.posture,
+            &p.commands,
+            &p.loads,
+            &x,
+            &wrench,
+            1.0,
+        );
+        let target = match self.parameter {
+            Some(Parameter::Displacement(twist)) => moved(&p.end.pose, &Twist(twist.0 * value)),
+            _ => p.end.pose,
+        };
+        let miss = pose_residual(&target, &self.system.kinematics.tip_pose());
+        let scaled = DVector::from_fn(6, |i, _| -miss.0[i] * self.factors[i] / self.unit);
+        let closure = self.range.transpose() * scaled;
+        let (r, m) = (self.reactions(), self.count());
+        let mut loads = 0.0_f64;
+        let lack = DVector::from_fn(m, |i, _| {
+            if i < r {
+                closure[i]
+            } else {
+                let s = self.factors[6 + i - r] / self.unit;
+                loads = loads
+                    .max((self.system.torque[i - r] * s).abs())
+                    .max((self.system.spring_torque[i - r] * s).abs());
+                self.system.unbalanced(i - r) * s
+            }
+        });
+        for i in 0..6 {
+            loads = loads.max((wrench.0[i] / (self.factors[i] * self.unit)).abs());
+        }
+        let balance = Balance {
+            closure: lack.rows(0, r).norm(),
+            torque: lack.rows(r, m - r).norm(),
+            loads,
+        };
+        (lack, balance)
+    }
+
+    pub fn converged(&self, b: &Balance) -> bool {
+        b.closure <= self.settings.closure && b.torque <= self.settings.torque * b.loads + 1e-14
+    }
+
+    /// Derivative of the conditions by `(a, x)` where the system was evaluated, m x m.
+    pub fn matrix(&self) -> DMatrix<f64> {
+        let (n, r) = (self.coordinates_count(), self.reactions());
+        let rows = self.range.transpose() * self.balanced_jacobian();
+        let mut a = DMatrix::zeros(r + n, r + n);
+        a.view_mut((0, r), (r, n)).copy_from(&rows);
+        a.view_mut((r, 0), (n, r)).copy_from(&rows.transpose());
+        for i in 0..n {
+            for j in 0..n {
+                let k =
+                    self.system.spring_tangent[(i, j)] * self.factors[6 + i] * self.factors[6 + j];
+                a[(r + i, r + j)] = self.hessian(i, j) - k;
+            }
+        }
+        if let Some(v) = self.neutral_motions() {
+            let mut block = a.view_mut((r, r), (n, n));
+            block -= &v * v.transpose();
+        }
+        a
+    }
+
+    /// `H - K`, symmetric part, balanced, n x n.
+    pub fn curvature(&self) -> DMatrix<f64> {
+        let n = self.coordinates_count();
+        let k = &self.system.spring_tangent;
+        DMatrix::from_fn(n, n, |i, j| {
+            let h = 0.5 * (self.hessian(i, j) + self.hessian(j, i));
+            h - k[(i, j)] * self.factors[6 + i] * self.factors[6 + j]
+        })
+    }
+
+    /// Orthonormal passive motions that change nothing here, n x neutral.
+    pub fn neutral_motions(&self) -> Option<DMatrix<f64>> {
+        if self.neutral == 0 {
+            return None;
+        }
+        let columns = self.passive_columns();
+        if !columns.iter().all(|v| v.is_finite()) {
+            return None;
+        }
+        let gram = (columns.transpose() * &columns).symmetric_eigen();
+        let mut order: Vec<usize> = (0..gram.eigenvalues.len()).collect();
+        order.sort_by(|&i, &j| gram.eigenvalues[i].total_cmp(&gram.eigenvalues[j]));
+        let passive = self.problem.chain.indices_of(Role::Passive);
+        let mut v = DMatrix::zeros(self.coordinates_count(), self.neutral);
+        for k in 0..self.neutral {
+            for (j, &index) in passive.iter().enumerate() {
+                v[(index, k)] = gram.eigenvectors[(j, order[k])];
+            }
+        }
+        Some(v)
+    }
+
+    /// `[dG/du dG/dlambda]` at a state, with what equilibrium lacks there.
+    pub fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DMatrix<f64>) {
+        let m = self.count();
+        let r = self.reactions();
+        let mut gradient = DVector::zeros(m);
+        match self.parameter {
+            Some(Parameter::Displacement(twist)) => {
+                let value = self.value(z);
+                let part = DVector::from_fn(6, |i, _| {
+                    -twist.0[i] * self.factors[i] / self.unit * self.sigma
+                });
+                // A finite turn about a fixed axis keeps its axis; the end's origin moves straight.
+                debug_assert!(value.is_finite());
+                gradient
+                    .rows_mut(0, r)
+                    .copy_from(&(self.range.transpose() * part));
+            }
+            Some(Parameter::Load(_)) => {
+                // All conditions are linear in the factor.
+                let mut ahead = z.clone();
+                let step = (1.0 / self.sigma).abs().min(1.0);
+                ahead[m] += step;
+                let (more, _) = self.evaluate(&ahead);
+                let (less, _) = self.evaluate(z);
+                gradient = (more - less) / step;
+            }
+            None => {}
+        }
+        let (lack, balance) = self.evaluate(z);
+        let mut a = DMatrix::zeros(m, m + 1);
+        a.columns_mut(0, m).copy_from(&self.matrix());
+        a.column_mut(m).copy_from(&gradient);
+        (lack, balance, a)
+    }
+
+    /// Chooses the parameter's unit and the reference of displacements at the start of a curve.
+    pub fn start(
+        &mut self,
+        coordinates: &[f64],
+        wrench: &Wrench,
+        value: f64,
+    ) -> Result<DVector<f64>> {
+        self.sigma = 1.0;
+        let z = self.state(coordinates, wrench, value);
+        self.evaluate(&z);
+        let balanced = |v: &Vector6<f64>, power: i32| {
+            DVector::from_fn(6, |i, _| v[i] * self.factors[i].powi(power) / self.unit)
+        };
+        let size = match self.parameter {
+            Some(Parameter::Displacement(twist)) => {
+                let moved = balanced(&twist.0, 1);
+                let within = self.range.transpose() * &moved;
+                if within.norm() < (1.0 - 1e-9) * moved.norm() {
+                    return Err(Error::model(
+                        format!("chain '{}'", self.problem.chain.name()),
+                        "the end of this chain can never move in the direction of the curve",
+                    ));
+                }
+                moved.norm()
+            }
+            Some(Parameter::Load(pattern)) => {
+                let mut wrenches = vec![(0, Wrench(self.grown))];
+                for load in &pattern.loads {
+                    let chain = self.problem.chain;
+                    load.add_wrenches(chain, &self.system.kinematics, 1.0, &mut wrenches);
+                }
+                let sizes = wrenches.iter().map(|(_, w)| balanced(&w.0, -1).norm());
+                sizes.fold(0.0, f64::max)
+            }
+            None => 1.0,
+        };
+        if !(size.is_finite() && size > 0.0) {
+            return Err(Error::model(
+                format!("chain '{}'", self.problem.chain.name()),
+                "the load pattern of the curve is zero",
+            ));
+        }
+        self.sigma = 1.0 / size;
+        self.reference = (0..self.problem.chain.nodes().len())
+            .map(|i| self.system.kinematics.node_pose(i))
+            .collect();
+        Ok(self.state(coordinates, wrench, value))
+    }
+
+    /// Conjugate of the parameter at the state where the system was evaluated.
+    pub fn conjugate(&self, z: &DVector<f64>) -> f64 {
+        match self.parameter {
+            Some(Parameter::Displacement(twist)) => twist.0.dot(&self.wrench(z).0),
+            Some(Parameter::Load(pattern)) => {
+                let chain = self.problem.chain;
+                let mut wrenches = vec![(chain.tip(), Wrench(self.grown))];
+                for load in &pattern.loads {
+                    load.add_wrenches(chain, &self.system.kinematics, 1.0, &mut wrenches);
+                }
+                wrenches
+                    .iter()
+                    .map(|(node, wrench)| {
+                        let here = self.system.kinematics.node_pose(*node);
+                        self.reference
+                            .get(*node)
+                            .map_or(0.0, |start| pose_residual(&here, start).dot(wrench))
+                    })
+                    .sum()
+            }
+            None => 0.0,
+        }
+    }
+
+    /// Change of the conjugate per balanced unknown, from the last column of `matrix`.
+    pub fn conjugate_row(&self, matrix: &DMatrix<f64>) -> DVector<f64> {
+        let m = self.count();
+        let sign = match self.parameter {
+            Some(Parameter::Displacement(_)) => -1.0,
+            _ => 1.0,
+        };
+        let scale = sign * self.unit * self.unit / self.sigma;
+        DVector::from_fn(
+            m + 1,
+            |i, _| {
+                if i < m { scale * matrix[(i, m)] } else { 0.0 }
+            },
+        )
+    }
+
+    /// Newton from `z` on equilibrium and one more row.
+    pub fn correct(&mut self, z: &DVector<f64>, row: &Row<'_>, most: usize) -> Option<Corrected> {
+        let m = self.count();
+        let mut z = z.clone();
+        let mut last = f64::INFINITY;
+        for iteration in 0..=most {
+            let (lack, balance, matrix) = self.linearised(&z);
+            let (normal, miss) = match row {
+                Row::Plane(normal, offset) => ((*normal).clone(), normal.dot(&z) - offset),
+                Row::Parameter(value) => {
+                    let mut normal = DVector::zeros(m + 1);
+                    normal[m] = 1.0;
+                    (normal, z[m] - value / self.sigma)
+                }
+                Row::Conjugate(value) => {
+                    let normal = self.conjugate_row(&matrix);
+                    let size = normal.norm().max(f64::MIN_POSITIVE);
+                    (normal / size, (self.conjugate(&z) - value) / size)
+                }
+            };
+            let fine = self.converged(&balance) && miss.abs() <= 1e-11 * (1.0 + z.norm());
+            if fine && (last < 1e-8 || iteration == most) {
+                return Some(Corrected {
+                    z,
+                    matrix,
+                    balance,
+                    iterations: iteration,
+                });
+            }
+            if iteration == most || !matrix.iter().chain(lack.iter()).all(|v| v.is_finite()) {
+                return None;
+            }
+            let step = solve_bordered(&matrix, &normal, &lack, miss);
+            let length = step.norm();
+            if !length.is_finite() || (iteration > 1 && length > 2.0 * last && length > 1e-9) {
+                return None;
+            }
+            last = length;
+            z += step;
+        }
+        None
+    }
+
+    /// Rows (balanced) of the motions that are held: with the parameter's direction held as well,
+    /// or left to a dead load.
+    fn held_rows(&self, matrix: &DMatrix<f64>, motion: bool) -> DMatrix<f64> {
+        let (r, n) = (self.reactions(), self.coordinates_count());
+        let rows = self.range.transpose() * self.balanced_jacobian();
+        let gradient = matrix.column(matrix.ncols() - 1);
+        match self.parameter {
+            Some(Parameter::Displacement(_)) if !motion => {
+                let direction = DMatrix::from_fn(r, 1, |i, _| gradient[i]);
+                complement(&direction).transpose() * rows
+            }
+            Some(Parameter::Load(_)) if motion => {
+                let mut all = DMatrix::zeros(r + 1, n);
+                all.rows_mut(0, r).copy_from(&rows);
+                for j in 0..n {
+                    all[(r, j)] = gradient[r + j];
+                }
+                all
+            }
+            _ => rows,
+        }
+    }
+
+    /// Stability at the evaluated state with the conjugate motion held (`motion`), or under a dead
+    /// load, and the number of unstable modes.
+    pub fn stability(&self, matrix: &DMatrix<f64>, motion: bool) -> (ShapeStability, usize) {
+        let rows = self.held_rows(matrix, motion);
+        let rank = column_space(&rows).ncols();
+        let stability = stability_within(self.problem.chain, &self.system, &self.factors, &rows);
+        let unstable = stability.inertia.positive.saturating_sub(rank);
+        (stability, unstable)
+    }
+
+    /// Everything that is known about the evaluated state.
+    pub fn equilibrium(&self, c: &Corrected) -> Equilibrium {
+        let raw = Balance {
+            closure: c.balance.closure * self.unit,
+            torque: c.balance.torque * self.unit,
+            loads: c.balance.loads * self.unit,
+        };
+        self.system.equilibrium(
+            self.problem.chain,
+            &self.factors,
+            self.coordinates(&c.z),
+            self.wrench(&c.z),
+            self.conservative,
+            c.iterations,
+            &raw,
+        )
+    }
+}
+
+fn check_numbers(problem: &ChainProblem<'_>, what: &str, v: &Vector6<f64>) -> Result<()> {
+    match v.iter().copied().find(|x| !x.is_finite()) {
+        Some(value) => Err(Error::NotFinite {
+            place: format!("chain '{}'", problem.chain.name()),
+            what: what.into(),
+            value,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Step that removes `lack` and `miss` in `[matrix; normal^T]`; the shortest one where that is singular.
+pub(crate) fn solve_bordered(
+    matrix: &DMatrix<f64>,
+    normal: &DVector<f64>,
+    lack: &DVector<f64>,
+    miss: f64,
+) -> DVector<f64> {
+    let m = matrix.nrows();
+    let ones = vec![1.0; m + 1];
+    let mut b = DMatrix::zeros(m + 1, 1);
+    for i in 0..m {
+        b[(i, 0)] = -lack[i];
+    }
+    b[(m, 0)] = -miss;
+    Saddle::new(bordered(matrix, normal), &ones, &ones).solve(&mut b);
+    b.column(0).into_owned()
+}
+
+/// `[matrix; normal^T]`.
+pub(crate) fn bordered(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
+    let m = matrix.nrows();
+    let mut a = DMatrix::zeros(m + 1, m + 1);
+    a.rows_mut(0, m).copy_from(matrix);
+    a.row_mut(m).copy_from(&normal.transpose());
+    a
+}

@@ -1,0 +1,745 @@
+//! Curves of equilibria: limit points and bifurcations at their places to 1e-8 with their kinds,
+//! branches through the tabulated equilibria, jumps, and critical loads [R 4.6, 5.2-5.6].
+
+use crate::common::{assert_chain_equilibrium, close, golden, number, planar_column};
+use kinetostat::{
+    BranchEnd, Chain, ChainProblem, CurvePoint, CurveSettings, Curves, EndCondition, Equilibrium,
+    Judged, Load, LoadPattern, MotionKind, Parameter, Pose, Prescribed, Settings, Special,
+    SpecialKind, Twist, Wrench, critical_load_factor, follow, solve_chain,
+};
+use nalgebra::{Vector3, vector};
+
+pub fn z_chain() -> Chain {
+    let z = Vector3::z();
+    Chain::builder("z")
+        .passive("q", MotionKind::Revolute, z, 0.0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .spring("th1", MotionKind::Revolute, z, 1.0, -30_f64.to_radians())
+        .translation(vector![1.0, 0.0, 0.0])
+        .spring("th2", MotionKind::Revolute, z, 1.0, 30_f64.to_radians())
+        .translation(vector![1.0, 0.0, 0.0])
+        .passive("e", MotionKind::Revolute, z, 0.0)
+        .build()
+        .unwrap()
+}
+
+/// Where the end of the unloaded Z chain is, m.
+pub fn z_unloaded() -> f64 {
+    (5.0 + 4.0 * 30_f64.to_radians().cos()).sqrt()
+}
+
+/// Two elastic links (axial stiffness 200), torsion spring 1 at rest at -2 a0, load on the middle.
+pub fn elastic_links(a0: f64) -> Chain {
+    let (z, x) = (Vector3::z(), Vector3::x());
+    Chain::builder("two elastic links")
+        .passive("q1", MotionKind::Revolute, z, 0.0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .spring("s1", MotionKind::Prismatic, x, 200.0, 0.0)
+        .node("middle")
+        .spring("th", MotionKind::Revolute, z, 1.0, -2.0 * a0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .spring("s2", MotionKind::Prismatic, x, 200.0, 0.0)
+        .passive("q2", MotionKind::Revolute, z, 0.0)
+        .build()
+        .unwrap()
+}
+
+/// End held at x on its line, free to turn.
+pub fn held(chain: &Chain, x: f64) -> ChainProblem<'_> {
+    let mut end = EndCondition::pose(Pose::translation(x, 0.0, 0.0));
+    end.prescribed[5] = Prescribed::Wrench;
+    ChainProblem::new(chain, end)
+}
+
+/// Example 4.6.2: load `g` times `G* = 4 sin 15 deg` on the middle, end at `2 cos 15 deg + dx`.
+pub fn elastic_problem(chain: &Chain, g: f64, dx: f64) -> ChainProblem<'_> {
+    let a0 = 15_f64.to_radians();
+    let mut problem = held(chain, 2.0 * a0.cos() + dx);
+    problem.posture = vec![a0, 0.0, -2.0 * a0, 0.0, a0];
+    problem.loads = vec![Load::Dead {
+        node: chain.node("middle").unwrap(),
+        wrench: Wrench::new(vector![0.0, -4.0 * g * a0.sin(), 0.0], Vector3::zeros()),
+    }];
+    problem
+}
+
+/// Table of 4.6.2: G/G*, dx, node y, F_x, K_xx, stable with the end fixed, and with x free.
+pub const ELASTIC: [(f64, f64, f64, f64, f64, bool, bool); 31] = [
+    (0.0, -0.05, 0.332059848, -0.466562542, 6.6865303, true, true),
+    (
+        0.0,
+        -0.05,
+        -0.0558138838,
+        -11.5042347,
+        107.03798,
+        false,
+        false,
+    ),
+    (
+        0.0,
+        -0.05,
+        -0.277685964,
+        -3.95247246,
+        -13.025878,
+        true,
+        false,
+    ),
+    (0.0, 0.0, 0.258819045, 0.0, 13.1031674, true, true),
+    (0.0, 0.05, 0.169711219, 1.08631261, 34.9160772, true, true),
+    (0.5, -0.05, 0.320528747, -1.17486288, 3.82893158, true, true),
+    (
+        0.5,
+        -0.05,
+        -0.0291332205,
+        -11.7382855,
+        101.620169,
+        false,
+        false,
+    ),
+    (
+        0.5,
+        -0.05,
+        -0.294797399,
+        -3.00988625,
+        -4.750592,
+        true,
+        false,
+    ),
+    (0.5, 0.0, 0.240291385, -0.890746544, 8.56480523, true, true),
+    (
+        0.5,
+        0.0,
+        -0.0625734445,
+        -6.44010554,
+        120.604171,
+        false,
+        false,
+    ),
+    (
+        0.5,
+        0.0,
+        -0.181093188,
+        -3.55760959,
+        -28.4844902,
+        true,
+        false,
+    ),
+    (
+        0.5,
+        0.05,
+        0.133130014,
+        0.000220914926,
+        35.4558273,
+        true,
+        true,
+    ),
+    (
+        1.0,
+        -0.05,
+        0.307819718,
+        -1.93555766,
+        0.102541188,
+        true,
+        true,
+    ),
+    (
+        1.0,
+        -0.05,
+        -0.00377089379,
+        -11.8154929,
+        100.003569,
+        false,
+        false,
+    ),
+    (
+        1.0,
+        -0.05,
+        -0.30941257,
+        -2.17166073,
+        0.592230381,
+        true,
+        true,
+    ),
+    (1.0, 0.0, 0.217119305, -1.92801064, 0.266275245, true, true),
+    (
+        1.0,
+        0.0,
+        -0.00497392752,
+        -6.81502933,
+        100.023984,
+        false,
+        false,
+    ),
+    (1.0, 0.0, -0.217474079, -2.14510657, 0.39406621, true, true),
+    (1.0, 0.05, 0.0326498911, -1.6911571, 55.647624, true, true),
+    (
+        1.5,
+        -0.05,
+        0.293515333,
+        -2.76559553,
+        -5.0534236,
+        true,
+        false,
+    ),
+    (
+        1.5,
+        -0.05,
+        0.0215035817,
+        -11.7510249,
+        101.343891,
+        false,
+        false,
+    ),
+    (1.5, -0.05, -0.322344531, -1.4056792, 4.40766084, true, true),
+    (1.5, 0.0, 0.183254036, -3.28168368, -23.8408494, true, false),
+    (
+        1.5,
+        0.0,
+        0.0509213565,
+        -6.51473313,
+        115.315614,
+        false,
+        false,
+    ),
+    (1.5, 0.0, -0.241457546, -1.09132852, 9.20935573, true, true),
+    (
+        1.5,
+        0.05,
+        -0.132601447,
+        -0.152624747,
+        37.2838169,
+        true,
+        true,
+    ),
+    (
+        2.0,
+        -0.05,
+        0.276881175,
+        -3.69433828,
+        -12.8819489,
+        true,
+        false,
+    ),
+    (
+        2.0,
+        -0.05,
+        0.047876969,
+        -11.5336727,
+        106.269758,
+        false,
+        false,
+    ),
+    (
+        2.0,
+        -0.05,
+        -0.334045631,
+        -0.693788745,
+        7.31006187,
+        true,
+        true,
+    ),
+    (2.0, 0.0, -0.260418851, -0.193099914, 13.8712314, true, true),
+    (2.0, 0.05, -0.170732964, 0.943231422, 36.2957185, true, true),
+];
+
+fn along_x() -> Parameter {
+    Parameter::Displacement(Twist::new(vector![1.0, 0.0, 0.0], Vector3::zeros()))
+}
+
+fn solved(problem: &ChainProblem<'_>) -> Equilibrium {
+    let e = solve_chain(problem, &Settings::default()).unwrap();
+    assert_chain_equilibrium(problem, &e);
+    e
+}
+
+/// What holds for every curve: equilibria at every point, finite numbers, steps along the tangent.
+#[track_caller]
+fn assert_curves(c: &Curves<'_>) {
+    for branch in &c.branches {
+        assert!(branch.points.len() > 1, "a branch without a step");
+        for p in &branch.points {
+            assert_point(c, p);
+        }
+        for pair in branch.points.windows(2) {
+            assert!(pair[1].arc > pair[0].arc);
+        }
+        for end in branch.ends {
+            assert_ne!(end, BranchEnd::Lost, "a branch was lost");
+        }
+    }
+    for s in &c.specials {
+        assert_point(c, &s.point);
+        assert!(s.mode.iter().all(|x| x.abs() <= 1.0));
+    }
+}
+
+#[track_caller]
+fn assert_point(c: &Curves<'_>, p: &CurvePoint) {
+    assert!(p.parameter.is_finite() && p.conjugate.is_finite() && !p.slope.is_nan());
+    let mut problem = c.problem.clone();
+    match &c.parameter {
+        Parameter::Displacement(t) => {
+            problem.end.pose.translation.vector += t.linear() * p.parameter;
+        }
+        Parameter::Load(pattern) => {
+            problem.end.wrench = problem.end.wrench + pattern.end * p.parameter;
+            for load in &pattern.loads {
+                let Load::Dead { node, wrench } = load else {
+                    panic!("dead loads only")
+                };
+                problem.loads.push(Load::Dead {
+                    node: *node,
+                    wrench: *wrench * p.parameter,
+                });
+            }
+        }
+    }
+    assert_chain_equilibrium(&problem, &p.equilibrium);
+}
+
+fn of_kind<'c>(c: &'c Curves<'_>, kind: SpecialKind) -> Vec<&'c Special> {
+    c.specials.iter().filter(|s| s.kind == kind).collect()
+}
+
+#[test]
+fn the_z_chain_forks_at_its_pitchfork() {
+    let chain = z_chain();
+    let mut problem = held(&chain, z_unloaded());
+    problem.posture = vec![0.17, -0.52, 0.52, 0.0];
+    let start = solved(&problem);
+    let mut settings = CurveSettings::within(-0.45, 0.05);
+    settings.branches = 10;
+    let c = follow(&problem, &along_x(), &start, 0.0, &settings).unwrap();
+    assert_curves(&c);
+    assert_eq!(c.branches.len(), 2);
+    assert_eq!(c.specials.len(), 1);
+    let fork = &c.specials[0];
+    assert_eq!(fork.kind, SpecialKind::Pitchfork);
+    close("Delta", -fork.point.parameter, 0.110931613194, 1e-11);
+    close("F_x", fork.point.conjugate, -1.03347699957, 1e-10);
+    close(
+        "x",
+        fork.point.equilibrium.tip.translation.x,
+        2.79838129798,
+        1e-10,
+    );
+    // Both curves go through every equilibrium of the table that is connected to the start.
+    let file = golden("z_chain.json");
+    for row in file["cases"].as_array().unwrap() {
+        let n = |key: &str| number(&row[key]);
+        if n("theta1_deg") > 0.0 {
+            continue; // the mirrored Z is connected only through the straight chain
+        }
+        let label = format!("delta {}, q {}", n("delta"), n("q_deg"));
+        let here = c.at(-n("delta")).unwrap();
+        let p = here
+            .iter()
+            .find(|p| (p.equilibrium.coordinates[0].to_degrees() - n("q_deg")).abs() < 1e-5)
+            .unwrap_or_else(|| panic!("{label}: not on the curve"));
+        assert_point(&c, p);
+        close(&label, p.conjugate, n("F_x"), 2e-8);
+        close(&label, p.slope, n("K_x"), 1e-6);
+        let stable = row["stable"].as_bool().unwrap();
+        assert_eq!(p.held.stable, stable, "{label}");
+        assert_eq!(p.dead.stable, stable && n("K_x") > 0.0, "{label}");
+        close(&label, p.held.margin.unwrap(), n("mu"), 1e-7);
+    }
+}
+
+#[test]
+fn the_s_chain_passes_through_figure_5_7() {
+    let file = golden("figure_5_7.json");
+    let chain = planar_column(3, 1.0, 1.0);
+    let problem = held(&chain, 3.0);
+    let start = solved(&problem);
+    let mut settings = CurveSettings::within(-1.52, 0.1);
+    settings.conjugate_range = (-6.0, 1.0);
+    settings.branches = 10;
+    // The straight chain is locked: its curve is a line of rising force at one displacement.
+    let c = follow(&problem, &along_x(), &start, 0.0, &settings).unwrap();
+    assert_curves(&c);
+    assert_eq!(c.branches.len(), 3);
+    let forks = of_kind(&c, SpecialKind::Pitchfork);
+    assert_eq!((forks.len(), c.specials.len()), (2, 2));
+    for (fork, force) in forks.iter().zip([-1.0, -3.0]) {
+        close("bifurcation load", fork.point.conjugate, force, 1e-10);
+        close("at the locked length", fork.point.parameter, 0.0, 1e-12);
+    }
+    for p in &c.branches[0].points {
+        assert_eq!(
+            p.held.stable,
+            p.conjugate > -1.0,
+            "straight at {}",
+            p.conjugate
+        );
+    }
+    for row in file["cases"].as_array().unwrap() {
+        let delta = number(&row["delta"]);
+        let here = c.at(-delta).unwrap();
+        assert_eq!(
+            here.len(),
+            4,
+            "two shapes and their mirror images at {delta}"
+        );
+        for (shape, stable) in [("stable", true), ("unstable", false)] {
+            let label = format!("{shape} at {delta}");
+            let same: Vec<_> = here.iter().filter(|p| p.held.stable == stable).collect();
+            assert_eq!(same.len(), 2, "{label}");
+            for p in same {
+                close(&label, p.conjugate, number(&row[shape]["F_x"]), 2e-8);
+                close(&label, p.slope, number(&row[shape]["K_x"]), 3e-7);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_two_elastic_links_have_the_five_limit_points() {
+    let chain = elastic_links(15_f64.to_radians());
+    let table = [
+        (0.0, 1.922272795, -0.0095788571, -0.137732345, -5.86836656),
+        (0.5, 1.942925249, 0.011073597, -0.111303931, -4.49506146),
+        (1.0, 1.975281172, 0.043429519, -0.0405154222, -2.32892263),
+        (1.5, 1.945566931, 0.013715278, 0.103783052, -4.28099972),
+        (2.0, 1.92463389, -0.0072177621, 0.13138615, -5.66307168),
+    ];
+    for (g, x, dx, y, force) in table as [(f64, f64, f64, f64, f64); 5] {
+        let label = format!("G/G* {g}");
+        // From the unstable shape between the two folds of its loop.
+        let mut problem = elastic_problem(&chain, g, -0.05);
+        problem.posture = vec![y.atan2(1.0) * 0.6, -0.05, 0.0, -0.05, 0.0];
+        problem.posture[2] = -2.0 * problem.posture[0];
+        let all = kinetostat::equilibria(
+            &problem,
+            &kinetostat::Bounds::of(&chain),
+            &Default::default(),
+        )
+        .unwrap();
+        let start = &all.found.last().unwrap().equilibrium;
+        assert!(!start.stability.stable, "{label}");
+        let c = follow(
+            &problem,
+            &along_x(),
+            start,
+            0.0,
+            &CurveSettings::within(-0.02, 0.2),
+        )
+        .unwrap();
+        assert_curves(&c);
+        let limits = of_kind(&c, SpecialKind::DisplacementLimit);
+        assert_eq!(limits.len(), 1, "{label}");
+        let p = &limits[0].point;
+        assert!(limits[0].stable_side, "{label}");
+        close(&label, p.equilibrium.tip.translation.x, x, 6e-10);
+        close(&label, p.parameter - 0.05, dx, 6e-10);
+        close(&label, p.equilibrium.nodes[0].translation.y, y, 6e-10);
+        close(&label, p.conjugate, force, 6e-9);
+        assert!(
+            p.slope.abs() > 1e6,
+            "{label}: the displacement stands still"
+        );
+    }
+}
+
+/// Without preload the flat chain forks where `K_L r^2 - K_L r + 2 K = 0`, x = 2 r. With the preload of
+/// the example and the load `4 a0 / r` that holds it flat, the same place is a limit point: the third
+/// derivative of the energy is `8 a0 / r^3`, so nothing forks there under a constant load.
+#[test]
+fn the_flat_chain_forks_without_preload_and_has_a_limit_point_with_it() {
+    let r = 0.5 * (1.0 + (1.0_f64 - 8.0 / 200.0).sqrt());
+    close("reference", 2.0 * r, 1.979795897113, 1e-12);
+    let chain = elastic_links(0.0);
+    let problem = held(&chain, 2.0);
+    let start = solved(&problem);
+    let mut settings = CurveSettings::within(-0.2, 0.05);
+    settings.branches = 4;
+    let c = follow(&problem, &along_x(), &start, 0.0, &settings).unwrap();
+    assert_curves(&c);
+    let forks = of_kind(&c, SpecialKind::Pitchfork);
+    assert_eq!(forks.len(), 1);
+    close("x", 2.0 + forks[0].point.parameter, 1.979795897113, 1e-11);
+    close("F_x", forks[0].point.conjugate, 200.0 * (r - 1.0), 1e-9);
+    assert_eq!(c.branches.len(), 2);
+    assert!(
+        c.branches[1]
+            .points
+            .iter()
+            .all(|p| p.arc == 0.0 || p.parameter < -0.02)
+    );
+
+    let a0 = 15_f64.to_radians();
+    let chain = elastic_links(a0);
+    let mut problem = held(&chain, 2.0 * r);
+    problem.loads = vec![Load::Dead {
+        node: chain.node("middle").unwrap(),
+        wrench: Wrench::new(vector![0.0, -4.0 * a0 / r, 0.0], Vector3::zeros()),
+    }];
+    close("G", 4.0 * a0 / r, 1.057884353, 1e-9);
+    // From the upper shape, a little pushed together, to where it ceases to exist.
+    problem.end.pose.translation.vector.x -= 0.01;
+    problem.posture = vec![0.1, 0.0, -0.2, 0.0, 0.0];
+    let start = solved(&problem);
+    assert!(start.nodes[0].translation.y > 0.05);
+    let c = follow(
+        &problem,
+        &along_x(),
+        &start,
+        0.0,
+        &CurveSettings::within(-0.02, 0.1),
+    )
+    .unwrap();
+    assert_curves(&c);
+    assert!(c.specials.iter().all(|s| !s.kind.is_bifurcation()));
+    let limits = of_kind(&c, SpecialKind::DisplacementLimit);
+    assert_eq!(limits.len(), 1);
+    let p = &limits[0].point;
+    close("x", 2.0 * r - 0.01 + p.parameter, 1.979795897113, 1e-11);
+    close("flat", p.equilibrium.nodes[0].translation.y, 0.0, 1e-9);
+}
+
+/// Zeros of K_x of the rigid two-link chain (4.6.1): load limits of the upper branch, two of them near
+/// each other.
+#[test]
+fn the_rigid_links_have_the_load_limits_of_the_closed_form() {
+    let z = Vector3::z();
+    let a0 = 15_f64.to_radians();
+    let chain = Chain::builder("two links")
+        .passive("q1", MotionKind::Revolute, z, 0.0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .node("middle")
+        .spring("theta", MotionKind::Revolute, z, 1.0, -2.0 * a0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .passive("q2", MotionKind::Revolute, z, 0.0)
+        .build()
+        .unwrap();
+    type Row = (f64, f64, f64);
+    let table: [(f64, &[Row]); 4] = [
+        (0.9, &[]),
+        (
+            1.005,
+            &[
+                (0.1422197071, 0.0479559718, -1.945908995),
+                (0.3522324213, -0.0546418919, -1.939607473),
+            ],
+        ),
+        (1.05, &[(0.5116302756, -0.187956683, -1.988529081)]),
+        (1.5, &[(0.9032153489, -0.693675473, -2.245611734)]),
+    ];
+    for (g, rows) in table {
+        // Coarse steps of half a radian hold two limit points in one step.
+        for turn in [0.1, 0.5] {
+            let label = format!("G/G* {g}, steps of {turn}");
+            let mut problem = elastic_problem(&chain, g, -1.0);
+            let a = ((2.0 * a0.cos() - 1.0) / 2.0_f64).acos();
+            problem.posture = vec![a, -2.0 * a, 0.0];
+            let mut settings = CurveSettings::within(-0.2, 1.06);
+            settings.largest_turn = turn;
+            settings.largest_change = Some(1.0);
+            let c = follow(&problem, &along_x(), &solved(&problem), 0.0, &settings).unwrap();
+            assert_curves(&c);
+            let mut limits = of_kind(&c, SpecialKind::LoadLimit);
+            limits.sort_by(|a, b| b.point.parameter.total_cmp(&a.point.parameter));
+            // Near the locked length the force has one more turning point beyond the table's range.
+            let limits: Vec<_> = limits
+                .iter()
+                .filter(|s| s.point.equilibrium.coordinates[0] > 0.0)
+                .collect();
+            assert_eq!(limits.len(), rows.len(), "{label}");
+            for (s, (alpha, dx, force)) in limits.iter().zip(rows) {
+                close(&label, s.point.equilibrium.coordinates[0], *alpha, 1e-9);
+                close(&label, s.point.parameter - 1.0, *dx, 2e-9);
+                close(&label, s.point.conjugate, *force, 2e-9);
+                close(&label, s.point.slope, 0.0, 1e-9);
+                assert!(s.stable_side, "{label}");
+            }
+        }
+    }
+}
+
+/// End on its line under a dead force along x, free to turn.
+fn pressed(chain: &Chain, length: f64) -> ChainProblem<'_> {
+    let mut problem = held(chain, length);
+    problem.end.prescribed[0] = Prescribed::Wrench;
+    problem
+}
+
+fn press() -> Wrench {
+    Wrench::new(vector![-1.0, 0.0, 0.0], Vector3::zeros())
+}
+
+#[test]
+fn straight_columns_fork_at_two_one_minus_cosine() {
+    for n in 2..=6 {
+        let (l, k) = (0.4, 50.0);
+        let chain = planar_column(n, l, k);
+        let problem = pressed(&chain, n as f64 * l);
+        let loads: Vec<f64> = (1..n)
+            .map(|m| 2.0 * (1.0 - (m as f64 * std::f64::consts::PI / n as f64).cos()) * k / l)
+            .collect();
+        let c = follow(
+            &problem,
+            &Parameter::end_wrench(press()),
+            &solved(&problem),
+            0.0,
+            &CurveSettings::within(0.0, 5.0 * k / l),
+        )
+        .unwrap();
+        assert_curves(&c);
+        let forks = of_kind(&c, SpecialKind::Pitchfork);
+        assert_eq!(forks.len(), n - 1, "{n} links");
+        for (fork, load) in forks.iter().zip(&loads) {
+            close(
+                &format!("{n} links"),
+                fork.point.parameter,
+                *load,
+                1e-9 * load,
+            );
+        }
+        let pattern = LoadPattern {
+            end: press(),
+            loads: vec![],
+        };
+        for judged in [Judged::Shape, Judged::ShapeAndEnd] {
+            let label = format!("{n} links, {judged:?}");
+            let limit = CurveSettings::within(0.0, f64::INFINITY);
+            let critical = critical_load_factor(&problem, &pattern, judged, &limit).unwrap();
+            close(&label, critical.linear.unwrap(), loads[0], 1e-9 * loads[0]);
+            let exact = critical.exact.unwrap();
+            close(&label, exact.factor, loads[0], 1e-9 * loads[0]);
+            // Mode: joint i deflects by sin(i pi / n).
+            let middle = (1..n)
+                .map(|i| (i as f64 * std::f64::consts::PI / n as f64).sin())
+                .fold(0.0, f64::max);
+            let own = &exact.mode[1..n];
+            let most = own.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            for mode in [&exact.mode, &critical.linear_mode] {
+                let scale = mode[1..n].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                for i in 1..n {
+                    let s = (i as f64 * std::f64::consts::PI / n as f64).sin() / middle;
+                    close(&label, mode[i].abs() / scale, s, 1e-6);
+                }
+            }
+            assert!(most > 0.1);
+        }
+    }
+}
+
+#[test]
+fn a_pulled_column_never_buckles() {
+    let chain = planar_column(4, 1.0, 1.0);
+    let problem = pressed(&chain, 4.0);
+    let pattern = LoadPattern {
+        end: press() * -1.0,
+        loads: vec![],
+    };
+    let limit = CurveSettings::within(0.0, 50.0);
+    let c = critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &limit).unwrap();
+    assert!(c.linear.is_none() && c.exact.is_none());
+    close("reached", c.reached, 50.0, 1e-9);
+}
+
+#[test]
+fn the_loaded_middle_snaps_through_at_its_load_limit() {
+    // 4.6.2 with the end at dx = 0 fixed: the load on the middle grows.
+    let chain = elastic_links(15_f64.to_radians());
+    let mut problem = elastic_problem(&chain, 1.0, 0.0);
+    let loads = std::mem::take(&mut problem.loads);
+    let pattern = LoadPattern {
+        end: Wrench::zero(),
+        loads,
+    };
+    let settings = CurveSettings::within(-3.0, 3.0);
+    let c = follow(
+        &problem,
+        &Parameter::Load(pattern.clone()),
+        &solved(&problem),
+        0.0,
+        &settings,
+    )
+    .unwrap();
+    assert_curves(&c);
+    assert_eq!(c.specials.len(), 2);
+    // By symmetry the shape stays symmetric: the limits of E_Y by the height alone.
+    let (up, down) = (&c.specials[0], &c.specials[1]);
+    for s in [up, down] {
+        assert_eq!(s.kind, SpecialKind::LoadLimit);
+        assert!(s.stable_side);
+        let (y, g) = (
+            s.point.equilibrium.nodes[0].translation.y,
+            s.point.parameter * 4.0 * 15_f64.to_radians().sin(),
+        );
+        let (slope, bend) = energy_of_height(y);
+        close("E_Y", slope + g, 0.0, 1e-8);
+        close("E_YY", bend, 0.0, 1e-6);
+    }
+    assert!(up.point.parameter > 1.8 && down.point.parameter < 0.25);
+    let jumps = c.jumps().unwrap();
+    assert_eq!(jumps.len(), 2);
+    for (jump, special) in jumps.iter().zip([up, down]) {
+        assert!(jump.dead_load);
+        assert_eq!(jump.to.len(), 1, "one stable shape at that load");
+        let to = &jump.to[0];
+        assert_point(&c, to);
+        close("same load", to.parameter, special.point.parameter, 1e-12);
+        let (from, to) = (
+            special.point.equilibrium.nodes[0].translation.y,
+            to.equilibrium.nodes[0].translation.y,
+        );
+        assert!(from * to < 0.0, "snaps through the flat shape");
+    }
+    let r = critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings).unwrap();
+    let exact = r.exact.unwrap();
+    close("critical", exact.factor, up.point.parameter, 1e-10);
+    assert_eq!(exact.kind, Some(SpecialKind::LoadLimit));
+    // A shallow arch straightens before it snaps: the linear prediction is far too high.
+    assert!(r.linear.unwrap() > 3.0 * exact.factor);
+}
+
+/// `dE/dY` without the load and `d^2E/dY^2` of the symmetric shape of 4.6.2 at dx = 0, by differences of
+/// the energy `200 (r - 1)^2 + 2 (a - a0)^2`.
+fn energy_of_height(y: f64) -> (f64, f64) {
+    let (a0, h) = (15_f64.to_radians(), 1e-4);
+    let c = a0.cos();
+    let e = |y: f64| {
+        let (r, a) = (c.hypot(y), y.atan2(c));
+        200.0 * (r - 1.0).powi(2) + 2.0 * (a - a0).powi(2)
+    };
+    let at = |k: f64| e(y + k * h);
+    let slope = (at(-2.0) - 8.0 * at(-1.0) + 8.0 * at(1.0) - at(2.0)) / (12.0 * h);
+    let bend =
+        (-at(-2.0) + 16.0 * at(-1.0) - 30.0 * at(0.0) + 16.0 * at(1.0) - at(2.0)) / (12.0 * h * h);
+    (slope, bend)
+}
+
+/// Wrong input is refused with a reason; nothing panics.
+#[test]
+fn curves_that_cannot_be_are_refused() {
+    let chain = z_chain();
+    let mut problem = held(&chain, z_unloaded());
+    problem.posture = vec![0.17, -0.52, 0.52, 0.0];
+    let start = solved(&problem);
+    let settings = CurveSettings::within(-1.0, 1.0);
+    let refused = |parameter: Parameter| {
+        let text = follow(&problem, &parameter, &start, 0.0, &settings)
+            .unwrap_err()
+            .to_string();
+        assert!(text.contains("chain 'z'"), "{text}");
+    };
+    let twist = |x: f64, z: f64, rz: f64| {
+        Parameter::Displacement(Twist::new(vector![x, 0.0, z], vector![0.0, 0.0, rz]))
+    };
+    refused(twist(0.0, 0.0, 0.0));
+    refused(twist(f64::NAN, 0.0, 0.0));
+    refused(twist(0.0, 1.0, 0.0)); // out of the chain's plane
+    refused(twist(1.0, 1.0, 0.0));
+    refused(twist(0.0, 0.0, 1.0)); // the rotation is free, not prescribed
+    refused(Parameter::end_wrench(press())); // x is held
+    refused(Parameter::Load(LoadPattern::default()));
+    refused(Parameter::Load(LoadPattern {
+        end: Wrench::zero(),
+        loads: vec![Load::Dead {
+            node: 99,
+            wrench: press(),
+        }],
+    }));
+}
