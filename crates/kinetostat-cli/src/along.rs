@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use kinetostat_machining::{LoadAlongPath, Run, RunResult, Task, analyse, compensate_program};
+use kinetostat_machining::{
+    LoadAlongPath, Run, RunResult, Task, analyse, compensate_program, load_in_words,
+};
 use kinetostat_program::{Path as ToolPath, Program, ProgramError, interpret};
 
 use crate::failure::{Answer, Failure};
@@ -106,7 +108,7 @@ pub(crate) fn solve(
             ),
             format!(
                 "load {}",
-                LoadAlongPath::new(machine.load, &path).in_words()
+                load_in_words(&machine.mechanism, &LoadAlongPath::new(machine.load, &path))
             ),
             format!("tool {}", question.tool),
             format!("placement {}", question.placement),

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use kinetostat::{Limb, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench};
+use kinetostat::{
+    DirectionKind, Limb, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench,
+};
 use kinetostat_model::Model;
 use serde::Serialize;
 
@@ -213,7 +215,7 @@ fn at_home(
     limbs: &mut [LimbFinding],
 ) -> Result<HomeFinding, String> {
     let stiffness = posture.stiffness().map_err(|e| e.to_string())?;
-    let mut constrained = 0;
+    let mut held = 0;
     for (i, found) in limbs.iter_mut().enumerate() {
         let k = &stiffness.limbs[i];
         found
@@ -221,10 +223,9 @@ fn at_home(
             .clone_from(&k.redundant_passive);
         found.stiffness_rank = Some(k.rank);
         found.constrained_directions = alone(m, posture, i);
-        constrained += found.constrained_directions.unwrap_or(0);
+        held += k.rank + k.count(DirectionKind::Rigid);
     }
     let mobility = posture.mobility().ncols();
-    let counted = limbs.iter().all(|l| l.constrained_directions.is_some());
     let correctable = posture.correctable();
     let rest = posture
         .deflected_by(&Wrench::zero())
@@ -232,7 +233,8 @@ fn at_home(
     Ok(HomeFinding {
         mobility,
         actuators: m.actuator_count(),
-        degrees_of_over_constraint: counted.then(|| constrained.saturating_sub(6 - mobility)),
+        // What the limbs hold beyond what the tool needs: they strain each other there.
+        degrees_of_over_constraint: Some(held.saturating_sub(stiffness.rank())),
         correctable_directions: DIRECTIONS
             .iter()
             .zip(correctable)
@@ -477,12 +479,16 @@ fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         out.push_str(&item("without load the tool is where it is commanded"));
     }
     out.push_str(&item(&match (h.stable, h.largest_buckling_margin) {
-        (true, Some(mu)) if mu.abs() > 1e-9 => {
+        (true, Some(mu)) if mu.abs() > 1e-9 && h.stiffness_rank == 6 => {
             format!(
                 "stable; largest share of the way to buckling {}",
                 number(mu, 3)
             )
         }
+        (true, _) if h.stiffness_rank < 6 => format!(
+            "stable where it is held; {} of 6 directions are free",
+            6 - h.stiffness_rank
+        ),
         (true, _) => "stable".to_owned(),
         (false, _) => "NOT STABLE: it would jump to another shape".to_owned(),
     }));

@@ -107,6 +107,8 @@ struct Deflection {
     stable: bool,
     converged: bool,
     iterations: usize,
+    /// How far the loops are from closing; rotations at the machine's length.
+    closure_mm: f64,
     warnings: Vec<String>,
 }
 
@@ -265,6 +267,7 @@ fn answer(
         stable: loaded.stable(),
         converged: true,
         iterations: loaded.residual.iterations,
+        closure_mm: 1e3 * loaded.residual.closure_m,
         warnings,
     }
 }

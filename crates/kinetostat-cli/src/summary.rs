@@ -110,7 +110,12 @@ fn figures(result: &RunResult) -> String {
             &s.bytes_out.to_string(),
             "",
         ]);
-        row(&["shortest piece", "", &fixed(s.smallest_piece_mm, 3), "mm"]);
+        row(&[
+            "shortest piece of a split block",
+            "",
+            &fixed(s.smallest_piece_mm, 3),
+            "mm",
+        ]);
         row(&[
             "most blocks per second",
             "",

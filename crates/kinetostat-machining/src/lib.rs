@@ -17,4 +17,4 @@ pub use placement::Placement;
 pub use result::{
     ActuatorColumn, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult, Summary,
 };
-pub use run::{Run, RunError, Task, Unwatched, Watch, analyse, compensate_program};
+pub use run::{Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words};

@@ -126,8 +126,10 @@ pub struct Summary {
     /// Largest buckling margin mu of any limb (1 is buckling); none for limbs without inner freedom.
     pub largest_buckling_margin: Option<f64>,
     /// Largest force or torque of each actuator (N or N m), in the order of `question.actuators`.
+    #[serde(rename = "max_actuator_force_n_or_n_m")]
     pub max_actuator_force: Vec<f64>,
     /// Largest change of each actuator (mm or deg).
+    #[serde(rename = "max_actuator_correction_mm_or_deg")]
     pub max_actuator_correction: Vec<f64>,
     /// Every point converged.
     pub converged: bool,
@@ -174,8 +176,10 @@ pub struct PointResult {
     /// Rotation of the tool that stays, deg.
     pub residual_rotation_deg: f64,
     /// Force (N) or torque (N m) of every actuator.
+    #[serde(rename = "actuator_force_n_or_n_m")]
     pub actuator_force: Vec<f64>,
     /// Change of every actuator by the compensation, mm or deg.
+    #[serde(rename = "actuator_correction_mm_or_deg")]
     pub actuator_correction: Vec<f64>,
     /// Stiffness of the tool's tip against a force in its softest direction, N/mm.
     pub smallest_stiffness_n_per_mm: f64,

@@ -90,6 +90,16 @@ pub enum RunError {
         /// Error with it, mm.
         after_mm: f64,
     },
+    /// The machine would jump to another shape.
+    #[error(
+        "line {line}: at X{:.4} Y{:.4} Z{:.4} mm the machine is not stable under this load: it would jump to another shape; nothing was written. Reduce the load, move the part, or stiffen the machine; `kinetostat deflect` shows the rest of the path", position_mm[0], position_mm[1], position_mm[2]
+    )]
+    Unstable {
+        /// Line of the program, from 1.
+        line: usize,
+        /// Program coordinates, mm.
+        position_mm: [f64; 3],
+    },
     /// The program has no move whose place is known.
     #[error(
         "the program has no motion whose place is known: state X, Y and Z before the first cut, or give the start position"
@@ -106,7 +116,9 @@ impl RunError {
     pub fn is_unanswered(&self) -> bool {
         match self {
             Self::Point { cause, .. } => cause.is_unanswered(),
-            Self::Write(WriteError::Field { .. }) | Self::Worse { .. } => true,
+            Self::Write(WriteError::Field { .. }) | Self::Worse { .. } | Self::Unstable { .. } => {
+                true
+            }
             _ => false,
         }
     }
@@ -168,9 +180,36 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     )?;
     let sites = of_written(task.path, &written, &load, &task.placement);
     let points = solve(task, &sites, true, watch)?;
+    if let Some(point) = points.iter().find(|p| !p.stable) {
+        return Err(RunError::Unstable {
+            line: point.line,
+            position_mm: point.position_mm,
+        });
+    }
     refuse_worse(task, &sites, &points)?;
     let speed = 100.0 * check.largest_speed_error;
     Ok(conclude(task, &load, &sites, points, Some(written), speed))
+}
+
+/// Everything that bends the machine along a program, in words: cutting load and own weight.
+#[must_use]
+pub fn load_in_words(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> String {
+    let gravity = mechanism.gravity();
+    let mass: f64 = mechanism
+        .limbs()
+        .iter()
+        .flat_map(|l| l.actual.bodies())
+        .map(|b| b.mass)
+        .chain(mechanism.platforms().iter().map(|p| p.mass))
+        .sum();
+    if gravity.norm() > 0.0 && mass > 0.0 {
+        format!(
+            "{}; and the machine's own weight, {mass:.0} kg, everywhere",
+            load.in_words()
+        )
+    } else {
+        format!("{}; no weight in the model", load.in_words())
+    }
 }
 
 /// Passes the writer's progress on.
@@ -333,7 +372,7 @@ fn conclude(
 ) -> Run {
     let mut question = task.question.clone();
     let mechanism = task.mechanism;
-    question.load = load.in_words();
+    question.load = load_in_words(mechanism, load);
     question.tolerance_mm = task.writing.tolerance_mm;
     question.chord_tolerance_mm = task.writing.chord_tolerance_mm;
     question.decimals = task.writing.decimals.unwrap_or(4);
@@ -384,7 +423,7 @@ fn conclude(
     }
     if task.placement.scale != 1.0 {
         warnings.push(format!(
-            "the program is scaled by {} in the machine: corrections fit only a program of that size",
+            "the program is scaled by {} in the machine: corrections fit only a program of that size, and all lengths here are program millimetres",
             task.placement.scale
         ));
     }

@@ -219,3 +219,50 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
     let load = LoadAlongPath::new(milling(), &path);
     assert_eq!(load.wrench(&placement, 0, 1.0), Wrench::zero());
 }
+
+#[test]
+fn a_program_on_which_the_machine_would_buckle_is_not_written() {
+    let machine = Model::preset("orthoglide")
+        .expect("preset")
+        .mechanism
+        .with_tool(&straight_tool(0.1));
+    let push = CuttingLoad::Constant {
+        axes: kinetostat_machining::LoadAxes::Base,
+        wrench: Wrench::new(vector![4000.0, 0.0, 0.0], Vector3::zeros()),
+    };
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X20 F100\n";
+    let origin = vector![0.0, 0.0, 0.1];
+    let told = run(&machine, text, origin, ProgramLoad::new(push), false)
+        .expect("analysis")
+        .result;
+    assert!(!told.summary.stable, "{:?}", told.summary);
+    assert!(
+        told.warnings
+            .iter()
+            .any(|w| w.contains("do not run this program")),
+        "{:?}",
+        told.warnings
+    );
+    let error = run(&machine, text, origin, ProgramLoad::new(push), true).expect_err("unstable");
+    assert!(
+        error.is_unanswered() && error.to_string().contains("not stable"),
+        "{error}"
+    );
+}
+
+#[test]
+fn the_load_in_words_names_the_machine_s_own_weight() {
+    for (preset, words) in [
+        ("heavy_6r", "own weight, 940 kg"),
+        ("orthoglide", "no weight in the model"),
+    ] {
+        let model = Model::preset(preset).expect("preset");
+        let program = Program::read(GROOVE).expect("program");
+        let path = interpret(&program, &ReadOptions::default()).expect("path");
+        let text = kinetostat_machining::load_in_words(
+            &model.mechanism,
+            &LoadAlongPath::new(milling(), &path),
+        );
+        assert!(text.contains("215 N") && text.contains(words), "{text}");
+    }
+}

@@ -412,7 +412,17 @@ fn heavy_arm_is_the_benchmark_machine() {
     }
     let home = model.mechanism.platforms()[1].home;
     assert!((pose.translation.vector - home.translation.vector).norm() < 1e-12);
-    assert!(pose.rotation.angle_to(&home.rotation) < 1e-12);
+    // The chain ends with its x along the flange's z.
+    let flange = pose.rotation
+        * model.mechanism.limbs()[0]
+            .platform_from_tip
+            .rotation
+            .inverse();
+    assert!(flange.angle_to(&home.rotation) < 1e-12);
+    assert!(
+        (home.rotation * Vector3::z() + Vector3::z()).norm() < 1e-12,
+        "tools point down"
+    );
     let posture = model.mechanism.posture(&home).expect("home");
     close(&posture.commands(), &arm.home_commands(), 1e-9);
     // Under its own weight the arm sags by a few millimetres, not by metres or microns.

@@ -106,6 +106,9 @@ struct Interpreter<'o> {
     ended: Option<usize>,
     no_feed_warned: bool,
     block_delete_warned: bool,
+    /// Work coordinate system of the first motion.
+    first_system: Option<usize>,
+    system_warned: bool,
     moves: Vec<Move>,
     /// For each move: which axes are known before and after it.
     knowledge: Vec<([bool; 3], [bool; 3])>,
@@ -125,6 +128,8 @@ impl<'o> Interpreter<'o> {
             ended: None,
             no_feed_warned: false,
             block_delete_warned: false,
+            first_system: None,
+            system_warned: false,
             moves: Vec::new(),
             knowledge: Vec::new(),
             events: Vec::new(),
@@ -143,6 +148,18 @@ impl<'o> Interpreter<'o> {
         if !self.block_delete_warned {
             self.block_delete_warned = true;
             self.warn(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off");
+        }
+    }
+
+    /// Two work coordinate systems in one program are at different places, or one would do; with no
+    /// offset for either, the places are not known.
+    fn warn_of_systems_without_offsets(&mut self, line: usize) {
+        let now = self.modes.work_offset;
+        let first = *self.first_system.get_or_insert(now);
+        let offsets = &self.options.work_offsets_mm;
+        if now != first && offsets[now] == offsets[first] && !self.system_warned {
+            self.system_warned = true;
+            self.warn(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (work offsets), or these blocks are corrected for the wrong place");
         }
     }
 
@@ -322,6 +339,7 @@ impl<'o> Interpreter<'o> {
             }
             Some(motion) => motion,
         };
+        self.warn_of_systems_without_offsets(block.line_number);
         if let Some(axis) = (0..3).find(|axis| self.shifts.now[*axis]) {
             return Err(block.refuse(
                 None,

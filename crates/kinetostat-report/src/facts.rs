@@ -64,7 +64,7 @@ pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
             "Blocks per second",
             number::significant(summary.blocks_per_second, 2, Rounding::Up),
             format!(
-                "at most; shortest piece {}",
+                "at most; divided blocks: pieces from {}",
                 number::length(summary.smallest_piece_mm, 2, Rounding::Down)
             ),
         )
@@ -208,7 +208,7 @@ pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
     let mut rows = vec![row(
         "Tilt of the tool",
         angle(summary.max_residual_rotation_deg),
-        "The load turns the tool as well as moving it. A program of positions moves the tool tip back to its place but \
+        "Load, weight and assembly errors turn the tool as well as moving it. A program of positions moves the tool tip back to its place but \
          cannot turn it back; a side wall cut deep below the tip shows it."
             .to_owned(),
     )];
@@ -337,7 +337,7 @@ fn written(result: &RunResult) -> Vec<Value> {
         fact(
             "Straight pieces written",
             format!(
-                "{}, the shortest {}",
+                "{}, the shortest of a divided block {}",
                 number::count(summary.pieces),
                 number::length(summary.smallest_piece_mm, 2, Rounding::Down)
             ),

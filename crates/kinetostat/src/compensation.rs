@@ -135,7 +135,14 @@ fn solve_target<'m>(
     };
     let residual = match solved {
         Some((iterations, balance)) => balance.residual(iterations),
-        None => fixed_point(&mut solver, desired, directions)?,
+        None => match fixed_point(&mut solver, desired, directions) {
+            Ok(residual) => residual,
+            Err(error) => {
+                return Err(near
+                    .free_push(wrench, solver.scale().length)
+                    .unwrap_or(error));
+            }
+        },
     };
     let residual = undo_drift(&mut solver, desired, directions, residual);
     Ok((solver, residual))

@@ -4,12 +4,18 @@
 use crate::chain::MotionKind;
 use crate::spatial::{Pose, Wrench};
 
-/// A joint's value in the unit that people read.
-fn in_words(kind: MotionKind, value: f64) -> String {
-    match kind {
-        MotionKind::Prismatic => format!("{:.4} mm", value * 1e3),
-        MotionKind::Revolute => format!("{:.4} deg", value.to_degrees()),
-    }
+/// Joint values in the unit that people read; the unit comes once, at the end.
+fn in_words<const N: usize>(kind: MotionKind, values: [f64; N]) -> String {
+    let (factor, unit) = match kind {
+        MotionKind::Prismatic => (1e3, "mm"),
+        MotionKind::Revolute => (1_f64.to_degrees(), "deg"),
+    };
+    let number = |value: &f64| {
+        let text = format!("{:.4}", value * factor);
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    let numbers: Vec<String> = values.iter().map(number).collect();
+    format!("{} {unit}", numbers.join(" .. "))
 }
 
 /// Result of this crate.
@@ -95,8 +101,8 @@ pub enum Error {
         nearest: Box<Pose>,
     },
     /// A command lies outside the limits of its actuator.
-    #[error("actuator '{actuator}': the command {} is outside its limits {} .. {}",
-        in_words(*kind, *command), in_words(*kind, *low), in_words(*kind, *high))]
+    #[error("actuator '{actuator}': the command {} is outside its limits {}",
+        in_words(*kind, [*command]), in_words(*kind, [*low, *high]))]
     OutsideLimits {
         /// Name of the actuator.
         actuator: String,

@@ -3,7 +3,7 @@
 //!
 //! The thing right of the bar is a [`Posture`]; the thing left of it is an argument.
 
-use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::{MotionKind, Scale};
@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::mechanism::Mechanism;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
-use crate::saddle::{column_space, complement};
+use crate::saddle::{column_space, complement, pseudo_inverse};
 use crate::settings::Settings;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual, shift_matrix};
 use crate::stability::{ShapeStability, shape_stability};
@@ -105,10 +105,18 @@ impl MechanismEquilibrium {
     /// negative if the tool runs away by itself.
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
-        let Some(compliance) = self.stiffness.symmetric().try_inverse() else {
+        if self.platform.free > 0 {
             return 0.0;
+        }
+        // Balanced by its own diagonal; rigid directions have none and yield nothing.
+        let k = self.stiffness.symmetric();
+        let unit = |i: usize| {
+            let d = k[(i, i)].abs().sqrt();
+            if d > 0.0 { 1.0 / d } else { 1.0 }
         };
-        let moves = compliance.fixed_view::<3, 3>(0, 0).into_owned();
+        let balanced = DMatrix::from_fn(6, 6, |i, j| k[(i, j)] * unit(i) * unit(j));
+        let (inverse, _) = pseudo_inverse(&balanced);
+        let moves = Matrix3::from_fn(|i, j| inverse[(i, j)] * unit(i) * unit(j));
         let eigenvalues = moves.symmetric_eigenvalues();
         if eigenvalues.min() < 0.0 {
             1.0 / eigenvalues.min()
@@ -457,7 +465,7 @@ impl<'m> Posture<'m> {
     }
 
     /// The reason why no equilibrium exists, if it is a wrench along a free direction.
-    fn free_push(&self, wrench: &Wrench, length: f64) -> Option<Error> {
+    pub(crate) fn free_push(&self, wrench: &Wrench, length: f64) -> Option<Error> {
         let size = wrench.force().norm() + wrench.moment().norm() / length;
         let own = self.stiffness().ok()?;
         let pushed = own
