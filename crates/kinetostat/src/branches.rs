@@ -5,16 +5,16 @@
 //! it can be followed as well. Steps adapt to the curve; limit points and bifurcation points
 //! between two steps are located by themselves ([`Special`]).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use crate::bifurcation::{self, Special, SpecialKind};
-use crate::chain::{Chain, MotionKind, Role};
+use crate::bifurcation::Special;
 use crate::equilibrium::{ChainProblem, Equilibrium};
 use crate::error::Result;
-use crate::reduced::{Corrected, Parameter, Reduced, Row, bordered};
+use crate::reduced::{Parameter, Reduced};
 use crate::settings::Settings;
 use crate::stability::ShapeStability;
+use crate::tracer::Tracer;
 
 /// How far and how finely curves are followed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -101,8 +101,8 @@ pub struct CurvePoint {
 }
 
 impl CurvePoint {
-    /// Number of unstable modes while the motion along the parameter is prescribed, and under a dead
-    /// load.
+    /// Number of unstable modes while the motion along the parameter is prescribed, and under a
+    /// dead load.
     #[must_use]
     pub fn unstable_modes(&self) -> [usize; 2] {
         self.unstable
@@ -174,76 +174,49 @@ pub(crate) fn follow_until<'a>(
     settings: &CurveSettings,
     stop: Stop<'_>,
 ) -> Result<Curves<'a>> {
-    let mut reduced = Reduced::new(problem, Some(parameter), &settings.solver)?;
-    let z = reduced.start(&start.coordinates, &start.wrench, value)?;
-    let mut tracer = Tracer {
-        reduced,
-        settings,
-        specials: Vec::new(),
-    };
-    let first = tracer.first_point(&z)?;
-    let mut branches = Vec::new();
-    let mut halves = Vec::new();
-    for sign in [-1.0, 1.0] {
-        // A search goes one way only: towards larger parameters.
-        if sign < 0.0 && stop.is_some() {
-            halves.push((vec![first.clone()], BranchEnd::Found));
-            continue;
-        }
-        let mut point = first.clone();
-        point.tangent *= sign;
-        halves.push(tracer.run(point, true, 0, stop));
-        if halves.first().is_some_and(|h| h.1 == BranchEnd::Closed) {
-            halves.push((vec![first.clone()], BranchEnd::Closed));
-            break;
-        }
-    }
-    branches.push(join(halves, None));
-    let mut more = false;
-    let mut next = 0;
-    while next < tracer.specials.len() && stop.is_none() {
-        let special = tracer.specials[next].clone();
-        for direction in &special.directions {
-            if branches.len() >= settings.branches {
-                more |= settings.branches > 1;
-                break;
-            }
-            let mut halves = Vec::new();
-            for sign in [-1.0, 1.0] {
-                let half = tracer.switch(&special, &(direction * sign), &branches, branches.len());
-                let closed = half.as_ref().is_some_and(|h| h.1 == BranchEnd::Closed);
-                halves.push(half);
-                if closed {
-                    halves.push(None);
-                    break;
-                }
-            }
-            if halves.iter().all(Option::is_none) {
-                continue;
-            }
-            let middle = special.point.clone();
-            let whole = halves
-                .into_iter()
-                .map(|h| h.unwrap_or((vec![middle.clone()], BranchEnd::Closed)))
-                .collect();
-            branches.push(join(whole, Some(next)));
-        }
-        next += 1;
-    }
-    let specials = tracer.specials;
-    Ok(Curves {
+    let mut curves = Curves {
         problem: problem.clone(),
         parameter: parameter.clone(),
-        branches,
-        specials,
-        more_branches: more,
+        branches: Vec::new(),
+        specials: Vec::new(),
+        more_branches: false,
         settings: settings.clone(),
         start: (start.coordinates.clone(), start.wrench, value),
-    })
+    };
+    curves.grow(start, value, stop)?;
+    Ok(curves)
+}
+
+impl Curves<'_> {
+    /// Follows the path through a further equilibrium of the same problem, at a value of the
+    /// parameter, and the branches connected to it as far as [`CurveSettings::branches`] allows for
+    /// each start. False if the equilibrium lies on a branch that is known.
+    ///
+    /// # Errors
+    /// The start is no equilibrium.
+    pub fn add(&mut self, start: &Equilibrium, value: f64) -> Result<bool> {
+        self.grow(start, value, None)
+    }
+
+    fn grow(&mut self, start: &Equilibrium, value: f64, stop: Stop<'_>) -> Result<bool> {
+        let (problem, parameter) = (self.problem.clone(), self.parameter.clone());
+        let settings = self.settings.clone();
+        let mut reduced = Reduced::new(&problem, Some(&parameter), &settings.solver)?;
+        reduced.start(&self.start.0, &self.start.1, self.start.2)?;
+        let z = reduced.state(&start.coordinates, &start.wrench, value);
+        let mut tracer = Tracer {
+            reduced,
+            settings: &settings,
+            specials: std::mem::take(&mut self.specials),
+        };
+        let answer = tracer.grow(&z, &mut self.branches, &mut self.more_branches, stop);
+        self.specials = tracer.specials;
+        answer
+    }
 }
 
 /// One branch from its two halves, which share their first point.
-fn join(mut halves: Vec<(Vec<CurvePoint>, BranchEnd)>, origin: Option<usize>) -> Branch {
+pub(crate) fn join(mut halves: Vec<(Vec<CurvePoint>, BranchEnd)>, origin: Option<usize>) -> Branch {
     let (forward, last) = halves.pop().unwrap_or((Vec::new(), BranchEnd::Lost));
     let (backward, first) = halves.pop().unwrap_or((Vec::new(), BranchEnd::Lost));
     let mut points: Vec<CurvePoint> = backward;
@@ -265,641 +238,4 @@ fn join(mut halves: Vec<(Vec<CurvePoint>, BranchEnd)>, origin: Option<usize>) ->
         origin,
         ends: [first, last],
     }
-}
-
-/// Sign and logarithm of a determinant, and the direction in which equilibrium persists.
-pub(crate) struct Tangent {
-    pub direction: DVector<f64>,
-    /// Sign of `det [G_z; t^T]`: it changes at a simple bifurcation.
-    pub sign: f64,
-    pub logarithm: f64,
-}
-
-/// Tangent at a state, oriented along `guide`.
-pub(crate) fn tangent(matrix: &DMatrix<f64>, guide: &DVector<f64>) -> Option<Tangent> {
-    let m = matrix.nrows();
-    let lu = bordered(matrix, guide).lu();
-    let mut sign: f64 = lu.p().determinant();
-    let mut logarithm = 0.0;
-    for pivot in lu.lu_internal().diagonal().iter() {
-        sign *= pivot.signum();
-        logarithm += pivot.abs().max(1e-300).ln();
-    }
-    let mut unit = DVector::zeros(m + 1);
-    unit[m] = 1.0;
-    let solution = lu.solve(&unit)?;
-    let norm = solution.norm();
-    if !norm.is_finite() || norm == 0.0 {
-        return None;
-    }
-    let direction = solution / norm;
-    // det [A; t] = det [A; p] / (p . t), and p . t = 1 / norm.
-    logarithm += norm.ln();
-    Some(Tangent {
-        direction,
-        sign,
-        logarithm,
-    })
-}
-
-pub(crate) struct Tracer<'p, 'a, 's> {
-    pub reduced: Reduced<'p, 'a>,
-    pub settings: &'s CurveSettings,
-    pub specials: Vec<Special>,
-}
-
-impl Tracer<'_, '_, '_> {
-    fn first_point(&mut self, z: &DVector<f64>) -> Result<CurvePoint> {
-        let m = self.reduced.count();
-        let mut z = z.clone();
-        let mut best = None;
-        // The start is refined across its own tangent, which exists where the parameter stands still.
-        for _ in 0..3 {
-            let (_, _, matrix) = self.reduced.linearised(&z);
-            let t = bifurcation::start_direction(&matrix);
-            let offset = t.dot(&z);
-            let Some(c) = self.reduced.correct(&z, &Row::Plane(&t, offset), 12) else {
-                break;
-            };
-            z.clone_from(&c.z);
-            best = Some((c, t));
-        }
-        let Some((c, mut t)) = best else {
-            let (_, balance) = self.reduced.evaluate(&z);
-            return Err(crate::error::Error::NotConverged {
-                place: format!("chain '{}'", self.reduced.problem.chain.name()),
-                iterations: 12,
-                residual_position_m: balance.closure * self.reduced.problem.chain.scale().length,
-                residual_torque: balance.torque / balance.loads.max(1e-9),
-                load_factor: 0.0,
-                last: self.reduced.coordinates(&z),
-            });
-        };
-        if t[m] < 0.0 {
-            t *= -1.0;
-        }
-        self.reduced.evaluate(&c.z);
-        Ok(self.describe(&c, t))
-    }
-
-    /// A point from a corrected state; the system is evaluated there.
-    pub fn describe(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
-        self.reduced.evaluate(&c.z);
-        let (held, u_held) = self.reduced.stability(&c.matrix, true);
-        let (dead, u_dead) = self.reduced.stability(&c.matrix, false);
-        let m = self.reduced.count();
-        let rate = self.reduced.conjugate_row(&c.matrix).dot(&direction);
-        let change = direction[m] * self.reduced.sigma;
-        let (load, displacement) = if self.reduced.is_load() {
-            (change, rate)
-        } else {
-            (rate, change)
-        };
-        let slope = if displacement.abs() > 1e-12 * load.abs() {
-            load / displacement
-        } else {
-            f64::INFINITY
-        };
-        CurvePoint {
-            parameter: self.reduced.value(&c.z),
-            conjugate: self.reduced.conjugate(&c.z),
-            equilibrium: self.reduced.equilibrium(c),
-            slope,
-            held,
-            dead,
-            arc: 0.0,
-            z: c.z.clone(),
-            tangent: direction,
-            unstable: [u_held, u_dead],
-        }
-    }
-
-    /// Largest step along `t`.
-    pub fn longest(&self, t: &DVector<f64>) -> f64 {
-        let chain = self.reduced.problem.chain;
-        let turn = self.settings.largest_turn;
-        let mut h = 2.0_f64;
-        for (dx, c) in self.reduced.motion(t).iter().zip(chain.coordinates()) {
-            let most = match c.kind {
-                MotionKind::Revolute => turn,
-                MotionKind::Prismatic => turn * chain.scale().length,
-            };
-            h = h.min(most / dx.abs().max(1e-300));
-        }
-        let (low, high) = self.settings.range;
-        let width = high - low;
-        let most = self
-            .settings
-            .largest_change
-            .or_else(|| width.is_finite().then_some(width / 20.0));
-        if let Some(most) = most.filter(|m| *m > 0.0) {
-            let change = (t[self.reduced.count()] * self.reduced.sigma).abs();
-            h = h.min(most / change.max(1e-300));
-        }
-        h
-    }
-
-    /// Follows the path from a point along its tangent. `known` tells that the first point is an
-    /// ordinary one, whose test functions may be compared with the next.
-    pub fn run(
-        &mut self,
-        start: CurvePoint,
-        known: bool,
-        branch: usize,
-        stop: Stop<'_>,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
-        let m = self.reduced.count();
-        let mut points = vec![start];
-        if stop.is_some_and(|stop| stop(&points[0])) {
-            return (points, BranchEnd::Found);
-        }
-        let mut probe = if known { self.probe(&points[0]) } else { None };
-        let mut h = 0.2 * self.longest(&points[0].tangent);
-        loop {
-            let here = points[points.len() - 1].clone();
-            if points.len() > self.settings.points {
-                return (points, BranchEnd::Points);
-            }
-            h = h.min(self.longest(&here.tangent));
-            let Some((point, next, iterations)) = self.step(&here, h) else {
-                h *= 0.5;
-                if h < self.settings.smallest_step {
-                    return (points, BranchEnd::Lost);
-                }
-                continue;
-            };
-            let jumps = (0..2).any(|k| here.unstable[k].abs_diff(point.unstable[k]) > 1);
-            if jumps && h > 1e-5 && points.len() > usize::from(!known) {
-                h *= 0.5;
-                continue;
-            }
-            if let Some(end) = self.beyond(&here, &point) {
-                if let Some((last, next)) = self.cut(&here, &point) {
-                    self.look_between(&here, &last, probe.as_ref(), &next, branch);
-                    points.push(last);
-                }
-                return (points, end);
-            }
-            let clear = self.look_between(&here, &point, probe.as_ref(), &next, branch);
-            if !clear && h > self.settings.smallest_step.max(1e-6) {
-                h *= 0.5;
-                continue;
-            }
-            let origin = &points[0];
-            let back = distance(
-                self.reduced.problem.chain,
-                &self.reduced,
-                &origin.z,
-                &point.z,
-            );
-            if points.len() > 5
-                && back < 0.75 * h
-                && origin.tangent.dot(&point.tangent) > 0.8
-                && (origin.z[m] - point.z[m]).abs() < h
-            {
-                let mut last = origin.clone();
-                last.tangent.clone_from(&point.tangent);
-                points.push(last);
-                return (points, BranchEnd::Closed);
-            }
-            let found = stop.is_some_and(|stop| stop(&point));
-            points.push(point);
-            probe = Some(next);
-            if found {
-                return (points, BranchEnd::Found);
-            }
-            if iterations <= 4 {
-                h *= 1.5;
-            }
-        }
-    }
-
-    /// The point between two neighbours at which a verdict changes, by halving.
-    pub fn verdict_change(
-        &mut self,
-        here: &CurvePoint,
-        there: &CurvePoint,
-        verdict: &dyn Fn(&CurvePoint) -> bool,
-    ) -> CurvePoint {
-        let (mut low, mut high, mut best) = (0.0, 1.0, there.clone());
-        for _ in 0..50 {
-            let share = 0.5 * (low + high);
-            let guess = &here.z + (&there.z - &here.z) * share;
-            let t = &here.tangent;
-            let Some(c) = self
-                .reduced
-                .correct(&guess, &Row::Plane(t, t.dot(&guess)), 10)
-            else {
-                break;
-            };
-            let point = self.describe(&c, t.clone());
-            if verdict(&point) {
-                high = share;
-                best = point;
-            } else {
-                low = share;
-            }
-        }
-        best
-    }
-
-    /// Test functions at a point.
-    pub fn probe(&mut self, point: &CurvePoint) -> Option<Tangent> {
-        let (_, _, matrix) = self.reduced.linearised(&point.z);
-        tangent(&matrix, &point.tangent)
-    }
-
-    /// One step of length `h`, `None` if it is too long.
-    fn step(&mut self, here: &CurvePoint, h: f64) -> Option<(CurvePoint, Tangent, usize)> {
-        let t = &here.tangent;
-        let predicted = &here.z + t * h;
-        let offset = t.dot(&predicted);
-        let c = self
-            .reduced
-            .correct(&predicted, &Row::Plane(t, offset), 8)?;
-        if (&c.z - &predicted).norm() > 0.3 * h {
-            return None;
-        }
-        let next = tangent(&c.matrix, t)?;
-        if next.direction.dot(t) < 0.95 && h > 1e-5 {
-            return None;
-        }
-        let iterations = c.iterations;
-        let point = self.describe(&c, next.direction.clone());
-        Some((point, next, iterations))
-    }
-
-    /// Whether the last step left the limits.
-    fn beyond(&self, here: &CurvePoint, point: &CurvePoint) -> Option<BranchEnd> {
-        let left = |from: f64, to: f64, (low, high): (f64, f64)| {
-            (to > high && to > from) || (to < low && to < from)
-        };
-        if left(here.parameter, point.parameter, self.settings.range)
-            || left(
-                here.conjugate,
-                point.conjugate,
-                self.settings.conjugate_range,
-            )
-        {
-            return Some(BranchEnd::Range);
-        }
-        let chain = self.reduced.problem.chain;
-        let far = point
-            .equilibrium
-            .coordinates
-            .iter()
-            .zip(chain.coordinates())
-            .any(|(x, c)| c.kind == MotionKind::Revolute && x.abs() > self.settings.largest_angle);
-        far.then_some(BranchEnd::Angle)
-    }
-
-    /// The point at which the path crosses a limit between two points.
-    fn cut(&mut self, here: &CurvePoint, point: &CurvePoint) -> Option<(CurvePoint, Tangent)> {
-        let cross = |from: f64, to: f64, (low, high): (f64, f64)| {
-            let limit = if to > high { high } else { low };
-            let crosses = (to > high && from < high) || (to < low && from > low);
-            crosses.then(|| (limit, (limit - from) / (to - from)))
-        };
-        let a = cross(here.parameter, point.parameter, self.settings.range);
-        let b = cross(
-            here.conjugate,
-            point.conjugate,
-            self.settings.conjugate_range,
-        );
-        let (row, share) = match (a, b) {
-            (Some((_, s)), Some((v, u))) if u < s => (Row::Conjugate(v), u),
-            (Some((v, s)), _) => (Row::Parameter(v), s),
-            (None, Some((v, u))) => (Row::Conjugate(v), u),
-            (None, None) => return None,
-        };
-        let guess = &here.z + (&point.z - &here.z) * share;
-        let c = self.reduced.correct(&guess, &row, 10)?;
-        if (&c.z - &guess).norm() > (&point.z - &here.z).norm() {
-            return None;
-        }
-        let next = tangent(&c.matrix, &here.tangent)?;
-        let last = self.describe(&c, next.direction.clone());
-        Some((last, next))
-    }
-
-    /// First point of another branch at a bifurcation, and the path from there.
-    fn switch(
-        &mut self,
-        special: &Special,
-        direction: &DVector<f64>,
-        branches: &[Branch],
-        branch: usize,
-    ) -> Option<(Vec<CurvePoint>, BranchEnd)> {
-        let mut middle = special.point.clone();
-        middle.tangent.clone_from(direction);
-        let usual = 0.3 * self.longest(direction);
-        for h in [usual, 0.2 * usual, 0.04 * usual, 3.0 * usual] {
-            let predicted = &middle.z + direction * h;
-            let offset = direction.dot(&predicted);
-            let Some(c) = self
-                .reduced
-                .correct(&predicted, &Row::Plane(direction, offset), 10)
-            else {
-                continue;
-            };
-            if (&c.z - &predicted).norm() > 0.4 * h {
-                continue;
-            }
-            let Some(next) = tangent(&c.matrix, direction) else {
-                continue;
-            };
-            let chain = self.reduced.problem.chain;
-            let covered = branches.iter().any(|b| {
-                b.points
-                    .windows(2)
-                    .any(|w| off_segment(chain, &self.reduced, &c.z, &w[0].z, &w[1].z) < 0.15 * h)
-            });
-            if covered {
-                return None;
-            }
-            let second = self.describe(&c, next.direction.clone());
-            if self.beyond(&middle, &second).is_some() {
-                return Some((vec![middle], BranchEnd::Range));
-            }
-            return Some(self.run_from(middle, second, branch));
-        }
-        None
-    }
-
-    fn run_from(
-        &mut self,
-        middle: CurvePoint,
-        second: CurvePoint,
-        branch: usize,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
-        let origin = middle.z.clone();
-        let (rest, mut end) = self.run_watching(second, branch, &origin);
-        let mut points = vec![middle.clone()];
-        points.extend(rest);
-        if end == BranchEnd::Closed {
-            // The last step went past the origin.
-            points.pop();
-            let mut last = middle;
-            if let Some(before) = points.last() {
-                last.tangent.clone_from(&before.tangent);
-            }
-            points.push(last);
-        } else if points.len() < 2 {
-            end = BranchEnd::Lost;
-        }
-        (points, end)
-    }
-
-    /// As [`Self::run`] from an ordinary point; ends as closed where the path returns to `origin`.
-    fn run_watching(
-        &mut self,
-        second: CurvePoint,
-        branch: usize,
-        origin: &DVector<f64>,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
-        let home = origin.clone();
-        let chain = self.reduced.problem.chain;
-        let scales: Vec<f64> = wraps(chain, &self.reduced);
-        let offset = self.reduced.reactions();
-        let first = second.z.clone();
-        let came = std::cell::Cell::new(0_usize);
-        let previous = std::cell::RefCell::new(first.clone());
-        let returns = |p: &CurvePoint| {
-            came.set(came.get() + 1);
-            let last = previous.replace(p.z.clone());
-            let span = wrapped(&p.z, &last, &scales, offset).norm();
-            came.get() > 5 && segment_distance(&home, &last, &p.z, &scales, offset) < 0.05 * span
-        };
-        let (points, end) = self.run(second, true, branch, Some(&returns));
-        let end = if end == BranchEnd::Found {
-            BranchEnd::Closed
-        } else {
-            end
-        };
-        (points, end)
-    }
-
-    /// Books limit and bifurcation points between two points; false if the second lies on another
-    /// branch.
-    fn look_between(
-        &mut self,
-        here: &CurvePoint,
-        point: &CurvePoint,
-        before: Option<&Tangent>,
-        after: &Tangent,
-        branch: usize,
-    ) -> bool {
-        let Some(found) = bifurcation::between(self, here, point, before, after) else {
-            return false;
-        };
-        for mut special in found {
-            let chain = self.reduced.problem.chain;
-            let same = self.specials.iter().position(|s| {
-                let bifurcations = s.kind.is_bifurcation() == special.kind.is_bifurcation();
-                let apart = distance(chain, &self.reduced, &s.point.z, &special.point.z);
-                bifurcations && apart < (10.0 * (s.accuracy + special.accuracy)).max(1e-7)
-            });
-            match same {
-                Some(i) => {
-                    if !self.specials[i].branches.contains(&branch) {
-                        self.specials[i].branches.push(branch);
-                    }
-                }
-                None => {
-                    special.branches = vec![branch];
-                    self.specials.push(special);
-                }
-            }
-        }
-        true
-    }
-}
-
-/// Full turn of every coordinate in balanced units, 0 where a turn makes a difference.
-fn wraps(chain: &Chain, reduced: &Reduced<'_, '_>) -> Vec<f64> {
-    let mut one = DVector::zeros(reduced.count() + 1);
-    (0..chain.coordinate_count())
-        .map(|i| {
-            let c = &chain.coordinates()[i];
-            if c.role == Role::Passive && c.kind == MotionKind::Revolute {
-                one.fill(0.0);
-                one[reduced.reactions() + i] = 1.0;
-                std::f64::consts::TAU / reduced.coordinates(&one)[i]
-            } else {
-                0.0
-            }
-        })
-        .collect()
-}
-
-/// `a - b`, full turns of passive joints taken out.
-pub(crate) fn wrapped(
-    a: &DVector<f64>,
-    b: &DVector<f64>,
-    turns: &[f64],
-    offset: usize,
-) -> DVector<f64> {
-    let mut d = a - b;
-    for (i, turn) in turns.iter().enumerate() {
-        if *turn > 0.0 {
-            d[offset + i] -= turn * (d[offset + i] / turn).round();
-        }
-    }
-    d
-}
-
-/// Distance of two states, full turns of passive joints taken out.
-pub(crate) fn distance(
-    chain: &Chain,
-    reduced: &Reduced<'_, '_>,
-    a: &DVector<f64>,
-    b: &DVector<f64>,
-) -> f64 {
-    wrapped(a, b, &wraps(chain, reduced), reduced.reactions()).norm()
-}
-
-fn off_segment(
-    chain: &Chain,
-    reduced: &Reduced<'_, '_>,
-    p: &DVector<f64>,
-    a: &DVector<f64>,
-    b: &DVector<f64>,
-) -> f64 {
-    segment_distance(p, a, b, &wraps(chain, reduced), reduced.reactions())
-}
-
-/// Distance of `p` from the segment `a b`.
-fn segment_distance(
-    p: &DVector<f64>,
-    a: &DVector<f64>,
-    b: &DVector<f64>,
-    turns: &[f64],
-    offset: usize,
-) -> f64 {
-    let along = b - a;
-    let from = wrapped(p, a, turns, offset);
-    let share = (from.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (from - along * share).norm()
-}
-
-impl Curves<'_> {
-    /// Equilibria at one value of the parameter, on all branches.
-    ///
-    /// # Errors
-    /// None in practice: the problem was accepted when the curve was followed.
-    pub fn at(&self, value: f64) -> Result<Vec<CurvePoint>> {
-        self.crossings(value, true)
-    }
-
-    /// Equilibria at one value of the conjugate (force along the displacement, or displacement
-    /// along the load pattern), on all branches.
-    ///
-    /// # Errors
-    /// None in practice: the problem was accepted when the curve was followed.
-    pub fn at_conjugate(&self, value: f64) -> Result<Vec<CurvePoint>> {
-        self.crossings(value, false)
-    }
-
-    fn crossings(&self, value: f64, parameter: bool) -> Result<Vec<CurvePoint>> {
-        let mut reduced =
-            Reduced::new(&self.problem, Some(&self.parameter), &self.settings.solver)?;
-        reduced.start(&self.start.0, &self.start.1, self.start.2)?;
-        let mut tracer = Tracer {
-            reduced,
-            settings: &self.settings,
-            specials: Vec::new(),
-        };
-        let chain = self.problem.chain;
-        let mut found: Vec<CurvePoint> = Vec::new();
-        for pair in self.branches.iter().flat_map(|b| b.points.windows(2)) {
-            let of = |p: &CurvePoint| (if parameter { p.parameter } else { p.conjugate }) - value;
-            let (a, b) = (of(&pair[0]), of(&pair[1]));
-            let slack = 1e-12 * (1.0 + value.abs());
-            if a * b > 0.0 && a.abs() > slack && b.abs() > slack || a == b {
-                continue;
-            }
-            let guess = &pair[0].z + (&pair[1].z - &pair[0].z) * (a / (a - b)).clamp(0.0, 1.0);
-            let row = if parameter {
-                Row::Parameter(value)
-            } else {
-                Row::Conjugate(value)
-            };
-            let Some(c) = tracer.reduced.correct(&guess, &row, 12) else {
-                continue;
-            };
-            let far = (&c.z - &guess).norm() > (&pair[1].z - &pair[0].z).norm();
-            let known = found
-                .iter()
-                .any(|p| distance(chain, &tracer.reduced, &p.z, &c.z) < 1e-7);
-            if far || known {
-                continue;
-            }
-            if let Some(t) = tangent(&c.matrix, &pair[0].tangent) {
-                found.push(tracer.describe(&c, t.direction));
-            }
-        }
-        Ok(found)
-    }
-
-    /// Where the chain goes from every limit point that a stable part of a branch runs into: stable
-    /// equilibria on the computed branches at the same dead load (load limits) or at the same
-    /// displacement (displacement limits), nearest first.
-    ///
-    /// # Errors
-    /// None in practice: the problem was accepted when the curve was followed.
-    pub fn jumps(&self) -> Result<Vec<Jump>> {
-        let reduced = Reduced::new(&self.problem, Some(&self.parameter), &self.settings.solver)?;
-        let is_load = reduced.is_load();
-        let turns = wraps(self.problem.chain, &reduced);
-        let offset = reduced.reactions();
-        let mut jumps = Vec::new();
-        for (index, special) in self.specials.iter().enumerate() {
-            let by_load = match special.kind {
-                SpecialKind::LoadLimit => true,
-                SpecialKind::DisplacementLimit => false,
-                _ => continue,
-            };
-            let verdict = |p: &CurvePoint| {
-                if by_load {
-                    p.dead.stable
-                } else {
-                    p.held.stable
-                }
-            };
-            if !special.stable_side {
-                continue;
-            }
-            let value = if by_load == is_load {
-                special.point.parameter
-            } else {
-                special.point.conjugate
-            };
-            let mut to: Vec<(f64, CurvePoint)> = self
-                .crossings(value, by_load == is_load)?
-                .into_iter()
-                .filter(|p| verdict(p))
-                .map(|p| (wrapped(&p.z, &special.point.z, &turns, offset).norm(), p))
-                .filter(|(d, _)| *d > 1e-3)
-                .collect();
-            to.sort_by(|a, b| a.0.total_cmp(&b.0));
-            jumps.push(Jump {
-                from: index,
-                dead_load: by_load,
-                to: to.into_iter().map(|(_, p)| p).collect(),
-            });
-        }
-        Ok(jumps)
-    }
-}
-
-/// A jump from a limit point.
-#[derive(Clone, Debug)]
-pub struct Jump {
-    /// The limit point: index into [`Curves::specials`].
-    pub from: usize,
-    /// True under a dead load (at a load limit), false under prescribed motion.
-    pub dead_load: bool,
-    /// Stable equilibria at the same load (displacement), nearest first; empty if no computed branch
-    /// holds one.
-    pub to: Vec<CurvePoint>,
 }

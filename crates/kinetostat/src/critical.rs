@@ -5,12 +5,13 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::bifurcation::SpecialKind;
-use crate::branches::{CurvePoint, CurveSettings, Tracer, follow_until};
+use crate::branches::{CurvePoint, CurveSettings, follow_until};
 use crate::equilibrium::{ChainProblem, Equilibrium, solve_chain};
 use crate::error::Result;
 use crate::reduced::{LoadPattern, Parameter, Reduced};
 use crate::saddle::{Saddle, column_space, complement};
 use crate::stability::margin;
+use crate::tracer::Tracer;
 
 /// What must stay stable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -55,8 +56,8 @@ pub struct CriticalLoad {
 /// `settings.range.1` is the largest factor tried, infinity if need be.
 ///
 /// # Errors
-/// Wrong input, or no equilibrium at factor 0. A chain that is unstable at factor 0 has the critical
-/// factor 0.
+/// Wrong input, or no equilibrium at factor 0. A chain that is unstable at factor 0 has the
+/// critical factor 0.
 pub fn critical_load_factor(
     problem: &ChainProblem<'_>,
     pattern: &LoadPattern,

@@ -2,16 +2,16 @@
 //!
 //! Newton on the conditions of equilibrium converges to stable and unstable shapes alike. It is
 //! started from the posture, from every shape found (mirrored, pushed along its critical mode) and
-//! from a sequence that fills the coordinates' bounds evenly; each start that ends where another one
-//! ended is run once more with the known equilibria deflated. When a stated number of starts was
-//! fruitless, the curve through every equilibrium is followed for others that it connects. The
+//! from a sequence that fills the coordinates' bounds evenly; each start that ends where another
+//! one ended is run once more with the known equilibria deflated. When a stated number of starts
+//! was fruitless, the curve through every equilibrium is followed for others that it connects. The
 //! result says how often each equilibrium was found and how likely another start is to find a new
 //! one. It is deterministic.
 
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::branches::{CurveSettings, follow, wrapped};
+use crate::branches::{CurveSettings, follow};
 use crate::chain::{Chain, MotionKind, Role};
 use crate::equilibrium::{ChainProblem, Equilibrium, Prescribed, step_limit};
 use crate::error::{Error, Result};
@@ -20,6 +20,7 @@ use crate::reduced::{Corrected, LoadPattern, Parameter, Reduced};
 use crate::saddle::{Saddle, pseudo_inverse};
 use crate::settings::Settings;
 use crate::spatial::Twist;
+use crate::state_distance::wrapped;
 
 /// Limits of the coordinates within which equilibria count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -94,6 +95,8 @@ pub struct SearchSettings {
     pub fruitless: usize,
     /// Evenly spread starts at most. Default 5000.
     pub starts: usize,
+    /// The search stops when this many equilibria are known. Default 100.
+    pub most: usize,
     /// Follow the curve through every equilibrium for others that it connects. Default true.
     pub sweep: bool,
     /// Tolerances of each equilibrium; `iterations` bounds each start.
@@ -105,6 +108,7 @@ impl Default for SearchSettings {
         Self {
             fruitless: 400,
             starts: 5000,
+            most: 100,
             sweep: true,
             solver: Settings::default(),
         }
@@ -119,17 +123,18 @@ pub struct FoundEquilibrium {
     /// Whether it holds under the conditions as prescribed: dead wrench where the wrench is
     /// prescribed, held where the pose is.
     pub stable: bool,
-    /// Potential energy of springs and loads, J, up to a constant of the problem; `None` where a load
-    /// has none (see [`crate::load_energy`]).
+    /// Potential energy of springs and loads, J, up to a constant of the problem; `None` where a
+    /// load has none (see [`crate::load_energy`]).
     pub potential: Option<f64>,
     /// How many evenly spread starts ended here; 0: found from another equilibrium only.
     pub hits: usize,
-    /// True if the equilibrium is degenerate: at a limit or bifurcation point, or one of a family that moves for
-    /// nothing.
+    /// True if the equilibrium is degenerate: at a limit or bifurcation point, or one of a family
+    /// that moves for nothing.
     pub singular: bool,
 }
 
-/// All equilibria found, by rising potential energy (where a load has none: by the springs' energy), and how sure it is that there are no more.
+/// All equilibria found, by rising potential energy (where a load has none: by the springs'
+/// energy), and how sure it is that there are no more.
 #[derive(Clone, Debug)]
 pub struct Equilibria {
     /// By rising potential energy.
@@ -142,12 +147,14 @@ pub struct Equilibria {
     pub outside: usize,
     /// Starts since the last new equilibrium.
     pub fruitless: usize,
-    /// Good-Turing estimate of the chance that one more successful start finds something new: the share
-    /// of successful starts whose equilibrium was found just once (never, by spread starts, counts too).
+    /// Good-Turing estimate of the chance that one more successful start finds something new: the
+    /// share of successful starts whose equilibrium was found just once (never, by spread starts,
+    /// counts too).
     pub chance_of_more: f64,
     /// Upper end of that chance (95 %; the rule of three where no equilibrium was found just once).
     pub chance_of_more_at_most: f64,
-    /// True if the search ended because nothing new was found, not because starts ran out.
+    /// True if the search ended because nothing new was found, not because starts ran out or the
+    /// largest number was reached.
     pub settled: bool,
 }
 
@@ -174,7 +181,7 @@ pub fn equilibria(
     let mut queue = structured(&problem.posture, chain);
     let (mut suggested, mut swept, mut index) = (0, 0, 0_usize);
     let sweep = settings.sweep.then(|| sweep_parameter(problem)).flatten();
-    loop {
+    while search.known.len() < settings.most {
         // What every new equilibrium suggests.
         while suggested < search.known.len() {
             queue.extend(around(&search.known[suggested], chain));
@@ -196,8 +203,8 @@ pub fn equilibria(
     Ok(search.finish(settings))
 }
 
-/// What is varied to connect equilibria with each other: the distance of the end from the base where
-/// it is held, else all loads together.
+/// What is varied to connect equilibria with each other: the distance of the end from the base
+/// where it is held, else all loads together.
 fn sweep_parameter(problem: &ChainProblem<'_>) -> Option<Parameter> {
     let end = &problem.end;
     let back = end.axes.inverse();
@@ -259,8 +266,8 @@ fn around(known: &Known, chain: &Chain) -> Vec<Vec<f64>> {
     list
 }
 
-/// Point `index` of an additive recurrence that fills the bounds evenly. Springs are spread over what
-/// the natural energy can deflect, a third of it, and a tenth of it in turn.
+/// Point `index` of an additive recurrence that fills the bounds evenly. Springs are spread over
+/// what the natural energy can deflect, a third of it, and a tenth of it in turn.
 fn spread(search: &Search<'_, '_, '_>, index: usize) -> Vec<f64> {
     let chain = search.reduced.problem.chain;
     let n = chain.coordinate_count();
@@ -505,8 +512,8 @@ impl Search<'_, '_, '_> {
             .collect()
     }
 
-    /// Coordinates that take part in motions that change nothing. One that does so alone (an end hinge
-    /// that nothing turns) goes back to the posture's value.
+    /// Coordinates that take part in motions that change nothing. One that does so alone (an end
+    /// hinge that nothing turns) goes back to the posture's value.
     fn idle(&self, z: &mut DVector<f64>) -> Vec<bool> {
         let n = self.reduced.coordinates_count();
         let Some(motions) = self.reduced.neutral_motions() else {
@@ -586,10 +593,10 @@ impl Search<'_, '_, '_> {
             }
         }
         let square = c.matrix.columns(0, m).into_owned();
-        let singular = square.singular_values();
-        let least = if singular.is_empty() {
+        let least = if square.is_empty() {
             1.0
         } else {
+            let singular = square.singular_values();
             singular.min() / singular.max().max(f64::MIN_POSITIVE)
         };
         let (stability, unstable) = self.reduced.stability(&c.matrix, false);
@@ -607,6 +614,7 @@ impl Search<'_, '_, '_> {
 
     fn finish(self, settings: &SearchSettings) -> Equilibria {
         let problem = self.reduced.problem;
+        let known = self.known.len();
         let hits: usize = self.known.iter().map(|k| k.hits).sum();
         let once = self.known.iter().filter(|k| k.hits <= 1).count();
         let count = (hits.max(1)) as f64;
@@ -645,7 +653,7 @@ impl Search<'_, '_, '_> {
             fruitless: self.since,
             chance_of_more: chance,
             chance_of_more_at_most: most,
-            settled: self.since >= settings.fruitless,
+            settled: self.since >= settings.fruitless && known < settings.most,
         }
     }
 }

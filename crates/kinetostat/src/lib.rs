@@ -76,7 +76,8 @@
 //!
 //! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <-
 //! equilibrium, stiffness, stability <- mechanism, inverse <- platform, platform_step <- posture <-
-//! assembly, mobility, compensation`.
+//! assembly, mobility, compensation`; and `equilibrium, stability <- reduced, singular_point <-
+//! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
 mod assembly;
 mod beam;
@@ -99,6 +100,7 @@ mod follower;
 mod function_load;
 mod inverse;
 mod jet;
+mod jumps;
 mod kinematics;
 mod length_law;
 mod link;
@@ -117,18 +119,21 @@ mod posture;
 mod reduced;
 mod saddle;
 mod settings;
+mod singular_point;
 mod spatial;
 mod spring;
 mod stability;
+mod state_distance;
 mod stiffness;
 mod strut;
+mod tracer;
 mod uniform;
 
 pub use assembly::LinearAssembly;
 pub use beam::BeamSection;
 pub use bifurcation::{Special, SpecialKind};
 pub use bowing::BowingLaw;
-pub use branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Curves, Jump, follow};
+pub use branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Curves, follow};
 pub use builder::{ActuatorSpec, ChainBuilder};
 pub use chain::{
     Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
@@ -147,6 +152,7 @@ pub use error::{Error, Result};
 pub use follower::{Follower, PointForce};
 pub use function_load::FunctionLoad;
 pub use inverse::{LimbPosture, inverse_kinematics};
+pub use jumps::Jump;
 pub use kinematics::Kinematics;
 pub use length_law::{LengthFunction, LengthLaw, LengthResponse};
 pub use link::{LinkConvention, LinkElasticity, LinkSpec};

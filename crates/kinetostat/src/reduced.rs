@@ -12,7 +12,7 @@
 //! bifurcation and never a matter of how the chain was written down. Passive motions that change
 //! nothing (strut spin) are held by their own projector.
 
-use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::chain::Role;
 use crate::equilibrium::{
@@ -23,7 +23,7 @@ use crate::load_energy::is_conservative;
 use crate::loading::Load;
 use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
 use crate::settings::Settings;
-use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, turn_matrix};
+use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, turn_matrix};
 use crate::stability::{ShapeStability, stability_within};
 
 /// Loads that grow together: at factor `f` the chain carries its own loads plus `f` times these.
@@ -104,13 +104,16 @@ pub(crate) struct Reduced<'p, 'a> {
     pub sigma: f64,
     /// Square root of the natural energy.
     unit: f64,
+    /// Rotation (vector, rad) that the end lacks: it is not small where some rotations are free.
+    turned: Vector3<f64>,
     /// All loads, those that grow included, have a potential.
     conservative: bool,
     /// Poses of the nodes at the start, for the displacement along a load pattern.
     reference: Vec<Pose>,
 }
 
-/// Largest part of `v` (in the given balance) that lies in directions that are prescribed otherwise.
+/// Largest part of `v` (in the given balance) that lies in directions that are prescribed
+/// otherwise.
 fn misplaced(v: &Vector6<f64>, turn: &Matrix6<f64>, wrong: impl Fn(usize) -> bool) -> bool {
     let local = turn.transpose() * v;
     let most = local.amax();
@@ -185,6 +188,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             neutral: 0,
             sigma: 1.0,
             unit: natural(chain),
+            turned: Vector3::zeros(),
             conservative,
             reference: Vec::new(),
         };
@@ -351,6 +355,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             _ => p.end.pose,
         };
         let miss = pose_residual(&target, &self.system.kinematics.tip_pose());
+        self.turned = miss.angular();
         let scaled = DVector::from_fn(6, |i, _| -miss.0[i] * self.factors[i] / self.unit);
         let closure = self.range.transpose() * scaled;
         let (r, m) = (self.reactions(), self.count());
@@ -381,12 +386,22 @@ impl<'p, 'a> Reduced<'p, 'a> {
         b.closure <= self.settings.closure && b.torque <= self.settings.torque * b.loads + 1e-14
     }
 
+    /// Change of the closure with the coordinates, balanced, r x n. Where some rotations are free,
+    /// the rotation vector of what is lacking does not change by the motion alone.
+    fn closure_rows(&self) -> DMatrix<f64> {
+        let mut jacobian = self.balanced_jacobian();
+        let own = rotation_rate(&self.turned);
+        let turned = own * jacobian.fixed_rows::<3>(3);
+        jacobian.fixed_rows_mut::<3>(3).copy_from(&turned);
+        self.range.transpose() * jacobian
+    }
+
     /// Derivative of the conditions by `(a, x)` where the system was evaluated, m x m.
     pub fn matrix(&self) -> DMatrix<f64> {
         let (n, r) = (self.coordinates_count(), self.reactions());
         let rows = self.range.transpose() * self.balanced_jacobian();
         let mut a = DMatrix::zeros(r + n, r + n);
-        a.view_mut((0, r), (r, n)).copy_from(&rows);
+        a.view_mut((0, r), (r, n)).copy_from(&self.closure_rows());
         a.view_mut((r, 0), (n, r)).copy_from(&rows.transpose());
         for i in 0..n {
             for j in 0..n {
@@ -441,12 +456,13 @@ impl<'p, 'a> Reduced<'p, 'a> {
         let mut gradient = DVector::zeros(m);
         match self.parameter {
             Some(Parameter::Displacement(twist)) => {
-                let value = self.value(z);
-                let part = DVector::from_fn(6, |i, _| {
-                    -twist.0[i] * self.factors[i] / self.unit * self.sigma
-                });
                 // A finite turn about a fixed axis keeps its axis; the end's origin moves straight.
-                debug_assert!(value.is_finite());
+                self.evaluate(z);
+                let turning = rotation_rate(&-self.turned) * twist.angular();
+                let rate = Twist::new(twist.linear(), turning).0;
+                let part = DVector::from_fn(6, |i, _| {
+                    -rate[i] * self.factors[i] / self.unit * self.sigma
+                });
                 gradient
                     .rows_mut(0, r)
                     .copy_from(&(self.range.transpose() * part));
@@ -653,6 +669,17 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 }
 
+/// `d log(E exp(hat(w)))/dw` at `w = 0`, for `log E = e`.
+fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
+    let angle = e.norm();
+    let second = if angle < 1e-4 {
+        1.0 / 12.0
+    } else {
+        1.0 / (angle * angle) - 1.0 / (2.0 * angle * (0.5 * angle).tan())
+    };
+    Matrix3::identity() + 0.5 * hat(e) + second * hat(e) * hat(e)
+}
+
 fn check_numbers(problem: &ChainProblem<'_>, what: &str, v: &Vector6<f64>) -> Result<()> {
     match v.iter().copied().find(|x| !x.is_finite()) {
         Some(value) => Err(Error::NotFinite {
@@ -664,7 +691,8 @@ fn check_numbers(problem: &ChainProblem<'_>, what: &str, v: &Vector6<f64>) -> Re
     }
 }
 
-/// Step that removes `lack` and `miss` in `[matrix; normal^T]`; the shortest one where that is singular.
+/// Step that removes `lack` and `miss` in `[matrix; normal^T]`; the shortest one where that is
+/// singular.
 pub(crate) fn solve_bordered(
     matrix: &DMatrix<f64>,
     normal: &DVector<f64>,

@@ -75,6 +75,9 @@ pub(crate) fn pseudo_inverse(a: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
         // The singular value iteration would never end.
         return (DMatrix::from_element(a.ncols(), a.nrows(), f64::NAN), 0);
     }
+    if a.is_empty() {
+        return (DMatrix::zeros(a.ncols(), a.nrows()), 0);
+    }
     let svd = a.clone().svd(true, true);
     let most = svd.singular_values.amax();
     let cut = (RANK_TOLERANCE * most).max(f64::MIN_POSITIVE);
@@ -107,7 +110,7 @@ pub(crate) fn rows_certainly_independent(a: &DMatrix<f64>) -> bool {
 
 /// Orthonormal bases of the column space and rank of a balanced matrix, by its singular values.
 pub(crate) fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
-    if a.ncols() == 0 || a.iter().any(|x| !x.is_finite()) {
+    if a.is_empty() || a.iter().any(|x| !x.is_finite()) {
         return DMatrix::zeros(a.nrows(), 0);
     }
     if rows_certainly_independent(a) {

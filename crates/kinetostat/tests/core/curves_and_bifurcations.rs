@@ -1,11 +1,13 @@
 //! Curves of equilibria: limit points and bifurcations at their places to 1e-8 with their kinds,
 //! branches through the tabulated equilibria, jumps, and critical loads [R 4.6, 5.2-5.6].
 
-use crate::common::{assert_chain_equilibrium, close, golden, number, planar_column};
+use crate::common::{
+    Recipe, Rng, assert_chain_equilibrium, close, golden, number, planar_column, random_chain,
+};
 use kinetostat::{
-    BranchEnd, Chain, ChainProblem, CurvePoint, CurveSettings, Curves, EndCondition, Equilibrium,
-    Judged, Load, LoadPattern, MotionKind, Parameter, Pose, Prescribed, Settings, Special,
-    SpecialKind, Twist, Wrench, critical_load_factor, follow, solve_chain,
+    Anchor, BranchEnd, Chain, ChainProblem, CurvePoint, CurveSettings, Curves, EndCondition,
+    Equilibrium, Judged, Load, LoadPattern, MotionKind, Parameter, Pose, Prescribed, Settings,
+    Special, SpecialKind, Twist, Wrench, critical_load_factor, follow, moved, solve_chain,
 };
 use nalgebra::{Vector3, vector};
 
@@ -441,9 +443,10 @@ fn the_two_elastic_links_have_the_five_limit_points() {
     }
 }
 
-/// Without preload the flat chain forks where `K_L r^2 - K_L r + 2 K = 0`, x = 2 r. With the preload of
-/// the example and the load `4 a0 / r` that holds it flat, the same place is a limit point: the third
-/// derivative of the energy is `8 a0 / r^3`, so nothing forks there under a constant load.
+/// Without preload the flat chain forks where `K_L r^2 - K_L r + 2 K = 0`, x = 2 r. With the
+/// preload of the example and the load `4 a0 / r` that holds it flat, the same place is a limit
+/// point: the third derivative of the energy is `8 a0 / r^3`, so nothing forks there under a
+/// constant load.
 #[test]
 fn the_flat_chain_forks_without_preload_and_has_a_limit_point_with_it() {
     let r = 0.5 * (1.0 + (1.0_f64 - 8.0 / 200.0).sqrt());
@@ -497,8 +500,8 @@ fn the_flat_chain_forks_without_preload_and_has_a_limit_point_with_it() {
     close("flat", p.equilibrium.nodes[0].translation.y, 0.0, 1e-9);
 }
 
-/// Zeros of K_x of the rigid two-link chain (4.6.1): load limits of the upper branch, two of them near
-/// each other.
+/// Zeros of K_x of the rigid two-link chain (4.6.1): load limits of the upper branch, two of them
+/// near each other.
 #[test]
 fn the_rigid_links_have_the_load_limits_of_the_closed_form() {
     let z = Vector3::z();
@@ -695,8 +698,8 @@ fn the_loaded_middle_snaps_through_at_its_load_limit() {
     assert!(r.linear.unwrap() > 3.0 * exact.factor);
 }
 
-/// `dE/dY` without the load and `d^2E/dY^2` of the symmetric shape of 4.6.2 at dx = 0, by differences of
-/// the energy `200 (r - 1)^2 + 2 (a - a0)^2`.
+/// `dE/dY` without the load and `d^2E/dY^2` of the symmetric shape of 4.6.2 at dx = 0, by
+/// differences of the energy `200 (r - 1)^2 + 2 (a - a0)^2`.
 fn energy_of_height(y: f64) -> (f64, f64) {
     let (a0, h) = (15_f64.to_radians(), 1e-4);
     let c = a0.cos();
@@ -742,4 +745,175 @@ fn curves_that_cannot_be_are_refused() {
             wrench: press(),
         }],
     }));
+}
+
+/// A hinged bar held by an inclined spring: the classical asymmetric bifurcation, at `P = k L / 2`.
+#[test]
+fn a_bar_on_an_inclined_spring_forks_transcritically() {
+    let chain = Chain::builder("inclined spring")
+        .passive("q", MotionKind::Revolute, Vector3::z(), 0.0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .build()
+        .unwrap();
+    let mut problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+    problem.loads = vec![Load::spring_between(
+        Anchor::Base(vector![0.0, 1.0, 0.0]),
+        Anchor::node(chain.tip()),
+        1.0,
+        2.0_f64.sqrt(),
+    )];
+    let mut settings = CurveSettings::within(0.0, 1.0);
+    settings.branches = 3;
+    let parameter = Parameter::end_wrench(press());
+    let c = follow(
+        &problem,
+        &parameter,
+        &solve_chain(&problem, &Settings::default()).unwrap(),
+        0.0,
+        &settings,
+    );
+    let c = c.unwrap();
+    assert_eq!((c.branches.len(), c.specials.len()), (2, 1));
+    let fork = &c.specials[0];
+    assert_eq!(fork.kind, SpecialKind::Transcritical);
+    close("P", fork.point.parameter, 0.5, 1e-12);
+    close("upright", fork.point.equilibrium.coordinates[0], 0.0, 1e-12);
+    // The other branch: P = k (1 - sqrt(1/(1 - sin a))) cos a / sin a, on both sides of the fork.
+    let (mut below, mut above) = (0, 0);
+    for p in &c.branches[1].points {
+        let a = p.equilibrium.coordinates[0];
+        if a.abs() > 1e-3 {
+            let expected = (1.0 / (1.0 - a.sin()).sqrt() - 1.0) * a.cos() / a.sin();
+            close("side branch", p.parameter, expected, 1e-9);
+            *(if expected < 0.5 {
+                &mut below
+            } else {
+                &mut above
+            }) += 1;
+            assert_eq!(p.dead.stable, expected > 0.5, "stable where the load rises");
+        }
+    }
+    assert!(below > 2 && above > 2);
+}
+
+/// A column of universal joints buckles in two planes at once.
+#[test]
+fn a_column_in_space_has_two_modes_at_once() {
+    let (y, z) = (Vector3::y(), Vector3::z());
+    let mut b = Chain::builder("column in space").passive_universal("foot", y, z);
+    for i in 1..3 {
+        b = b.translation(vector![1.0, 0.0, 0.0]);
+        b = b
+            .spring(&format!("y{i}"), MotionKind::Revolute, y, 1.0, 0.0)
+            .spring(&format!("z{i}"), MotionKind::Revolute, z, 1.0, 0.0);
+    }
+    let chain = b.translation(vector![1.0, 0.0, 0.0]).build().unwrap();
+    let mut end = EndCondition::pose(Pose::translation(3.0, 0.0, 0.0));
+    for k in [0, 3, 4, 5] {
+        end.prescribed[k] = Prescribed::Wrench;
+    }
+    let problem = ChainProblem::new(&chain, end);
+    let mut settings = CurveSettings::within(0.0, 1.8);
+    settings.branches = 3;
+    let parameter = Parameter::end_wrench(press());
+    let c = follow(&problem, &parameter, &solved(&problem), 0.0, &settings).unwrap();
+    let fork = &c.specials[0];
+    assert_eq!(fork.kind, SpecialKind::Multiple { modes: 2 });
+    close("load", fork.point.parameter, 1.0, 1e-8);
+    assert!(c.branches.len() > 1, "buckled shapes are followed");
+    let buckled = c.branches[1].points.last().unwrap();
+    assert!(buckled.parameter > 1.05 && buckled.conjugate > 0.1);
+    let pattern = LoadPattern {
+        end: press(),
+        loads: vec![],
+    };
+    let r = critical_load_factor(
+        &problem,
+        &pattern,
+        Judged::ShapeAndEnd,
+        &CurveSettings::within(0.0, 9.0),
+    );
+    close("critical", r.unwrap().exact.unwrap().factor, 1.0, 1e-8);
+}
+
+#[test]
+fn a_pushed_shape_snaps_where_its_displacement_ends() {
+    // 4.6.2 without load: the lower shape, drawn apart, ends at dx = -0.00958 and snaps to the
+    // upper one.
+    let chain = elastic_links(15_f64.to_radians());
+    let mut problem = elastic_problem(&chain, 0.0, -0.05);
+    let upper = solved(&problem);
+    problem.posture = vec![-0.287, -0.02, 0.574, -0.02, 0.0];
+    let lower = solved(&problem);
+    assert!(upper.nodes[0].translation.y > 0.3 && lower.nodes[0].translation.y < -0.2);
+    let settings = CurveSettings::within(-0.1, 0.1);
+    let mut c = follow(&problem, &along_x(), &lower, 0.0, &settings).unwrap();
+    let jumps = c.jumps().unwrap();
+    assert_eq!(jumps.len(), 1);
+    assert!(
+        !jumps[0].dead_load && jumps[0].to.is_empty(),
+        "no other shape is known yet"
+    );
+    c.add(&upper, 0.0).unwrap();
+    assert_eq!(c.branches.len(), 2);
+    let jumps = c.jumps().unwrap();
+    assert_eq!(jumps.len(), 1);
+    let to = &jumps[0].to[0];
+    assert_point(&c, to);
+    close("at", to.parameter, 0.05 - 0.0095788571, 1e-9);
+    assert!(to.held.stable && to.equilibrium.nodes[0].translation.y > 0.2);
+}
+
+/// Random spatial chains under random loads, conditions mixed: equilibria and curves never fail,
+/// and whatever they return holds.
+#[test]
+fn curves_of_random_chains_hold() {
+    for seed in 0..12 {
+        let mut rng = Rng(seed);
+        let recipe = Recipe {
+            stages: 2,
+            passive: 2,
+            k_t: 2e4,
+            k_r: 60.0,
+            preload: 0.2,
+        };
+        let r = random_chain(&mut rng, &recipe);
+        let target = moved(&r.tip(), &Twist::new(rng.vector(0.02), rng.vector(0.08)));
+        let mut problem = r.problem(EndCondition::pose(target));
+        let node = rng.below(r.chain.nodes().len());
+        problem.loads = vec![Load::dead(
+            node,
+            Wrench::new(rng.vector(80.0), rng.vector(2.0)),
+        )];
+        if seed % 2 == 1 {
+            for k in 0..6 {
+                if rng.below(3) == 0 {
+                    problem.end.prescribed[k] = Prescribed::Wrench;
+                }
+            }
+            problem.end.wrench = rng.wrench(20.0, 2.0);
+        }
+        let held = (0..6).find(|&k| problem.end.prescribed[k] == Prescribed::Pose);
+        let parameter = match held {
+            Some(k) if seed % 3 > 0 => Parameter::along(&problem.end.axes, k),
+            _ => Parameter::Load(LoadPattern {
+                end: Wrench::zero(),
+                loads: vec![Load::dead(node, rng.wrench(30.0, 0.5))],
+            }),
+        };
+        let Ok(start) = solve_chain(&problem, &Settings::default()) else {
+            continue;
+        };
+        let mut settings = CurveSettings::within(-0.3, 0.3);
+        settings.branches = 2;
+        settings.points = 60;
+        let c = follow(&problem, &parameter, &start, 0.0, &settings).unwrap();
+        assert!(c.branches[0].points.len() > 10, "seed {seed}");
+        for p in c.branches.iter().flat_map(|b| &b.points) {
+            assert!(p.parameter.is_finite() && p.conjugate.is_finite() && !p.slope.is_nan());
+            assert!(p.equilibrium.residual.closure_m < 1e-10, "seed {seed}");
+            assert!(p.equilibrium.residual.torque < 1e-8, "seed {seed}");
+        }
+        c.jumps().unwrap();
+    }
 }

@@ -1,0 +1,530 @@
+//! One step after another along a curve of equilibria: predictor along the tangent, Newton across
+//! it.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::bifurcation::{self, Special};
+use crate::branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Stop, join};
+use crate::chain::MotionKind;
+use crate::error::Result;
+use crate::reduced::{Corrected, Reduced, Row, bordered};
+use crate::singular_point::start_direction;
+use crate::state_distance::{distance, off_segment, segment_distance, wrapped, wraps};
+
+/// Sign and logarithm of a determinant, and the direction in which equilibrium persists.
+pub(crate) struct Tangent {
+    pub direction: DVector<f64>,
+    /// Sign of `det [G_z; t^T]`: it changes at a simple bifurcation.
+    pub sign: f64,
+    pub logarithm: f64,
+}
+
+/// Tangent at a state, oriented along `guide`.
+pub(crate) fn tangent(matrix: &DMatrix<f64>, guide: &DVector<f64>) -> Option<Tangent> {
+    let m = matrix.nrows();
+    let lu = bordered(matrix, guide).lu();
+    let mut sign: f64 = lu.p().determinant();
+    let mut logarithm = 0.0;
+    for pivot in lu.lu_internal().diagonal().iter() {
+        sign *= pivot.signum();
+        logarithm += pivot.abs().max(1e-300).ln();
+    }
+    let mut unit = DVector::zeros(m + 1);
+    unit[m] = 1.0;
+    let solution = lu.solve(&unit)?;
+    let norm = solution.norm();
+    if !norm.is_finite() || norm == 0.0 {
+        return None;
+    }
+    let direction = solution / norm;
+    // det [A; t] = det [A; p] / (p . t), and p . t = 1 / norm.
+    logarithm += norm.ln();
+    Some(Tangent {
+        direction,
+        sign,
+        logarithm,
+    })
+}
+
+pub(crate) struct Tracer<'p, 'a, 's> {
+    pub reduced: Reduced<'p, 'a>,
+    pub settings: &'s CurveSettings,
+    pub specials: Vec<Special>,
+}
+
+impl Tracer<'_, '_, '_> {
+    /// Follows the path through a state both ways, and the branches that cross it.
+    pub fn grow(
+        &mut self,
+        z: &DVector<f64>,
+        branches: &mut Vec<Branch>,
+        more: &mut bool,
+        stop: Stop<'_>,
+    ) -> Result<bool> {
+        let first = self.first_point(z)?;
+        let chain = self.reduced.problem.chain;
+        let on_branch = branches.iter().flat_map(|b| b.points.windows(2)).any(|w| {
+            let step = (&w[1].z - &w[0].z).norm();
+            off_segment(chain, &self.reduced, &first.z, &w[0].z, &w[1].z) < 0.02 * step
+        });
+        if on_branch {
+            return Ok(false);
+        }
+        let own = branches.len();
+        let allowed = own + self.settings.branches.max(1);
+        let mut next = self.specials.len();
+        let mut halves = Vec::new();
+        for sign in [-1.0, 1.0] {
+            // A search goes one way only: towards larger parameters.
+            if sign < 0.0 && stop.is_some() {
+                halves.push((vec![first.clone()], BranchEnd::Found));
+                continue;
+            }
+            let mut point = first.clone();
+            point.tangent *= sign;
+            halves.push(self.run(point, true, own, stop));
+            if halves.first().is_some_and(|h| h.1 == BranchEnd::Closed) {
+                halves.push((vec![first.clone()], BranchEnd::Closed));
+                break;
+            }
+        }
+        branches.push(join(halves, None));
+        while next < self.specials.len() && stop.is_none() {
+            let special = self.specials[next].clone();
+            for direction in &special.directions {
+                if branches.len() >= allowed {
+                    *more |= self.settings.branches > 1;
+                    break;
+                }
+                let mut halves = Vec::new();
+                for sign in [-1.0, 1.0] {
+                    let half = self.switch(&special, &(direction * sign), branches, branches.len());
+                    let closed = half.as_ref().is_some_and(|h| h.1 == BranchEnd::Closed);
+                    halves.push(half);
+                    if closed {
+                        halves.push(None);
+                        break;
+                    }
+                }
+                if halves.iter().all(Option::is_none) {
+                    continue;
+                }
+                let middle = special.point.clone();
+                let whole = halves
+                    .into_iter()
+                    .map(|h| h.unwrap_or((vec![middle.clone()], BranchEnd::Closed)))
+                    .collect();
+                self.specials[next].branches.push(branches.len());
+                branches.push(join(whole, Some(next)));
+            }
+            next += 1;
+        }
+        Ok(true)
+    }
+
+    fn first_point(&mut self, z: &DVector<f64>) -> Result<CurvePoint> {
+        let m = self.reduced.count();
+        let mut z = z.clone();
+        let mut best = None;
+        // The start is refined across its own tangent, which exists where the parameter stands
+        // still.
+        for _ in 0..3 {
+            let (_, _, matrix) = self.reduced.linearised(&z);
+            let t = start_direction(&matrix);
+            let offset = t.dot(&z);
+            let Some(c) = self.reduced.correct(&z, &Row::Plane(&t, offset), 12) else {
+                break;
+            };
+            z.clone_from(&c.z);
+            best = Some((c, t));
+        }
+        let Some((c, mut t)) = best else {
+            let (_, balance) = self.reduced.evaluate(&z);
+            return Err(crate::error::Error::NotConverged {
+                place: format!("chain '{}'", self.reduced.problem.chain.name()),
+                iterations: 12,
+                residual_position_m: balance.closure * self.reduced.problem.chain.scale().length,
+                residual_torque: balance.torque / balance.loads.max(1e-9),
+                load_factor: 0.0,
+                last: self.reduced.coordinates(&z),
+            });
+        };
+        if t[m] < 0.0 {
+            t *= -1.0;
+        }
+        self.reduced.evaluate(&c.z);
+        Ok(self.describe(&c, t))
+    }
+
+    /// A point from a corrected state; the system is evaluated there.
+    pub fn describe(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
+        self.reduced.evaluate(&c.z);
+        let (held, u_held) = self.reduced.stability(&c.matrix, true);
+        let (dead, u_dead) = self.reduced.stability(&c.matrix, false);
+        let m = self.reduced.count();
+        let rate = self.reduced.conjugate_row(&c.matrix).dot(&direction);
+        let change = direction[m] * self.reduced.sigma;
+        let (load, displacement) = if self.reduced.is_load() {
+            (change, rate)
+        } else {
+            (rate, change)
+        };
+        let slope = if displacement.abs() > 1e-12 * load.abs() {
+            load / displacement
+        } else {
+            f64::INFINITY
+        };
+        CurvePoint {
+            parameter: self.reduced.value(&c.z),
+            conjugate: self.reduced.conjugate(&c.z),
+            equilibrium: self.reduced.equilibrium(c),
+            slope,
+            held,
+            dead,
+            arc: 0.0,
+            z: c.z.clone(),
+            tangent: direction,
+            unstable: [u_held, u_dead],
+        }
+    }
+
+    /// Largest step along `t`.
+    pub fn longest(&self, t: &DVector<f64>) -> f64 {
+        let chain = self.reduced.problem.chain;
+        let turn = self.settings.largest_turn;
+        let mut h = 2.0_f64;
+        for (dx, c) in self.reduced.motion(t).iter().zip(chain.coordinates()) {
+            let most = match c.kind {
+                MotionKind::Revolute => turn,
+                MotionKind::Prismatic => turn * chain.scale().length,
+            };
+            h = h.min(most / dx.abs().max(1e-300));
+        }
+        let (low, high) = self.settings.range;
+        let width = high - low;
+        let most = self
+            .settings
+            .largest_change
+            .or_else(|| width.is_finite().then_some(width / 20.0));
+        if let Some(most) = most.filter(|m| *m > 0.0) {
+            let change = (t[self.reduced.count()] * self.reduced.sigma).abs();
+            h = h.min(most / change.max(1e-300));
+        }
+        h
+    }
+
+    /// Follows the path from a point along its tangent. `known` tells that the first point is an
+    /// ordinary one, whose test functions may be compared with the next.
+    pub fn run(
+        &mut self,
+        start: CurvePoint,
+        known: bool,
+        branch: usize,
+        stop: Stop<'_>,
+    ) -> (Vec<CurvePoint>, BranchEnd) {
+        let m = self.reduced.count();
+        let mut points = vec![start];
+        if stop.is_some_and(|stop| stop(&points[0])) {
+            return (points, BranchEnd::Found);
+        }
+        let mut probe = if known { self.probe(&points[0]) } else { None };
+        let mut h = 0.2 * self.longest(&points[0].tangent);
+        loop {
+            let here = points[points.len() - 1].clone();
+            if points.len() > self.settings.points {
+                return (points, BranchEnd::Points);
+            }
+            h = h.min(self.longest(&here.tangent));
+            let Some((point, next, iterations)) = self.step(&here, h) else {
+                h *= 0.5;
+                if h < self.settings.smallest_step {
+                    return (points, BranchEnd::Lost);
+                }
+                continue;
+            };
+            let jumps = (0..2).any(|k| here.unstable[k].abs_diff(point.unstable[k]) > 1);
+            if jumps && h > 1e-5 && points.len() > usize::from(!known) {
+                h *= 0.5;
+                continue;
+            }
+            if let Some(end) = self.beyond(&here, &point) {
+                if let Some((last, next)) = self.cut(&here, &point) {
+                    self.look_between(&here, &last, probe.as_ref(), &next, branch);
+                    points.push(last);
+                }
+                return (points, end);
+            }
+            let clear = self.look_between(&here, &point, probe.as_ref(), &next, branch);
+            if !clear && h > self.settings.smallest_step.max(1e-6) {
+                h *= 0.5;
+                continue;
+            }
+            let origin = &points[0];
+            let back = distance(
+                self.reduced.problem.chain,
+                &self.reduced,
+                &origin.z,
+                &point.z,
+            );
+            if points.len() > 5
+                && back < 0.75 * h
+                && origin.tangent.dot(&point.tangent) > 0.8
+                && (origin.z[m] - point.z[m]).abs() < h
+            {
+                let mut last = origin.clone();
+                last.tangent.clone_from(&point.tangent);
+                points.push(last);
+                return (points, BranchEnd::Closed);
+            }
+            let found = stop.is_some_and(|stop| stop(&point));
+            points.push(point);
+            probe = Some(next);
+            if found {
+                return (points, BranchEnd::Found);
+            }
+            if iterations <= 4 {
+                h *= 1.5;
+            }
+        }
+    }
+
+    /// The point between two neighbours at which a verdict changes, by halving.
+    pub fn verdict_change(
+        &mut self,
+        here: &CurvePoint,
+        there: &CurvePoint,
+        verdict: &dyn Fn(&CurvePoint) -> bool,
+    ) -> CurvePoint {
+        let (mut low, mut high, mut best) = (0.0, 1.0, there.clone());
+        for _ in 0..50 {
+            let share = 0.5 * (low + high);
+            let guess = &here.z + (&there.z - &here.z) * share;
+            let t = &here.tangent;
+            let Some(c) = self
+                .reduced
+                .correct(&guess, &Row::Plane(t, t.dot(&guess)), 10)
+            else {
+                break;
+            };
+            let point = self.describe(&c, t.clone());
+            if verdict(&point) {
+                high = share;
+                best = point;
+            } else {
+                low = share;
+            }
+        }
+        best
+    }
+
+    /// Test functions at a point.
+    pub fn probe(&mut self, point: &CurvePoint) -> Option<Tangent> {
+        let (_, _, matrix) = self.reduced.linearised(&point.z);
+        tangent(&matrix, &point.tangent)
+    }
+
+    /// One step of length `h`, `None` if it is too long.
+    fn step(&mut self, here: &CurvePoint, h: f64) -> Option<(CurvePoint, Tangent, usize)> {
+        let t = &here.tangent;
+        let predicted = &here.z + t * h;
+        let offset = t.dot(&predicted);
+        let c = self
+            .reduced
+            .correct(&predicted, &Row::Plane(t, offset), 8)?;
+        if (&c.z - &predicted).norm() > 0.3 * h {
+            return None;
+        }
+        let next = tangent(&c.matrix, t)?;
+        if next.direction.dot(t) < 0.95 && h > 1e-5 {
+            return None;
+        }
+        let iterations = c.iterations;
+        let point = self.describe(&c, next.direction.clone());
+        Some((point, next, iterations))
+    }
+
+    /// Whether the last step left the limits.
+    fn beyond(&self, here: &CurvePoint, point: &CurvePoint) -> Option<BranchEnd> {
+        let left = |from: f64, to: f64, (low, high): (f64, f64)| {
+            (to > high && to > from) || (to < low && to < from)
+        };
+        if left(here.parameter, point.parameter, self.settings.range)
+            || left(
+                here.conjugate,
+                point.conjugate,
+                self.settings.conjugate_range,
+            )
+        {
+            return Some(BranchEnd::Range);
+        }
+        let chain = self.reduced.problem.chain;
+        let far = point
+            .equilibrium
+            .coordinates
+            .iter()
+            .zip(chain.coordinates())
+            .any(|(x, c)| c.kind == MotionKind::Revolute && x.abs() > self.settings.largest_angle);
+        far.then_some(BranchEnd::Angle)
+    }
+
+    /// The point at which the path crosses a limit between two points.
+    fn cut(&mut self, here: &CurvePoint, point: &CurvePoint) -> Option<(CurvePoint, Tangent)> {
+        let cross = |from: f64, to: f64, (low, high): (f64, f64)| {
+            let limit = if to > high { high } else { low };
+            let crosses = (to > high && from < high) || (to < low && from > low);
+            crosses.then(|| (limit, (limit - from) / (to - from)))
+        };
+        let a = cross(here.parameter, point.parameter, self.settings.range);
+        let b = cross(
+            here.conjugate,
+            point.conjugate,
+            self.settings.conjugate_range,
+        );
+        let (row, share) = match (a, b) {
+            (Some((_, s)), Some((v, u))) if u < s => (Row::Conjugate(v), u),
+            (Some((v, s)), _) => (Row::Parameter(v), s),
+            (None, Some((v, u))) => (Row::Conjugate(v), u),
+            (None, None) => return None,
+        };
+        let guess = &here.z + (&point.z - &here.z) * share;
+        let c = self.reduced.correct(&guess, &row, 10)?;
+        if (&c.z - &guess).norm() > (&point.z - &here.z).norm() {
+            return None;
+        }
+        let next = tangent(&c.matrix, &here.tangent)?;
+        let last = self.describe(&c, next.direction.clone());
+        Some((last, next))
+    }
+
+    /// First point of another branch at a bifurcation, and the path from there.
+    fn switch(
+        &mut self,
+        special: &Special,
+        direction: &DVector<f64>,
+        branches: &[Branch],
+        branch: usize,
+    ) -> Option<(Vec<CurvePoint>, BranchEnd)> {
+        let mut middle = special.point.clone();
+        middle.tangent.clone_from(direction);
+        let usual = 0.3 * self.longest(direction);
+        for h in [usual, 0.2 * usual, 0.04 * usual, 3.0 * usual] {
+            let predicted = &middle.z + direction * h;
+            let offset = direction.dot(&predicted);
+            let Some(c) = self
+                .reduced
+                .correct(&predicted, &Row::Plane(direction, offset), 10)
+            else {
+                continue;
+            };
+            if (&c.z - &predicted).norm() > 0.4 * h {
+                continue;
+            }
+            let Some(next) = tangent(&c.matrix, direction) else {
+                continue;
+            };
+            let chain = self.reduced.problem.chain;
+            let covered = branches.iter().any(|b| {
+                b.points
+                    .windows(2)
+                    .any(|w| off_segment(chain, &self.reduced, &c.z, &w[0].z, &w[1].z) < 0.15 * h)
+            });
+            if covered {
+                return None;
+            }
+            let second = self.describe(&c, next.direction.clone());
+            if self.beyond(&middle, &second).is_some() {
+                return Some((vec![middle], BranchEnd::Range));
+            }
+            return Some(self.run_from(middle, second, branch));
+        }
+        None
+    }
+
+    fn run_from(
+        &mut self,
+        middle: CurvePoint,
+        second: CurvePoint,
+        branch: usize,
+    ) -> (Vec<CurvePoint>, BranchEnd) {
+        let origin = middle.z.clone();
+        let (rest, mut end) = self.run_watching(second, branch, &origin);
+        let mut points = vec![middle.clone()];
+        points.extend(rest);
+        if end == BranchEnd::Closed {
+            // The last step went past the origin.
+            points.pop();
+            let mut last = middle;
+            if let Some(before) = points.last() {
+                last.tangent.clone_from(&before.tangent);
+            }
+            points.push(last);
+        } else if points.len() < 2 {
+            end = BranchEnd::Lost;
+        }
+        (points, end)
+    }
+
+    /// As [`Self::run`] from an ordinary point; ends as closed where the path returns to `origin`.
+    fn run_watching(
+        &mut self,
+        second: CurvePoint,
+        branch: usize,
+        origin: &DVector<f64>,
+    ) -> (Vec<CurvePoint>, BranchEnd) {
+        let home = origin.clone();
+        let chain = self.reduced.problem.chain;
+        let scales: Vec<f64> = wraps(chain, &self.reduced);
+        let offset = self.reduced.reactions();
+        let first = second.z.clone();
+        let came = std::cell::Cell::new(0_usize);
+        let previous = std::cell::RefCell::new(first.clone());
+        let returns = |p: &CurvePoint| {
+            came.set(came.get() + 1);
+            let last = previous.replace(p.z.clone());
+            let span = wrapped(&p.z, &last, &scales, offset).norm();
+            came.get() > 5 && segment_distance(&home, &last, &p.z, &scales, offset) < 0.05 * span
+        };
+        let (points, end) = self.run(second, true, branch, Some(&returns));
+        let end = if end == BranchEnd::Found {
+            BranchEnd::Closed
+        } else {
+            end
+        };
+        (points, end)
+    }
+
+    /// Books limit and bifurcation points between two points; false if the second lies on another
+    /// branch.
+    fn look_between(
+        &mut self,
+        here: &CurvePoint,
+        point: &CurvePoint,
+        before: Option<&Tangent>,
+        after: &Tangent,
+        branch: usize,
+    ) -> bool {
+        let Some(found) = bifurcation::between(self, here, point, before, after) else {
+            return false;
+        };
+        for mut special in found {
+            let chain = self.reduced.problem.chain;
+            let same = self.specials.iter().position(|s| {
+                let bifurcations = s.kind.is_bifurcation() == special.kind.is_bifurcation();
+                let apart = distance(chain, &self.reduced, &s.point.z, &special.point.z);
+                bifurcations && apart < (10.0 * (s.accuracy + special.accuracy)).max(1e-7)
+            });
+            match same {
+                Some(i) => {
+                    if !self.specials[i].branches.contains(&branch) {
+                        self.specials[i].branches.push(branch);
+                    }
+                }
+                None => {
+                    special.branches = vec![branch];
+                    self.specials.push(special);
+                }
+            }
+        }
+        true
+    }
+}
