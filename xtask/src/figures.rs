@@ -299,10 +299,13 @@ fn pocket(figures: &mut Vec<Figure>) -> Result<()> {
     let folder = &scratch.0;
     let once = fs::read(data.join("tball-pocket.gcode"))?;
     fs::write(folder.join("once.ngc"), &once)?;
-    fs::write(
-        folder.join("twice.ngc"),
-        [once.as_slice(), once.as_slice()].concat(),
-    )?;
+    // The end of the program stands once, at the end.
+    let text = String::from_utf8_lossy(&once);
+    let open: String = text
+        .split_inclusive('\n')
+        .filter(|line| !["M2", "M02", "M30"].iter().any(|end| line.trim() == *end))
+        .collect();
+    fs::write(folder.join("twice.ngc"), open.clone() + &open)?;
     let (used, result, bytes) = pocket_run(folder, "once.ngc", CONSTANT, "2")?;
     let name = "tball-pocket, 40 266 motion blocks on orthoglide";
     figures.push(Figure::at_most(
