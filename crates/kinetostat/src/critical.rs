@@ -147,7 +147,7 @@ fn between(a: &CurvePoint, s: &CurvePoint, b: &CurvePoint) -> bool {
 }
 
 /// Largest eigenvalue of the stresses per unit factor against the stiffness, in the posture at
-/// factor 0: `(N^T dH/df N) v = (1/f) (N^T (K - H) N) v`.
+/// factor 0: `(N^T d(H - K)/df N) v = (1/f) (N^T (K - H) N) v`.
 fn linear_prediction(
     reduced: &mut Reduced<'_, '_>,
     z: &DVector<f64>,
@@ -173,7 +173,22 @@ fn linear_prediction(
     }
     ahead[m] += 1.0 / reduced.sigma;
     reduced.evaluate(&ahead);
-    let stress = reduced.curvature() - &at_rest;
+    let mut stress = reduced.curvature() - &at_rest;
+    // Springs that stiffen or soften with their deflection (links that bow) do so from the start.
+    let springs = |reduced: &Reduced<'_, '_>| {
+        DMatrix::from_fn(n, n, |i, j| {
+            let k = reduced.system.spring_tangent[(i, j)];
+            k * reduced.factors[6 + i] * reduced.factors[6 + j]
+        })
+    };
+    let before = springs(reduced);
+    let share = 1e-5 / step.rows(r, n).amax().max(1e-300);
+    let mut moved = z.clone();
+    for i in 0..n {
+        moved[r + i] += share * step[(r + i, 0)];
+    }
+    reduced.evaluate(&moved);
+    stress -= (springs(reduced) - before) / share;
     reduced.evaluate(z);
     let range = column_space(&rows);
     let mut all = (range.transpose() * &rows).transpose();
@@ -190,12 +205,14 @@ fn linear_prediction(
         }
     }
     let null = complement(&all);
-    let (mu, mode) = margin(
-        &(null.transpose() * stress * &null),
-        &(-(null.transpose() * at_rest * &null)),
-    );
+    let stress = null.transpose() * stress * &null;
+    let stiff = -(null.transpose() * at_rest * &null);
+    let (mu, mode) = margin(&stress, &stiff);
+    // What is positive by rounding only destabilises nothing.
+    let (opposite, _) = margin(&-stress, &stiff);
+    let least = 1e-9 * opposite.filter(|o| o.is_finite()).unwrap_or(0.0).max(0.0);
     match (mu, mode) {
-        (Some(mu), Some(v)) if mu > 0.0 && mu.is_finite() => {
+        (Some(mu), Some(v)) if mu > least && mu.is_finite() => {
             let mut whole = DVector::zeros(m + 1);
             whole.rows_mut(r, n).copy_from(&(&null * v));
             let motion = reduced.motion(&whole);
