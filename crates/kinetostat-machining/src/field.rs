@@ -41,7 +41,7 @@ impl CorrectionField for ModelField<'_> {
     }
 
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
-        in_chunks(requests, |memory, _, request| {
+        in_chunks(requests, |memory, request| {
             let pose = self.placement.tool_pose(&request.position_mm);
             let wrench = self.wrench(request);
             memory[0]

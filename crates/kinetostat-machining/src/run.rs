@@ -248,7 +248,7 @@ fn solve(
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
-        for point in in_chunks(batch, |memory, _, site| point(task, memory, site, written)) {
+        for point in in_chunks(batch, |memory, site| point(task, memory, site, written)) {
             points.push(point?);
         }
         watch.advance(points.len());

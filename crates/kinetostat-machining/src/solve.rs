@@ -44,6 +44,11 @@ impl<'m> Neighbour<'m> {
         Ok(posture)
     }
 
+    fn start(&self, posture: &Posture<'m>, pose: &Pose) -> MechanismState {
+        self.near(pose)
+            .map_or_else(|| posture.rest_state(), |(_, state)| state.clone())
+    }
+
     /// The posture whose tool is at `pose` under `wrench`.
     pub fn target(
         &mut self,
@@ -73,9 +78,7 @@ impl<'m> Neighbour<'m> {
         wrench: &Wrench,
     ) -> Result<(Posture<'m>, Pose), Error> {
         let posture = self.posture(mechanism, pose)?;
-        let start = self
-            .near(pose)
-            .map_or_else(|| posture.rest_state(), |(_, s)| s.clone());
+        let start = self.start(&posture, pose);
         let state = posture.rest_under(wrench, start)?;
         let tool = state.platforms[mechanism.tool()];
         self.last = Some((posture.clone(), state));
@@ -90,9 +93,7 @@ impl<'m> Neighbour<'m> {
         wrench: &Wrench,
     ) -> Result<(Posture<'m>, MechanismEquilibrium), Error> {
         let posture = self.posture(mechanism, pose)?;
-        let start = self
-            .near(pose)
-            .map_or_else(|| posture.rest_state(), |(_, s)| s.clone());
+        let start = self.start(&posture, pose);
         let equilibrium = posture.deflected_from(wrench, start)?;
         self.last = Some((posture.clone(), equilibrium.state.clone()));
         Ok((posture, equilibrium))
@@ -103,18 +104,13 @@ impl<'m> Neighbour<'m> {
 /// cores; answers in order.
 pub(crate) fn in_chunks<'m, T: Sync, R: Send>(
     items: &[T],
-    work: impl Fn(&mut [Neighbour<'m>; 2], usize, &T) -> R + Sync,
+    work: impl Fn(&mut [Neighbour<'m>; 2], &T) -> R + Sync,
 ) -> Vec<R> {
     items
         .par_chunks(CHUNK)
-        .enumerate()
-        .flat_map_iter(|(chunk, items)| {
+        .flat_map_iter(|items| {
             let mut memory: [Neighbour<'m>; 2] = Default::default();
-            let answers: Vec<R> = items
-                .iter()
-                .enumerate()
-                .map(|(i, item)| work(&mut memory, chunk * CHUNK + i, item))
-                .collect();
+            let answers: Vec<R> = items.iter().map(|item| work(&mut memory, item)).collect();
             answers
         })
         .collect()

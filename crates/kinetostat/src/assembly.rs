@@ -69,7 +69,7 @@ impl Posture<'_> {
         for ((k, t), e) in own.limbs.iter().zip(&shifts).zip(errors) {
             pull += t.transpose() * k.cartesian.matrix * e.0;
         }
-        let length = self.scale().length;
+        let length = self.mechanism.scale().length;
         let scale = [1.0, 1.0, 1.0, 1.0 / length, 1.0 / length, 1.0 / length];
         let total = own.cartesian.matrix;
         let mut b = DMatrix::from_column_slice(6, 1, pull.as_slice());

@@ -7,7 +7,7 @@
 //! What the machine cannot correct stays as a reported residual.
 
 use crate::equilibrium::Residual;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mechanism::Mechanism;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::posture::{MechanismEquilibrium, Posture, conclude};
@@ -58,7 +58,7 @@ pub fn compensate_from<'m>(
     start: MechanismState,
 ) -> Result<Compensation<'m>> {
     let (mut solver, residual) = solve_target(near, desired, wrench, directions, start)?;
-    let equilibrium = conclude(&mut solver, *wrench, residual)?;
+    let equilibrium = conclude(&mut solver, residual)?;
     Ok(Compensation {
         correction: pose_residual(&solver.target, desired),
         left_over: pose_residual(&equilibrium.tool, desired),
@@ -139,7 +139,7 @@ fn solve_target<'m>(
             Ok(residual) => residual,
             Err(error) => {
                 return Err(near
-                    .free_push(wrench, solver.scale().length)
+                    .free_push(wrench, mechanism.scale().length)
                     .unwrap_or(error));
             }
         },
@@ -166,16 +166,24 @@ fn undo_drift(
         if drift.angular().norm() < 1e-14 || solver.unknowns == Unknowns::Pose {
             break;
         }
+        let kept = (solver.state.clone(), solver.posture.clone(), solver.target);
         solver.state.platforms[tool] = crate::spatial::moved(&solver.state.platforms[tool], &drift);
         match solver.solve(1.0, 0) {
             Ok((iterations, balance)) => {
                 residual = balance.residual(residual.iterations + iterations);
             }
-            Err(_) => break,
+            Err(_) => {
+                // The answer before is an equilibrium; a failed refinement is not.
+                (solver.state, solver.posture, solver.target) = kept;
+                break;
+            }
         }
     }
     residual
 }
+
+/// Steps of the report's iteration before it counts as failed.
+const STEPS: usize = 40;
 
 /// The report's own iteration with `a = 1` [R 7.13], each step a robust equilibrium.
 fn fixed_point(
@@ -187,30 +195,38 @@ fn fixed_point(
     let tool = mechanism.tool();
     solver.unknowns = Unknowns::Pose;
     let mut target = *desired;
-    let mut spent = 0;
-    let mut last = None;
-    for _ in 0..40 {
+    let length = mechanism.scale().length;
+    let (mut spent, mut left) = (0, f64::INFINITY);
+    for step in 1..=STEPS {
         let posture = mechanism.posture(&target)?;
         solver.target = target;
         solver.posture = posture.limbs().to_vec();
         solver.state = posture.rest_state();
         let residual = solver.solve_robustly()?;
         spent += residual.iterations;
-        last = Some(Residual {
-            iterations: spent,
-            ..residual
-        });
         let mut miss = pose_residual(desired, &solver.state.platforms[tool]);
         for k in 0..6 {
             if !directions[k] {
                 miss.0[k] = 0.0;
             }
         }
-        let length = solver.scale().length;
-        if miss.linear().norm() + miss.angular().norm() * length < 1e-12 * length {
-            break;
+        left = miss.linear().norm() + miss.angular().norm() * length;
+        // The last steps may turn in rounding; what is left then is no failure.
+        if left < 1e-12 * length || (step == STEPS && left < 1e-9 * length) {
+            return Ok(Residual {
+                iterations: spent,
+                ..residual
+            });
         }
         target = crate::spatial::moved(&target, &miss);
     }
-    last.ok_or_else(|| crate::error::Error::model(mechanism.name(), "no iteration was made"))
+    // Each step was an equilibrium under the full load; it is the target that was not found.
+    Err(Error::NotConverged {
+        place: format!("compensation on mechanism '{}'", mechanism.name()),
+        iterations: spent,
+        residual_position_m: left,
+        residual_torque: 0.0,
+        load_factor: 1.0,
+        last: solver.state.coordinates.concat(),
+    })
 }

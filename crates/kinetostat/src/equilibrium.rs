@@ -262,6 +262,19 @@ impl System {
         a
     }
 
+    /// Sum of the squares of all unbalanced torques and the largest torque on either side, both in
+    /// balanced units.
+    pub fn unbalanced_torques(&self, factors: &[f64]) -> (f64, f64) {
+        let (mut squares, mut largest) = (0.0, 0.0_f64);
+        for (i, s) in factors[6..].iter().enumerate() {
+            squares += (self.unbalanced(i) * s).powi(2);
+            largest = largest
+                .max((self.torque[i] * s).abs())
+                .max((self.spring_torque[i] * s).abs());
+        }
+        (squares, largest)
+    }
+
     /// Unbalanced torques, n.
     pub fn unbalanced(&self, i: usize) -> f64 {
         self.torque[i] - self.spring_torque[i]
@@ -375,7 +388,8 @@ impl Attempt<'_, '_> {
     }
 
     fn measure(&self, rows: &Vector6<f64>, wrench: &Wrench) -> Balance {
-        let (mut closure, mut torque, mut loads) = (0.0, 0.0, 0.0_f64);
+        let mut closure = 0.0;
+        let (mut torque, mut loads) = self.system.unbalanced_torques(&self.factors);
         for k in 0..6 {
             let (s, pose) = (
                 self.factors[k],
@@ -387,13 +401,6 @@ impl Attempt<'_, '_> {
                 torque += (rows[k] / s).powi(2);
             }
             loads = loads.max((wrench.0[k] / s).abs());
-        }
-        for i in 0..self.system.spring_torque.len() {
-            let s = self.factors[6 + i];
-            torque += (self.system.unbalanced(i) * s).powi(2);
-            loads = loads
-                .max((self.system.torque[i] * s).abs())
-                .max((self.system.spring_torque[i] * s).abs());
         }
         Balance {
             closure: closure.sqrt(),

@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::Chain;
+use crate::chain::{Chain, Scale};
 use crate::error::{Error, Result};
 use crate::spatial::Pose;
 
@@ -134,6 +134,18 @@ impl Mechanism {
     #[must_use]
     pub fn tool(&self) -> usize {
         self.tool
+    }
+
+    /// Natural length and stiffness: means over the limbs as they are.
+    pub(crate) fn scale(&self) -> Scale {
+        let count = self.limbs.len() as f64;
+        let mean = |of: fn(Scale) -> f64| {
+            self.limbs.iter().map(|l| of(l.actual.scale())).sum::<f64>() / count
+        };
+        Scale {
+            length: mean(|s| s.length),
+            stiffness: mean(|s| s.stiffness),
+        }
     }
 
     /// Number of actuators of all limbs.

@@ -13,7 +13,7 @@ impl Posture<'_> {
     #[must_use]
     pub fn mobility(&self) -> DMatrix<f64> {
         let m = self.mechanism;
-        let length = self.scale().length;
+        let length = self.mechanism.scale().length;
         let mut blocked = DMatrix::zeros(6, 6);
         for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
             let base = m.platforms[limb.from].home;
@@ -46,7 +46,7 @@ impl Posture<'_> {
     pub fn commanded_motions(&self) -> DMatrix<f64> {
         let m = self.mechanism;
         let basis = self.mobility();
-        let length = self.scale().length;
+        let length = self.mechanism.scale().length;
         let mut driven = DMatrix::zeros(basis.ncols(), basis.ncols());
         for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
             let t =

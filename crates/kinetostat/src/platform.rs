@@ -14,6 +14,7 @@
 
 use nalgebra::{DMatrix, Vector3, Vector6};
 
+use crate::chain::Scale;
 use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, step_limit};
 use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
@@ -127,13 +128,7 @@ impl<'m> PlatformSolver<'m> {
         } else {
             vec![Load::Gravity(mechanism.gravity)]
         };
-        let count = limbs.len() as f64;
-        let length = limbs.iter().map(|l| l.actual.scale().length).sum::<f64>() / count;
-        let stiffness = limbs
-            .iter()
-            .map(|l| l.actual.scale().stiffness)
-            .sum::<f64>()
-            / count;
+        let Scale { length, stiffness } = mechanism.scale();
         Self {
             mechanism,
             settings,
@@ -451,28 +446,14 @@ impl<'m> PlatformSolver<'m> {
     pub fn unit_motions(&self, limb: usize) -> DMatrix<f64> {
         self.linear[limb].solution.columns(1, 6).into_owned()
     }
-
-    /// Natural length and stiffness of the mechanism.
-    pub fn scale(&self) -> crate::chain::Scale {
-        crate::chain::Scale {
-            length: self.length,
-            stiffness: self.stiffness,
-        }
-    }
 }
 
 fn measure(system: &System, closure: &Twist, wrench: &Wrench, factors: &[f64]) -> Balance {
-    let (mut gap, mut torque, mut loads) = (0.0, 0.0, 0.0_f64);
+    let (torque, mut loads) = system.unbalanced_torques(factors);
+    let mut gap = 0.0;
     for k in 0..6 {
         gap += (closure.0[k] * factors[k]).powi(2);
         loads = loads.max((wrench.0[k] / factors[k]).abs());
-    }
-    for i in 0..system.spring_torque.len() {
-        let s = factors[6 + i];
-        torque += (system.unbalanced(i) * s).powi(2);
-        loads = loads
-            .max((system.torque[i] * s).abs())
-            .max((system.spring_torque[i] * s).abs());
     }
     Balance {
         closure: gap.sqrt(),

@@ -345,11 +345,6 @@ impl<'m> Posture<'m> {
         }
     }
 
-    /// Natural length and stiffness of the mechanism.
-    pub(crate) fn scale(&self) -> Scale {
-        self.solver(self.rest_state(), Unknowns::Pose).scale()
-    }
-
     fn solver(&self, state: MechanismState, unknowns: Unknowns) -> PlatformSolver<'m> {
         let mut solver = PlatformSolver::new(
             self.mechanism,
@@ -385,7 +380,7 @@ impl<'m> Posture<'m> {
             total += k.cartesian.shifted(&arm, &Wrench::zero()).matrix;
             limbs.push(k);
         }
-        let scale = self.scale();
+        let scale = self.mechanism.scale();
         let arms = m
             .limbs
             .iter()
@@ -425,7 +420,7 @@ impl<'m> Posture<'m> {
         start: MechanismState,
     ) -> Result<MechanismEquilibrium> {
         let (mut solver, residual) = self.settled(wrench, start)?;
-        conclude(&mut solver, *wrench, residual)
+        conclude(&mut solver, residual)
     }
 
     /// Only where the platforms and limbs come to rest: [`Self::deflected_from`] without stiffness
@@ -459,7 +454,7 @@ impl<'m> Posture<'m> {
         match solver.solve_robustly() {
             Ok(residual) => Ok((solver, residual)),
             Err(error) => Err(self
-                .free_push(wrench, solver.scale().length)
+                .free_push(wrench, solver.mechanism.scale().length)
                 .unwrap_or(error)),
         }
     }
@@ -493,10 +488,7 @@ impl<'m> Posture<'m> {
         state.platforms[self.mechanism.tool] = *pose;
         let mut solver = self.solver(state, Unknowns::Held);
         let residual = solver.solve_robustly()?;
-        let mut result = conclude(&mut solver, Wrench::zero(), residual)?;
-        // What the held tool still lacks is what its holder must apply.
-        result.wrench = Wrench(-solver.finish().1[self.mechanism.tool].0);
-        Ok(result)
+        conclude(&mut solver, residual)
     }
 }
 
@@ -558,13 +550,17 @@ fn balanced_directions<'a>(
 /// Stiffness, stability and limbs at a solved state.
 pub(crate) fn conclude(
     solver: &mut PlatformSolver<'_>,
-    wrench: Wrench,
     residual: Residual,
 ) -> Result<MechanismEquilibrium> {
-    let (tangent, _) = solver.finish();
+    let (tangent, lack) = solver.finish();
     let m = solver.mechanism;
     let tool = m.tool;
-    let scale = solver.scale();
+    let scale = m.scale();
+    // What a held tool lacks is what its holder must apply.
+    let wrench = match solver.unknowns {
+        Unknowns::Held => Wrench(-lack[tool].0),
+        _ => solver.wrench,
+    };
     let stiffness = condensed(&tangent, tool - 1, scale);
     if let Some(&value) = stiffness.iter().find(|x| !x.is_finite()) {
         return Err(Error::NotFinite {
