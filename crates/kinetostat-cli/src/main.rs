@@ -22,6 +22,7 @@ mod output;
 mod place;
 mod points_csv;
 mod progress;
+mod reproduce;
 mod screen;
 mod setting;
 mod shell;
@@ -65,6 +66,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Deflect(args) => deflect::run(*args),
         Command::Stiffness(args) => stiffness::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => models::run(&args),
         Command::Completions(args) => shell::completions(&args),
         Command::Man(args) => shell::man(&args),

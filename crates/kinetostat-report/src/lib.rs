@@ -9,7 +9,7 @@
 //! - `verdict` says in plain words what the run means; `facts` collects figures, tables and what was
 //!   asked; `page` fills the template (minijinja with automatic escaping).
 //! - `along` draws what changes along the path, `plan` the path itself with the deviation magnified,
-//!   `preview` the stand-alone picture. They share `chart`, `axis`, `outline` and `svg`.
+//!   `preview` the stand-alone picture, `plot` curves over any two quantities. They share `chart`, `axis`, `outline` and `svg`.
 //! - `number` and `text` decide how numbers and names look, in one place.
 //!
 //! # Why the plots are drawn here and not by a plotting library
@@ -37,12 +37,15 @@ mod number;
 mod outline;
 mod page;
 mod plan;
+mod plot;
 mod preview;
 mod svg;
 mod text;
 mod verdict;
 
 use kinetostat_machining::RunResult;
+
+pub use plot::{Plot, PlotLine, PlotMark};
 
 /// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]

@@ -1,0 +1,134 @@
+//! What is reproduced: a table, an equation or a figure of the report, as numbers beside their print.
+
+use kinetostat_report::Plot;
+use serde::Serialize;
+
+/// A table, numbered equation or figure of the report.
+#[derive(Clone, Debug, Serialize)]
+pub struct Entry {
+    /// As in `table-5.2`, `eq-3.34`, `fig-5.7`.
+    pub id: &'static str,
+    /// What it is, in words.
+    pub title: String,
+    /// Its numbers.
+    pub items: Vec<Item>,
+    /// The figure, drawn from the computed points.
+    #[serde(skip)]
+    pub plots: Vec<Plot>,
+}
+
+/// One number, printed and computed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Item {
+    /// Which one, in words.
+    pub name: String,
+    /// As printed, digit by digit; none if the report prints no number here.
+    pub printed: Option<String>,
+    /// As computed by this run; none if there is nothing to compute.
+    pub computed: Option<f64>,
+    /// Unit of both; empty for a pure number.
+    pub unit: String,
+    /// Whether they agree, and if not, why.
+    pub status: Status,
+    /// Why, in words: the erratum, what was tried, or what is worth knowing.
+    pub note: String,
+}
+
+/// How print and computation stand to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// The printed digits are the rounding of the computed number.
+    Agrees,
+    /// The print is wrong and it is known how; the note names the entry of the errata.
+    Erratum,
+    /// The print could not be obtained; the note says what was tried.
+    NotReproduced,
+    /// The report prints no number here.
+    NoPrint,
+}
+
+impl Item {
+    /// A printed number. It agrees if its digits are the rounding of `computed`; otherwise it is not
+    /// reproduced, for the reason in `note`.
+    #[must_use]
+    pub fn compared(
+        name: impl Into<String>,
+        printed: &str,
+        computed: f64,
+        unit: &str,
+        note: &str,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            printed: Some(printed.to_owned()),
+            computed: Some(computed),
+            unit: unit.to_owned(),
+            status: if is_rounding(printed, computed) {
+                Status::Agrees
+            } else {
+                Status::NotReproduced
+            },
+            note: note.to_owned(),
+        }
+    }
+
+    /// A printed number that is known to be wrong: an erratum, unless the computed number rounds to it
+    /// after all.
+    #[must_use]
+    pub fn erratum(
+        name: impl Into<String>,
+        printed: &str,
+        computed: f64,
+        unit: &str,
+        note: &str,
+    ) -> Self {
+        let mut item = Self::compared(name, printed, computed, unit, note);
+        if item.status == Status::NotReproduced {
+            item.status = Status::Erratum;
+        }
+        item
+    }
+
+    /// A number that the report does not print.
+    #[must_use]
+    pub fn unprinted(name: impl Into<String>, computed: f64, unit: &str, note: &str) -> Self {
+        Self {
+            name: name.into(),
+            printed: None,
+            computed: Some(computed),
+            unit: unit.to_owned(),
+            status: Status::NoPrint,
+            note: note.to_owned(),
+        }
+    }
+}
+
+/// Whether a printed decimal number is the rounding of `computed` to the same number of digits after
+/// the point. A number that lies half way may be rounded either way.
+#[must_use]
+pub fn is_rounding(printed: &str, computed: f64) -> bool {
+    let text = printed.trim().replace('\u{2212}', "-");
+    let Ok(value) = text.parse::<f64>() else {
+        return false;
+    };
+    let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len());
+    let half = 0.5 * 10f64.powi(-i32::try_from(decimals).unwrap_or(i32::MAX));
+    (value - computed).abs() <= half * (1.0 + 1e-9) + 1e-12 * computed.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_agree_when_they_are_the_rounding() {
+        assert!(is_rounding("14.9", 14.928_203_23));
+        assert!(is_rounding("-0.5", -0.511_717_51));
+        assert!(is_rounding("107", 107.171_496_9));
+        assert!(!is_rounding("8.67", 7.464_101_615));
+        assert!(!is_rounding("0.41", 0.415_001));
+        assert!(!is_rounding("Inf", 1.0));
+        assert!(!is_rounding("1.0", f64::NAN));
+    }
+}
