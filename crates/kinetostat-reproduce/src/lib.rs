@@ -4,24 +4,51 @@
 //! Nothing computed is stored: each run builds the models and solves them. What the report prints is
 //! stored as it is printed. A number agrees if the printed digits are the rounding of the computed
 //! one; where they differ, the note says why.
+//!
+//! [`IDS`] lists what there is; [`one`] computes one entry, [`all`] all of them.
 
 mod entry;
+mod orthoglide;
+mod registry;
 
 pub use entry::{Entry, Item, Status, is_rounding};
+pub use registry::{IDS, all, one};
+
+/// Numbers and plots of an entry; the registry knows its id and title.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Contents {
+    pub(crate) items: Vec<Item>,
+    pub(crate) plots: Vec<kinetostat_report::Plot>,
+}
+
+/// What may go wrong inside an entry.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Cause {
+    /// The core refused or did not converge.
+    #[error(transparent)]
+    Core(#[from] kinetostat::Error),
+    /// A preset could not be read.
+    #[error(transparent)]
+    Model(#[from] kinetostat_model::ModelError),
+    /// An equilibrium, a point or a factor that the entry is about was not found.
+    #[error("{0} was not found")]
+    Missing(String),
+}
 
 /// Why an entry could not be computed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReproduceError {
-    /// The core refused or did not converge.
-    #[error("{id}: {source}")]
-    Core {
+    /// There is no such entry.
+    #[error("there is no entry '{0}'")]
+    Unknown(String),
+    /// The computation of an entry failed.
+    #[error("{id}: {cause}")]
+    Failed {
         /// Which entry.
         id: &'static str,
         /// Why.
-        source: kinetostat::Error,
+        cause: Cause,
     },
 }
-
-/// The ids, in the order of the report.
-pub const IDS: [&str; 0] = [];
