@@ -119,6 +119,7 @@ mod posture;
 mod reduced;
 mod saddle;
 mod settings;
+mod shape_criterion;
 mod singular_point;
 mod spatial;
 mod spring;
@@ -175,6 +176,7 @@ pub use posture::{
 pub use reduced::{LoadPattern, Parameter};
 pub use saddle::Inertia;
 pub use settings::Settings;
+pub use shape_criterion::{ShapeCriterion, shape_criterion};
 pub use spatial::{
     CartesianStiffness, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix, turn_matrix,
 };
