@@ -5,11 +5,13 @@ mod common;
 use common::{contents, run, shell, workplace};
 use serde_json::Value;
 
-const PRESETS: [&str; 6] = [
+const PRESETS: [&str; 8] = [
     "orthoglide",
     "stewart_gough_a",
     "stewart_gough_b",
     "two_link",
+    "three_link_s",
+    "three_link_z",
     "puu3",
     "heavy_6r",
 ];

@@ -325,5 +325,19 @@ pub(crate) fn spring(place: &Place, name: String, e: &SpringElement) -> Found<Pa
         )
     })?;
     let rest = rest(place, kind, [e.rest_mm, e.rest_m, e.rest_deg, e.rest_rad])?;
-    Ok(Part::Spring(name, kind, axis, stiffness, rest))
+    let home = by_kind(
+        place,
+        "home",
+        kind,
+        &[
+            choice("home_mm", e.home_mm, MM),
+            choice("home_m", e.home_m, 1.0),
+        ],
+        &[
+            choice("home_deg", e.home_deg, DEG),
+            choice("home_rad", e.home_rad, 1.0),
+        ],
+    )?;
+    let home = home.map_or(0.0, |h| h.value);
+    Ok(Part::Spring(name, kind, axis, stiffness, [rest, home]))
 }

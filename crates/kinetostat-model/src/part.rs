@@ -17,7 +17,8 @@ pub(crate) enum Part {
     Rigid(Option<String>, Pose),
     Actuator(String, ActuatorSpec),
     Passive(String, MotionKind, Vector3<f64>, f64),
-    Spring(String, MotionKind, Vector3<f64>, f64, f64),
+    /// Stiffness; then the deflections at rest and at home.
+    Spring(String, MotionKind, Vector3<f64>, f64, [f64; 2]),
     Spring6(String, Box<Matrix6<f64>>, [f64; 6]),
     Parallelogram(String, f64, f64, Box<Matrix6<f64>>, f64),
     Coupled(String, MotionKind, Vector3<f64>, f64),
@@ -35,9 +36,9 @@ impl Part {
             }),
             Self::Actuator(name, spec) => builder.actuator(name, spec.clone()),
             Self::Passive(name, kind, axis, home) => builder.passive(name, *kind, *axis, *home),
-            Self::Spring(name, kind, axis, stiffness, rest) => {
-                builder.spring(name, *kind, *axis, *stiffness, *rest)
-            }
+            Self::Spring(name, kind, axis, stiffness, [rest, home]) => builder
+                .spring(name, *kind, *axis, *stiffness, *rest)
+                .home(name, *home),
             Self::Spring6(name, matrix, rest) => builder.spring6(name, matrix, *rest),
             Self::Parallelogram(name, length, width, bar, home) => {
                 builder.parallelogram(name, *length, *width, bar, *home)

@@ -23,7 +23,7 @@ macro_rules! preset {
     };
 }
 
-const PRESETS: [Preset; 6] = [
+const PRESETS: [Preset; 8] = [
     preset!(
         "orthoglide",
         "Orthoglide: three sliding legs with parallelograms, 200 mm cube, identified stiffness"
@@ -39,6 +39,14 @@ const PRESETS: [Preset; 6] = [
     preset!(
         "two_link",
         "Two rigid links with a springy joint: the smallest machine that can snap through"
+    ),
+    preset!(
+        "three_link_s",
+        "Three rigid links with springy joints, straight: buckles like a column"
+    ),
+    preset!(
+        "three_link_z",
+        "Three rigid links with springy joints, at rest in a Z: buckles at a pitchfork"
     ),
     preset!(
         "puu3",

@@ -159,6 +159,15 @@ pub struct SpringElement {
     pub rest_deg: Option<f64>,
     /// Deflection at rest, rad.
     pub rest_rad: Option<f64>,
+    /// Deflection when the machine is at home without load, mm; zero if not given. Where it is
+    /// not the one at rest, the spring is assembled with a preload.
+    pub home_mm: Option<f64>,
+    /// Deflection when the machine is at home without load, m.
+    pub home_m: Option<f64>,
+    /// Deflection when the machine is at home without load, degrees.
+    pub home_deg: Option<f64>,
+    /// Deflection when the machine is at home without load, rad.
+    pub home_rad: Option<f64>,
     /// Where the figures come from.
     pub source: Option<String>,
     /// What is assumed.

@@ -123,7 +123,7 @@ proptest! {
 
     #[test]
     fn mutilated_presets_never_panic(
-        preset in 0usize..6,
+        preset in 0..preset_names().len(),
         cuts in proptest::collection::vec((any::<prop::sample::Index>(), 0usize..40, "[\\PC\\n]{0,6}"), 1..4),
     ) {
         let mut text = preset_of(preset).to_owned();
@@ -140,7 +140,7 @@ proptest! {
 
     #[test]
     fn extreme_numbers_never_panic(
-        preset in 0usize..6,
+        preset in 0..preset_names().len(),
         changes in proptest::collection::vec((any::<prop::sample::Index>(), 0usize..14), 1..5),
     ) {
         let extremes = [
@@ -157,7 +157,7 @@ proptest! {
     }
 
     #[test]
-    fn lost_and_doubled_lines_never_panic(preset in 0usize..6, line in any::<prop::sample::Index>(), double in any::<bool>()) {
+    fn lost_and_doubled_lines_never_panic(preset in 0..preset_names().len(), line in any::<prop::sample::Index>(), double in any::<bool>()) {
         let mut lines: Vec<&str> = preset_of(preset).lines().collect();
         let i = line.index(lines.len());
         if double {

@@ -321,6 +321,33 @@ fn two_links_stand_as_in_the_reference() {
     }
 }
 
+/// Table 5.1 and its exact values: the straight chain and the Z, unloaded at home.
+#[test]
+fn three_links_stand_as_in_the_reference() {
+    for (name, rest, stiffness) in [
+        ("three_link_s", 0.0, None),
+        ("three_link_z", -30f64.to_radians(), Some(16.92820323)),
+    ] {
+        let mechanism = preset(name).mechanism;
+        let chain = &mechanism.limbs()[0].nominal;
+        assert_eq!(chain.nodes(), ["first joint", "second joint", "tip"]);
+        let posture = mechanism
+            .posture(&mechanism.platforms()[1].home)
+            .expect("home");
+        let joints = &posture.limbs()[0].coordinates;
+        close(&joints[1..3], &[rest, -rest], 1e-12);
+        let held = posture
+            .wrench_at(&mechanism.platforms()[1].home)
+            .expect("equilibrium");
+        assert!(held.wrench.0.norm() < 1e-11, "{name}: {:?}", held.wrench);
+        if let Some(expected) = stiffness {
+            // With the end free to turn, as the chain's own passive joint lets it.
+            let k = posture.stiffness().expect("stiffness").cartesian.matrix;
+            assert!((k[(0, 0)] - expected).abs() < 1e-8, "{name}: {k}");
+        }
+    }
+}
+
 #[test]
 fn puu3_is_the_benchmark_machine() {
     let model = preset("puu3");

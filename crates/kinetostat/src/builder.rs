@@ -264,6 +264,21 @@ impl ChainBuilder {
         self
     }
 
+    /// Value (m or rad) that the coordinate `name`, written before, has when the machine is at home
+    /// without load. For a spring inverse kinematics keeps it: a spring whose home is its rest
+    /// stands there unloaded; one at home elsewhere is assembled with a preload.
+    #[must_use]
+    pub fn home(mut self, name: &str, value: f64) -> Self {
+        match self.chain.coordinates.iter_mut().find(|c| c.name == name) {
+            Some(_) if !value.is_finite() => {
+                self.fault(format!("'{name}': the start value is {value}"));
+            }
+            Some(coordinate) => coordinate.home = value,
+            None => self.fault(format!("home: there is no coordinate '{name}' before it")),
+        }
+        self
+    }
+
     /// A 6-D virtual spring, translations before rotations ("TR"): `Tx Ty Tz Rx Ry Rz` with a full
     /// symmetric 6 x 6 matrix (N/m, N/rad, N m/m, N m/rad) in local axes, and `theta0` (m, rad).
     #[must_use]

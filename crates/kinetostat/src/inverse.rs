@@ -14,7 +14,8 @@ use crate::spatial::{Pose, pose_residual};
 pub struct LimbPosture {
     /// Actuator commands, m or rad.
     pub commands: Vec<f64>,
-    /// All coordinates (springs zero, passive joints as they come), m or rad.
+    /// All coordinates (springs at their home, zero unless given; passive joints as they come), m or
+    /// rad.
     pub coordinates: Vec<f64>,
 }
 
