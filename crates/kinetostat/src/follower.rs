@@ -48,6 +48,10 @@ impl NodeLoad for Follower {
         vec![self.node]
     }
 
+    fn numbers(&self) -> Option<String> {
+        Some(format!("{self:?}"))
+    }
+
     fn fault(&self) -> Option<String> {
         let finite = self.local.0.iter().all(|x| x.is_finite());
         (!finite).then(|| "a component of the follower's wrench is not finite".into())
@@ -96,6 +100,10 @@ impl NodeLoad for PointForce {
 
     fn nodes(&self) -> Vec<usize> {
         vec![self.node]
+    }
+
+    fn numbers(&self) -> Option<String> {
+        Some(format!("{self:?}"))
     }
 
     fn fault(&self) -> Option<String> {

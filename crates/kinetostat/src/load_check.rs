@@ -161,28 +161,41 @@ pub(crate) fn fits(chain: &Chain, kinematics: &Kinematics, load: &Load) -> Resul
     }
 }
 
+/// Refuses a load that does not fit, in debug builds also one with a wrong tangent.
+pub(crate) fn check_load(
+    chain: &Chain,
+    kinematics: &Kinematics,
+    base: &Pose,
+    coordinates: &[f64],
+    commands: &[f64],
+    load: &Load,
+) -> Result<()> {
+    fits(chain, kinematics, load)?;
+    if cfg!(debug_assertions) && matches!(load, Load::Custom(_)) {
+        let check = check_tangents(chain, base, coordinates, commands, load)?;
+        if check.largest > TANGENT_TOLERANCE {
+            return Err(Error::model(
+                format!("chain '{}'", chain.name()),
+                format!(
+                    "the tangent of a load is not the derivative of its wrench: on node '{}' they differ by {:.1e} (share of the load) when '{}' moves ({load:?})",
+                    chain.nodes()[check.node],
+                    check.largest,
+                    check.coordinate
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// Refuses what cannot be solved: before the iteration starts, and in debug builds with a look at
 /// every tangent.
 pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
     let (chain, base) = (problem.chain, &problem.base);
     let (x, commands) = (&problem.posture, &problem.commands);
     let kinematics = Kinematics::new(chain, base, x, commands, false);
-    for load in &problem.loads {
-        fits(chain, &kinematics, load)?;
-        if cfg!(debug_assertions) && matches!(load, Load::Custom(_)) {
-            let check = check_tangents(chain, base, x, commands, load)?;
-            if check.largest > TANGENT_TOLERANCE {
-                return Err(Error::model(
-                    format!("chain '{}'", chain.name()),
-                    format!(
-                        "the tangent of a load is not the derivative of its wrench: on node '{}' they differ by {:.1e} (share of the load) when '{}' moves ({load:?})",
-                        chain.nodes()[check.node],
-                        check.largest,
-                        check.coordinate
-                    ),
-                ));
-            }
-        }
-    }
-    Ok(())
+    problem
+        .loads
+        .iter()
+        .try_for_each(|load| check_load(chain, &kinematics, base, x, commands, load))
 }

@@ -33,9 +33,14 @@ fn common_axis(chain: &Chain, node: usize) -> Option<Option<Unit<Vector3<f64>>>>
     Some(common)
 }
 
+/// All turns before a node share one axis: dead moments on it have a potential.
+pub(crate) fn moments_have_potential(chain: &Chain, node: usize) -> bool {
+    common_axis(chain, node).is_some()
+}
+
 /// A dead moment has a potential only where all turns share one axis.
 fn dead_moment_is_conservative(chain: &Chain, node: usize, moment: &Vector3<f64>) -> bool {
-    *moment == Vector3::zeros() || common_axis(chain, node).is_some()
+    *moment == Vector3::zeros() || moments_have_potential(chain, node)
 }
 
 impl Load {

@@ -12,6 +12,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::{Chain, Scale};
 use crate::error::{Error, Result};
+use crate::kinematics::Kinematics;
+use crate::load_check::check_load;
+use crate::load_energy::moments_have_potential;
+use crate::loading::Load;
 use crate::spatial::Pose;
 
 /// A rigid body of the graph.
@@ -61,7 +65,7 @@ pub struct Limb {
     pub actual: Chain,
 }
 
-/// Platforms, limbs and gravity. Never changes after [`MechanismBuilder::build`].
+/// Platforms, limbs, loads on limbs and gravity. Never changes after [`MechanismBuilder::build`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mechanism {
     pub(crate) name: String,
@@ -69,6 +73,24 @@ pub struct Mechanism {
     pub(crate) limbs: Vec<Limb>,
     pub(crate) gravity: Vector3<f64>,
     pub(crate) tool: usize,
+    /// Loads on every limb besides gravity; shorter than the list of limbs where the last have none.
+    #[serde(
+        default,
+        skip_deserializing,
+        skip_serializing_if = "Vec::is_empty",
+        serialize_with = "refuse_loads"
+    )]
+    pub(crate) loads: Vec<Vec<Load>>,
+}
+
+/// A load may be a function, which no file holds; to leave it out in silence would be worse.
+fn refuse_loads<S: serde::Serializer>(
+    _: &[Vec<Load>],
+    _: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    Err(serde::ser::Error::custom(
+        "a mechanism whose limbs carry loads cannot be written; write its model file",
+    ))
 }
 
 impl Mechanism {
@@ -82,7 +104,9 @@ impl Mechanism {
                 limbs: Vec::new(),
                 gravity: Vector3::zeros(),
                 tool: 0,
+                loads: Vec::new(),
             },
+            loads: Vec::new(),
         }
     }
 
@@ -128,6 +152,43 @@ impl Mechanism {
     #[must_use]
     pub fn gravity(&self) -> Vector3<f64> {
         self.gravity
+    }
+
+    /// Loads on a limb besides gravity, in the order in which they were added.
+    #[must_use]
+    pub fn loads(&self, limb: usize) -> &[Load] {
+        self.loads.get(limb).map_or(&[], Vec::as_slice)
+    }
+
+    /// Everything that acts on a limb between its ends: gravity, then its loads.
+    pub(crate) fn acting(&self, limb: usize) -> Vec<Load> {
+        let gravity = (self.gravity != Vector3::zeros()).then_some(Load::Gravity(self.gravity));
+        gravity
+            .into_iter()
+            .chain(self.loads(limb).iter().cloned())
+            .collect()
+    }
+
+    /// The loads of a limb have a potential: statements about energy hold. A dead moment has one
+    /// only where everything before its node, from the fixed base on, turns about one axis.
+    #[must_use]
+    pub fn loads_conservative(&self, limb: usize) -> bool {
+        let own = &self.limbs[limb];
+        self.loads(limb).iter().all(|load| match load {
+            Load::Dead { wrench, .. } if own.from != 0 => wrench.moment() == Vector3::zeros(),
+            load => load.conservative(&own.actual),
+        })
+    }
+
+    /// A dead moment on the tool (N m) has a potential: some limb from the base lets the tool turn
+    /// about one axis only.
+    pub(crate) fn tool_moment_has_potential(&self, moment: &Vector3<f64>) -> bool {
+        *moment == Vector3::zeros()
+            || self.limbs.iter().any(|limb| {
+                limb.from == 0
+                    && limb.to == self.tool
+                    && moments_have_potential(&limb.actual, limb.actual.tip())
+            })
     }
 
     /// Index of the platform that carries the tool: the last one.
@@ -177,6 +238,8 @@ impl Mechanism {
 #[derive(Clone, Debug)]
 pub struct MechanismBuilder {
     mechanism: Mechanism,
+    /// Name of a limb and a load on it.
+    loads: Vec<(String, Load)>,
 }
 
 impl MechanismBuilder {
@@ -194,6 +257,48 @@ impl MechanismBuilder {
         self
     }
 
+    /// Adds a load to the limb of this name. Nodes are those of the limb's chain
+    /// ([`Chain::node`]); `Anchor::Base` and base axes mean the world, also for a limb that starts
+    /// at a moving platform. What acts on the limb's tip acts on the platform there. Gravity is
+    /// [`Self::gravity`]'s affair, not a load of a limb.
+    ///
+    /// ```
+    /// use kinetostat::*;
+    /// use nalgebra::{Vector3, vector};
+    ///
+    /// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.08, 0.06);
+    /// let shoulder = ActuatorSpec::new(MotionKind::Revolute, -Vector3::y(), 2e5);
+    /// let chain = Chain::builder("arm")
+    ///     .actuator("shoulder", shoulder)
+    ///     .translation(vector![0.4, 0.0, 0.0])
+    ///     .node("lug")
+    ///     .link("arm", &bar, 0.6)
+    ///     .build()?;
+    /// let (lug, post) = (Anchor::node(chain.node("lug")?), Anchor::Base(vector![0.0, 0.0, 0.5]));
+    /// let mut machine = Mechanism::builder("sprung arm");
+    /// let tool = machine.platform(Platform::new("tool", Pose::translation(1.0, 0.0, 0.0)));
+    /// let machine = machine
+    ///     .limb(Limb {
+    ///         name: "arm".into(),
+    ///         from: 0,
+    ///         to: tool,
+    ///         platform_from_tip: Pose::identity(),
+    ///         nominal: chain.clone(),
+    ///         actual: chain,
+    ///     })
+    ///     .load("arm", Load::spring_between(post, lug, 4e3, 0.3))
+    ///     .build()?;
+    /// let home = machine.platforms()[tool].home;
+    /// let rest = machine.posture(&home)?.deflected_by(&Wrench::zero())?;
+    /// assert!(rest.displacement.linear().z > 1e-3, "the spring lifts the arm");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn load(mut self, limb: impl Into<String>, load: Load) -> Self {
+        self.loads.push((limb.into(), load));
+        self
+    }
+
     /// Gravity, m/s^2, base axes; zero if not called.
     #[must_use]
     pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
@@ -205,10 +310,11 @@ impl MechanismBuilder {
     ///
     /// # Errors
     /// [`Error::Model`] for an unknown platform, a limb from a platform to itself, a name used
-    /// twice, a platform without limbs, or a nominal and an actual chain that differ in more than
-    /// rigid offsets.
+    /// twice, a platform without limbs, a nominal and an actual chain that differ in more than
+    /// rigid offsets, or a load that does not fit its limb; [`Error::UnknownName`] for a load on
+    /// a limb that does not exist.
     pub fn build(self) -> Result<Mechanism> {
-        let m = self.mechanism;
+        let mut m = self.mechanism;
         let place = format!("mechanism '{}'", m.name);
         let fault = |reason: String| Err(Error::model(place.clone(), reason));
         if m.platforms.len() < 2 {
@@ -282,6 +388,36 @@ impl MechanismBuilder {
                 "no limb holds platform '{}'",
                 m.platforms[lonely].name
             ));
+        }
+        for (name, load) in self.loads {
+            let Some(index) = m.limbs.iter().position(|l| l.name == name) else {
+                let known: Vec<&str> = m.limbs.iter().map(|l| l.name.as_str()).collect();
+                return Err(Error::UnknownName {
+                    place,
+                    what: "limb",
+                    name,
+                    known: known.join(", "),
+                });
+            };
+            let limb = &m.limbs[index];
+            if matches!(load, Load::Gravity(_)) {
+                return fault(format!(
+                    "limb '{name}': gravity acts on everything; give it to the mechanism once"
+                ));
+            }
+            let chain = &limb.actual;
+            let (x, commands) = (chain.home_coordinates(), chain.home_commands());
+            let base = &m.platforms[limb.from].home;
+            check_load(
+                chain,
+                &Kinematics::new(chain, base, &x, &commands, false),
+                base,
+                &x,
+                &commands,
+                &load,
+            )?;
+            m.loads.resize(m.loads.len().max(index + 1), Vec::new());
+            m.loads[index].push(load);
         }
         Ok(m)
     }

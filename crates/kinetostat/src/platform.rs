@@ -62,7 +62,8 @@ pub(crate) struct PlatformSolver<'m> {
     pub rates: Vec<DMatrix<f64>>,
     pub state: MechanismState,
     pub factors: Vec<Vec<f64>>,
-    loads: Vec<Load>,
+    /// What acts on every limb between its ends: gravity and its loads.
+    pub loads: Vec<Vec<Load>>,
     pub linear: Vec<Linear>,
     /// Closure at the start, kept while the load grows.
     offsets: Vec<Twist>,
@@ -123,11 +124,7 @@ impl<'m> PlatformSolver<'m> {
                 ))
             })
             .collect();
-        let loads = if mechanism.gravity == Vector3::zeros() {
-            Vec::new()
-        } else {
-            vec![Load::Gravity(mechanism.gravity)]
-        };
+        let loads = (0..limbs.len()).map(|i| mechanism.acting(i)).collect();
         let Scale { length, stiffness } = mechanism.scale();
         Self {
             mechanism,
@@ -197,7 +194,7 @@ impl<'m> PlatformSolver<'m> {
                 base,
                 &self.posture[i].coordinates,
                 &self.posture[i].commands,
-                &self.loads,
+                &self.loads[i],
                 x,
                 f,
                 self.share,

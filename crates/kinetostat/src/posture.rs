@@ -7,9 +7,11 @@ use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::{MotionKind, Scale};
-use crate::equilibrium::Residual;
+use crate::equilibrium::{ChainProblem, EndCondition, Residual};
 use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, inverse_kinematics};
+use crate::link_load::{LinkLoad, link_loads};
+use crate::load_energy::load_energy;
 use crate::mechanism::Mechanism;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::saddle::{column_space, complement, pseudo_inverse};
@@ -53,6 +55,15 @@ pub struct LimbEquilibrium {
     pub spring_torques: Vec<f64>,
     /// Energy in its springs, J.
     pub energy: f64,
+    /// Potential energy of its loads and weights, J; the zero is arbitrary but the same in all
+    /// equilibria of a posture. `None` where a load has no potential.
+    pub load_energy: Option<f64>,
+    /// All its loads have a potential; if not, statements about energy do not hold.
+    pub conservative: bool,
+    /// Axial load of its elastic links, relative to their Euler loads.
+    pub link_loads: Vec<LinkLoad>,
+    /// Poses of its nodes, base from node, in the chain's order.
+    pub nodes: Vec<Pose>,
     /// Force (N) or torque (N m) of the loads on every actuator.
     pub actuator_forces: Vec<f64>,
     /// Tangent stiffness at its tip.
@@ -70,6 +81,14 @@ pub struct MechanismEquilibrium {
     pub displacement: Twist,
     /// External wrench on the tool, about its origin, base axes: given (`f^-1`) or found (`f`).
     pub wrench: Wrench,
+    /// Energy of all springs and potential of all weights and loads on limbs, J, without the
+    /// wrench on the tool, whose work it is while the tool is moved. `None` where a load has no
+    /// potential.
+    pub energy: Option<f64>,
+    /// All loads on limbs and the dead wrench on the tool (if it is not held) have a potential; if
+    /// not, the machine
+    /// may gain energy on a closed path, and stability judged by stiffness is not all of it.
+    pub conservative: bool,
     /// Tangent stiffness of the tool with all other platforms free, at its origin, base axes.
     pub stiffness: CartesianStiffness,
     /// Its principal directions.
@@ -577,7 +596,22 @@ pub(crate) fn conclude(
             let (system, factors) = solver.limb_system(i);
             let n = limb.actual.coordinate_count();
             let r = limb.actual.actuators().len();
-            LimbEquilibrium {
+            let joints = &solver.posture[i];
+            let loaded = ChainProblem {
+                chain: &limb.actual,
+                base: solver.state.platforms[limb.from],
+                commands: joints.commands.clone(),
+                posture: joints.coordinates.clone(),
+                loads: solver.loads[i].clone(),
+                end: EndCondition::pose(system.kinematics.tip_pose()),
+            };
+            Ok(LimbEquilibrium {
+                load_energy: load_energy(&loaded, &solver.state.coordinates[i])?,
+                conservative: m.loads_conservative(i),
+                link_loads: link_loads(&limb.actual, &system.spring_torque),
+                nodes: (0..limb.actual.nodes().len())
+                    .map(|node| system.kinematics.node_pose(node))
+                    .collect(),
                 name: limb.name.clone(),
                 wrench: solver.state.wrenches[i],
                 coordinates: solver.state.coordinates[i].clone(),
@@ -591,9 +625,22 @@ pub(crate) fn conclude(
                     Some(solver.unit_motions(i)),
                 ),
                 stability: shape_stability(&limb.actual, system, factors),
-            }
+            })
         })
-        .collect();
+        .collect::<Result<_>>()?;
+    let weights: f64 = m
+        .platforms
+        .iter()
+        .zip(&solver.state.platforms)
+        .skip(1)
+        .map(|(p, pose)| {
+            let centre = pose * nalgebra::Point3::from(p.centre_of_mass);
+            -p.mass * m.gravity.dot(&centre.coords)
+        })
+        .sum();
+    let energy = limbs.iter().try_fold(weights, |sum, limb| {
+        Some(sum + limb.energy + limb.load_energy?)
+    });
     // With platforms in between, what blocks the tool is not one limb's affair.
     let own =
         limbs
@@ -617,6 +664,9 @@ pub(crate) fn conclude(
     let answer = MechanismEquilibrium {
         tool: solver.state.platforms[tool],
         displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
+        conservative: limbs.iter().all(|l| l.conservative)
+            && (solver.unknowns == Unknowns::Held || m.tool_moment_has_potential(&wrench.moment())),
+        energy,
         wrench,
         stiffness: CartesianStiffness { matrix: stiffness },
         platform: PlatformStability {

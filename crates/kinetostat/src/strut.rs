@@ -145,6 +145,10 @@ impl NodeLoad for Strut {
         node(&self.from).into_iter().chain(node(&self.to)).collect()
     }
 
+    fn numbers(&self) -> Option<String> {
+        (!matches!(self.law, LengthLaw::Function(_))).then(|| format!("{self:?}"))
+    }
+
     fn fault(&self) -> Option<String> {
         let mut points = self.from.point().iter().chain(self.to.point().iter());
         if !points.all(|x| x.is_finite()) {
