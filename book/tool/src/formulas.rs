@@ -1,0 +1,141 @@
+//! Formulas as MathML, which every current browser draws by itself: no script, no fonts, no network.
+//!
+//! `$...$` is a formula in the line, a fence named `math` one on its own. Code stays as it is. A
+//! formula that cannot be read is an error with its chapter.
+
+use anyhow::{Context, Result, bail};
+use mdbook_driver::book::Book;
+use mdbook_preprocessor::{Preprocessor, PreprocessorContext};
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
+
+/// The preprocessor.
+pub struct Formulas;
+
+impl Preprocessor for Formulas {
+    fn name(&self) -> &str {
+        "formulas"
+    }
+
+    fn run(&self, _context: &PreprocessorContext, mut book: Book) -> Result<Book> {
+        let mut wrong = None;
+        book.for_each_chapter_mut(|chapter| match rendered(&chapter.content) {
+            Ok(text) => chapter.content = text,
+            Err(error) => {
+                wrong.get_or_insert(error.context(format!("chapter '{}'", chapter.name)));
+            }
+        });
+        wrong.map_or(Ok(book), Err)
+    }
+}
+
+/// Markdown with every formula replaced.
+fn rendered(text: &str) -> Result<String> {
+    let mut out = String::with_capacity(2 * text.len());
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        let fence = line.trim_start();
+        let ticks = fence.chars().take_while(|&c| c == '`').count();
+        if ticks < 3 {
+            out.push_str(&in_line(line)?);
+            out.push('\n');
+            continue;
+        }
+        let closing = "`".repeat(ticks);
+        let body: Vec<&str> = lines
+            .by_ref()
+            .take_while(|l| l.trim() != closing)
+            .collect();
+        if fence[ticks..].trim() == "math" {
+            let formula = mathml(&body.join("\n"), DisplayMode::Block)?;
+            out.push_str(&format!("<div class=\"formula\">{formula}</div>\n"));
+        } else {
+            out.push_str(line);
+            out.push('\n');
+            for l in body {
+                out.push_str(l);
+                out.push('\n');
+            }
+            out.push_str(&closing);
+            out.push('\n');
+        }
+    }
+    Ok(out)
+}
+
+/// One line outside of fences.
+fn in_line(line: &str) -> Result<String> {
+    let mut out = String::with_capacity(line.len());
+    let mut rest = line;
+    while let Some(at) = rest.find(['`', '$', '\\']) {
+        out.push_str(&rest[..at]);
+        rest = &rest[at..];
+        if rest.starts_with('\\') {
+            let next = rest.chars().nth(1).map_or(0, char::len_utf8);
+            out.push_str(&rest[..1 + next]);
+            rest = &rest[1 + next..];
+        } else if rest.starts_with('`') {
+            let ticks = rest.chars().take_while(|&c| c == '`').count();
+            let end = rest[ticks..]
+                .find(&rest[..ticks])
+                .map_or(rest.len(), |e| e + 2 * ticks);
+            out.push_str(&rest[..end]);
+            rest = &rest[end..];
+        } else {
+            let end = rest[1..]
+                .find('$')
+                .with_context(|| format!("a formula without its end: {line}"))?;
+            out.push_str(&mathml(&rest[1..=end], DisplayMode::Inline)?);
+            rest = &rest[end + 2..];
+        }
+    }
+    out.push_str(rest);
+    Ok(out)
+}
+
+/// One formula, on one line, with nothing in it that Markdown could take for its own.
+fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
+    let storage = Storage::new();
+    let config = RenderConfig {
+        display_mode,
+        ..RenderConfig::default()
+    };
+    let mut out = String::new();
+    push_mathml(&mut out, Parser::new(formula, &storage), config)
+        .with_context(|| format!("formula {formula}"))?;
+    if out.contains("<merror") {
+        bail!("a formula that cannot be read: {formula}");
+    }
+    let mut safe = String::with_capacity(out.len());
+    for c in out.chars() {
+        match c {
+            '\n' => safe.push(' '),
+            '*' | '_' | '|' | '[' | ']' | '`' | '~' | '\\' => {
+                safe.push_str(&format!("&#{};", c as u32));
+            }
+            c => safe.push(c),
+        }
+    }
+    Ok(safe)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_are_replaced_and_code_is_not() {
+        let text = "a $x_1$ and `$y$`\n```sh\necho $HOME\n```\n```math\nE = \\frac12 k x^2\n```\n";
+        let out = rendered(text).expect("both formulas are right");
+        assert_eq!(out.matches("<math").count(), 2, "{out}");
+        assert!(out.contains("`$y$`") && out.contains("echo $HOME"));
+        assert!(!out.contains('_'), "{out}");
+    }
+
+    #[test]
+    fn a_wrong_formula_is_named() {
+        for wrong in ["$\\frac{1}$", "$\\nosuchword$", "one $ only"] {
+            assert!(rendered(wrong).is_err(), "{wrong}");
+        }
+    }
+}
