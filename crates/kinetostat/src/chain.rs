@@ -236,6 +236,28 @@ impl Chain {
         self.actuators.iter().map(|a| a.home).collect()
     }
 
+    /// The same chain with its end moved on by a rigid offset (old end from new end): a tool, say.
+    /// The old end stays a node under the name `name`, with what acts on it. Natural length and
+    /// stiffness stay those of the chain without it.
+    ///
+    /// # Errors
+    /// [`Error::Model`] if a node has that name already.
+    pub fn with_end(&self, name: &str, offset: &Pose) -> Result<Self> {
+        if self.nodes.iter().any(|n| n == name) {
+            return Err(Error::model(
+                format!("chain '{}'", self.name),
+                format!("the name '{name}' is used twice"),
+            ));
+        }
+        let mut chain = self.clone();
+        let tip = chain.tip();
+        chain.nodes[tip] = name.to_owned();
+        chain.nodes.push("tip".to_owned());
+        chain.elements.push(Element::Rigid(*offset));
+        chain.elements.push(Element::Node(tip + 1));
+        Ok(chain)
+    }
+
     /// Checks the lengths of a configuration and that its numbers are finite.
     pub(crate) fn check(&self, coordinates: &[f64], commands: &[f64]) -> Result<()> {
         let place = || format!("chain '{}'", self.name);
