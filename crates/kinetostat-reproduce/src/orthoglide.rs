@@ -4,8 +4,10 @@ mod assembly;
 mod bars;
 mod flat;
 mod machine;
+mod toggle;
 
 pub(crate) use assembly::{table_6_1, table_6_2};
+pub(crate) use flat::{fig_5_11, table_5_3};
 
 use crate::{Cause, Contents, Item, Status};
 
@@ -21,14 +23,6 @@ fn not_written_yet() -> Contents {
         }],
         plots: Vec::new(),
     }
-}
-
-pub(crate) fn table_5_3() -> Result<Contents, Cause> {
-    Ok(not_written_yet())
-}
-
-pub(crate) fn fig_5_11() -> Result<Contents, Cause> {
-    Ok(not_written_yet())
 }
 
 pub(crate) fn fig_6_6() -> Result<Contents, Cause> {

@@ -5,7 +5,7 @@ use kinetostat::{
 };
 
 use super::machine::{Orthoglide, POINTS, inclination, target};
-use crate::{Cause, Contents, Item};
+use crate::{Cause, Contents, Item, is_rounding};
 
 /// What the tables print, in mm, degrees and N m.
 #[derive(Clone, Copy, Default)]
@@ -151,11 +151,7 @@ pub(crate) fn table_6_1() -> Result<Contents, Cause> {
     }
     let over = |value: fn(&Row) -> f64| most(rows.iter().map(|(first, _)| value(first)));
     for (name, value, unit) in [
-        (
-            "spring translation θp",
-            over(|r| r.spring_shift),
-            "mm",
-        ),
+        ("spring translation θp", over(|r| r.spring_shift), "mm"),
         ("spring rotation θφ", over(|r| r.spring_turn), "deg"),
         ("spring force τp", over(|r| r.spring_force), "N"),
         ("spring torque τφ", over(|r| r.spring_torque), "N m"),
@@ -250,7 +246,11 @@ fn cells(row: &Row, printed: &Printed) -> Vec<(String, &'static str, f64, &'stat
     }
     let rest = [
         ("largest moment in the chains, M max", row.moment, "N m"),
-        ("largest change of a passive joint, Δq max", row.joint, "deg"),
+        (
+            "largest change of a passive joint, Δq max",
+            row.joint,
+            "deg",
+        ),
         ("largest spring translation, θp max", row.spring_shift, "mm"),
         ("largest spring rotation, θφ max", row.spring_turn, "deg"),
         ("largest spring torque, τφ max", row.spring_torque, "N m"),
@@ -287,16 +287,24 @@ pub(crate) fn table_6_2() -> Result<Contents, Cause> {
         let own = linear(&posture, &posture)?;
         let other = with_matrices_of_leg_1(&posture)?;
         let as_printed = linear(&other.posture(&target(*point))?, &posture)?;
-        let wrong = own.turn[0] != own.turn[1];
-        for ((cell, print, value, unit), (_, _, copied, _)) in
-            cells(&own, printed).into_iter().zip(cells(&as_printed, printed))
+        // Where the legs are alike, so are their matrices.
+        let alike = (own.turn[0] - own.turn[1]).abs() < 1e-9;
+        for ((cell, print, value, unit), (_, _, copied, _)) in cells(&own, printed)
+            .into_iter()
+            .zip(cells(&as_printed, printed))
         {
-            let note = if wrong {
-                format!(
-                    "rows Q3 and Q4 are erratum 13 of part 2: with the matrix of leg 1's parallelogram in all three legs {copied:.5} comes out, with each leg's own {value:.5}"
-                )
+            let note = if alike {
+                "to first order, as (6.15)-(6.20); the three legs have the same matrix here"
+                    .to_owned()
             } else {
-                "to first order, as (6.15)-(6.20); the three legs have the same matrix here".to_owned()
+                let near = if is_rounding(print, copied) {
+                    ""
+                } else {
+                    " (not quite the print)"
+                };
+                format!(
+                    "rows Q3 and Q4 are erratum 13 of part 2: with the matrix of leg 1's parallelogram in all three legs {copied:.5} comes out{near}, with each leg's own {value:.5}"
+                )
             };
             items.push(Item::erratum(
                 format!("{name}: {cell}"),
@@ -352,14 +360,57 @@ pub(crate) fn table_6_2() -> Result<Contents, Cause> {
 fn text(rows: &[Row]) -> Vec<Item> {
     let q1 = rows.get(1).copied().unwrap_or_default();
     let over = |value: fn(&Row) -> f64| most(rows.iter().map(value));
-    let springs = "erratum 14 of part 2: the printed value is the platform's at Q1, not a virtual spring's";
+    let springs =
+        "erratum 14 of part 2: the printed value is the platform's at Q1, not a virtual spring's";
     vec![
-        Item::compared("text: moment at a chain's end up to (Q1)", "8.91", over(|r| r.moment), "N m", ""),
-        Item::erratum("text: translation of virtual springs up to (Q1)", "0.41", q1.spring_shift, "mm", springs),
-        Item::erratum("text: rotation of virtual springs up to (Q1)", "0.62", q1.spring_turn, "deg", springs),
-        Item::compared("text: torque of virtual springs up to", "11.96", over(|r| r.spring_torque), "N m", ""),
-        Item::compared("text: change of a passive joint up to (Q3)", "0.67", over(|r| r.joint), "deg", ""),
-        Item::compared("text: shift of the platform up to (Q3)", "1.31", over(|r| most(r.shift)), "mm", ""),
-        Item::compared("text: rotation of the platform up to (Q1)", "0.62", over(|r| most(r.turn)), "deg", ""),
+        Item::compared(
+            "text: moment at a chain's end up to (Q1)",
+            "8.91",
+            over(|r| r.moment),
+            "N m",
+            "",
+        ),
+        Item::erratum(
+            "text: translation of virtual springs up to (Q1)",
+            "0.41",
+            q1.spring_shift,
+            "mm",
+            springs,
+        ),
+        Item::erratum(
+            "text: rotation of virtual springs up to (Q1)",
+            "0.62",
+            q1.spring_turn,
+            "deg",
+            springs,
+        ),
+        Item::compared(
+            "text: torque of virtual springs up to",
+            "11.96",
+            over(|r| r.spring_torque),
+            "N m",
+            "",
+        ),
+        Item::compared(
+            "text: change of a passive joint up to (Q3)",
+            "0.67",
+            over(|r| r.joint),
+            "deg",
+            "",
+        ),
+        Item::compared(
+            "text: shift of the platform up to (Q3)",
+            "1.31",
+            over(|r| most(r.shift)),
+            "mm",
+            "",
+        ),
+        Item::compared(
+            "text: rotation of the platform up to (Q1)",
+            "0.62",
+            over(|r| most(r.turn)),
+            "deg",
+            "",
+        ),
     ]
 }

@@ -3,11 +3,11 @@
 
 use kinetostat::{
     Chain, Limb, LimbPosture, LinkConvention, LinkSpec, Mechanism, MotionKind, Platform, Pose,
-    Role,
+    Posture, Role,
 };
-use nalgebra::{Vector3, vector};
+use nalgebra::{Matrix6, Vector3, Vector6, vector};
 
-use super::machine::{FOOT, HEAD, Orthoglide, WIDTH, axes, bar, head};
+use super::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
 use crate::Cause;
 
 /// Such a machine at one nominal target of the tool, and the joints that command it.
@@ -47,30 +47,31 @@ impl Barred {
             let name = ["x", "y", "z"][leg];
             let near = builder.platform(Platform::new(format!("near beam {name}"), near));
             let far = builder.platform(Platform::new(format!("far beam {name}"), far));
-            let mut limb = |name: String, from, to, chain: Chain, commands: Vec<f64>, set: &[(&str, f64)]| {
-                let mut coordinates = chain.home_coordinates();
-                for (joint, value) in set {
-                    for (i, c) in chain.coordinates().iter().enumerate() {
-                        if c.name == *joint {
-                            coordinates[i] = *value;
+            let mut limb =
+                |name: String, from, to, chain: Chain, commands: Vec<f64>, set: &[(&str, f64)]| {
+                    let mut coordinates = chain.home_coordinates();
+                    for (joint, value) in set {
+                        for (i, c) in chain.coordinates().iter().enumerate() {
+                            if c.name == *joint {
+                                coordinates[i] = *value;
+                            }
                         }
                     }
-                }
-                limbs.push((
-                    Limb {
-                        name,
-                        from,
-                        to,
-                        platform_from_tip: Pose::identity(),
-                        nominal: chain.clone(),
-                        actual: chain,
-                    },
-                    LimbPosture {
-                        commands,
-                        coordinates,
-                    },
-                ));
-            };
+                    limbs.push((
+                        Limb {
+                            name,
+                            from,
+                            to,
+                            platform_from_tip: Pose::identity(),
+                            nominal: chain.clone(),
+                            actual: chain,
+                        },
+                        LimbPosture {
+                            commands,
+                            coordinates,
+                        },
+                    ));
+                };
             limb(
                 format!("foot {name}"),
                 0,
@@ -101,7 +102,12 @@ impl Barred {
         }
         let tool = builder.platform(Platform::new("tool", *target));
         for (name, far, leg, q3) in heads {
-            let chain = head(Chain::builder(format!("head {name}")), leg).build()?;
+            // A limb without any spring carries no tangent stiffness from platform to platform.
+            let stiff = Matrix6::from_diagonal(&Vector6::new(1e10, 1e10, 1e10, 1e8, 1e8, 1e8));
+            let chain = Chain::builder(format!("head {name}")).spring6("arm", &stiff, [0.0; 6]);
+            let chain = head(chain, leg).build()?;
+            let mut coordinates = vec![0.0; 6];
+            coordinates.push(q3);
             limbs.push((
                 Limb {
                     name: format!("head {name}"),
@@ -113,7 +119,7 @@ impl Barred {
                 },
                 LimbPosture {
                     commands: Vec::new(),
-                    coordinates: vec![q3],
+                    coordinates,
                 },
             ));
         }
@@ -127,5 +133,12 @@ impl Barred {
             joints,
             target: *target,
         })
+    }
+
+    /// Commanded for its target.
+    pub(super) fn posture(&self) -> Result<Posture<'_>, Cause> {
+        Ok(self
+            .mechanism
+            .posture_from_joints(&self.target, self.joints.clone())?)
     }
 }

@@ -5,9 +5,8 @@
 //! here again because the entries need machines that a model file cannot say.
 
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, ChainBuilder, Limb,
-    Mechanism, MotionKind, ParallelogramLaw, Platform, Pose, Posture, Role, SpringLaw, Wrench,
-    turn_matrix,
+    ActuatorSpec, BeamSection, Chain, ChainBuilder, Limb, Mechanism, MotionKind, ParallelogramLaw,
+    Platform, Pose, Posture, Role, SpringLaw, Wrench, turn_matrix,
 };
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 

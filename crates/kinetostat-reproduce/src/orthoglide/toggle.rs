@@ -1,0 +1,215 @@
+//! Force against displacement along (1, 1, 1), the tool's orientation held [R 5.5.3]: towards the
+//! flat posture ("outside", negative) and away from it ("inside", positive).
+
+use kinetostat::{
+    ChainProblem, CurveSettings, EndCondition, LinkConvention, Mechanism, Parameter, Posture, Role,
+    Settings, SpecialKind, Twist, follow, solve_chain,
+};
+use nalgebra::Vector3;
+
+use super::bars::Barred;
+use super::machine::{Orthoglide, target};
+use crate::Cause;
+
+/// Unit vector along (1, 1, 1).
+pub(super) fn diagonal() -> Vector3<f64> {
+    Vector3::repeat(1.0_f64).normalize()
+}
+
+/// A place on the diagonal: displacement in mm, force in kN.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Place {
+    pub(super) moved: f64,
+    pub(super) force: f64,
+    /// N/mm.
+    pub(super) slope: f64,
+    /// Stable while the force is a dead load.
+    pub(super) stable: bool,
+    /// The leg's shape, the platform held: below 1 is stable.
+    pub(super) margin: f64,
+}
+
+/// The curve of the machine with its parallelograms as springs, translations before rotations.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Curve {
+    /// In order of the displacement.
+    pub(super) places: Vec<Place>,
+    /// Where the force is largest or smallest, in order of the displacement.
+    pub(super) limits: Vec<Place>,
+}
+
+impl Curve {
+    /// The machine is the same along its three legs, and so is the motion: the force is three times
+    /// that of one leg, whose curve is followed from the unloaded posture at `(at, at, at)` m to the
+    /// displacements `range` (mm) in steps of at most `step` (mm).
+    pub(super) fn new(
+        machine: &Mechanism,
+        at: f64,
+        range: (f64, f64),
+        step: f64,
+    ) -> Result<Self, Cause> {
+        let home = target([at; 3]);
+        let posture = machine.posture(&home)?;
+        let missing = || Cause::Missing("the first leg".to_owned());
+        let chain = &machine.limbs().first().ok_or_else(missing)?.nominal;
+        let joints = posture.limbs().first().ok_or_else(missing)?;
+        let mut problem = ChainProblem::new(chain, EndCondition::pose(home));
+        problem.commands.clone_from(&joints.commands);
+        problem.posture.clone_from(&joints.coordinates);
+        let start = solve_chain(&problem, &Settings::default())?;
+        let parameter = Parameter::Displacement(Twist::new(diagonal(), Vector3::zeros()));
+        let mut settings = CurveSettings::within(range.0 * 1e-3, range.1 * 1e-3);
+        settings.largest_change = Some(step * 1e-3);
+        settings.points = 2000;
+        let curves = follow(&problem, &parameter, &start, 0.0, &settings)?;
+        let place = |p: &kinetostat::CurvePoint| Place {
+            moved: p.parameter * 1e3,
+            force: 3.0 * p.conjugate * 1e-3,
+            slope: 3.0 * p.slope * 1e-3,
+            stable: p.unstable_modes()[1] == 0,
+            margin: p.held.margin.unwrap_or(0.0),
+        };
+        let branch = curves.branches.first();
+        let mut places: Vec<Place> = branch
+            .map(|b| b.points.iter().map(place).collect())
+            .unwrap_or_default();
+        let mut limits: Vec<Place> = curves
+            .specials
+            .iter()
+            .filter(|s| s.kind == SpecialKind::LoadLimit)
+            .map(|s| place(&s.point))
+            .collect();
+        for list in [&mut places, &mut limits] {
+            list.sort_by(|a, b| a.moved.total_cmp(&b.moved));
+        }
+        Ok(Self { places, limits })
+    }
+
+    /// Force at a displacement (mm), kN: cubic between two points of the curve.
+    pub(super) fn force(&self, moved: f64) -> Option<f64> {
+        let [a, b] = self
+            .places
+            .windows(2)
+            .find(|w| w[0].moved <= moved && moved <= w[1].moved)?
+        else {
+            return None;
+        };
+        let width = b.moved - a.moved;
+        if width <= 0.0 {
+            return Some(a.force);
+        }
+        let t = (moved - a.moved) / width;
+        let (s, h) = (1.0 - t, 1e-3 * width);
+        let bend =
+            s * (a.slope * h - (b.force - a.force)) + t * ((b.force - a.force) - b.slope * h);
+        Some(s * a.force + t * b.force + s * t * bend)
+    }
+
+    /// The first limit of the force on the way outside.
+    pub(super) fn outside(&self) -> Option<Place> {
+        self.limits.iter().rev().find(|p| p.moved < 0.0).copied()
+    }
+
+    /// Where the slope falls fastest on the way inside.
+    pub(super) fn knee(&self) -> Option<Place> {
+        let fall = |w: &&[Place]| (w[1].slope - w[0].slope) / (w[1].moved - w[0].moved);
+        self.places
+            .windows(2)
+            .filter(|w| w[0].moved > 0.0 && w[1].moved > w[0].moved)
+            .min_by(|a, b| fall(a).total_cmp(&fall(b)))
+            .map(|w| Place {
+                moved: 0.5 * (w[0].moved + w[1].moved),
+                force: 0.5 * (w[0].force + w[1].force),
+                ..w[0]
+            })
+    }
+}
+
+/// The machine with bars that bow, held at displacements along the diagonal.
+pub(super) struct Bowed {
+    barred: Barred,
+    at: f64,
+}
+
+impl Bowed {
+    /// At home at `(at, at, at)` m.
+    pub(super) fn new(at: f64) -> Result<Self, Cause> {
+        let machine = Orthoglide::default();
+        let barred = Barred::new(&machine, &target([at; 3]), LinkConvention::default(), 1)?;
+        Ok(Self { barred, at })
+    }
+
+    /// Held at a displacement (mm).
+    pub(super) fn held(&self, moved: f64) -> Result<Place, Cause> {
+        hold(&self.barred.posture()?, self.at, moved)
+    }
+
+    /// On the way outside, the first limit of the force, or the first loss of a bar's shape where
+    /// that comes before it; sought to `from` (mm).
+    pub(super) fn outside(&self, from: f64) -> Result<Option<Place>, Cause> {
+        let holds = |p: &Place| p.slope > 0.0 && p.margin < 1.0;
+        let (mut good, mut bad) = (0.0, None);
+        for k in 1..=40 {
+            let moved = from * f64::from(k) / 40.0;
+            if holds(&self.held(moved)?) {
+                good = moved;
+            } else {
+                bad = Some(moved);
+                break;
+            }
+        }
+        let Some(mut bad) = bad else { return Ok(None) };
+        for _ in 0..40 {
+            let middle = 0.5 * (good + bad);
+            if holds(&self.held(middle)?) {
+                good = middle;
+            } else {
+                bad = middle;
+            }
+        }
+        Ok(Some(self.held(good)?))
+    }
+}
+
+/// A posture held at a displacement (mm) along the diagonal from `(at, at, at)` m, not turned.
+pub(super) fn hold(posture: &Posture<'_>, at: f64, moved: f64) -> Result<Place, Cause> {
+    let place = Vector3::repeat(at) + diagonal() * (moved * 1e-3);
+    let e = posture.wrench_at(&target(place.into()))?;
+    let stiffness = e.stiffness.matrix.fixed_view::<3, 3>(0, 0).into_owned();
+    let slope = diagonal().dot(&(stiffness * diagonal())) * 1e-3;
+    Ok(Place {
+        moved,
+        force: e.wrench.force().dot(&diagonal()) * 1e-3,
+        slope,
+        stable: slope > 0.0 && e.limbs.iter().all(|l| l.stability.stable),
+        margin: e.margin().unwrap_or(0.0),
+    })
+}
+
+/// Coordinate (m) on the diagonal at which the legs lie in one plane.
+pub(super) fn flat(machine: &Mechanism) -> Result<f64, Cause> {
+    // Height of a leg's far end over its near one, along the diagonal: zero where it is flat.
+    let height = |at: f64| -> Result<f64, Cause> {
+        let posture = machine.posture(&target([at; 3]))?;
+        let first = machine.limbs().first().zip(posture.limbs().first());
+        let (limb, joints) = first.ok_or_else(|| Cause::Missing("the first leg".to_owned()))?;
+        let passive = limb.nominal.indices_of(Role::Passive);
+        let (q1, q2) = (
+            joints.coordinates[passive[0]],
+            joints.coordinates[passive[1]],
+        );
+        Ok((q1.cos() + q1.sin()) * q2.cos() - q2.sin())
+    };
+    let (mut a, mut b) = (-0.08, -0.12);
+    let (mut fa, mut fb) = (height(a)?, height(b)?);
+    for _ in 0..40 {
+        if (b - a).abs() < 1e-13 || (fb - fa).abs() < 1e-15 {
+            break;
+        }
+        let next = b - fb * (b - a) / (fb - fa);
+        (a, fa) = (b, fb);
+        b = next;
+        fb = height(b)?;
+    }
+    Ok(b)
+}
