@@ -104,6 +104,51 @@ impl Item {
     }
 }
 
+impl Item {
+    /// A printed formula with its value at the inputs of the computation. It agrees if the value is
+    /// the computed one to nine digits.
+    #[must_use]
+    pub fn formula(
+        name: impl Into<String>,
+        printed: &str,
+        value: f64,
+        computed: f64,
+        unit: &str,
+        note: &str,
+    ) -> Self {
+        let agrees = (value - computed).abs() <= 1e-9 * computed.abs().max(1.0);
+        Self {
+            name: name.into(),
+            printed: Some(printed.to_owned()),
+            computed: Some(computed),
+            unit: unit.to_owned(),
+            status: if agrees {
+                Status::Agrees
+            } else {
+                Status::NotReproduced
+            },
+            note: note.to_owned(),
+        }
+    }
+
+    /// A printed formula that is known to be wrong: an erratum, unless it holds after all.
+    #[must_use]
+    pub fn wrong_formula(
+        name: impl Into<String>,
+        printed: &str,
+        value: f64,
+        computed: f64,
+        unit: &str,
+        note: &str,
+    ) -> Self {
+        let mut item = Self::formula(name, printed, value, computed, unit, note);
+        if item.status == Status::NotReproduced {
+            item.status = Status::Erratum;
+        }
+        item
+    }
+}
+
 /// Whether a printed decimal number is the rounding of `computed` to the same number of digits after
 /// the point. A number that lies half way may be rounded either way.
 #[must_use]

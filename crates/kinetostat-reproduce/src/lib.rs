@@ -7,9 +7,16 @@
 //!
 //! [`IDS`] lists what there is; [`one`] computes one entry, [`all`] all of them.
 
+mod chapter_2;
+mod curves;
+mod cutting;
 mod entry;
+mod models;
 mod orthoglide;
+mod passive_joints;
 mod registry;
+mod stewart_gough;
+mod two_links;
 
 pub use entry::{Entry, Item, Status, is_rounding};
 pub use registry::{IDS, all, one};

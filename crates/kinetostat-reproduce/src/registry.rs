@@ -2,13 +2,77 @@
 
 use rayon::prelude::*;
 
-use crate::{Cause, Contents, Entry, ReproduceError, orthoglide};
+use crate::{
+    Cause, Contents, Entry, ReproduceError, chapter_2, orthoglide, passive_joints, stewart_gough,
+    two_links,
+};
 
 /// How an entry is computed.
 type Compute = fn() -> Result<Contents, Cause>;
 
 /// Id, title and computation of every entry.
 const ENTRIES: &[(&str, &str, Compute)] = &[
+    (
+        "text-2.2",
+        "Cutting forces and torques named in the text of 2.2",
+        chapter_2::text_2_2,
+    ),
+    (
+        "table-2.3",
+        "Cutting forces for high performance materials",
+        chapter_2::table_2_3,
+    ),
+    (
+        "table-3.1",
+        "A planar link with a passive joint",
+        passive_joints::table_3_1,
+    ),
+    (
+        "table-3.2",
+        "A link with a trivial passive joint",
+        passive_joints::table_3_2,
+    ),
+    ("eq-3.26", "Stiffness of a beam", passive_joints::eq_3_26),
+    (
+        "table-3.3",
+        "A link with a quasi-trivial passive joint",
+        passive_joints::table_3_3,
+    ),
+    (
+        "eq-3.34",
+        "Stewart-Gough platform, case A",
+        stewart_gough::eq_3_34,
+    ),
+    (
+        "eq-3.35",
+        "Stewart-Gough platform, case B",
+        stewart_gough::eq_3_35,
+    ),
+    (
+        "eq-4.31",
+        "Force of two rigid links under a load on the middle",
+        two_links::eq_4_31,
+    ),
+    (
+        "eq-4.32",
+        "Stiffness of two rigid links under a load on the middle",
+        two_links::eq_4_32,
+    ),
+    (
+        "text-4.6.1",
+        "Two rigid links: stiffnesses named in the text",
+        two_links::text_4_6_1,
+    ),
+    (
+        "fig-4.3",
+        "Two rigid links: force and stiffness against displacement",
+        two_links::fig_4_3,
+    ),
+    (
+        "table-5.2",
+        "Two rigid links: stiffness and stability coefficient",
+        two_links::table_5_2,
+    ),
     (
         "table-5.3",
         "Orthoglide near its flat singularity: critical force and displacement",

@@ -1,0 +1,91 @@
+//! Cutting forces of chapter 2.
+
+use crate::cutting::{
+    AL_MG_4_5_MN, MONEL_400, Material, largest_force, printed_2_4, spindle_torque,
+};
+use crate::{Cause, Contents, Item};
+
+/// Table 2.3: material, chip thickness and width in mm, kN at 1000, 1500 and 2000 m/min.
+const TABLE_2_3: [(Material, f64, f64, [&str; 3]); 8] = [
+    (MONEL_400, 0.2, 8.0, ["6.97", "6.77", "6.64"]),
+    (MONEL_400, 0.2, 16.0, ["13.94", "13.54", "13.28"]),
+    (MONEL_400, 1.0, 8.0, ["25.65", "24.93", "24.44"]),
+    (MONEL_400, 1.0, 16.0, ["51.30", "49.86", "48.88"]),
+    (AL_MG_4_5_MN, 0.2, 8.0, ["2.23", "2.17", "2.12"]),
+    (AL_MG_4_5_MN, 0.2, 16.0, ["4.46", "4.34", "4.24"]),
+    (AL_MG_4_5_MN, 1.0, 8.0, ["7.70", "7.48", "7.33"]),
+    (AL_MG_4_5_MN, 1.0, 16.0, ["15.40", "14.96", "14.66"]),
+];
+
+const SPEEDS: [f64; 3] = [1000.0, 1500.0, 2000.0];
+
+pub(crate) fn table_2_3() -> Result<Contents, Cause> {
+    let mut items = Vec::new();
+    for (material, thickness, width, printed) in &TABLE_2_3 {
+        for (speed, printed) in SPEEDS.iter().zip(printed) {
+            let name = format!(
+                "{}, h = {thickness} mm, b = {width} mm, v = {speed} m/min",
+                material.name
+            );
+            let force = 1e-3 * largest_force(material, *thickness, *width, *speed);
+            items.push(if *width > 8.0 {
+                // Half of it, rounded as the row above is, and doubled.
+                let half = (100.0 * 0.5 * force).round() / 100.0;
+                let note = format!(
+                    "The rows of b = 16 mm are twice the rounded ones of b = 8 mm: 2 x {half:.2} = {:.2}.",
+                    2.0 * half
+                );
+                Item::erratum(name, printed, force, "kN", &note)
+            } else {
+                Item::compared(name, printed, force, "kN", "")
+            });
+        }
+    }
+    let literal = 1e-3 * printed_2_4(&MONEL_400, 0.2, 8.0);
+    items.push(Item::erratum(
+        "Monel 400, h = 0.2 mm, b = 8 mm by equation 2.4 as printed",
+        "6.97",
+        literal,
+        "kN",
+        "Equation 2.4 leaves out the speed: the table follows from 2 k_c b h v^-0.07, v in m/min.",
+    ));
+    Ok(Contents {
+        items,
+        plots: Vec::new(),
+    })
+}
+
+pub(crate) fn text_2_2() -> Result<Contents, Cause> {
+    let soft = largest_force(&AL_MG_4_5_MN, 0.2, 8.0, 1000.0);
+    let hard = largest_force(&MONEL_400, 0.2, 8.0, 1000.0);
+    let arm = "The force of 2 to 7 kN times the offset of 0.1 m; the print is a tenth of it.";
+    let items = vec![
+        Item::compared("force for Al Mg 4.5 Mn, about", "2", 1e-3 * soft, "kN", ""),
+        Item::compared("force for Monel 400, close to", "7", 1e-3 * hard, "kN", ""),
+        Item::compared(
+            "torque of 20 kW at 10000 turns/min and 50 %, about",
+            "10",
+            spindle_torque(20e3, 1e4, 0.5),
+            "N m",
+            "",
+        ),
+        Item::erratum(
+            "lateral torque of 2 kN at 100 mm",
+            "20",
+            2e3 * 0.1,
+            "N m",
+            arm,
+        ),
+        Item::erratum(
+            "lateral torque of 7 kN at 100 mm",
+            "140",
+            7e3 * 0.1,
+            "N m",
+            arm,
+        ),
+    ];
+    Ok(Contents {
+        items,
+        plots: Vec::new(),
+    })
+}
