@@ -26,6 +26,7 @@ mod free_rigid_and_redundant_directions;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
 mod links_that_bend;
+mod loads_in_mechanisms;
 mod loads_of_every_kind;
 mod orthoglide_reference;
 mod shapes_and_their_stability;
