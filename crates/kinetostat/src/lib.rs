@@ -117,6 +117,7 @@ mod platform;
 mod platform_step;
 mod posture;
 mod reduced;
+mod report_iteration;
 mod saddle;
 mod settings;
 mod shape_criterion;
@@ -174,6 +175,10 @@ pub use posture::{
     LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
 };
 pub use reduced::{LoadPattern, Parameter};
+pub use report_iteration::{
+    ChainState, IterationOutcome, IterationSettings, ReportIteration, newton_iteration,
+    report_iteration,
+};
 pub use saddle::Inertia;
 pub use settings::Settings;
 pub use shape_criterion::{ShapeCriterion, shape_criterion};

@@ -398,23 +398,50 @@ impl<'p, 'a> Reduced<'p, 'a> {
 
     /// Derivative of the conditions by `(a, x)` where the system was evaluated, m x m.
     pub fn matrix(&self) -> DMatrix<f64> {
+        self.assembled(true)
+    }
+
+    /// The same with loads and Jacobians lagged: without the loads' Hessian [R 4.15].
+    pub fn lagged_matrix(&self) -> DMatrix<f64> {
+        self.assembled(false)
+    }
+
+    fn assembled(&self, with_hessian: bool) -> DMatrix<f64> {
         let (n, r) = (self.coordinates_count(), self.reactions());
-        let rows = self.range.transpose() * self.balanced_jacobian();
+        let rows = self.reaction_rows();
         let mut a = DMatrix::zeros(r + n, r + n);
         a.view_mut((0, r), (r, n)).copy_from(&self.closure_rows());
         a.view_mut((r, 0), (n, r)).copy_from(&rows.transpose());
-        for i in 0..n {
-            for j in 0..n {
-                let k =
-                    self.system.spring_tangent[(i, j)] * self.factors[6 + i] * self.factors[6 + j];
-                a[(r + i, r + j)] = self.hessian(i, j) - k;
-            }
+        a.view_mut((r, r), (n, n))
+            .copy_from(&-self.spring_tangent());
+        if with_hessian {
+            let mut block = a.view_mut((r, r), (n, n));
+            block += self.load_hessian();
         }
         if let Some(v) = self.neutral_motions() {
             let mut block = a.view_mut((r, r), (n, n));
             block -= &v * v.transpose();
         }
         a
+    }
+
+    /// Motions of the end that reactions hold, balanced, r x n.
+    pub fn reaction_rows(&self) -> DMatrix<f64> {
+        self.range.transpose() * self.balanced_jacobian()
+    }
+
+    /// Hessian of all loads, balanced, n x n; symmetric only where the loads allow it.
+    pub fn load_hessian(&self) -> DMatrix<f64> {
+        let n = self.coordinates_count();
+        DMatrix::from_fn(n, n, |i, j| self.hessian(i, j))
+    }
+
+    /// Tangent of the springs, balanced, n x n.
+    pub fn spring_tangent(&self) -> DMatrix<f64> {
+        let n = self.coordinates_count();
+        DMatrix::from_fn(n, n, |i, j| {
+            self.system.spring_tangent[(i, j)] * self.factors[6 + i] * self.factors[6 + j]
+        })
     }
 
     /// `H - K`, symmetric part, balanced, n x n.
@@ -670,7 +697,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
 }
 
 /// `d log(E exp(hat(w)))/dw` at `w = 0`, for `log E = e`.
-fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
+pub(crate) fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
     let angle = e.norm();
     let second = if angle < 1e-4 {
         1.0 / 12.0

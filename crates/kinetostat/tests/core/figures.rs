@@ -8,6 +8,7 @@ mod orthoglide;
 mod properties;
 mod report;
 mod structure;
+mod theory;
 
 use nalgebra::Matrix6;
 use serde_json::{Value, json};
