@@ -16,6 +16,9 @@ mod orthoglide;
 mod passive_joints;
 mod registry;
 mod stewart_gough;
+mod three_link_figures;
+mod three_links;
+mod toggle;
 mod two_links;
 
 pub use entry::{Entry, Item, Status, is_rounding};

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::{
     Cause, Contents, Entry, ReproduceError, chapter_2, orthoglide, passive_joints, stewart_gough,
-    two_links,
+    three_link_figures, three_links, toggle, two_links,
 };
 
 /// How an entry is computed.
@@ -69,9 +69,69 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
         two_links::fig_4_3,
     ),
     (
+        "eq-5.32",
+        "Three links, straight at rest: force of the arch",
+        three_links::eq_5_32,
+    ),
+    (
+        "eq-5.33",
+        "Three links, straight at rest: force of the zigzag",
+        three_links::eq_5_33,
+    ),
+    (
+        "eq-5.34",
+        "Three links, straight at rest: posture of the zigzag",
+        three_links::eq_5_34,
+    ),
+    (
+        "fig-5.5",
+        "Three links: energy over the first angle",
+        three_link_figures::fig_5_5,
+    ),
+    (
+        "fig-5.6",
+        "Three links, straight at rest: shapes",
+        three_link_figures::fig_5_6,
+    ),
+    (
+        "fig-5.7",
+        "Three links, straight at rest: force and stability",
+        three_link_figures::fig_5_7,
+    ),
+    (
+        "fig-5.8",
+        "Three links, zigzag at rest: shapes, force and buckling",
+        three_link_figures::fig_5_8,
+    ),
+    (
+        "eq-5.41",
+        "Three links: product of the Jacobian with itself",
+        three_links::eq_5_41,
+    ),
+    (
+        "eq-5.42",
+        "Three links: its characteristic equation",
+        three_links::eq_5_42,
+    ),
+    (
+        "text-5.5.1",
+        "Three links: numbers and statements of the text",
+        three_links::text_5_5_1,
+    ),
+    (
+        "table-5.1",
+        "Three links: force, stiffness and stability",
+        three_links::table_5_1,
+    ),
+    (
         "table-5.2",
         "Two rigid links: stiffness and stability coefficient",
         two_links::table_5_2,
+    ),
+    (
+        "eq-5.45",
+        "Toggle frame: critical displacement and force",
+        toggle::eq_5_45,
     ),
     (
         "table-5.3",
