@@ -145,22 +145,22 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
     ),
     (
         "table-6.1",
-        "Orthoglide: displacements from an assembly error of one degree in each leg",
+        "Orthoglide assembled with 1 mm of error along each slider (Case A)",
         orthoglide::table_6_1,
     ),
     (
         "table-6.2",
-        "Orthoglide: internal forces and moments of the assembled legs",
+        "Orthoglide assembled with one degree of error about each slider (Case B)",
         orthoglide::table_6_2,
     ),
     (
         "fig-6.6",
-        "Orthoglide: errors along a straight cut from Q2 to Q4, case A",
+        "Orthoglide: errors along a straight cut from Q2 to Q5, Case A",
         orthoglide::fig_6_6,
     ),
     (
         "fig-6.7",
-        "Orthoglide: errors along a straight cut from Q2 to Q4, case B",
+        "Orthoglide: errors along a straight cut from Q2 to Q5, Case B",
         orthoglide::fig_6_7,
     ),
     (
