@@ -1,5 +1,6 @@
-//! Tasks of the project: `cargo xtask test`, `cargo xtask figures [--json]`.
+//! Tasks of the project: `cargo xtask test`, `cargo xtask book`, `cargo xtask figures [--json]`.
 
+mod book;
 mod figures;
 mod test;
 
@@ -11,7 +12,8 @@ use anyhow::{Context, Result, bail};
 const HELP: &str = "\
 Tasks of the project
 
-  cargo xtask test              format, lints, tests, documentation: what CI runs
+  cargo xtask test              format, lints, tests, documentation, book: what CI runs
+  cargo xtask book              the book as pages in book/book; with --open it is shown
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
   cargo xtask figures --quick   without the ones that build from an empty registry cache";
@@ -21,6 +23,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
         ["test"] => test::run(),
+        ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         _ => {
             eprintln!("{HELP}");

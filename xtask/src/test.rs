@@ -1,8 +1,8 @@
-//! `cargo xtask test`: format, lints, tests, documentation.
+//! `cargo xtask test`: format, lints, tests, documentation, the book.
 
 use anyhow::Result;
 
-use crate::{cargo, step};
+use crate::{book, cargo, step};
 
 /// What CI runs and the README promises.
 pub fn run() -> Result<()> {
@@ -29,6 +29,7 @@ pub fn run() -> Result<()> {
         "tests",
         cargo().args(["test", "--workspace", "--no-fail-fast"]),
     )?;
+    book::build()?;
     eprintln!("== all passed");
     Ok(())
 }

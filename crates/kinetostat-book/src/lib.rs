@@ -39,6 +39,7 @@ mod chapters {
         milling: "tutorials/milling.md",
         reproduce: "tutorials/reproduce.md",
         theory_map: "theory-map.md",
+        equations: "equations.md",
         errata: "errata/errata.md",
         errata_stiffness: "errata/stiffness.md",
         errata_loads: "errata/loads.md",

@@ -1,0 +1,202 @@
+//! The book is whole: what its theory map names exists, its links lead somewhere, and no example
+//! escapes the tests.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// All files of an ending below a folder.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            found.extend(files(&path, ending));
+        } else if path.extension().is_some_and(|e| e == ending) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn pages() -> Vec<PathBuf> {
+    files(&root().join("book/src"), "md")
+}
+
+/// Lines of a page outside of fences, and the first line of every fence with its body.
+fn parted(text: &str) -> (Vec<&str>, Vec<(&str, String)>) {
+    let (mut prose, mut fences) = (Vec::new(), Vec::new());
+    let mut lines = text.lines();
+    while let Some(line) = lines.next() {
+        match line.strip_prefix("```") {
+            Some(language) => {
+                let body: Vec<&str> = lines.by_ref().take_while(|l| *l != "```").collect();
+                fences.push((language, body.join("\n")));
+            }
+            None => prose.push(line),
+        }
+    }
+    (prose, fences)
+}
+
+/// Whether a text defines a function, a type or a trait of that name.
+fn defines(text: &str, name: &str) -> bool {
+    ["fn ", "struct ", "enum ", "trait ", "type "]
+        .iter()
+        .any(|word| {
+            let head = format!("{word}{name}");
+            text.match_indices(&head).any(|(at, _)| {
+                let next = text[at + head.len()..].chars().next();
+                next.is_none_or(|c| !c.is_alphanumeric() && c != '_')
+            })
+        })
+}
+
+/// Words in backticks.
+fn quoted(cell: &str) -> Vec<&str> {
+    cell.split('`').skip(1).step_by(2).collect()
+}
+
+#[test]
+fn every_function_and_test_of_the_theory_map_exists() {
+    let text = read(&root().join("book/src/theory-map.md"));
+    let mut tests = String::new();
+    for krate in fs::read_dir(root().join("crates")).expect("crates") {
+        let krate = krate.expect("a crate").path();
+        for folder in ["tests", "src"] {
+            if krate.join(folder).is_dir() {
+                for file in files(&krate.join(folder), "rs") {
+                    tests.push_str(&read(&file));
+                }
+            }
+        }
+    }
+    let (mut rows, mut missing) = (0, Vec::new());
+    for line in text.lines().filter(|l| l.starts_with("| ")) {
+        let cells: Vec<&str> = line.trim_matches('|').split(" | ").collect();
+        assert_eq!(cells.len(), 4, "{line}");
+        if cells[2].trim() == "function" {
+            continue;
+        }
+        rows += 1;
+        let functions = quoted(cells[2]);
+        assert!(
+            !functions.is_empty() && functions.len().is_multiple_of(2),
+            "{line}"
+        );
+        for pair in functions.chunks(2) {
+            let file = match pair[1].contains('/') {
+                true => root().join(pair[1]),
+                false => root().join("crates/kinetostat/src").join(pair[1]),
+            };
+            let source = read(&file);
+            for name in pair[0].split("::") {
+                let own = defines(&source, name) || source.contains(&format!("impl {name}"));
+                let elsewhere = name != pair[0] && source.contains(name);
+                if !own && !elsewhere {
+                    missing.push(format!("{name} in {}", pair[1]));
+                }
+            }
+        }
+        let named = quoted(cells[3]);
+        assert!(!named.is_empty(), "no test: {line}");
+        for test in named {
+            if !tests.contains(&format!("fn {test}(")) {
+                missing.push(format!("test {test}"));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+    assert!(rows > 50, "only {rows} rows found");
+}
+
+#[test]
+fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
+    let source = root().join("book/src");
+    let summary = read(&source.join("SUMMARY.md"));
+    let mut wrong = Vec::new();
+    for page in pages() {
+        let relative = page.strip_prefix(&source).expect("a page");
+        let name = relative.display().to_string();
+        if name != "SUMMARY.md" && !summary.contains(&format!("({name})")) {
+            wrong.push(format!("{name} is not in the summary"));
+        }
+        let text = read(&page);
+        let (prose, fences) = parted(&text);
+        let mut targets: Vec<String> = Vec::new();
+        for line in &prose {
+            targets.extend(line.split("](").skip(1).filter_map(|rest| {
+                let target = rest.split(')').next()?.split('#').next()?;
+                (!target.is_empty() && !target.contains("://")).then(|| target.to_owned())
+            }));
+        }
+        let all = prose.iter().copied().map(str::to_owned);
+        for line in all.chain(fences.into_iter().map(|f| f.1)) {
+            if let Some(rest) = line.split("{{#include ").nth(1) {
+                let target = rest.split(['}', ':']).next().unwrap_or_default();
+                targets.push(target.to_owned());
+            }
+        }
+        let folder = page.parent().expect("a folder");
+        for target in targets {
+            if !folder.join(&target).exists() {
+                wrong.push(format!("{name}: {target} does not exist"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn no_example_escapes_the_tests() {
+    let tested = read(&root().join("crates/kinetostat-book/src/lib.rs"));
+    let source = root().join("book/src");
+    let (mut wrong, mut counts) = (Vec::new(), HashSet::new());
+    for page in pages() {
+        let name = page.strip_prefix(&source).expect("a page");
+        let name = name.display().to_string();
+        let text = read(&page);
+        let mut before = "";
+        let mut inside = false;
+        for line in text.lines() {
+            if let Some(language) = line.strip_prefix("```") {
+                inside = !inside;
+                if !inside {
+                    continue;
+                }
+                counts.insert(language.to_owned());
+                let holds = match language {
+                    // Documentation tests of this crate; nothing may be taken out of them.
+                    "rust" => tested.contains(&format!("\"{name}\"")),
+                    // Run by `kinetostat-cli/tests/book.rs`; formulas are read when the book is built.
+                    "console" | "math" => true,
+                    // Parts of files that are compiled elsewhere.
+                    "rs" => true,
+                    // Files that shell examples use.
+                    "toml" | "text" | "csv" => before.starts_with("<!-- file: "),
+                    _ => false,
+                };
+                if !holds {
+                    wrong.push(format!("{name}: a fence '{language}' that nothing tests"));
+                }
+            }
+            before = line;
+        }
+        for (language, body) in parted(&text).1 {
+            if language == "rs" && !body.trim_start().starts_with("{{#include ") {
+                wrong.push(format!("{name}: Rust that is not compiled"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(counts.contains("rust") && counts.contains("console"));
+}

@@ -1,0 +1,42 @@
+//! `cargo xtask book`: the book as pages that need no network.
+
+use anyhow::{Result, bail};
+
+use crate::{cargo, root, step};
+
+/// Builds the book into `book/book`; `--open` shows it.
+///
+/// # Errors
+/// A formula that cannot be read, a page that refers to the network, or a word that is no option.
+pub fn run(options: &[&str]) -> Result<()> {
+    let open = match options {
+        [] => false,
+        ["--open"] => true,
+        [other, ..] => bail!("'{other}' is no option of book; --open is"),
+    };
+    build()?;
+    if open {
+        let page = root().join("book/book/index.html");
+        let program = match std::env::consts::OS {
+            "macos" => "open",
+            "windows" => "explorer",
+            _ => "xdg-open",
+        };
+        step("open", std::process::Command::new(program).arg(page))?;
+    }
+    Ok(())
+}
+
+/// The book's own tool builds it: a workspace of its own, so that nobody compiles mdBook to mill.
+pub fn build() -> Result<()> {
+    let target = std::env::var_os("CARGO_TARGET_DIR")
+        .map_or_else(|| root().join("target"), std::path::PathBuf::from);
+    step(
+        "book",
+        cargo()
+            .args(["run", "--quiet", "--locked"])
+            .args(["--manifest-path", "book/tool/Cargo.toml"])
+            .arg("--target-dir")
+            .arg(target.join("book-tool")),
+    )
+}
