@@ -42,10 +42,7 @@ fn rendered(text: &str) -> Result<String> {
             continue;
         }
         let closing = "`".repeat(ticks);
-        let body: Vec<&str> = lines
-            .by_ref()
-            .take_while(|l| l.trim() != closing)
-            .collect();
+        let body: Vec<&str> = lines.by_ref().take_while(|l| l.trim() != closing).collect();
         if fence[ticks..].trim() == "math" {
             let formula = mathml(&body.join("\n"), DisplayMode::Block)?;
             out.push_str(&format!("<div class=\"formula\">{formula}</div>\n"));
@@ -107,7 +104,7 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
         bail!("a formula that cannot be read: {formula}");
     }
     let mut safe = String::with_capacity(out.len());
-    for c in out.chars() {
+    for c in mended(&out).chars() {
         match c {
             '\n' => safe.push(' '),
             '*' | '_' | '|' | '[' | ']' | '`' | '~' | '\\' => {
@@ -117,6 +114,18 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
         }
     }
     Ok(safe)
+}
+
+/// What pulldown-latex 0.8 writes amiss: a space inside of the script it precedes (`2\sin^2 x`), and a
+/// named entity escaped twice.
+fn mended(mathml: &str) -> String {
+    const SPACE: &str = "<mspace width=\"0.1667em\" />";
+    let mut out = mathml.replace("&amp;nbsp;", "\u{a0}");
+    for script in ["<msup>", "<msub>", "<msubsup>"] {
+        let (inside, before) = (format!("{script}{SPACE}"), format!("{SPACE}{script}"));
+        out = out.replace(&inside, &before);
+    }
+    out
 }
 
 #[cfg(test)]
@@ -130,6 +139,16 @@ mod tests {
         assert_eq!(out.matches("<math").count(), 2, "{out}");
         assert!(out.contains("`$y$`") && out.contains("echo $HOME"));
         assert!(!out.contains('_'), "{out}");
+    }
+
+    #[test]
+    fn scripts_have_two_parts_and_spaces_are_spaces() {
+        let out = rendered("$2\\sin^2 x,\\ y$").expect("a right formula");
+        assert!(
+            !out.contains("nbsp") && !out.contains("<msup><mspace"),
+            "{out}"
+        );
+        assert!(out.contains("<msup><mi>sin</mi>"), "{out}");
     }
 
     #[test]
