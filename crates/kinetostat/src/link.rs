@@ -17,14 +17,16 @@
 //!
 //! A link given by a matrix is divided as a uniform beam: see `uniform.rs`.
 
-use nalgebra::{Matrix6, Vector6};
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::beam::BeamSection;
 use crate::bowing::BowingLaw;
 use crate::builder::ChainBuilder;
 use crate::logarithm::LogarithmLaw;
-use crate::spatial::Pose;
+use crate::spatial::{Pose, turn_matrix};
 use crate::spring::{Segment, SpringLaw};
 use crate::uniform::{compliance_per_length, moved, segment_compliance};
 
@@ -247,11 +249,40 @@ impl ChainBuilder {
                 link: name.to_owned(),
                 link_length: length,
                 bending_stiffness: spec.bending_stiffness(),
+                along: Vector3::x(),
             });
             if share < 1.0 {
                 self = self.rigid(Pose::translation((1.0 - share) * h, 0.0, 0.0));
             }
         }
+        self
+    }
+
+    /// The spring of a link of one segment that lies anywhere in the frame reached so far, behind
+    /// the offset of its far end, which is written before it: `matrix` 6 x 6 (N/m, N/rad, N m/m,
+    /// N m/rad) at the far end, root clamped, in the axes of that frame; `offset` from near to far
+    /// end, m. It is [`ChainBuilder::spring6`] ([`LinkConvention::TranslationsFirst`]) with the
+    /// link's axial load told.
+    #[must_use]
+    pub fn link_spring(mut self, name: &str, matrix: &Matrix6<f64>, offset: &Vector3<f64>) -> Self {
+        let length = offset.norm();
+        if !(length.is_finite() && length > 0.0) {
+            self.fault(format!(
+                "link '{name}': its length is {length}, a positive number of metres is needed"
+            ));
+            return self;
+        }
+        let turn = Rotation3::rotation_between(&Vector3::x(), offset)
+            .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::y_axis(), PI));
+        let turn = turn_matrix(&turn);
+        let own = LinkSpec::matrix(turn.transpose() * matrix * turn, length);
+        self = self.spring6(name, matrix, [0.0; 6]);
+        self.last_spring_is(Segment {
+            link: name.to_owned(),
+            link_length: length,
+            bending_stiffness: own.bending_stiffness(),
+            along: offset / length,
+        });
         self
     }
 }

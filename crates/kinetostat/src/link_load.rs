@@ -1,5 +1,6 @@
 //! How near every link is to buckling: its axial force as a share of its Euler load.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::chain::Chain;
@@ -25,10 +26,15 @@ pub struct LinkLoad {
 pub fn link_loads(chain: &Chain, spring_torques: &[f64]) -> Vec<LinkLoad> {
     let mut list: Vec<LinkLoad> = Vec::new();
     for block in chain.springs() {
-        let (Some(segment), Some(&axial)) = (&block.segment, spring_torques.get(block.first))
-        else {
+        let (Some(segment), Some(&[x, y, z])) = (
+            &block.segment,
+            spring_torques
+                .get(block.first..)
+                .and_then(<[f64]>::first_chunk),
+        ) else {
             continue;
         };
+        let axial = segment.along.dot(&Vector3::new(x, y, z));
         let link = match list.iter().position(|l| l.link == segment.link) {
             Some(k) => &mut list[k],
             None => {

@@ -4,7 +4,7 @@
 //! constant matrix is the simplest law. What a block stores is the virtual joint's energy: the
 //! torque that the chain must apply to it is the gradient.
 
-use nalgebra::{DMatrix, Matrix6, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::bowing::BowingLaw;
@@ -52,7 +52,7 @@ pub struct SpringBlock {
     pub segment: Option<Segment>,
 }
 
-/// A piece of an elastic link along local x.
+/// A piece of a straight elastic link.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Segment {
     /// Name of the link.
@@ -61,6 +61,9 @@ pub struct Segment {
     pub link_length: f64,
     /// Smaller of the link's two bending stiffnesses `EI`, N m^2.
     pub bending_stiffness: f64,
+    /// Direction of the link from its near to its far end, in the axes of the spring; unit length.
+    #[serde(default = "Vector3::x")]
+    pub along: Vector3<f64>,
 }
 
 impl SpringBlock {
