@@ -5,7 +5,7 @@ mod common;
 use common::{contents, run, shell, workplace};
 use serde_json::Value;
 
-const PRESETS: [&str; 8] = [
+const PRESETS: [&str; 9] = [
     "orthoglide",
     "stewart_gough_a",
     "stewart_gough_b",
@@ -14,6 +14,7 @@ const PRESETS: [&str; 8] = [
     "three_link_z",
     "puu3",
     "heavy_6r",
+    "compensated_arm",
 ];
 
 #[track_caller]

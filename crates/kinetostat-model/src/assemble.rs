@@ -82,8 +82,12 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
     for platform in platforms {
         builder.platform(platform);
     }
-    for limb in limbs {
+    for (limb, loads) in limbs {
+        let name = limb.name.clone();
         builder = builder.limb(limb);
+        for load in loads {
+            builder = builder.load(name.as_str(), load);
+        }
     }
     let mechanism = findings.keep(builder.build().map_err(|e| {
         Finding::new(

@@ -10,7 +10,7 @@ use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::hints;
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, Place, Step};
 use crate::schema::Document;
 
 /// The schema without `null`: TOML has no such value.
@@ -71,6 +71,8 @@ struct Checker {
 
 impl Checker {
     fn report(&mut self, place: &Place, span: Range<usize>, message: String, help: String) {
+        // Descriptions of several lines become one.
+        let help = help.replace('\n', " ");
         self.findings
             .push(Finding::new(place, message, help).at(span));
     }
@@ -195,6 +197,13 @@ impl Checker {
         span: Range<usize>,
         place: &Place,
     ) {
+        let (noun, a_noun) = match place.0.iter().rev().find_map(|step| match step {
+            Step::Key(key) => Some(key.as_str()),
+            Step::Index(_) => None,
+        }) {
+            Some("load") => ("load", "A load"),
+            _ => ("element", "An element"),
+        };
         let present: Vec<(&str, Range<usize>)> = table
             .keys()
             .filter(|k| words.contains(&k.get_ref().as_ref()))
@@ -219,12 +228,12 @@ impl Checker {
                         place,
                         span,
                         format!("unknown key '{key}'"),
-                        format!("did you mean '{word}'? An element is one of: {list}"),
+                        format!("did you mean '{word}'? {a_noun} is one of: {list}"),
                     ),
                     None => self.report(
                         place,
                         span,
-                        "this element does not say what it is".into(),
+                        format!("this {noun} does not say what it is"),
                         format!("write one of these words as a key: {list}"),
                     ),
                 }
@@ -232,8 +241,12 @@ impl Checker {
             [(first, _), (second, span), ..] => self.report(
                 place,
                 span.clone(),
-                format!("this element is said to be '{first}' and '{second}'"),
-                "an element is one thing: write two elements in the order of the chain".into(),
+                format!("this {noun} is said to be '{first}' and '{second}'"),
+                match noun {
+                    "load" => "a load is one thing: write two of them, each under [[limb.load]]",
+                    _ => "an element is one thing: write two elements in the order of the chain",
+                }
+                .into(),
             ),
         }
     }

@@ -19,7 +19,7 @@ pub(crate) fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
 }
 
 /// Endings of keys that are units, longest first.
-const UNITS: [&str; 45] = [
+const UNITS: [&str; 49] = [
     "n_mm_per_rad",
     "n_m_per_rad",
     "n_m_per_deg",
@@ -44,6 +44,8 @@ const UNITS: [&str; 45] = [
     "newton",
     "meter",
     "metre",
+    "n_mm",
+    "n_m",
     "gpa",
     "mpa",
     "kpa",
@@ -63,8 +65,10 @@ const UNITS: [&str; 45] = [
     "um",
     "in",
     "lb",
+    "kn",
     "g",
     "m",
+    "n",
 ];
 
 /// A key without its unit, and the unit.

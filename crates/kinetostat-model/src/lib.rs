@@ -53,6 +53,11 @@
 //! - **Deviations are separate** (`[[deviation]]`): the chain says what was drawn, the deviation what
 //!   was built. A deviation is a motion behind a named rigid element or link, or at the limb's `start`
 //!   or `end`.
+//! - **Links bow**: a link shortens as it bends, so that it buckles at its Euler load; `convention`
+//!   names the plain springs of the literature, `segments` divides it.
+//! - **Loads belong to a limb** (`[[limb.load]]`): springs, gas springs and ropes between two of its
+//!   points or one and the base, wrenches that keep their direction or turn with their node,
+//!   counterweights. Places are named: nodes, bodies, or any element with a name (behind it).
 //! - **Gravity has no default**: a file with masses says which way is down.
 //! - **The reader checks the file against the generated JSON Schema first.** One description serves
 //!   editors, messages and reading; places of values are looked up in the text only for messages, so
@@ -67,6 +72,7 @@ mod file;
 mod hints;
 mod joint;
 mod limb;
+mod load;
 mod model;
 mod part;
 mod placement;
@@ -77,6 +83,7 @@ mod quantity;
 pub mod schema;
 mod schema_elastic;
 mod schema_element;
+mod schema_load;
 mod section;
 mod source;
 mod template;

@@ -2,10 +2,12 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use kinetostat::{Chain, Limb, Pose};
+use kinetostat::{Chain, Limb, Load, Pose};
+use nalgebra::Vector3;
 
 use crate::assemble::{Findings, name};
 use crate::elastic::unknown;
+use crate::load::{loads, named_places};
 use crate::part::Part;
 use crate::placement::pose;
 use crate::problem::{Finding, Place};
@@ -19,7 +21,7 @@ pub(crate) fn limbs(
     document: &Document,
     templates: &BTreeMap<&str, Option<Template>>,
     findings: &mut Findings,
-) -> Vec<Limb> {
+) -> Vec<(Limb, Vec<Load>)> {
     let mut deviations = deviations(document, findings);
     let mut seen = HashSet::new();
     let mut size = 0;
@@ -70,7 +72,7 @@ fn limb(
     template: Option<&Template>,
     own: &BTreeMap<&str, (Place, Pose)>,
     findings: &mut Findings,
-) -> Option<Limb> {
+) -> Option<(Limb, Vec<Load>)> {
     let from = platform_index(document, &place.key("from"), &written.from, findings);
     let to = platform_index(document, &place.key("to"), &written.to, findings);
     if to == Some(0) {
@@ -113,9 +115,11 @@ fn limb(
             return None;
         }
     }
-    let (start, end) = (start?, end?);
+    let table = document.chain.get(&written.chain)?;
+    let places = named_places(place, written, table, template, findings);
+    let (start, end, places) = (start?, end?, places?);
     let mut build = |actual: bool| {
-        let chain = chain(&written.name, template, own, actual, &start);
+        let chain = chain(&written.name, template, own, actual, &start, &places);
         chain
             .map_err(|e| findings.errors.push(locate(&e, &written.chain, document)))
             .ok()
@@ -125,24 +129,28 @@ fn limb(
         true => nominal.clone(),
         false => build(true)?,
     };
-    Some(Limb {
+    let gravity = document.mechanism.gravity_m_per_s2.map(Vector3::from);
+    let loads = loads(place, written, &actual, gravity, findings);
+    let limb = Limb {
         name: written.name.clone(),
         from: from?,
         to: to?,
         platform_from_tip: end,
         nominal,
         actual,
-    })
+    };
+    Some((limb, loads))
 }
 
 /// The chain as the core knows it. Nominal and actual chain have the same elements in the same
-/// order, whatever the deviations.
+/// order, whatever the deviations. `places` are the elements behind which loads act.
 fn chain(
     name: &str,
     template: &Template,
     own: &BTreeMap<&str, (Place, Pose)>,
     actual: bool,
     start: &Pose,
+    places: &BTreeMap<usize, String>,
 ) -> kinetostat::Result<Chain> {
     let deviation = |at: &str| own.get(at).filter(|_| actual).map(|(_, pose)| pose);
     let mut builder = Chain::builder(name);
@@ -150,12 +158,17 @@ fn chain(
         let part = Part::Rigid(None, *start);
         builder = part.add(builder, deviation("start"));
     }
-    for (_, part) in &template.parts {
+    for (k, (element, part)) in template.parts.iter().enumerate() {
         let moved = match part {
             Part::Rigid(Some(name), _) => deviation(name),
             _ => None,
         };
         builder = part.add(builder, moved);
+        // Places of loads are behind all that their element is made of.
+        let last = template.parts.get(k + 1).is_none_or(|(e, _)| e != element);
+        if let Some(name) = places.get(element).filter(|_| last) {
+            builder = builder.node(name);
+        }
     }
     if own.contains_key("end") {
         // The tip sits at `end * deviation` of the platform, which is the same as a chain that goes

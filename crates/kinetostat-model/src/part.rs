@@ -1,14 +1,21 @@
 //! Elements of a chain in SI, before a limb gives them their deviations.
 
-use kinetostat::{ActuatorSpec, ChainBuilder, MotionKind, Pose};
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use kinetostat::{
+    ActuatorSpec, ChainBuilder, LinkConvention, LinkSpec, MotionKind, Pose, turn_matrix,
+};
+use nalgebra::{Matrix3, Matrix6, Unit, UnitQuaternion, Vector3};
 
 use crate::elastic::{Elastic, Elasticity, along};
 use crate::joint::{actuator, kind, passive, spring};
-use crate::placement::{direction, pose};
+use crate::placement::{direction, frame_along, pose};
 use crate::problem::{Finding, Place};
 use crate::quantity::{DEG, Found, MM, choice, forbid, need, pick, positive, vector};
-use crate::schema::{BodyElement, Element, LinkElement, ParallelogramElement, Spring6Element};
+use crate::schema::{
+    BodyElement, Convention, Element, LinkElement, ParallelogramElement, Spring6Element,
+};
+
+/// More pieces of one link are a slip of the pen.
+const MOST_SEGMENTS: u32 = 100;
 
 /// What the core's builder is told, one call each.
 #[derive(Clone, Debug)]
@@ -20,6 +27,10 @@ pub(crate) enum Part {
     /// Stiffness; then the deflections at rest and at home.
     Spring(String, MotionKind, Vector3<f64>, f64, [f64; 2]),
     Spring6(String, Box<Matrix6<f64>>, [f64; 6]),
+    /// Along local x, with its offset.
+    Link(String, Box<LinkSpec>),
+    /// Matrix in the frame reached, offset from near to far end (written before it).
+    LinkSpring(String, Box<Matrix6<f64>>, Vector3<f64>),
     Parallelogram(String, f64, f64, Box<Matrix6<f64>>, f64),
     Coupled(String, MotionKind, Vector3<f64>, f64),
     Node(String),
@@ -40,6 +51,8 @@ impl Part {
                 .spring(name, *kind, *axis, *stiffness, *rest)
                 .home(name, *home),
             Self::Spring6(name, matrix, rest) => builder.spring6(name, matrix, *rest),
+            Self::Link(name, spec) => builder.link_with(name, spec),
+            Self::LinkSpring(name, matrix, offset) => builder.link_spring(name, matrix, offset),
             Self::Parallelogram(name, length, width, bar, home) => {
                 builder.parallelogram(name, *length, *width, bar, *home)
             }
@@ -56,7 +69,18 @@ impl Part {
             Self::Actuator(name, _) | Self::Passive(name, ..) | Self::Spring(name, ..) => {
                 vec![name.clone()]
             }
-            Self::Spring6(name, ..) => six.iter().map(|d| format!("{name}.{d}")).collect(),
+            Self::Spring6(name, ..) | Self::LinkSpring(name, ..) => {
+                six.iter().map(|d| format!("{name}.{d}")).collect()
+            }
+            Self::Link(name, spec) => (1..=spec.segments)
+                .flat_map(|k| {
+                    let own = match spec.segments {
+                        1 => name.clone(),
+                        _ => format!("{name}.{k}"),
+                    };
+                    six.iter().map(move |d| format!("{own}.{d}"))
+                })
+                .collect(),
             Self::Parallelogram(name, ..) => std::iter::once(name.clone())
                 .chain(
                     six.iter()
@@ -174,24 +198,70 @@ fn link(
             Vector3::new(length.value, 0.0, 0.0)
         }
     };
-    let length = offset.norm();
-    let matrix = match elastic.named(&place.key("link"), &e.link)? {
-        Elasticity::Section(section) => {
-            let local = section.cantilever(length);
-            match e.vector_mm.or(e.vector_m) {
-                Some(_) => along(&local, &nalgebra::Unit::new_normalize(offset)),
-                None => local,
-            }
-        }
-        Elasticity::Matrix(matrix) => *matrix,
+    // Squares of a tiny length would vanish.
+    let length = match e.vector_mm.or(e.vector_m) {
+        Some(_) => offset.norm(),
+        None => offset.x,
     };
-    Ok(vec![
-        Part::Rigid(
-            Some(name.clone()),
-            Pose::translation(offset.x, offset.y, offset.z),
-        ),
-        Part::Spring6(name, Box::new(matrix), [0.0; 6]),
-    ])
+    let segments = e.segments.unwrap_or(1);
+    if !(1..=MOST_SEGMENTS).contains(&segments) {
+        return Err(Some(Finding::new(
+            &place.key("segments"),
+            format!("the link has {segments} segments, 1 to {MOST_SEGMENTS} are possible"),
+            "8 give buckling loads to 0.1 %, 32 give deflections as large as the link",
+        )));
+    }
+    let slanted = e.vector_mm.or(e.vector_m).is_some();
+    let axis = Unit::new_normalize(offset);
+    let elasticity = elastic.named(&place.key("link"), &e.link)?;
+    let convention = convention(e.convention.unwrap_or_default());
+    if convention == LinkConvention::TranslationsFirst && segments == 1 {
+        // In the axes of the frame, which does not turn.
+        let matrix = match elasticity {
+            Elasticity::Section(section) if slanted => along(&section.cantilever(length), &axis),
+            Elasticity::Section(section) => section.cantilever(length),
+            Elasticity::Matrix(matrix) => *matrix,
+        };
+        return Ok(vec![
+            Part::Rigid(
+                Some(name.clone()),
+                Pose::translation(offset.x, offset.y, offset.z),
+            ),
+            Part::LinkSpring(name, Box::new(matrix), offset),
+        ]);
+    }
+    // In the link's own axes, there and back.
+    let turn = match slanted {
+        true => UnitQuaternion::from_rotation_matrix(&frame_along(&axis)),
+        false => UnitQuaternion::identity(),
+    };
+    let spec = match elasticity {
+        Elasticity::Section(section) => LinkSpec::beam(section, length),
+        Elasticity::Matrix(matrix) => {
+            let own = turn_matrix(&turn.to_rotation_matrix());
+            LinkSpec::matrix(own.transpose() * *matrix * own, length)
+        }
+    };
+    let spec = spec.segments(segments as usize).convention(convention);
+    let turned = |rotation| Pose::from_parts(Vector3::zeros().into(), rotation);
+    let mut parts = Vec::new();
+    if slanted {
+        parts.push(Part::Rigid(None, turned(turn)));
+    }
+    parts.push(Part::Link(name.clone(), Box::new(spec)));
+    parts.push(Part::Rigid(Some(name), turned(turn.inverse())));
+    Ok(parts)
+}
+
+fn convention(written: Convention) -> LinkConvention {
+    match written {
+        Convention::Bowing => LinkConvention::Bowing,
+        Convention::TranslationsFirst => LinkConvention::TranslationsFirst,
+        Convention::RotationsFirst => LinkConvention::RotationsFirst,
+        Convention::Middle => LinkConvention::Middle,
+        Convention::Exponential => LinkConvention::Exponential,
+        Convention::ConstantStrain => LinkConvention::ConstantStrain,
+    }
 }
 
 fn parallelogram(

@@ -23,7 +23,7 @@ macro_rules! preset {
     };
 }
 
-const PRESETS: [Preset; 8] = [
+const PRESETS: [Preset; 9] = [
     preset!(
         "orthoglide",
         "Orthoglide: three sliding legs with parallelograms, 200 mm cube, identified stiffness"
@@ -55,6 +55,10 @@ const PRESETS: [Preset; 8] = [
     preset!(
         "heavy_6r",
         "Heavy six-axis arm of the 200 kg class with drive and link compliances and weights"
+    ),
+    preset!(
+        "compensated_arm",
+        "Planar arm of three joints, its shoulder relieved by a spring; links that bow"
     ),
 ];
 

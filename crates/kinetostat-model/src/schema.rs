@@ -13,8 +13,12 @@ pub use crate::schema_elastic::{
     Rectangle, Rigidities, Round, Section, Spring6, Stiffness, Tube, Values,
 };
 pub use crate::schema_element::{
-    ActuatorElement, BodyElement, CoupledElement, Element, LinkElement, NodeElement,
+    ActuatorElement, BodyElement, Convention, CoupledElement, Element, LinkElement, NodeElement,
     ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
+};
+pub use crate::schema_load::{
+    Anchor, ConstantTensionLoad, CounterweightLoad, GasSpringLoad, LoadTable, SpringLoad,
+    WrenchAxes, WrenchLoad,
 };
 
 /// The version of the format that this crate reads and writes.
@@ -243,6 +247,10 @@ pub struct LimbTable {
     pub source: Option<String>,
     /// What is assumed.
     pub assumption: Option<String>,
+    /// What pulls and pushes on the limb besides its weight.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 100))]
+    pub load: Vec<LoadTable>,
 }
 
 /// An error of manufacture or assembly: a small motion of the actual geometry behind one element.

@@ -216,10 +216,34 @@ pub struct LinkElement {
     pub vector_mm: Option<[f64; 3]>,
     /// From the near to the far end in the frame reached so far, m.
     pub vector_m: Option<[f64; 3]>,
+    /// Number of equal pieces, 1 if not given. One is enough far below the Euler load, 8 give
+    /// buckling loads to 0.1 %, 32 give deflections as large as the link.
+    pub segments: Option<u32>,
+    /// How a piece bends, 'bowing' if not given. All have the same unloaded stiffness.
+    pub convention: Option<Convention>,
     /// Where the figures come from.
     pub source: Option<String>,
     /// What is assumed.
     pub assumption: Option<String>,
+}
+
+/// How a piece of a link bends, and what energy that costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Convention {
+    /// Bending shortens the piece: pushed it buckles at its Euler load, pulled it stiffens.
+    #[default]
+    Bowing,
+    /// A plain spring at the far end, translations before rotations: the report's.
+    TranslationsFirst,
+    /// A plain spring at the far end, rotations before translations.
+    RotationsFirst,
+    /// A plain spring in the middle of the piece, translations before rotations.
+    Middle,
+    /// A plain spring in exponential coordinates.
+    Exponential,
+    /// Strain constant along the piece; needs several pieces even for small deflections.
+    ConstantStrain,
 }
 
 /// Two parallel bars along local x that swing about local y: the far end keeps its orientation.

@@ -39,6 +39,19 @@ from = "base"
 to = "tool"
 chain = "arm"
 
+[[limb.load]]
+spring = "balancer"
+from = { node = "base", position_mm = [0, 0, 500] }
+to = { node = "shoulder", position_mm = [200, 0, 0] }
+stiffness_n_per_mm = 5
+free_length_mm = 300
+
+[[limb.load]]
+wrench = "hose"
+node = "boom"
+axes = "base"
+force_n = [0, 0, -20]
+
 [[deviation]]
 limb = "arm"
 at = "foot"
@@ -145,6 +158,36 @@ const CASES: &[Case] = &[
     ("[[limb]]\nname = \"arm\"", "[[limb]]\nname = \" arm\""),
     ("[[deviation]]", "[[deviation]]\nlimb = \"arm\"\nat = \"foot\"\nmoved_by = { }\n[[deviation]]"),
     ("[[limb]]", "[[platform]]\nname = \"second\"\nhome = { }\n\n[[limb]]"),
+    // Links
+    ("length_mm = 800", "length_mm = 800, segments = 0"),
+    ("length_mm = 800", "length_mm = 800, segments = 2.5"),
+    ("length_mm = 800", "length_mm = 800, convention = \"bowed\""),
+    ("length_mm = 800", "length_mm = 800, segmnets = 4"),
+    // Loads
+    ("spring = \"balancer\"", "sprnig = \"balancer\""),
+    ("spring = \"balancer\"", ""),
+    ("spring = \"balancer\"", "spring = \"balancer\"\nwrench = \"another\""),
+    ("spring = \"balancer\"", "spring = \"hose\""),
+    ("spring = \"balancer\"", "spring = \" \""),
+    ("node = \"shoulder\"", "node = \"shulder\""),
+    ("node = \"shoulder\"", "node = \"elbow\""),
+    ("node = \"shoulder\"", "node = \"base\""),
+    ("stiffness_n_per_mm = 5", "stiffness = 5"),
+    ("stiffness_n_per_mm = 5", "stiffness_n_per_mm = -5"),
+    ("stiffness_n_per_mm = 5\n", ""),
+    ("free_length_mm = 300", "free_length_mm = -300"),
+    ("free_length_mm = 300\n", ""),
+    ("free_length_mm = 300", "free_length_mm = 300\nfree_length_m = 0.3"),
+    ("position_mm = [200, 0, 0]", "position = [200, 0, 0]"),
+    ("node = \"boom\"", "node = \"base\""),
+    ("axes = \"base\"", "axes = \"world\""),
+    ("axes = \"base\"\n", ""),
+    ("force_n = [0, 0, -20]\n", ""),
+    ("force_n = [0, 0, -20]", "force_kn = [0, 0, -0.02]"),
+    ("axes = \"base\"\nforce_n", "axes = \"node\"\nmoment_n_m = [0, 0]\nforce_n"),
+    ("wrench = \"hose\"\nnode = \"boom\"\naxes = \"base\"\nforce_n = [0, 0, -20]", "counterweight = \"ballast\"\nat = { node = \"tip\" }\nmass_kg = -3"),
+    ("wrench = \"hose\"\nnode = \"boom\"\naxes = \"base\"\nforce_n = [0, 0, -20]", "gas_spring = \"lifter\"\nfrom = { node = \"base\" }\nto = { node = \"tip\" }\nforce_n = 200\nlength_mm = 700\nexponent = 1.2"),
+    ("wrench = \"hose\"\nnode = \"boom\"\naxes = \"base\"\nforce_n = [0, 0, -20]", "gas_spring = \"lifter\"\nfrom = { node = \"base\" }\nto = { node = \"tip\" }\nforce_n = -200\nlength_mm = 700\ncolumn_mm = 900\nexponent = 1.2"),
 ];
 
 #[test]
@@ -424,7 +467,7 @@ fn files_that_are_no_models() {
     // Lines are counted right with both.
     let text = format!(
         "\u{feff}{}",
-        edited("length_mm", "lenght_mm").replace('\n', "\r\n")
+        edited("length_mm = 800", "lenght_mm = 800").replace('\n', "\r\n")
     );
     let error = read_model(&write("both.toml", text.as_bytes())).expect_err("wrong");
     assert_eq!(

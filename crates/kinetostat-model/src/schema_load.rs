@@ -1,0 +1,208 @@
+//! What pulls and pushes on a limb. Each load has exactly one word that says what it is; the word
+//! is the key and its value the load's name.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A load on a limb. Gravity is written once, under `[mechanism]`; a preloaded joint is a spring
+/// with a `rest`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum LoadTable {
+    /// Force and moment.
+    Wrench(WrenchLoad),
+    /// Spring between two points.
+    Spring(SpringLoad),
+    /// Gas spring between two points.
+    GasSpring(GasSpringLoad),
+    /// The same pull at every length between two points.
+    ConstantTension(ConstantTensionLoad),
+    /// Mass on a lever.
+    Counterweight(CounterweightLoad),
+}
+
+/// Axes in which the components of a wrench stay constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WrenchAxes {
+    /// Base axes: the wrench keeps its direction while the machine moves (dead).
+    Base,
+    /// Axes of its node: the wrench turns with it (follower). Not conservative.
+    Node,
+}
+
+/// A point on the limb or in the base.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Anchor {
+    /// Name of a node, a body or a named element of the limb's chain (the frame reached behind it),
+    /// 'tip' for the end of the chain, or 'base' for the machine's fixed base.
+    pub node: String,
+    /// The point in the axes of that node or of the base, mm; its origin if not given.
+    pub position_mm: Option<[f64; 3]>,
+    /// The point in the axes of that node or of the base, m.
+    pub position_m: Option<[f64; 3]>,
+}
+
+/// Force and moment on a node, about its origin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-word" = "wrench"))]
+pub struct WrenchLoad {
+    /// Name of the load, unique in the limb.
+    pub wrench: String,
+    /// Name of a node, a body or a named element of the limb's chain, or 'tip'.
+    pub node: String,
+    /// 'base': constant in base axes, as a weight is; 'node': constant in the node's axes, so that
+    /// it turns with it, as a jet or a propeller does.
+    pub axes: WrenchAxes,
+    /// Force on the node, N.
+    pub force_n: Option<[f64; 3]>,
+    /// Moment on the node about its origin, N m.
+    pub moment_n_m: Option<[f64; 3]>,
+    /// Moment on the node about its origin, N mm.
+    pub moment_n_mm: Option<[f64; 3]>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// Spring between two points of the limb, or between one and the base: a compensator. It pulls with
+/// `preload + stiffness * (length - free length)`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-word" = "spring"))]
+pub struct SpringLoad {
+    /// Name of the load, unique in the limb.
+    pub spring: String,
+    /// One end.
+    pub from: Anchor,
+    /// The other end.
+    pub to: Anchor,
+    /// Stiffness, N/m.
+    pub stiffness_n_per_m: Option<f64>,
+    /// Stiffness, N/mm.
+    pub stiffness_n_per_mm: Option<f64>,
+    /// Length at which it pulls with the preload (without force if none is given), mm. 0 is allowed:
+    /// the ideal compensator.
+    pub free_length_mm: Option<f64>,
+    /// Length at which it pulls with the preload (without force if none is given), m.
+    pub free_length_m: Option<f64>,
+    /// Pull at the free length, N; negative pushes.
+    pub preload_n: Option<f64>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// Gas spring between two points of the limb, or between one and the base. Pressed in by `s` it
+/// pushes with `force * (column / (column - s))^exponent`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-word" = "gas_spring"))]
+pub struct GasSpringLoad {
+    /// Name of the load, unique in the limb.
+    pub gas_spring: String,
+    /// One end.
+    pub from: Anchor,
+    /// The other end.
+    pub to: Anchor,
+    /// Push at the length that is given, N.
+    pub force_n: f64,
+    /// Length at which it pushes with that force (usually extended), mm.
+    pub length_mm: Option<f64>,
+    /// Length at which it pushes with that force, m.
+    pub length_m: Option<f64>,
+    /// Volume of the gas at that length over the area of the rod, mm: the stroke at which the push
+    /// would become infinite. The longer, the flatter the characteristic.
+    pub column_mm: Option<f64>,
+    /// Volume of the gas at that length over the area of the rod, m.
+    pub column_m: Option<f64>,
+    /// 1 for slow motion (isothermal), 1.4 for fast motion of nitrogen (adiabatic).
+    pub exponent: f64,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// A pull that does not depend on the length: a rope over a pulley, a balancer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-word" = "constant_tension"))]
+pub struct ConstantTensionLoad {
+    /// Name of the load, unique in the limb.
+    pub constant_tension: String,
+    /// One end.
+    pub from: Anchor,
+    /// The other end.
+    pub to: Anchor,
+    /// Pull between the ends, N; negative pushes.
+    pub tension_n: f64,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// A mass on a lever that is fixed to a node; gravity pulls at it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-word" = "counterweight"))]
+pub struct CounterweightLoad {
+    /// Name of the load, unique in the limb.
+    pub counterweight: String,
+    /// Where its centre is.
+    pub at: Anchor,
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+impl LoadTable {
+    /// The word that says what the load is.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Wrench(_) => "wrench",
+            Self::Spring(_) => "spring",
+            Self::GasSpring(_) => "gas_spring",
+            Self::ConstantTension(_) => "constant_tension",
+            Self::Counterweight(_) => "counterweight",
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Wrench(l) => &l.wrench,
+            Self::Spring(l) => &l.spring,
+            Self::GasSpring(l) => &l.gas_spring,
+            Self::ConstantTension(l) => &l.constant_tension,
+            Self::Counterweight(l) => &l.counterweight,
+        }
+    }
+
+    /// Places it is fixed to: the key, further keys to the name of the place, that name.
+    pub(crate) fn places(&self) -> Vec<(&'static [&'static str], &str)> {
+        const FROM: &[&str] = &["from", "node"];
+        const TO: &[&str] = &["to", "node"];
+        let between = |from, to| {
+            let (from, to): (&Anchor, &Anchor) = (from, to);
+            vec![(FROM, from.node.as_str()), (TO, to.node.as_str())]
+        };
+        match self {
+            Self::Wrench(l) => vec![(&["node"], l.node.as_str())],
+            Self::Counterweight(l) => vec![(&["at", "node"], l.at.node.as_str())],
+            Self::Spring(l) => between(&l.from, &l.to),
+            Self::GasSpring(l) => between(&l.from, &l.to),
+            Self::ConstantTension(l) => between(&l.from, &l.to),
+        }
+    }
+}
