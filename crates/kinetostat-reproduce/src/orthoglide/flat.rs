@@ -5,7 +5,7 @@ use kinetostat_report::{Plot, PlotLine, PlotMark};
 use rayon::prelude::*;
 
 use super::machine::{Orthoglide, SMALL, target};
-use super::toggle::{Bowed, Curve, Place, diagonal, flat, hold};
+use super::toggle::{Bowed, Curve, Place, diagonal, flat, hold, report_fails_at, report_rate};
 use crate::{Cause, Contents, Item};
 
 /// A configuration of the table and its print: coordinate on the diagonal (m), `d0` (mm), `F_cr`
@@ -60,6 +60,10 @@ struct Answer {
     apart: f64,
     bowed: Bowed,
     bowed_outside: Option<Place>,
+    /// Where outside the report's iteration stops converging, if it does before the flat posture.
+    iteration: Option<Place>,
+    /// Rate of the report's iteration at the printed displacement outside.
+    rate: f64,
 }
 
 impl Configuration {
@@ -69,7 +73,7 @@ impl Configuration {
         let k = posture.stiffness()?.cartesian.matrix;
         let k = k.fixed_view::<3, 3>(0, 0).into_owned();
         let curve = Curve::new(&machine, self.at, self.range, 0.2)?;
-        let inside = Curve::new(&machine, self.at, (0.0, self.range.1), 0.04)?;
+        let inside = Curve::new(&machine, self.at, (0.0, self.range.1), 0.1)?;
         let missing = |what: &str| Cause::Missing(format!("{what} of {}", self.name));
         let mut apart = 0.0_f64;
         for share in [0.6, 0.3, -0.3, -0.6] {
@@ -85,8 +89,20 @@ impl Configuration {
             apart = apart.max((held.force - force).abs());
         }
         let bowed = Bowed::new(self.at)?;
+        let distance = (self.at - flat(&machine)?) * 3_f64.sqrt() * 1e3;
+        let fails = report_fails_at(&machine, self.at, -0.5 * distance)?;
+        let iteration = fails.and_then(|moved| {
+            let force = curve.force(moved)?;
+            Some(Place {
+                moved,
+                force,
+                ..Place::default()
+            })
+        });
         Ok(Answer {
-            distance: (self.at - flat(&machine)?) * 3_f64.sqrt() * 1e3,
+            distance,
+            iteration,
+            rate: report_rate(&machine, self.at, self.printed(self.outside))?,
             stiffness: diagonal().dot(&(k * diagonal())) * 1e-3,
             outside: curve
                 .outside()
@@ -113,7 +129,7 @@ impl Configuration {
         let bowed = a.bowed.held(inn)?;
         let limit = match q {
             "Q2" => format!(
-                "not reproduced. Tried: the curve itself has no limit near the print: at {out} mm it passes {at_out:.3} kN smoothly, its first limit is computed here; the printed place is where the report's iteration (6.2), which leaves out the Hessian of the load, stops converging (inferred)"
+                "not reproduced. Tried: the curve itself has no limit near the print: at {out} mm it passes {at_out:.3} kN smoothly, its first limit is computed here; the report's iteration (6.2), which leaves out the Hessian of the load, stops converging beside the print (see below): the printed place is its end, not the machine's (inferred)"
             ),
             "Q2b" => "limit of the force of the toggle".to_owned(),
             _ => format!(
@@ -202,6 +218,29 @@ impl Configuration {
                 ),
             ),
         ];
+        items.push(Item::unprinted(
+            format!("{q}: rate of the report's iteration at the printed Δ_cr outside"),
+            a.rate,
+            "",
+            "max |mu|: each step of (6.2) multiplies the error by it; above 1 it cannot stay at the equilibrium",
+        ));
+        if let Some(place) = a.iteration {
+            let name = |what: &str| {
+                format!("{q}: {what} outside where the report's iteration stops converging")
+            };
+            let why = if q == "Q2" {
+                "its rate reaches 1 here, although the equilibrium is stable: beside the printed -5.7 mm"
+            } else {
+                "its rate reaches 1 here, although the equilibrium is stable"
+            };
+            items.push(Item::unprinted(
+                name("displacement"),
+                place.moved,
+                "mm",
+                why,
+            ));
+            items.push(Item::unprinted(name("force"), place.force, "kN", why));
+        }
         if let Some(place) = a.bowed_outside {
             let why = if place.margin > 0.999 {
                 "default law of a link: here the first bar loses its shape (one segment per bar buckles 22 % late), before the force has its limit"
@@ -215,48 +254,56 @@ impl Configuration {
         Ok(items)
     }
 
-    fn plot(&self, a: &Answer) -> Result<Plot, Cause> {
-        let mut lines = solid_and_dashed(&a.curve.places);
-        let (low, high) = (
-            a.bowed_outside.map_or(self.range.0, |p| p.moved * 1.25),
-            self.range.1,
-        );
-        let mut places = Vec::new();
-        for k in 0..=40 {
-            let moved =
-                low.max(self.range.0) + (high - low.max(self.range.0)) * f64::from(k) / 40.0;
-            let place = a.bowed.held(moved)?;
-            // Where a bar has lost its shape the solver may be on any of its branches.
-            if place.margin < 1.0 {
-                places.push((place.moved, place.force));
+    fn plot(&self, a: &Answer, range: (f64, f64), title: &str) -> Result<Plot, Cause> {
+        let mut bowed = Vec::new();
+        let (low, high) = range;
+        for k in 0..=60 {
+            let place = a.bowed.held(low + (high - low) * f64::from(k) / 60.0);
+            // Where a bar has lost its shape the solver may be on any of its branches, or on none.
+            if let Ok(place) = place
+                && place.margin < 1.0
+                && a.bowed_outside
+                    .is_none_or(|b| b.margin < 0.999 || place.moved > b.moved)
+            {
+                bowed.push(place);
             }
         }
-        lines.push(PlotLine {
-            name: "bars that bow".into(),
-            colour: 1,
-            dashed: false,
-            points: places,
-        });
+        let springs: Vec<Place> = a
+            .curve
+            .places
+            .iter()
+            .filter(|p| low <= p.moved && p.moved <= high)
+            .copied()
+            .collect();
+        let mut lines = solid_and_dashed(&springs, 0, "parallelograms as springs");
+        lines.extend(solid_and_dashed(&bowed, 1, "bars that bow"));
         let mark = |p: &Place, name: &str| PlotMark {
             at: (p.moved, p.force),
             name: name.to_owned(),
             detail: format!("{name}: {:.4} kN at {:.2} mm", p.force, p.moved),
         };
+        let mut marks = vec![mark(&a.outside, "limit")];
+        if a.knee.moved <= high {
+            marks.push(mark(&a.knee, "knee"));
+        }
+        if let Some(place) = a.bowed_outside.filter(|p| p.margin > 0.999) {
+            marks.push(mark(&place, "first bar buckles"));
+        }
         Ok(Plot {
             title: format!(
-                "Orthoglide at {}, {:.1} mm from the flat posture",
+                "Orthoglide at {}, {:.1} mm from the flat posture{title}",
                 self.name, a.distance
             ),
             x_label: "displacement along (1, 1, 1), mm (negative: towards the flat posture)".into(),
             y_label: "force along (1, 1, 1), kN".into(),
             lines,
-            marks: vec![mark(&a.outside, "limit"), mark(&a.knee, "knee")],
+            marks,
         })
     }
 }
 
-/// The report's model as lines: solid where a dead load is stable.
-fn solid_and_dashed(places: &[Place]) -> Vec<PlotLine> {
+/// A curve as lines: solid where a dead load is stable, solid ones first.
+fn solid_and_dashed(places: &[Place], colour: usize, name: &str) -> Vec<PlotLine> {
     let mut lines: Vec<PlotLine> = Vec::new();
     for place in places {
         let point = (place.moved, place.force);
@@ -266,18 +313,18 @@ fn solid_and_dashed(places: &[Place]) -> Vec<PlotLine> {
                 // The new piece begins where the last one ends.
                 let end = last.and_then(|line| line.points.last().copied());
                 lines.push(PlotLine {
-                    name: if place.stable {
-                        "parallelograms as springs: stable under a dead load".into()
-                    } else {
-                        "unstable under a dead load".into()
-                    },
-                    colour: 0,
+                    name: format!(
+                        "{name}, {}",
+                        if place.stable { "stable" } else { "unstable" }
+                    ),
+                    colour,
                     dashed: !place.stable,
                     points: end.into_iter().chain([point]).collect(),
                 });
             }
         }
     }
+    lines.sort_by_key(|line| line.dashed);
     lines
 }
 
@@ -382,7 +429,11 @@ pub(crate) fn fig_5_11() -> Result<Contents, Cause> {
                 note,
             ));
         }
-        plots.push(configuration.plot(answer)?);
+        if plots.is_empty() {
+            let near = (configuration.range.0, 8.0);
+            plots.push(configuration.plot(answer, near, ": through it")?);
+        }
+        plots.push(configuration.plot(answer, configuration.range, "")?);
     }
     Ok(Contents { items, plots })
 }

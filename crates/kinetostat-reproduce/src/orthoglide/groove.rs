@@ -113,16 +113,17 @@ fn plan(title: String, circle: &Circle, paths: &[Path]) -> Plot {
         (0.5 * (low + high), 0.5 * (high - low))
     };
     let (x, y) = (span(|p| p.0), span(|p| p.1));
-    // The plot's frame is about 1.9 times as wide as it is high; two lone points widen it.
+    // The plot's frame is about 1.9 times as wide as it is high; centre lines widen its span.
     let half = (x.1 / 1.9).max(y.1);
-    lines.push(PlotLine {
-        points: vec![
-            (x.0 - 1.9 * half, y.0 - half),
-            (f64::NAN, f64::NAN),
-            (x.0 + 1.9 * half, y.0 + half),
-        ],
+    let centre_line = |from, to| PlotLine {
+        colour: 5,
+        dashed: true,
+        points: vec![from, to],
         ..PlotLine::default()
-    });
+    };
+    let (wide, high) = (1.9 * half, half);
+    lines.insert(0, centre_line((x.0 - wide, 0.0), (x.0 + wide, 0.0)));
+    lines.insert(1, centre_line((0.0, y.0 - high), (0.0, y.0 + high)));
     Plot {
         title,
         x_label: "x from the centre of the circle, mm".into(),

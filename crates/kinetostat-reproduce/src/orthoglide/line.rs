@@ -142,7 +142,8 @@ fn figure(case: &Orthoglide, name: &str) -> Result<Contents, Cause> {
                 .map(|(colour, (name, of))| PlotLine {
                     name: (*name).into(),
                     colour,
-                    dashed: false,
+                    // Close to the fourth: dashes let both be seen.
+                    dashed: colour == 4,
                     points: points.iter().map(|(y, s)| (*y, of(s)[axis])).collect(),
                 })
                 .collect(),

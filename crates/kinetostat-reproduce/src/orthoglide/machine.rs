@@ -220,3 +220,28 @@ pub(super) fn inclination(posture: &Posture<'_>, leg: usize) -> f64 {
         .indices_of(Role::Passive);
     posture.limbs()[leg].coordinates[joints[1]]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kinetostat_model::Model;
+
+    #[test]
+    fn the_machine_is_the_preset() {
+        let preset = Model::preset("orthoglide").expect("preset").mechanism;
+        let own = Orthoglide::default().build().expect("machine");
+        for (name, point) in POINTS {
+            let [a, b] = [&preset, &own].map(|machine| {
+                let posture = machine.posture(&target(point)).expect(name);
+                let k = posture.stiffness().expect(name).cartesian.matrix;
+                let e = posture.deflected_by(&cutting(0.3)).expect(name);
+                (posture.commands(), k, e.displacement.0)
+            });
+            for (x, y) in a.0.iter().zip(&b.0) {
+                assert!((x - y).abs() < 1e-12, "{name}");
+            }
+            assert!((a.1 - b.1).amax() < 1e-9 * b.1.amax(), "{name}");
+            assert!((a.2 - b.2).amax() < 1e-12, "{name}");
+        }
+    }
+}

@@ -2,8 +2,8 @@
 //! flat posture ("outside", negative) and away from it ("inside", positive).
 
 use kinetostat::{
-    ChainProblem, CurveSettings, EndCondition, LinkConvention, Mechanism, Parameter, Posture, Role,
-    Settings, SpecialKind, Twist, follow, solve_chain,
+    ChainProblem, CurveSettings, EndCondition, IterationSettings, LinkConvention, Mechanism,
+    Parameter, Posture, Role, Settings, SpecialKind, Twist, follow, report_iteration, solve_chain,
 };
 use nalgebra::Vector3;
 
@@ -48,14 +48,8 @@ impl Curve {
         range: (f64, f64),
         step: f64,
     ) -> Result<Self, Cause> {
-        let home = target([at; 3]);
-        let posture = machine.posture(&home)?;
-        let missing = || Cause::Missing("the first leg".to_owned());
-        let chain = &machine.limbs().first().ok_or_else(missing)?.nominal;
-        let joints = posture.limbs().first().ok_or_else(missing)?;
-        let mut problem = ChainProblem::new(chain, EndCondition::pose(home));
-        problem.commands.clone_from(&joints.commands);
-        problem.posture.clone_from(&joints.coordinates);
+        let posture = machine.posture(&target([at; 3]))?;
+        let problem = first_leg(&posture, Vector3::repeat(at))?;
         let start = solve_chain(&problem, &Settings::default())?;
         let parameter = Parameter::Displacement(Twist::new(diagonal(), Vector3::zeros()));
         let mut settings = CurveSettings::within(range.0 * 1e-3, range.1 * 1e-3);
@@ -110,19 +104,77 @@ impl Curve {
         self.limits.iter().rev().find(|p| p.moved < 0.0).copied()
     }
 
-    /// Where the slope falls fastest on the way inside.
+    /// Where the slope falls fastest on the way inside: the tip of the parabola through the three
+    /// lowest rates of the slope.
     pub(super) fn knee(&self) -> Option<Place> {
-        let fall = |w: &&[Place]| (w[1].slope - w[0].slope) / (w[1].moved - w[0].moved);
-        self.places
+        let inside: Vec<&Place> = self.places.iter().filter(|p| p.moved > 0.0).collect();
+        let rates: Vec<(f64, f64)> = inside
             .windows(2)
-            .filter(|w| w[0].moved > 0.0 && w[1].moved > w[0].moved)
-            .min_by(|a, b| fall(a).total_cmp(&fall(b)))
-            .map(|w| Place {
-                moved: 0.5 * (w[0].moved + w[1].moved),
-                force: 0.5 * (w[0].force + w[1].force),
-                ..w[0]
+            .filter(|w| w[1].moved > w[0].moved)
+            .map(|w| {
+                let rate = (w[1].slope - w[0].slope) / (w[1].moved - w[0].moved);
+                (0.5 * (w[0].moved + w[1].moved), rate)
             })
+            .collect();
+        let [a, b, c] = rates.windows(3).min_by(|a, b| a[1].1.total_cmp(&b[1].1))? else {
+            return None;
+        };
+        let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
+        let bend = (right - left) / (c.0 - a.0);
+        let moved = 0.5 * (a.0 + b.0) - 0.5 * left / bend;
+        let near = inside
+            .iter()
+            .min_by(|p, q| (p.moved - moved).abs().total_cmp(&(q.moved - moved).abs()))?;
+        Some(Place {
+            moved,
+            force: self.force(moved)?,
+            ..**near
+        })
     }
+}
+
+/// The first leg of a commanded machine with its end held at a place (m), not turned.
+fn first_leg<'m>(posture: &Posture<'m>, place: Vector3<f64>) -> Result<ChainProblem<'m>, Cause> {
+    let limb = posture.mechanism().limbs().first();
+    let (limb, joints) = limb
+        .zip(posture.limbs().first())
+        .ok_or_else(|| Cause::Missing("the first leg".to_owned()))?;
+    let mut problem = ChainProblem::new(&limb.nominal, EndCondition::pose(target(place.into())));
+    problem.commands.clone_from(&joints.commands);
+    problem.posture.clone_from(&joints.coordinates);
+    Ok(problem)
+}
+
+/// Rate of the report's iteration at a leg held at a displacement (mm): above 1 it cannot stay.
+pub(super) fn report_rate(machine: &Mechanism, at: f64, moved: f64) -> Result<f64, Cause> {
+    let posture = machine.posture(&target([at; 3]))?;
+    let place = Vector3::repeat(at) + diagonal() * (moved * 1e-3);
+    let problem = first_leg(&posture, place)?;
+    // The rate belongs to the equilibrium: no step of the iteration is needed for it.
+    let settings = IterationSettings {
+        steps: 1,
+        ..IterationSettings::default()
+    };
+    let run = report_iteration(&problem, None, &settings)?;
+    run.rate_at_start
+        .ok_or_else(|| Cause::Missing("the rate of the report's iteration".to_owned()))
+}
+
+/// Displacement (mm) between rest and `to` where the rate of the report's iteration reaches 1.
+pub(super) fn report_fails_at(machine: &Mechanism, at: f64, to: f64) -> Result<Option<f64>, Cause> {
+    if report_rate(machine, at, to)? < 1.0 {
+        return Ok(None);
+    }
+    let (mut good, mut bad) = (0.0, to);
+    for _ in 0..30 {
+        let middle = 0.5 * (good + bad);
+        if report_rate(machine, at, middle)? < 1.0 {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    Ok(Some(good))
 }
 
 /// The machine with bars that bow, held at displacements along the diagonal.
