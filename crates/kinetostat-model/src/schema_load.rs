@@ -44,6 +44,21 @@ pub struct Anchor {
     pub position_m: Option<[f64; 3]>,
 }
 
+impl Anchor {
+    fn in_words(&self) -> String {
+        let place = match self.node.as_str() {
+            "base" => "the base".to_owned(),
+            name => format!("'{name}'"),
+        };
+        let point = [(self.position_mm, "mm"), (self.position_m, "m")];
+        let mut point = point.iter().filter_map(|(p, unit)| Some(((*p)?, unit)));
+        match point.next() {
+            Some(([x, y, z], unit)) => format!("{place} at ({x}, {y}, {z}) {unit}"),
+            None => place,
+        }
+    }
+}
+
 /// Force and moment on a node, about its origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -186,6 +201,55 @@ impl LoadTable {
             Self::GasSpring(l) => &l.gas_spring,
             Self::ConstantTension(l) => &l.constant_tension,
             Self::Counterweight(l) => &l.counterweight,
+        }
+    }
+
+    /// What it does, in a sentence without its name: `spring of 5 N/mm from the base at ...`.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let one = |list: &[(Option<f64>, &str)]| -> String {
+            let mut given = list.iter().filter_map(|(v, unit)| Some((((*v)?), unit)));
+            given
+                .next()
+                .map_or_else(String::new, |(v, unit)| format!("{v} {unit}"))
+        };
+        match self {
+            Self::Wrench(l) => {
+                let triple = |v: Option<[f64; 3]>, unit: &str| {
+                    v.map(|[x, y, z]| format!("({x}, {y}, {z}) {unit}"))
+                };
+                let force = triple(l.force_n, "N").map(|t| format!("force {t}"));
+                let moment = triple(l.moment_n_m, "N m").or(triple(l.moment_n_mm, "N mm"));
+                let moment = moment.map(|t| format!("moment {t}"));
+                let parts: Vec<String> = force.into_iter().chain(moment).collect();
+                let axes = match l.axes {
+                    WrenchAxes::Base => "in base axes, keeps its direction",
+                    WrenchAxes::Node => "in the axes of its node, turns with it",
+                };
+                format!("{} on '{}' {axes}", parts.join(" and "), l.node)
+            }
+            Self::Spring(l) => {
+                let stiffness =
+                    one(&[(l.stiffness_n_per_m, "N/m"), (l.stiffness_n_per_mm, "N/mm")]);
+                let free = one(&[(l.free_length_mm, "mm"), (l.free_length_m, "m")]);
+                let preload = match l.preload_n {
+                    None | Some(0.0) => format!("no force at {free}"),
+                    Some(pull) => format!("{pull} N at {free}"),
+                };
+                let (from, to) = (l.from.in_words(), l.to.in_words());
+                format!("spring of {stiffness} from {from} to {to}, {preload}")
+            }
+            Self::GasSpring(l) => {
+                let length = one(&[(l.length_mm, "mm"), (l.length_m, "m")]);
+                let (from, to) = (l.from.in_words(), l.to.in_words());
+                let push = l.force_n;
+                format!("gas spring from {from} to {to}, pushes with {push} N at {length}")
+            }
+            Self::ConstantTension(l) => {
+                let (from, to) = (l.from.in_words(), l.to.in_words());
+                format!("pull of {} N between {from} and {to}", l.tension_n)
+            }
+            Self::Counterweight(l) => format!("{} kg at {}", l.mass_kg, l.at.in_words()),
         }
     }
 
