@@ -9,8 +9,11 @@
 //! The iteration starts with the report's own step (loads lagged, `H = 0`), goes on with exact
 //! Newton on the bordered system under step control, and falls back on growing the load from an
 //! unloaded posture. A failure says up to which share of the load it came.
+//!
+//! Long chains are solved by sweeps along them (`sweep.rs`), with cost and memory that grow with the
+//! number of coordinates; what a sweep cannot do falls back on dense matrices.
 
-use nalgebra::{DMatrix, Matrix6, Matrix6xX, Rotation3, Vector6};
+use nalgebra::{DMatrix, Matrix6, Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::{Chain, MotionKind, Role};
@@ -18,12 +21,16 @@ use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::load_check::check_loads;
 use crate::load_energy::is_conservative;
-use crate::loading::{Load, NodeTangent};
+use crate::loading::Load;
+use crate::reduced::rotation_rate;
 use crate::saddle::Saddle;
 use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, pose_residual};
-use crate::stability::{ShapeStability, shape_stability};
-use crate::stiffness::{ChainStiffness, chain_stiffness};
+use crate::stability::ShapeStability;
+use crate::stiffness::ChainStiffness;
+use crate::sweep::{Form, Path, turned_rows};
+use crate::sweep_solve::{Bordered, EndRows};
+pub(crate) use crate::system::{System, balance};
 
 /// What is prescribed in one direction of the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -114,6 +121,11 @@ pub struct Residual {
     pub torque: f64,
     /// Iterations spent.
     pub iterations: usize,
+    /// Rate observed: norm of the last correction by that of the one before, in balanced units
+    /// (square root of energy). A linear iteration settles at its rate, exact Newton falls towards
+    /// 0 from step to step. `None` with fewer than two corrections, and where nobody measured it.
+    #[serde(default)]
+    pub rate: Option<f64>,
 }
 
 /// A chain in equilibrium.
@@ -139,178 +151,6 @@ pub struct Equilibrium {
     pub stability: ShapeStability,
     /// How well the conditions hold.
     pub residual: Residual,
-}
-
-/// Matrices and residuals of a chain at one state; buffers are reused between iterations.
-pub(crate) struct System {
-    pub kinematics: Kinematics,
-    /// 6 x (n + r \[+ 6\]) at the tip.
-    pub jacobian: Matrix6xX<f64>,
-    /// Generalised torque of all loads, the end wrench included.
-    pub torque: Vec<f64>,
-    /// Its derivative.
-    pub hessian: DMatrix<f64>,
-    /// Gradient of the springs' energy, n.
-    pub spring_torque: Vec<f64>,
-    /// Its derivative, n x n.
-    pub spring_tangent: DMatrix<f64>,
-    /// Change of the tangent since rest, per block of six coordinates: first coordinate, matrix.
-    pub spring_geometric: Vec<(usize, Matrix6<f64>)>,
-    pub energy: f64,
-    /// Loads that grow along a curve, on top of those given to [`Self::evaluate`], and their factor.
-    pub pattern: (Vec<Load>, f64),
-    wrenches: Vec<(usize, Wrench)>,
-    tangents: Vec<NodeTangent>,
-}
-
-impl System {
-    pub fn new(
-        chain: &Chain,
-        base: &Pose,
-        posture: &[f64],
-        commands: &[f64],
-        base_moves: bool,
-    ) -> Self {
-        let kinematics = Kinematics::new(chain, base, posture, commands, base_moves);
-        let (n, all) = (chain.coordinate_count(), kinematics.velocity_count());
-        Self {
-            jacobian: kinematics.jacobian(chain.tip()),
-            torque: vec![0.0; all],
-            hessian: DMatrix::zeros(all, all),
-            spring_torque: vec![0.0; n],
-            spring_tangent: DMatrix::zeros(n, n),
-            spring_geometric: Vec::new(),
-            energy: 0.0,
-            pattern: (Vec::new(), 0.0),
-            wrenches: Vec::new(),
-            tangents: Vec::new(),
-            kinematics,
-        }
-    }
-
-    /// Evaluates at coordinates and end wrench; `factor` scales loads and preloads (1: as given).
-    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
-    pub fn evaluate(
-        &mut self,
-        chain: &Chain,
-        base: &Pose,
-        posture: &[f64],
-        commands: &[f64],
-        loads: &[Load],
-        coordinates: &[f64],
-        wrench: &Wrench,
-        factor: f64,
-    ) {
-        self.kinematics.update(chain, base, coordinates, commands);
-        self.jacobian = self.kinematics.jacobian(chain.tip());
-        self.wrenches.clear();
-        self.tangents.clear();
-        let (pattern, grown) = (&self.pattern.0, self.pattern.1);
-        let growing = pattern.iter().map(|load| (load, grown));
-        for (load, factor) in loads.iter().map(|load| (load, factor)).chain(growing) {
-            load.add_wrenches(chain, &self.kinematics, factor, &mut self.wrenches);
-            load.add_tangents(&self.kinematics, factor, &mut self.tangents);
-        }
-        self.wrenches.push((chain.tip(), *wrench));
-        self.kinematics
-            .load_terms(&self.wrenches, &mut self.torque, &mut self.hessian);
-        self.kinematics
-            .add_tangents(&self.tangents, &mut self.hessian);
-        // A load without a tangent here has no equilibrium here that could be judged.
-        let tangents = self.tangents.iter();
-        if tangents
-            .flat_map(|t| t.matrix.iter())
-            .any(|x| !x.is_finite())
-        {
-            self.torque.fill(f64::NAN);
-        }
-        self.spring_torque.fill(0.0);
-        self.spring_tangent.fill(0.0);
-        self.spring_geometric.clear();
-        self.energy = 0.0;
-        for block in chain.springs() {
-            self.energy += block.add(
-                coordinates,
-                posture,
-                factor,
-                &mut self.spring_torque,
-                &mut self.spring_tangent,
-                &mut self.spring_geometric,
-            );
-        }
-    }
-
-    /// `[0 J; J^T H - K]` over the six wrench components and the `n` coordinates.
-    /// `with_hessian = false` gives the matrix of the report's iteration [R 4.15].
-    pub fn bordered(&self, with_hessian: bool) -> DMatrix<f64> {
-        let n = self.spring_torque.len();
-        let mut a = DMatrix::zeros(6 + n, 6 + n);
-        for j in 0..n {
-            for k in 0..6 {
-                a[(k, 6 + j)] = self.jacobian[(k, j)];
-                a[(6 + j, k)] = self.jacobian[(k, j)];
-            }
-            for i in 0..n {
-                let h = if with_hessian {
-                    self.hessian[(i, j)]
-                } else {
-                    0.0
-                };
-                a[(6 + i, 6 + j)] = h - self.spring_tangent[(i, j)];
-            }
-        }
-        a
-    }
-
-    /// Sum of the squares of all unbalanced torques and the largest torque on either side, both in
-    /// balanced units.
-    pub fn unbalanced_torques(&self, factors: &[f64]) -> (f64, f64) {
-        let (mut squares, mut largest) = (0.0, 0.0_f64);
-        for (i, s) in factors[6..].iter().enumerate() {
-            squares += (self.unbalanced(i) * s).powi(2);
-            largest = largest
-                .max((self.torque[i] * s).abs())
-                .max((self.spring_torque[i] * s).abs());
-        }
-        (squares, largest)
-    }
-
-    /// Unbalanced torques, n.
-    pub fn unbalanced(&self, i: usize) -> f64 {
-        self.torque[i] - self.spring_torque[i]
-    }
-}
-
-/// Factors that make all unknowns of a bordered system comparable: six for the wrench, `n` for
-/// the coordinates; each has the unit of its unknown per square root of energy.
-pub(crate) fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
-    let scale = chain.scale();
-    let root = scale.stiffness.sqrt();
-    let mut factors = Vec::with_capacity(6 + chain.coordinate_count());
-    factors.extend([root; 3]);
-    factors.extend([root * scale.length; 3]);
-    let springs: Vec<f64> = {
-        let mut stiffness = vec![0.0; chain.coordinate_count()];
-        for block in chain.springs() {
-            let k = block.stiffness_at(posture);
-            for i in 0..block.len() {
-                stiffness[block.first + i] = k[(i, i)];
-            }
-        }
-        stiffness
-    };
-    factors.extend(
-        chain
-            .coordinates()
-            .iter()
-            .zip(springs)
-            .map(|(c, k)| match (c.role, c.kind) {
-                (Role::Spring, _) => 1.0 / k.sqrt(),
-                (Role::Passive, MotionKind::Prismatic) => 1.0 / root,
-                (Role::Passive, MotionKind::Revolute) => 1.0 / (root * scale.length),
-            }),
-    );
-    factors
 }
 
 /// Largest step that keeps rotations of joints below half a radian and slides below half the
@@ -340,6 +180,7 @@ pub(crate) fn natural(chain: &Chain) -> f64 {
 }
 
 /// Residuals of a system in balanced units (square root of energy).
+#[derive(Clone, Copy)]
 pub(crate) struct Balance {
     pub closure: f64,
     pub torque: f64,
@@ -355,23 +196,41 @@ struct Attempt<'p, 'a> {
     system: System,
     /// Closure at the start, kept while the load grows.
     offset: Twist,
+    /// Rotation (vector, rad) that the end lacks.
+    turned: Vector3<f64>,
+    /// Norms of the last two corrections, balanced, the last one first.
+    corrections: [f64; 2],
 }
 
 impl Attempt<'_, '_> {
-    fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
+    /// The system at a state and a share of the load.
+    fn evaluate_system(&mut self, x: &[f64], wrench: &Wrench, share: f64) {
         let p = self.problem;
-        self.system.evaluate(
-            p.chain,
-            &p.base,
-            &p.posture,
-            &p.commands,
-            &p.loads,
-            x,
-            wrench,
-            share,
-        );
+        for _ in 0..2 {
+            self.system.evaluate(
+                p.chain,
+                &p.base,
+                &p.posture,
+                &p.commands,
+                &p.loads,
+                x,
+                wrench,
+                share,
+            );
+            if self.system.sweep.as_ref().is_none_or(|s| s.serial) {
+                break;
+            }
+            self.system.make_dense();
+        }
+    }
+
+    fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
+        self.evaluate_system(x, wrench, share);
+        let p = self.problem;
         let tip = self.system.kinematics.tip_pose();
-        let closure = Twist(pose_residual(&p.end.pose, &tip).0 - self.offset.0 * (1.0 - share));
+        let miss = pose_residual(&p.end.pose, &tip);
+        self.turned = miss.angular();
+        let closure = Twist(miss.0 - self.offset.0 * (1.0 - share));
         let lack = Wrench(p.end.wrench.0 * share - wrench.0);
         (closure, lack)
     }
@@ -415,12 +274,81 @@ impl Attempt<'_, '_> {
             && b.torque <= self.settings.torque * b.loads + 1e-16 * unit
     }
 
-    fn step(&self, rows: &Vector6<f64>, with_hessian: bool) -> DMatrix<f64> {
+    /// Change of the closure (base axes) with the motion of the end. Where all rotations are held
+    /// the closure vanishes, and with it what differs from one; where some are free, the rotation
+    /// vector of what is lacking stays large and does not change by the motion alone.
+    fn closure_rate(&self) -> Option<Matrix6<f64>> {
+        let held = |k: usize| self.problem.end.prescribed[k] == Prescribed::Pose;
+        let some = (3..6).any(held) && !(3..6).all(held);
+        // Half a turn has no one direction to go.
+        let near = self.turned.norm() < 0.9 * std::f64::consts::PI;
+        (some && near).then(|| turned_rows(&rotation_rate(&self.turned)))
+    }
+
+    /// Correction of wrench (6) and coordinates (n); `None` if a sweep loses a pivot.
+    fn swept_step(&self, rows: &Vector6<f64>, with_hessian: bool) -> Option<Vec<f64>> {
+        let sweep = self.system.sweep.as_ref()?;
+        let end = &self.problem.end;
+        let turn = crate::spatial::turn_matrix(&end.axes).transpose();
+        let motion = turn * self.closure_rate().unwrap_or_else(Matrix6::identity);
+        let mut held = EndRows {
+            motion: Matrix6::zeros(),
+            wrench: Matrix6::zeros(),
+        };
+        let mut right = Vector6::zeros();
+        // Three directions of one kind have one unit, so that turned axes stay balanced.
+        for k in 0..6 {
+            if end.prescribed[k] == Prescribed::Pose {
+                held.motion.set_row(k, &motion.row(k));
+                right[k] = rows[k] * self.factors[k];
+            } else {
+                held.wrench.set_row(k, &turn.row(k));
+                right[k] = rows[k] / self.factors[k];
+            }
+        }
+        let form = if with_hessian {
+            Form::Exact
+        } else {
+            Form::Lagged
+        };
+        let n = self.system.spring_torque.len();
+        let torque: Vec<f64> = (0..n)
+            .map(|i| -self.system.unbalanced(i) * self.factors[6 + i])
+            .collect();
+        let (wrench, x) = Bordered::new(sweep, form, held)?.solve(&torque, &right)?;
+        let balanced = wrench.iter().chain(&x);
+        let step: Vec<f64> = balanced.zip(&self.factors).map(|(v, f)| v * f).collect();
+        Some(step)
+    }
+
+    /// Correction of wrench (6) and coordinates (n) at `(x, wrench)`, where the system was evaluated.
+    fn step(
+        &mut self,
+        rows: &Vector6<f64>,
+        with_hessian: bool,
+        x: &[f64],
+        wrench: &Wrench,
+        share: f64,
+    ) -> Vec<f64> {
+        if self.system.sweep.is_some() {
+            if let Some(step) = self.swept_step(rows, with_hessian) {
+                return step;
+            }
+            self.system.make_dense();
+            self.evaluate_system(x, wrench, share);
+        }
+        self.dense_step(rows, with_hessian)
+    }
+
+    fn dense_step(&self, rows: &Vector6<f64>, with_hessian: bool) -> Vec<f64> {
         let n = self.system.spring_torque.len();
         let end = &self.problem.end;
         let mut a = self.system.bordered(with_hessian);
         let turn = crate::spatial::turn_matrix(&end.axes);
-        let turned = turn.transpose() * &self.system.jacobian;
+        let turned = match self.closure_rate() {
+            Some(rate) => turn.transpose() * (rate * &self.system.jacobian),
+            None => turn.transpose() * &self.system.jacobian,
+        };
         let mut row_scale = self.factors.clone();
         let mut b = DMatrix::zeros(6 + n, 1);
         for k in 0..6 {
@@ -446,7 +374,7 @@ impl Attempt<'_, '_> {
             b[(6 + i, 0)] = -self.system.unbalanced(i);
         }
         Saddle::new(a, &row_scale, &self.factors).solve(&mut b);
-        b
+        b.as_slice().to_vec()
     }
 
     /// Newton from `(x, wrench)` at one share of the load; updates them. Returns iterations and the
@@ -461,25 +389,29 @@ impl Attempt<'_, '_> {
         let (mut closure, mut lack) = self.evaluate(x, wrench, share);
         let mut rows = self.end_rows(&closure, &lack);
         let mut now = self.measure(&rows, wrench);
+        self.corrections = [0.0; 2];
         for iteration in 0..self.settings.iterations {
             if self.converged(&now) && iteration > 0 {
                 return Ok((iteration, now));
             }
-            let step = self.step(&rows, iteration >= picard);
+            let step = self.step(&rows, iteration >= picard, x, wrench, share);
             if step.iter().any(|v| !v.is_finite()) {
                 return Err((iteration, now));
             }
-            let mut length = step_limit(self.problem.chain, step.column(0).iter().skip(6).copied());
+            let own = step.iter().zip(&self.factors).skip(6);
+            let size = own.map(|(v, f)| (v / f).powi(2)).sum::<f64>().sqrt();
+            self.corrections = [size, self.corrections[0]];
+            let mut length = step_limit(self.problem.chain, step[6..].iter().copied());
             let merit = now.closure.powi(2) + now.torque.powi(2);
             let (x0, w0) = (x.to_vec(), *wrench);
             loop {
                 for (i, value) in x.iter_mut().enumerate() {
-                    *value = x0[i] + length * step[(6 + i, 0)];
+                    *value = x0[i] + length * step[6 + i];
                 }
                 for block in self.problem.chain.springs() {
                     block.follow(&x0, share, x);
                 }
-                wrench.0 = w0.0 + length * step.fixed_view::<6, 1>(0, 0);
+                wrench.0 = w0.0 + length * Vector6::from_column_slice(&step[..6]);
                 (closure, lack) = self.evaluate(x, wrench, share);
                 rows = self.end_rows(&closure, &lack);
                 now = self.measure(&rows, wrench);
@@ -529,20 +461,33 @@ pub(crate) fn check_problem(problem: &ChainProblem<'_>) -> Result<()> {
 /// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last
 /// iterate where no equilibrium was found.
 pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Equilibrium> {
+    solve_along(problem, settings, None).map(|(equilibrium, _)| equilibrium)
+}
+
+/// [`solve_chain`] by a path of choice; says which one was left at the end.
+pub(crate) fn solve_along(
+    problem: &ChainProblem<'_>,
+    settings: &Settings,
+    path: Option<Path>,
+) -> Result<(Equilibrium, Path)> {
     check_problem(problem)?;
     let chain = problem.chain;
+    let factors = balance(chain, &problem.posture);
     let mut attempt = Attempt {
         problem,
         settings,
-        factors: balance(chain, &problem.posture),
-        system: System::new(
+        system: System::of_chain(
             chain,
             &problem.base,
             &problem.posture,
             &problem.commands,
-            false,
+            &factors,
+            path,
         ),
+        factors,
         offset: Twist::zero(),
+        turned: Vector3::zeros(),
+        corrections: [0.0; 2],
     };
     let mut spent = 0;
     let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
@@ -668,54 +613,33 @@ impl Attempt<'_, '_> {
         wrench: Wrench,
         iterations: usize,
         balance: &Balance,
-    ) -> Equilibrium {
+    ) -> (Equilibrium, Path) {
         self.offset = Twist::zero();
-        self.evaluate(&x, &wrench, 1.0);
-        self.system.equilibrium(
-            self.problem.chain,
-            &self.factors,
+        self.evaluate_system(&x, &wrench, 1.0);
+        let (chain, factors) = (self.problem.chain, &self.factors);
+        let verdicts = match self.system.swept_verdicts(chain, factors) {
+            Some(verdicts) => verdicts,
+            None => {
+                if self.system.sweep.is_some() {
+                    self.system.make_dense();
+                    self.evaluate_system(&x, &wrench, 1.0);
+                }
+                self.system.dense_verdicts(chain, &self.factors)
+            }
+        };
+        let conservative = is_conservative(self.problem);
+        let mut equilibrium = self.system.described(
+            chain,
             x,
             wrench,
-            is_conservative(self.problem),
+            conservative,
             iterations,
             balance,
-        )
-    }
-}
-
-impl System {
-    /// Everything that is known about the state at which the system was evaluated.
-    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
-    pub fn equilibrium(
-        &self,
-        chain: &Chain,
-        factors: &[f64],
-        x: Vec<f64>,
-        wrench: Wrench,
-        conservative: bool,
-        iterations: usize,
-        balance: &Balance,
-    ) -> Equilibrium {
-        let stiffness = chain_stiffness(chain, self, factors, None);
-        let stability = shape_stability(chain, self, factors);
-        Equilibrium {
-            tip: self.kinematics.tip_pose(),
-            nodes: (0..chain.nodes().len())
-                .map(|i| self.kinematics.node_pose(i))
-                .collect(),
-            spring_torques: self.spring_torque.clone(),
-            energy: self.energy,
-            conservative,
-            coordinates: x,
-            wrench,
-            stiffness,
-            stability,
-            residual: Residual {
-                closure_m: balance.closure / chain.scale().stiffness.sqrt(),
-                torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
-                iterations,
-            },
-        }
+            verdicts,
+        );
+        let [last, before] = self.corrections;
+        equilibrium.residual.rate = (before > 0.0).then(|| last / before);
+        (equilibrium, self.system.path())
     }
 }
 

@@ -167,6 +167,13 @@ impl Kinematics {
     #[must_use]
     pub fn jacobian(&self, node: usize) -> Matrix6xX<f64> {
         let mut jacobian = Matrix6xX::zeros(self.velocity_count());
+        self.jacobian_into(node, &mut jacobian);
+        jacobian
+    }
+
+    /// Into a matrix of the right size that exists already.
+    pub(crate) fn jacobian_into(&self, node: usize, jacobian: &mut Matrix6xX<f64>) {
+        jacobian.fill(0.0);
         let p = self.nodes[node].1;
         for screw in &self.screws[..self.before[node]] {
             let (v, w) = screw.twist_at(&p);
@@ -177,7 +184,6 @@ impl Kinematics {
                 }
             }
         }
-        jacobian
     }
 
     /// Hessian of dead wrenches on nodes (index, wrench about the node's origin, base axes):

@@ -128,6 +128,12 @@ mod stability;
 mod state_distance;
 mod stiffness;
 mod strut;
+mod sweep;
+mod sweep_factor;
+mod sweep_solve;
+#[cfg(test)]
+mod sweep_tests;
+mod system;
 mod tracer;
 mod uniform;
 

@@ -93,6 +93,7 @@ impl MechanismBalance {
             torque: (self.torque / self.loads.max(self.least))
                 .max(self.force / self.forces.max(self.least)),
             iterations,
+            rate: None,
         }
     }
 }

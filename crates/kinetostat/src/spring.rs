@@ -94,15 +94,31 @@ impl SpringBlock {
         tangent: &mut DMatrix<f64>,
         geometric: &mut Vec<(usize, Matrix6<f64>)>,
     ) -> f64 {
+        let first = self.first;
+        let entry = &mut |i: usize, j: usize, k: f64| tangent[(first + i, first + j)] += k;
+        self.add_entries(values, posture, preload, torque, entry, geometric)
+    }
+
+    /// The same for a tangent that is kept otherwise: `entry` takes row, column (both counted within
+    /// the block) and what is added there.
+    pub(crate) fn add_entries(
+        &self,
+        values: &[f64],
+        posture: &[f64],
+        preload: f64,
+        torque: &mut [f64],
+        entry: &mut impl FnMut(usize, usize, f64),
+        geometric: &mut Vec<(usize, Matrix6<f64>)>,
+    ) -> f64 {
         let deflection =
             || Vector6::from_fn(|i, _| values[self.first + i] - preload * self.rest[i]);
         let (response, at_rest) = match &self.law {
             SpringLaw::Linear(matrix) => {
-                return self.add_constant(matrix, values, preload, torque, tangent);
+                return self.add_constant(matrix, values, preload, torque, entry);
             }
             SpringLaw::Parallelogram(law) => {
                 let matrix = law.matrix(posture[law.inclination]);
-                return self.add_constant(&matrix, values, preload, torque, tangent);
+                return self.add_constant(&matrix, values, preload, torque, entry);
             }
             SpringLaw::Bowing(law) => (law.respond(&deflection()), law.matrix),
             SpringLaw::Logarithm(law) => (law.respond(&deflection()), law.at_rest()),
@@ -110,7 +126,7 @@ impl SpringBlock {
         for i in 0..6 {
             torque[self.first + i] += response.torque[i];
             for j in 0..6 {
-                tangent[(self.first + i, self.first + j)] += response.tangent[(i, j)];
+                entry(i, j, response.tangent[(i, j)]);
             }
         }
         geometric.push((self.first, response.tangent - at_rest));
@@ -141,7 +157,7 @@ impl SpringBlock {
         values: &[f64],
         preload: f64,
         torque: &mut [f64],
-        tangent: &mut DMatrix<f64>,
+        entry: &mut impl FnMut(usize, usize, f64),
     ) -> f64
     where
         R: nalgebra::Dim,
@@ -154,7 +170,7 @@ impl SpringBlock {
             for j in 0..self.len() {
                 let deflection = values[self.first + j] - preload * self.rest[j];
                 sum += matrix[(i, j)] * deflection;
-                tangent[(self.first + i, self.first + j)] += matrix[(i, j)];
+                entry(i, j, matrix[(i, j)]);
             }
             torque[self.first + i] += sum;
             energy += 0.5 * sum * (values[self.first + i] - preload * self.rest[i]);

@@ -14,6 +14,7 @@ use crate::chain::Chain;
 use crate::equilibrium::System;
 use crate::saddle::{Inertia, RANK_TOLERANCE, column_space, complement, inertia};
 use crate::stiffness::{balanced_jacobian, names_in, passive_null_space};
+use crate::sweep::Sweep;
 
 /// Whether a chain keeps its shape while its end is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +34,33 @@ pub struct ShapeStability {
 
 pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -> ShapeStability {
     stability_within(chain, system, factors, &balanced_jacobian(system, factors))
+}
+
+/// The same by sweeps along a long chain without redundant passive joints; `None` where they cannot.
+pub(crate) fn swept_stability(
+    system: &System,
+    sweep: &Sweep,
+    factors: &[f64],
+) -> Option<ShapeStability> {
+    let range = column_space(&balanced_jacobian(system, factors));
+    let shape = crate::sweep_solve::shape(sweep, &range)?;
+    let own = shape.mode.iter().zip(&factors[6..]);
+    Some(ShapeStability {
+        stable: shape.margin < 1.0,
+        inertia: shape.inertia,
+        margin: Some(shape.margin),
+        mode: largest_one(own.map(|(v, f)| v * f).collect()),
+        neutral: Vec::new(),
+    })
+}
+
+/// A motion scaled so that its largest component is 1.
+fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
+    let most = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for x in &mut motion {
+        *x /= most.max(f64::MIN_POSITIVE);
+    }
+    motion
 }
 
 /// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
@@ -96,12 +124,7 @@ pub(crate) fn stability_within(
     let (margin, mode) = margin(&a, &b);
     let mode = mode.map_or_else(Vec::new, |v| {
         let motion = &null * v;
-        let physical: Vec<f64> = (0..n).map(|i| motion[i] * factors[6 + i]).collect();
-        let most = physical.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        physical
-            .iter()
-            .map(|x| x / most.max(f64::MIN_POSITIVE))
-            .collect()
+        largest_one((0..n).map(|i| motion[i] * factors[6 + i]).collect())
     });
     ShapeStability {
         stable: margin.is_none_or(|mu| mu < 1.0),

@@ -20,6 +20,7 @@ use crate::equilibrium::{System, balance};
 use crate::error::Result;
 use crate::saddle::{Saddle, column_space, complement, rows_certainly_independent};
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
+use crate::sweep::Sweep;
 
 /// Stiffness of a chain at its tip.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,23 +82,27 @@ pub fn unloaded_stiffness(
     commands: &[f64],
 ) -> Result<ChainStiffness> {
     chain.check(coordinates, commands)?;
-    let mut system = System::new(chain, base, coordinates, commands, false);
-    system.evaluate(
-        chain,
-        base,
-        coordinates,
-        commands,
-        &[],
-        coordinates,
-        &Wrench::zero(),
-        0.0,
-    );
-    Ok(chain_stiffness(
-        chain,
-        &system,
-        &balance(chain, coordinates),
-        None,
-    ))
+    let factors = balance(chain, coordinates);
+    let mut system = System::of_chain(chain, base, coordinates, commands, &factors, None);
+    loop {
+        system.evaluate(
+            chain,
+            base,
+            coordinates,
+            commands,
+            &[],
+            coordinates,
+            &Wrench::zero(),
+            0.0,
+        );
+        let Some(sweep) = &system.sweep else {
+            return Ok(chain_stiffness(chain, &system, &factors, None));
+        };
+        if let Some(stiffness) = swept_stiffness(chain, &system, sweep, &factors) {
+            return Ok(stiffness);
+        }
+        system.make_dense();
+    }
 }
 
 /// Balanced Jacobian of the `n` coordinates, 6 x n.
@@ -155,10 +160,44 @@ pub(crate) fn chain_stiffness(
         Some(solution) if range.ncols() == 6 => solution,
         _ => unit_motions(system, factors, &jacobian, &range),
     };
+    described(chain, factors, &jacobian, &range, &redundant, &answer)
+}
+
+/// The same by sweeps along a long chain; `None` where they cannot.
+pub(crate) fn swept_stiffness(
+    chain: &Chain,
+    system: &System,
+    sweep: &Sweep,
+    factors: &[f64],
+) -> Option<ChainStiffness> {
+    let jacobian = balanced_jacobian(system, factors);
+    let redundant = passive_null_space(chain, &jacobian);
+    if redundant.ncols() > 0 {
+        return None;
+    }
+    let range = column_space(&jacobian);
+    let balanced = crate::sweep_solve::unit_motions(sweep, &range)?;
+    let answer = DMatrix::from_fn(factors.len(), 6, |i, j| {
+        balanced[(i, j)] * factors[i] * factors[j]
+    });
+    Some(described(
+        chain, factors, &jacobian, &range, &redundant, &answer,
+    ))
+}
+
+/// From wrench and coordinates per unit motion of the tip, (6 + n) x 6.
+fn described(
+    chain: &Chain,
+    factors: &[f64],
+    jacobian: &DMatrix<f64>,
+    range: &DMatrix<f64>,
+    redundant: &DMatrix<f64>,
+    answer: &DMatrix<f64>,
+) -> ChainStiffness {
     let balanced = Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]));
 
-    let mut directions = directions(chain.scale(), &balanced, &range);
-    free_by_joints(chain, &jacobian, &mut directions);
+    let mut directions = directions(chain.scale(), &balanced, range);
+    free_by_joints(chain, jacobian, &mut directions);
     let rank = directions
         .iter()
         .filter(|d| matches!(d.kind, DirectionKind::Finite | DirectionKind::Negative))
@@ -175,7 +214,7 @@ pub(crate) fn chain_stiffness(
         springs: rows(Role::Spring),
         rank,
         directions: Vec::new(),
-        redundant_passive: names_in(chain, &redundant),
+        redundant_passive: names_in(chain, redundant),
     };
     for direction in &mut directions {
         if matches!(

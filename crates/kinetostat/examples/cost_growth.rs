@@ -1,0 +1,164 @@
+//! How the cost of an equilibrium grows with the number of spring coordinates: tables for the book
+//! and figures for `cargo xtask figures`.
+//!
+//! ```sh
+//! cargo run --release -p kinetostat --example cost_growth
+//! ```
+
+#![allow(
+    clippy::print_stdout,
+    clippy::cast_precision_loss,
+    reason = "tables are what was asked for; nobody has 2^52 coordinates"
+)]
+
+use std::time::Instant;
+
+use kinetostat::{Chain, Settings, solve_chain, unloaded_stiffness};
+use serde_json::json;
+
+#[path = "../benches/long/mod.rs"]
+mod long;
+
+/// Numbers of coordinates; a cantilever has the next multiple of six.
+const SIZES: [usize; 8] = [10, 30, 60, 100, 180, 300, 1000, 3000];
+
+/// Shortest of several runs, s: what disturbs a measurement only makes it longer.
+fn shortest<T>(mut run: impl FnMut() -> T) -> f64 {
+    let (start, mut best, mut runs) = (Instant::now(), f64::INFINITY, 0);
+    while runs < 5 || (start.elapsed().as_secs_f64() < 0.3 && runs < 500) {
+        let one = Instant::now();
+        std::hint::black_box(run());
+        best = best.min(one.elapsed().as_secs_f64());
+        runs += 1;
+    }
+    best
+}
+
+/// Costs of one chain, s.
+struct Row {
+    coordinates: usize,
+    iterations: usize,
+    iteration: f64,
+    equilibrium: f64,
+    stiffness: f64,
+}
+
+fn measure(chain: &Chain, asked: long::Asked) -> kinetostat::Result<Row> {
+    let exact = Settings::default();
+    // Stopped earlier, with the same end: the difference is iterations and nothing else.
+    let rough = Settings {
+        closure: 1e-3,
+        torque: 1e-2,
+        ..exact
+    };
+    let problem = long::problem(chain, asked);
+    let iterations = solve_chain(&problem, &exact)?.residual.iterations;
+    let fewer = solve_chain(&problem, &rough)?.residual.iterations;
+    let equilibrium = shortest(|| solve_chain(&problem, &exact));
+    let less = shortest(|| solve_chain(&problem, &rough));
+    let x = chain.home_coordinates();
+    Ok(Row {
+        coordinates: chain.coordinate_count(),
+        iterations,
+        iteration: (equilibrium - less) / iterations.saturating_sub(fewer).max(1) as f64,
+        equilibrium,
+        stiffness: shortest(|| unloaded_stiffness(chain, &problem.base, &x, &problem.commands)),
+    })
+}
+
+/// Slope of the straight line through `(log n, log cost)`, by least squares.
+fn exponent(points: &[(f64, f64)]) -> f64 {
+    let logs: Vec<(f64, f64)> = points.iter().map(|(n, t)| (n.ln(), t.ln())).collect();
+    let count = logs.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let over: f64 = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    over / logs.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
+}
+
+fn main() -> kinetostat::Result<()> {
+    let mut worst = [f64::NEG_INFINITY; 3];
+    for (name, build, asked) in [
+        (
+            "Cantilever in segments, force given",
+            long::cantilever as fn(usize) -> Chain,
+            long::Asked::Force,
+        ),
+        (
+            "Cantilever in segments, pose given",
+            long::cantilever,
+            long::Asked::Pose,
+        ),
+        (
+            "Arm of elastic joints, force given",
+            long::arm,
+            long::Asked::Force,
+        ),
+        (
+            "Arm of elastic joints, two directions held",
+            long::arm,
+            long::Asked::Mixed,
+        ),
+    ] {
+        println!("\n{name}:\n");
+        println!(
+            "| coordinates | iterations | us per iteration | us per equilibrium | us per K_C | us per equilibrium and coordinate |"
+        );
+        println!("|---:|---:|---:|---:|---:|---:|");
+        let mut rows = Vec::new();
+        for size in SIZES {
+            let row = measure(&build(size), asked)?;
+            println!(
+                "| {} | {} | {:.1} | {:.0} | {:.1} | {:.2} |",
+                row.coordinates,
+                row.iterations,
+                row.iteration * 1e6,
+                row.equilibrium * 1e6,
+                row.stiffness * 1e6,
+                row.equilibrium * 1e6 / row.coordinates as f64
+            );
+            rows.push(row);
+        }
+        let beyond: Vec<&Row> = rows
+            .iter()
+            .filter(|r| (100..=1100).contains(&r.coordinates))
+            .collect();
+        let of = |cost: fn(&Row) -> f64| -> f64 {
+            let points: Vec<(f64, f64)> = beyond
+                .iter()
+                .map(|r| (r.coordinates as f64, cost(r)))
+                .collect();
+            exponent(&points)
+        };
+        let found = [
+            of(|r| r.equilibrium),
+            of(|r| r.iteration.max(1e-9)),
+            of(|r| r.stiffness),
+        ];
+        println!(
+            "\nExponents from 100 to 1000 coordinates: equilibrium {:.2}, iteration {:.2}, K_C {:.2}",
+            found[0], found[1], found[2]
+        );
+        for (worst, found) in worst.iter_mut().zip(found) {
+            *worst = worst.max(found);
+        }
+    }
+    println!();
+    for (name, measured) in [
+        ("cost of an equilibrium", worst[0]),
+        ("cost of an iteration", worst[1]),
+        ("cost of K_C", worst[2]),
+    ] {
+        // A timing has two digits at most.
+        let rounded = (measured * 100.0).round() / 100.0;
+        let figure = json!({
+            "name": format!("{name}: growth exponent from 100 to 1000 coordinates, worst of four chains"),
+            "measured": rounded,
+            "asked": "at most 1",
+            "unit": "exponent",
+            "holds": rounded <= 1.0,
+        });
+        println!("figure {figure}");
+    }
+    Ok(())
+}

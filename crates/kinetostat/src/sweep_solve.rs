@@ -1,0 +1,331 @@
+//! The bordered system of a long chain, solved by sweeps: steps of Newton's method, the tangent at
+//! the end, and what holds the shape.
+
+use nalgebra::{DMatrix, Dyn, LU, Matrix6, Vector6};
+
+use crate::saddle::{Inertia, RANK_TOLERANCE, Saddle, complement};
+use crate::sweep::{Form, Sweep};
+use crate::sweep_factor::Factored;
+
+/// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced.
+pub(crate) struct EndRows {
+    pub motion: Matrix6<f64>,
+    pub wrench: Matrix6<f64>,
+}
+
+impl EndRows {
+    /// The motions in `range` (orthonormal columns) are given, nothing reacts in the others.
+    pub fn held(range: &DMatrix<f64>) -> Self {
+        let r = range.ncols();
+        let mut rows = Self {
+            motion: Matrix6::zeros(),
+            wrench: Matrix6::zeros(),
+        };
+        rows.motion
+            .rows_mut(0, r)
+            .copy_from(&range.transpose().view((0, 0), (r, 6)));
+        if r < 6 {
+            let rest = complement(range).transpose();
+            rows.wrench.rows_mut(r, 6 - r).copy_from(&rest);
+        }
+        rows
+    }
+}
+
+/// A residual larger than this share of what is balanced shows that a pivot was too small.
+const LOST: f64 = 1e-8;
+
+/// `[0 J; J^T M]` with the rows of an end condition, ready for right-hand sides.
+pub(crate) struct Bordered<'s> {
+    sweep: &'s Sweep,
+    pub factored: Factored,
+    form: Form,
+    rows: EndRows,
+    /// Of twelve equations for wrench (in units of `1 / size`) and motion of the end.
+    end: Saddle,
+    /// Largest entry of `E`.
+    size: f64,
+}
+
+impl<'s> Bordered<'s> {
+    /// `None` where a pivot is lost in rounding.
+    pub fn new(sweep: &'s Sweep, form: Form, rows: EndRows) -> Option<Self> {
+        Some(Self::with(sweep, Factored::new(sweep, form)?, form, rows))
+    }
+
+    fn with(sweep: &'s Sweep, factored: Factored, form: Form, rows: EndRows) -> Self {
+        let size = factored.end.amax().max(f64::MIN_POSITIVE);
+        let mut a = DMatrix::zeros(12, 12);
+        a.view_mut((0, 0), (6, 6))
+            .copy_from(&(-factored.end / size));
+        a.view_mut((0, 6), (6, 6))
+            .copy_from(&(Matrix6::identity() - factored.end * factored.spring));
+        a.view_mut((6, 0), (6, 6)).copy_from(&rows.wrench);
+        a.view_mut((6, 6), (6, 6)).copy_from(&rows.motion);
+        let end = Saddle::new(a, &[1.0; 12], &[1.0; 12]);
+        Self {
+            sweep,
+            factored,
+            form,
+            rows,
+            end,
+            size,
+        }
+    }
+
+    /// Wrench on the end and coordinates for given right-hand sides, once.
+    fn once(&self, torque: &[f64], right: &Vector6<f64>) -> (Vector6<f64>, Vec<f64>) {
+        let mut x = torque.to_vec();
+        let start = if torque.iter().all(|v| *v == 0.0) {
+            Vector6::zeros()
+        } else {
+            self.factored.solve(self.sweep, &mut x)
+        };
+        let mut b = DMatrix::zeros(12, 1);
+        for k in 0..6 {
+            b[(k, 0)] = start[k];
+            // Rows are either of motion or of wrench, whose unit is `1 / size`.
+            let unit = if self.rows.wrench.row(k).amax() > 0.0 {
+                self.size
+            } else {
+                1.0
+            };
+            b[(6 + k, 0)] = right[k] * unit;
+        }
+        self.end.solve(&mut b);
+        let wrench = Vector6::from_fn(|i, _| b[(i, 0)] / self.size);
+        let motion = Vector6::from_fn(|i, _| b[(6 + i, 0)]);
+        let pulled = wrench + self.factored.spring * motion;
+        self.factored.add_response(self.sweep, &pulled, &mut x);
+        (wrench, x)
+    }
+
+    /// Solves for wrench on the end and coordinates; corrected once by what is left over, if it
+    /// matters. `None` if that does not help.
+    pub fn solve(&self, torque: &[f64], right: &Vector6<f64>) -> Option<(Vector6<f64>, Vec<f64>)> {
+        let (mut wrench, mut x) = self.once(torque, right);
+        let mut motions = Vec::with_capacity(self.sweep.stages.len());
+        let mut left = vec![0.0; x.len()];
+        for attempt in 0..3 {
+            let tip = self.sweep.product(self.form, &x, &mut motions, &mut left);
+            // Where only passive joints move, all torques are rounding.
+            let moved = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let (mut worst, mut size) = (0.0_f64, RANK_TOLERANCE * moved);
+            for (stage, s) in self.sweep.stages.iter().zip(&self.sweep.twists) {
+                for i in 0..stage.len {
+                    let own = stage.first + i;
+                    let pull = s.column(i).dot(&wrench);
+                    size = size
+                        .max(pull.abs())
+                        .max(torque[own].abs())
+                        .max(left[own].abs());
+                    left[own] = torque[own] - pull - left[own];
+                    worst = worst.max(left[own].abs());
+                }
+            }
+            if !worst.is_finite() {
+                return None;
+            }
+            if worst <= 1e-14 * size {
+                break;
+            }
+            if attempt == 2 {
+                if worst > LOST * size {
+                    return None;
+                }
+                break;
+            }
+            let rest = right - self.rows.motion * tip - self.rows.wrench * wrench;
+            let (dw, dx) = self.once(&left, &rest);
+            wrench += dw;
+            for (x, d) in x.iter_mut().zip(dx) {
+                *x += d;
+            }
+        }
+        x.iter()
+            .chain(wrench.iter())
+            .all(|v| v.is_finite())
+            .then_some((wrench, x))
+    }
+}
+
+/// Wrench and coordinates per unit motion of the tip, (6 + n) x 6, balanced, over the motions in
+/// `range` that the chain can make.
+pub(crate) fn unit_motions(sweep: &Sweep, range: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let n = sweep.count();
+    let bordered = Bordered::new(sweep, Form::Exact, EndRows::held(range))?;
+    let mut answer = DMatrix::zeros(6 + n, 6);
+    let torque = vec![0.0; n];
+    for j in 0..6 {
+        let right = Vector6::from_fn(|k, _| {
+            if k < range.ncols() {
+                range[(j, k)]
+            } else {
+                0.0
+            }
+        });
+        if right.amax() <= RANK_TOLERANCE {
+            continue;
+        }
+        let (wrench, x) = bordered.solve(&torque, &right)?;
+        answer.view_mut((0, j), (6, 1)).copy_from(&wrench);
+        for (i, value) in x.into_iter().enumerate() {
+            answer[(6 + i, j)] = value;
+        }
+    }
+    Some(answer)
+}
+
+/// The pencil `H' - mu K'` with the motions in `range` held, at one `mu`.
+struct Shifted<'s> {
+    sweep: &'s Sweep,
+    factored: Factored,
+    range: &'s DMatrix<f64>,
+    /// `E` over `range`.
+    end: LU<f64, Dyn, Dyn>,
+    /// Eigenvalues of the pencil above `mu`.
+    above: usize,
+    inertia: Inertia,
+}
+
+impl<'s> Shifted<'s> {
+    /// `None` where a pivot is lost in rounding.
+    fn new(sweep: &'s Sweep, range: &'s DMatrix<f64>, mu: f64) -> Option<Self> {
+        let factored = Factored::new(sweep, Form::Pencil(mu))?;
+        let end = range.transpose() * factored.end * range;
+        let end = 0.5 * (&end + end.transpose());
+        let values = end.symmetric_eigenvalues();
+        let most = values.amax();
+        let mut inertia = factored.inertia;
+        for value in values.iter() {
+            if value.abs() <= RANK_TOLERANCE * most {
+                inertia.zero += 1;
+            } else if *value > 0.0 {
+                inertia.positive += 1;
+            } else {
+                inertia.negative += 1;
+            }
+        }
+        Some(Self {
+            sweep,
+            above: inertia.positive.saturating_sub(range.ncols()),
+            inertia,
+            factored,
+            range,
+            end: end.lu(),
+        })
+    }
+
+    /// `x` such that `(H' - mu K') x = torque` but for reactions, the motions in `range` zero. Near an
+    /// eigenvalue it is huge, and what rounding spoils is along the eigenvector. `None` on one.
+    fn solve(&self, torque: &[f64]) -> Option<Vec<f64>> {
+        let mut x = torque.to_vec();
+        let start = self.factored.solve(self.sweep, &mut x);
+        let held = self.end.solve(&(self.range.transpose() * start))?;
+        let wrench = self.range * held;
+        let wrench = Vector6::from_fn(|i, _| -wrench[i]);
+        self.factored.add_response(self.sweep, &wrench, &mut x);
+        x.iter().all(|v| v.is_finite()).then_some(x)
+    }
+}
+
+/// What [`crate::stability::ShapeStability`] says, in balanced coordinates.
+pub(crate) struct Shape {
+    pub inertia: Inertia,
+    /// Largest eigenvalue of the pencil.
+    pub margin: f64,
+    /// Its vector.
+    pub mode: Vec<f64>,
+}
+
+/// Rayleigh quotient, and the vector scaled so that its springs store one half.
+fn quotient(sweep: &Sweep, v: &mut [f64], scratch: &mut [f64]) -> Option<f64> {
+    let stored = sweep.spring_form(v);
+    if !(stored > 0.0 && stored.is_finite()) {
+        return None;
+    }
+    let unit = 1.0 / stored.sqrt();
+    v.iter_mut().for_each(|x| *x *= unit);
+    let mut motions = Vec::with_capacity(sweep.stages.len());
+    sweep.product(Form::Pencil(0.0), v, &mut motions, scratch);
+    Some(v.iter().zip(scratch.iter()).map(|(a, b)| a * b).sum())
+}
+
+/// Largest eigenvalue of the pencil while the motions in `range` are held. Rayleigh quotients bound
+/// it from below, the count of eigenvalues above a shift from above; each shift costs one sweep, and
+/// inverse iteration at the shift improves the quotient. `None` where a sweep loses a pivot.
+pub(crate) fn shape(sweep: &Sweep, range: &DMatrix<f64>) -> Option<Shape> {
+    let n = sweep.count();
+    let mut now = Shifted::new(sweep, range, 1.0)?;
+    let inertia = now.inertia;
+    let (mut low, mut high) = (f64::NEG_INFINITY, 1.0);
+    while now.above > 0 {
+        low = high;
+        high *= 4.0;
+        if high > 1e9 {
+            return None;
+        }
+        now = Shifted::new(sweep, range, high)?;
+    }
+    // Any start that no eigenvector is orthogonal to.
+    #[allow(clippy::cast_precision_loss)]
+    let mut v: Vec<f64> = (0..n)
+        .map(|i| (i as f64 * 0.618_033_988_749_895 + 0.25).fract() - 0.4)
+        .collect();
+    let (mut torque, mut scratch) = (vec![0.0; n], vec![0.0; n]);
+    let mut best = f64::NEG_INFINITY;
+    let mut failed = 0;
+    for _ in 0..80 {
+        let before = best;
+        for _ in 0..2 {
+            sweep.spring_product(&v, &mut torque);
+            v = now.solve(&torque)?;
+            best = quotient(sweep, &mut v, &mut scratch)?;
+        }
+        if sweep.unloaded() {
+            best = 0.0;
+            break;
+        }
+        low = low.max(best);
+        let scale = best.abs().max(1e-2);
+        let settled = (best - before).abs() <= 1e-13 * scale;
+        if high - best <= 1e-10 * scale || (settled && high - best <= 1e-7 * scale) {
+            break;
+        }
+        // The next shift: just above what the quotient still may grow by, farther if that was not
+        // above the largest eigenvalue.
+        let change = if before.is_finite() {
+            (best - before).abs()
+        } else {
+            0.3 * (high - best)
+        };
+        let mut ahead = (10.0 * change).clamp(1e-11 * scale, 0.3 * (high - low));
+        loop {
+            let trial = low + ahead;
+            let Some(next) = Shifted::new(sweep, range, trial) else {
+                // An eigenvalue lies too near.
+                ahead *= 1.7;
+                failed += 1;
+                if failed > 40 {
+                    return None;
+                }
+                continue;
+            };
+            if next.above == 0 {
+                high = trial;
+                now = next;
+                break;
+            }
+            low = trial;
+            ahead = 0.5 * (high - low);
+            if high - low <= 1e-12 * scale {
+                break;
+            }
+        }
+    }
+    Some(Shape {
+        inertia,
+        margin: best,
+        mode: v,
+    })
+}
