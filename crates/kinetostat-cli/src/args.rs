@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Args, Parser, Subcommand};
 
+use crate::curve_args::{CurveArgs, EquilibriaArgs};
 use crate::job::{Axes, BlockDeleteWord, UnitsWord};
 
-const EXIT_CODES: &str = "\
+pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
   0    answered
   1    wrong input: a file, a number or an option; the message says which
@@ -31,6 +32,8 @@ Exit codes:
         "      how far is the tool off along the program?\n",
         "  kinetostat compensate job.toml\n",
         "      write the program that cuts where it should\n",
+        "  kinetostat curve three_link_z --direction -1 0 0 --displacement-mm 0 400\n",
+        "      push a chain together: which force, and where does it buckle?\n",
         "  kinetostat check my_robot.toml\n",
         "      what does the model file say, in words?\n\n",
         "Exit codes:\n",
@@ -51,6 +54,8 @@ pub(crate) enum Command {
     Compensate(Box<CompensateArgs>),
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
+    Curve(Box<CurveArgs>),
+    Equilibria(Box<EquilibriaArgs>),
     Check(CheckArgs),
     Reproduce(ReproduceArgs),
     Model(ModelArgs),
@@ -335,7 +340,7 @@ pub(crate) struct ProgramArgs {
 }
 
 /// A finite number with a decimal point.
-fn number(text: &str) -> Result<f64, String> {
+pub(crate) fn number(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(_) => Err("a finite number is needed".to_owned()),
@@ -350,7 +355,7 @@ fn number(text: &str) -> Result<f64, String> {
 }
 
 /// A whole number.
-fn whole(text: &str) -> Result<usize, String> {
+pub(crate) fn whole(text: &str) -> Result<usize, String> {
     text.trim()
         .parse()
         .map_err(|_| "a whole number is needed, as in 2".to_owned())

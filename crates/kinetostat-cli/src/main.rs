@@ -1,7 +1,8 @@
 //! The kinetostat command: how far a machine bends along a program, and a program that cuts where
 //! it should.
 //!
-//! One module per command (`demo`, `compensate`, `deflect`, `stiffness`, `check`, `models`, `shell`);
+//! One module per command (`demo`, `compensate`, `deflect`, `stiffness`, `curve`,
+//! `equilibria`, `check`, `models`, `shell`);
 //! `job` and `setting` turn files and options into a question, `along` runs it, `output` puts files
 //! in place, `screen` prints, `failure` knows the exit codes.
 
@@ -9,9 +10,21 @@ mod along;
 mod args;
 mod check;
 mod compensate;
+mod curve;
+mod curve_answer;
+mod curve_args;
+mod curve_chain;
+mod curve_csv;
+mod curve_plot;
+mod curve_question;
+mod curve_table;
+mod curve_work;
 mod deflect;
 mod demo;
 mod diagnose;
+mod equilibria;
+mod equilibria_answer;
+mod equilibria_table;
 mod failure;
 mod input;
 mod job;
@@ -65,6 +78,8 @@ fn run(command: Command) -> Answer<()> {
         Command::Compensate(args) => compensate::run(*args),
         Command::Deflect(args) => deflect::run(*args),
         Command::Stiffness(args) => stiffness::run(&args),
+        Command::Curve(args) => curve::run(&args),
+        Command::Equilibria(args) => equilibria::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => models::run(&args),

@@ -66,6 +66,12 @@ impl Plot {
         self.draw().document(SIZE, &self.title, STYLE)
     }
 
+    /// As [`Plot::svg`] with one unit as long on both axes: for shapes.
+    #[must_use]
+    pub fn shape_svg(&self) -> String {
+        self.draw().document(SIZE, &self.title, STYLE)
+    }
+
     /// The plot as an element for a page that carries [`Plot::style`].
     #[must_use]
     pub fn element(&self) -> String {

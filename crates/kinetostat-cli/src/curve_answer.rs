@@ -1,0 +1,631 @@
+//! The answer of `curve`: branches, named points, jumps and critical loads, with stable names and
+//! units.
+
+use kinetostat::{
+    Bounds, BranchEnd, ChainProblem, CriticalLoad, CurvePoint, CurveSettings, Curves, Judged,
+    Parameter, Role, SearchSettings, Settings, Special, SpecialKind, Twist, critical_load_factor,
+    equilibria, follow, moved, solve_chain,
+};
+use serde::Serialize;
+
+use crate::curve_chain::{CoordinateName, SerialChain, mode_in_words};
+use crate::curve_question::{Holding, Measure, Question};
+use crate::curve_work::Stage;
+use crate::deflect::PlaceAsked;
+use crate::failure::Answer;
+
+/// The answer, stable names with units.
+#[derive(Serialize)]
+pub(crate) struct CurveAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    pub(crate) place: PlaceAsked,
+    pub(crate) question: String,
+    pub(crate) tool_held: Holding,
+    /// What grows: displacement, rotation or load.
+    pub(crate) grows: &'static str,
+    /// Coordinates of the chain, in the order of `coordinates` of every point.
+    pub(crate) coordinates: Vec<CoordinateName>,
+    pub(crate) named_points: Vec<NamedPoint>,
+    pub(crate) jumps: Vec<JumpAnswer>,
+    pub(crate) critical_loads: Vec<CriticalAnswer>,
+    pub(crate) branches: Vec<BranchAnswer>,
+    /// True if branches that cross were left out because there were too many.
+    pub(crate) more_branches: bool,
+    /// True if everything that acts has a potential: statements about energy hold.
+    pub(crate) conservative: bool,
+    pub(crate) warnings: Vec<String>,
+    #[serde(skip)]
+    pub(crate) units: Units,
+}
+
+/// Names of the quantities of a curve.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Units {
+    pub(crate) displacement: &'static str,
+    pub(crate) displacement_unit: &'static str,
+    pub(crate) load: &'static str,
+    pub(crate) load_unit: &'static str,
+    pub(crate) slope_unit: &'static str,
+}
+
+impl Units {
+    fn of(question: &Question) -> Self {
+        match question.measure {
+            Measure::Force(_) => Self {
+                displacement: "displacement",
+                displacement_unit: "mm",
+                load: "force",
+                load_unit: "N",
+                slope_unit: "N/mm",
+            },
+            Measure::Moment(_) => Self {
+                displacement: "rotation",
+                displacement_unit: "deg",
+                load: "moment",
+                load_unit: "N m",
+                slope_unit: "N m/deg",
+            },
+            Measure::Work => Self {
+                displacement: "work per factor",
+                displacement_unit: "J",
+                load: "load factor",
+                load_unit: "",
+                slope_unit: "1/J",
+            },
+        }
+    }
+}
+
+/// An equilibrium on a curve. Of displacement, load and slope only those of one unit are given.
+#[derive(Clone, Serialize)]
+pub(crate) struct PointAnswer {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) factor: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    displacement_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rotation_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    work_per_factor_j: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    force_along_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    moment_along_n_m: Option<f64>,
+    /// Null where the displacement stands still.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slope_n_per_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slope_n_m_per_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    slope_per_j: Option<f64>,
+    pub(crate) stable_under_dead_load: bool,
+    pub(crate) stable_under_prescribed_motion: bool,
+    /// Largest share of the way to buckling while the motion is prescribed; null without inner
+    /// freedom, and where a passive joint is pushed out of line.
+    pub(crate) buckling_margin: Option<f64>,
+    pub(crate) spring_energy_j: f64,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rotation_vector_deg: [f64; 3],
+    pub(crate) coordinates: Vec<f64>,
+    /// Displacement, load and slope in the units of the answer.
+    #[serde(skip)]
+    pub(crate) shown: [f64; 3],
+}
+
+/// A point with a name.
+#[derive(Clone, Serialize)]
+pub(crate) struct NamedPoint {
+    pub(crate) name: String,
+    /// start, load_limit, displacement_limit, pitchfork, transcritical, multiple, landing or end.
+    pub(crate) kind: &'static str,
+    pub(crate) in_words: String,
+    /// Numbers of the branches through it, from 1.
+    pub(crate) branches: Vec<usize>,
+    /// The critical mode (or the motion along the curve), largest component 1: m, rad.
+    pub(crate) mode: Vec<f64>,
+    pub(crate) mode_in_words: String,
+    /// Whether stability ends here: under a dead load, under prescribed motion.
+    #[serde(skip)]
+    pub(crate) limits: [bool; 2],
+    #[serde(flatten)]
+    pub(crate) point: PointAnswer,
+}
+
+/// A jump from a limit point.
+#[derive(Serialize)]
+pub(crate) struct JumpAnswer {
+    pub(crate) from: String,
+    /// dead_load or prescribed_motion.
+    pub(crate) under: &'static str,
+    /// Names of the points where it may land, nearest first; empty if no branch that was followed
+    /// holds a stable shape there.
+    pub(crate) to: Vec<String>,
+}
+
+/// A critical load factor.
+#[derive(Serialize)]
+pub(crate) struct CriticalAnswer {
+    /// shape (the tool held where it is) or shape_and_tool (as prescribed).
+    pub(crate) judged: &'static str,
+    /// From the stresses of the first load step alone; null if they never destabilise.
+    pub(crate) linear_factor: Option<f64>,
+    pub(crate) linear_mode_in_words: String,
+    /// On the path; null if none was met.
+    pub(crate) factor: Option<f64>,
+    /// Name as in named points; null where the held shape alone becomes critical.
+    pub(crate) kind: Option<&'static str>,
+    pub(crate) mode: Vec<f64>,
+    pub(crate) mode_in_words: String,
+    pub(crate) followed_to_factor: f64,
+}
+
+/// A path of equilibria.
+#[derive(Serialize)]
+pub(crate) struct BranchAnswer {
+    pub(crate) number: usize,
+    /// Name of the point from which it was found; null for the start's and those of --all.
+    pub(crate) from: Option<String>,
+    /// Why it ends at its first and at its last point: range, angle, points, closed, lost.
+    pub(crate) ends: [BranchEnd; 2],
+    pub(crate) points: Vec<PointAnswer>,
+}
+
+/// What a special point is called.
+pub(crate) fn kind_name(kind: SpecialKind) -> &'static str {
+    match kind {
+        SpecialKind::LoadLimit => "load_limit",
+        SpecialKind::DisplacementLimit => "displacement_limit",
+        SpecialKind::Pitchfork => "pitchfork",
+        SpecialKind::Transcritical => "transcritical",
+        SpecialKind::Multiple { .. } => "multiple",
+    }
+}
+
+pub(crate) fn kind_in_words(kind: &str) -> &'static str {
+    match kind {
+        "load_limit" => "limit of the load",
+        "displacement_limit" => "limit of the motion",
+        "pitchfork" => "pitchfork",
+        "transcritical" => "transcritical crossing",
+        "multiple" => "several modes at once",
+        "landing" => "after a jump",
+        "end" => "end",
+        _ => "start",
+    }
+}
+
+/// A, B, ... Z, AA, AB, ...
+pub(crate) fn letter(index: usize) -> String {
+    let mut rest = index;
+    let mut text = String::new();
+    loop {
+        text.insert(0, char::from(b'A' + u8::try_from(rest % 26).unwrap_or(0)));
+        if rest < 26 {
+            return text;
+        }
+        rest = rest / 26 - 1;
+    }
+}
+
+/// The problem with its end moved along the curve's displacement.
+fn at<'a>(problem: &ChainProblem<'a>, parameter: &Parameter, value: f64) -> ChainProblem<'a> {
+    let mut there = problem.clone();
+    match parameter {
+        Parameter::Displacement(twist) => {
+            there.end.pose = moved(&problem.end.pose, &Twist(twist.0 * value));
+        }
+        Parameter::Load(pattern) => {
+            there.end.wrench = problem.end.wrench + pattern.end * value;
+            // Loads on nodes are dead forces: the options allow no others.
+            there.loads.extend(pattern.loads.iter().map(|l| match l {
+                kinetostat::Load::Dead { node, wrench } => {
+                    kinetostat::Load::dead(*node, *wrench * value)
+                }
+                other => other.clone(),
+            }));
+        }
+    }
+    there
+}
+
+/// Follows the curve.
+pub(crate) fn solve(
+    q: &Question,
+    place: PlaceAsked,
+    spot: [String; 3],
+    stage: &Stage,
+) -> Answer<CurveAnswer> {
+    let problem = q.chain.problem(q.holding.end.clone());
+    let mut settings = CurveSettings::within(q.range.0, q.range.1);
+    settings.branches = q.branches;
+    settings.points = q.points;
+    settings.largest_change = Some((q.range.1 - q.range.0) / 60.0);
+    if let Some(limits) = q.force_limits {
+        settings.conjugate_range = limits;
+    }
+    let value = q.start();
+    stage.is("looking for the equilibrium at the start");
+    let start = solve_chain(&at(&problem, &q.parameter, value), &Settings::default())?;
+    stage.is("following the curve");
+    let mut curves = follow(&problem, &q.parameter, &start, value, &settings)?;
+    let mut warnings = Vec::new();
+    if q.all {
+        let mut values = vec![value, q.range.0, q.range.1];
+        values.dedup();
+        for v in values {
+            stage.is("searching for shapes off the curve");
+            let there = at(&problem, &q.parameter, v);
+            let bounds = Bounds::of(&q.chain.chain);
+            let all = equilibria(&there, &bounds, &SearchSettings::default())?;
+            if !all.settled {
+                warnings.push(format!(
+                    "the search at {} ended before it was complete: there may be more shapes",
+                    q.shown(v)
+                ));
+            }
+            for found in &all.found {
+                stage.is("following the curve through another shape");
+                if found.singular {
+                    continue;
+                }
+                curves.add(&found.equilibrium, v)?;
+            }
+        }
+    }
+    stage.is("looking where the jumps land");
+    let jumps = curves.jumps()?;
+    let view = View { q, curves: &curves };
+    let (named, jumps) = view.named(value, &jumps);
+    stage.is("looking for the critical load");
+    let critical = critical_loads(q, &problem, &settings)?;
+    let branches: Vec<BranchAnswer> = view.branches(&named);
+    for b in &branches {
+        for end in b.ends {
+            match end {
+                BranchEnd::Lost => warnings.push(format!(
+                    "branch {} was lost: beyond its end no further point was found",
+                    b.number
+                )),
+                BranchEnd::Points => warnings.push(format!(
+                    "branch {} ends after {} points; --points N allows more, --force-limits keeps it shorter",
+                    b.number, q.points
+                )),
+                _ => {}
+            }
+        }
+    }
+    if curves.more_branches {
+        warnings.push(format!(
+            "more than {} branches cross; --branches N follows more",
+            q.branches
+        ));
+    }
+    warnings.dedup();
+    let conservative = start.conservative;
+    let [model, model_source, tool] = spot;
+    Ok(CurveAnswer {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model,
+        model_source,
+        tool,
+        place,
+        question: q.words.clone(),
+        tool_held: q.holding.clone(),
+        grows: match (q.by_load(), q.measure) {
+            (true, _) => "load",
+            (false, Measure::Moment(_)) => "rotation",
+            (false, _) => "displacement",
+        },
+        coordinates: q.chain.coordinates(),
+        named_points: named,
+        jumps,
+        critical_loads: critical,
+        branches,
+        more_branches: curves.more_branches,
+        conservative,
+        warnings,
+        units: Units::of(q),
+    })
+}
+
+fn critical_loads(
+    q: &Question,
+    problem: &ChainProblem<'_>,
+    settings: &CurveSettings,
+) -> Answer<Vec<CriticalAnswer>> {
+    let Parameter::Load(pattern) = &q.parameter else {
+        return Ok(Vec::new());
+    };
+    if q.range.1 <= 0.0 || q.range.0 > 0.0 {
+        return Ok(Vec::new());
+    }
+    let mut list = Vec::new();
+    for (judged, name) in [
+        (Judged::Shape, "shape"),
+        (Judged::ShapeAndEnd, "shape_and_tool"),
+    ] {
+        let found = critical_load_factor(problem, pattern, judged, settings)?;
+        list.push(critical_answer(&q.chain, name, found));
+    }
+    Ok(list)
+}
+
+fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -> CriticalAnswer {
+    let mode = c.exact.as_ref().map_or_else(Vec::new, |e| e.mode.clone());
+    CriticalAnswer {
+        judged,
+        linear_factor: c.linear,
+        linear_mode_in_words: if c.linear_mode.is_empty() {
+            String::new()
+        } else {
+            mode_in_words(chain, &c.linear_mode)
+        },
+        factor: c.exact.as_ref().map(|e| e.factor),
+        kind: c.exact.as_ref().and_then(|e| e.kind).map(kind_name),
+        mode_in_words: if mode.is_empty() {
+            String::new()
+        } else {
+            mode_in_words(chain, &mode)
+        },
+        mode,
+        followed_to_factor: c.reached,
+    }
+}
+
+/// Curves as they are shown.
+struct View<'v> {
+    q: &'v Question,
+    curves: &'v Curves<'v>,
+}
+
+impl View<'_> {
+    fn point(&self, p: &CurvePoint) -> PointAnswer {
+        let by_load = self.q.by_load();
+        let [displacement, load, slope] = match (self.q.measure, by_load) {
+            (Measure::Force(_), false) => [1e3 * p.parameter, p.conjugate, 1e-3 * p.slope],
+            (Measure::Force(f), true) => [
+                1e3 * p.conjugate / f,
+                f * p.parameter,
+                1e-3 * f * f * p.slope,
+            ],
+            (Measure::Moment(_), false) => {
+                [p.parameter.to_degrees(), p.conjugate, p.slope.to_radians()]
+            }
+            (Measure::Moment(m), true) => [
+                (p.conjugate / m).to_degrees(),
+                m * p.parameter,
+                (m * m * p.slope).to_radians(),
+            ],
+            (Measure::Work, _) => [p.conjugate, p.parameter, p.slope],
+        };
+        let of = |this: bool, x: f64| this.then_some(x);
+        let force = matches!(self.q.measure, Measure::Force(_));
+        let moment = matches!(self.q.measure, Measure::Moment(_));
+        let work = self.q.measure == Measure::Work;
+        let e = &p.equilibrium;
+        PointAnswer {
+            factor: of(by_load, p.parameter),
+            displacement_mm: of(force, displacement),
+            rotation_deg: of(moment, displacement),
+            work_per_factor_j: of(work, displacement),
+            force_along_n: of(force, load),
+            moment_along_n_m: of(moment, load),
+            slope_n_per_mm: of(force, slope),
+            slope_n_m_per_deg: of(moment, slope),
+            slope_per_j: of(work, slope),
+            stable_under_dead_load: p.dead.stable,
+            stable_under_prescribed_motion: p.held.stable,
+            buckling_margin: p.held.margin.filter(|m| m.is_finite()),
+            spring_energy_j: e.energy,
+            force_n: e.wrench.force().into(),
+            moment_n_m: e.wrench.moment().into(),
+            position_mm: (e.tip.translation.vector * 1e3).into(),
+            rotation_vector_deg: e.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
+            coordinates: self.q.chain.values(&e.coordinates),
+            shown: [displacement, load, slope],
+        }
+    }
+
+    /// Number of the branch that comes nearest to a point, from 1.
+    fn branch_of(&self, p: &CurvePoint) -> usize {
+        let x = &p.equilibrium.coordinates;
+        let coordinates = self.q.chain.chain.coordinates();
+        let length = self.q.chain.chain.scale().length;
+        let distance = |other: &CurvePoint| {
+            let joints = x
+                .iter()
+                .zip(&other.equilibrium.coordinates)
+                .zip(coordinates)
+                .map(|((a, b), c)| {
+                    let d = a - b;
+                    match (c.kind, c.role) {
+                        (kinetostat::MotionKind::Prismatic, _) => (d / length).powi(2),
+                        (_, Role::Passive) => {
+                            let turn = std::f64::consts::TAU;
+                            (d - turn * (d / turn).round()).powi(2)
+                        }
+                        _ => d * d,
+                    }
+                })
+                .sum::<f64>();
+            joints
+        };
+        let mut best = (f64::INFINITY, 0);
+        for (k, branch) in self.curves.branches.iter().enumerate() {
+            for point in &branch.points {
+                let d = distance(point);
+                if d < best.0 {
+                    best = (d, k);
+                }
+            }
+        }
+        best.1 + 1
+    }
+
+    fn named(&self, start: f64, jumps: &[kinetostat::Jump]) -> (Vec<NamedPoint>, Vec<JumpAnswer>) {
+        let mut named: Vec<NamedPoint> = Vec::new();
+        let mut add = |kind: &'static str,
+                       words: String,
+                       branches: Vec<usize>,
+                       p: &CurvePoint,
+                       mode: &[f64],
+                       limits: [bool; 2]| {
+            let name = letter(named.len());
+            named.push(NamedPoint {
+                name: name.clone(),
+                kind,
+                in_words: words,
+                branches,
+                mode: mode.to_vec(),
+                mode_in_words: if mode.is_empty() {
+                    String::new()
+                } else {
+                    mode_in_words(&self.q.chain, mode)
+                },
+                limits,
+                point: self.point(p),
+            });
+            name
+        };
+        let first = self.curves.branches.first();
+        if let Some(p) = first.and_then(|b| {
+            b.points.iter().min_by(|a, b| {
+                let off = |p: &CurvePoint| (p.parameter - start).abs();
+                off(a).total_cmp(&off(b))
+            })
+        }) {
+            add(
+                "start",
+                "where the curve starts".into(),
+                vec![1],
+                p,
+                &[],
+                [false; 2],
+            );
+        }
+        let mut specials = Vec::new();
+        for s in &self.curves.specials {
+            let branches: Vec<usize> = s.branches.iter().map(|b| b + 1).collect();
+            specials.push(add(
+                kind_name(s.kind),
+                special_in_words(s),
+                branches,
+                &s.point,
+                &s.mode,
+                limits(s),
+            ));
+        }
+        let mut told = Vec::new();
+        for jump in jumps {
+            let under = if jump.dead_load {
+                "under a dead load"
+            } else {
+                "under prescribed motion"
+            };
+            let from = specials[jump.from].clone();
+            let to = jump
+                .to
+                .iter()
+                .map(|p| {
+                    add(
+                        "landing",
+                        format!("where the jump from {from} {under} may land"),
+                        vec![self.branch_of(p)],
+                        p,
+                        &[],
+                        [false; 2],
+                    )
+                })
+                .collect();
+            told.push(JumpAnswer {
+                from,
+                under: if jump.dead_load {
+                    "dead_load"
+                } else {
+                    "prescribed_motion"
+                },
+                to,
+            });
+        }
+        for (k, branch) in self.curves.branches.iter().enumerate() {
+            let ends = [branch.points.first(), branch.points.last()];
+            for (p, end) in ends.into_iter().zip(branch.ends) {
+                let words = match end {
+                    BranchEnd::Range => "leaves the range",
+                    BranchEnd::Angle => "a joint has turned by 180 deg",
+                    BranchEnd::Points => "as many points as allowed",
+                    BranchEnd::Lost => "no further point was found",
+                    BranchEnd::Closed | BranchEnd::Found => continue,
+                };
+                if let Some(p) = p {
+                    let words = format!("end of branch {}: {words}", k + 1);
+                    add("end", words, vec![k + 1], p, &[], [false; 2]);
+                }
+            }
+        }
+        (named, told)
+    }
+
+    fn branches(&self, named: &[NamedPoint]) -> Vec<BranchAnswer> {
+        self.curves
+            .branches
+            .iter()
+            .enumerate()
+            .map(|(k, b)| BranchAnswer {
+                number: k + 1,
+                // The start is named first, then the special points in their order.
+                from: b
+                    .origin
+                    .and_then(|s| named.get(s + 1))
+                    .map(|n| n.name.clone()),
+                ends: b.ends,
+                points: b.points.iter().map(|p| self.point(p)).collect(),
+            })
+            .collect()
+    }
+}
+
+/// Whether stability ends at a special point: under a dead load, under prescribed motion.
+fn limits(s: &Special) -> [bool; 2] {
+    if !s.stable_side {
+        return [false; 2];
+    }
+    match s.kind {
+        SpecialKind::LoadLimit => [true, false],
+        SpecialKind::DisplacementLimit => [false, true],
+        // The verdict of the point itself is a matter of rounding: it is at the limit of what holds.
+        _ => [s.point.slope >= 0.0, true],
+    }
+}
+
+fn special_in_words(s: &Special) -> String {
+    let tail = if s.stable_side {
+        ""
+    } else {
+        ", on a part of the curve that is unstable anyway"
+    };
+    let text = match s.kind {
+        SpecialKind::LoadLimit if s.stable_side => {
+            "the load has its extreme here: under a dead load the chain snaps".to_owned()
+        }
+        SpecialKind::DisplacementLimit if s.stable_side => {
+            "the motion has its extreme here: under prescribed motion the chain snaps".to_owned()
+        }
+        SpecialKind::LoadLimit => "extreme of the load".to_owned(),
+        SpecialKind::DisplacementLimit => "extreme of the motion".to_owned(),
+        SpecialKind::Pitchfork if s.stable_side => {
+            "pitchfork: the chain buckles to one side or the other".to_owned()
+        }
+        SpecialKind::Pitchfork => "pitchfork: two mirrored shapes branch off".to_owned(),
+        SpecialKind::Transcritical => "two branches cross and both go on".to_owned(),
+        SpecialKind::Multiple { modes } => format!("{modes} modes become critical together"),
+    };
+    format!("{text}{tail}")
+}

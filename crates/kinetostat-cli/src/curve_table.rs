@@ -1,0 +1,271 @@
+//! The answer of `curve` for a person.
+
+use crate::curve_answer::{CriticalAnswer, CurveAnswer, NamedPoint, kind_in_words};
+use crate::screen::{columns, fixed, item, number, wrapped};
+use crate::summary;
+
+/// More ends of branches than this are only counted.
+const MOST_ENDS: usize = 6;
+
+pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
+    let mut out = heading.to_owned();
+    out.push_str(&wrapped(&a.question, 0));
+    out.push('\n');
+    out.push_str(&wrapped(&verdict(a), 2));
+    out.push('\n');
+    out.push_str(&table(a));
+    out.push('\n');
+    for p in a.named_points.iter().filter(|p| p.kind != "end") {
+        out.push_str(&item(&point_in_words(p)));
+    }
+    out.push_str(&jumps(a));
+    out.push_str(&critical(a));
+    out.push_str(&branches(a));
+    if !a.conservative {
+        out.push('\n');
+        out.push_str(&wrapped(
+            "Some loads have no potential, so a verdict on stability says that small pushes die away quasi-statically, not that an energy is least.",
+            0,
+        ));
+    }
+    out.push_str(&summary::warnings(&a.warnings));
+    out
+}
+
+/// One or two sentences that answer the question.
+fn verdict(a: &CurveAnswer) -> String {
+    let u = &a.units;
+    let place = |p: &NamedPoint| {
+        let load = if u.load_unit.is_empty() {
+            format!("the load factor {}", number(p.point.shown[1], 6))
+        } else {
+            format!("{} {}", number(p.point.shown[1], 6), u.load_unit)
+        };
+        format!(
+            "{} {} and {load}",
+            number(p.point.shown[0], 6),
+            u.displacement_unit
+        )
+    };
+    // What stops the start's own branch first, on the way from nothing.
+    let held = usize::from(a.grows != "load");
+    let starts_stable = a.named_points.first().is_none_or(|p| {
+        if held == 1 {
+            p.point.stable_under_prescribed_motion
+        } else {
+            p.point.stable_under_dead_load
+        }
+    });
+    let under = if held == 1 {
+        "while the motion is prescribed"
+    } else {
+        "under this load"
+    };
+    if !starts_stable {
+        return format!("The chain does NOT keep its shape at the start {under}.");
+    }
+    let mut critical: Vec<&NamedPoint> = a
+        .named_points
+        .iter()
+        .filter(|p| p.limits[held] && p.branches.contains(&1))
+        .collect();
+    let from = |p: &NamedPoint| {
+        let value = |q: &NamedPoint| {
+            if held == 1 {
+                q.point.shown[0]
+            } else {
+                q.point.shown[1]
+            }
+        };
+        (value(p) - a.named_points.first().map_or(0.0, value)).abs()
+    };
+    critical.sort_by(|p, q| from(p).total_cmp(&from(q)));
+    match critical.first() {
+        None => format!("The shape holds over the whole range {under}."),
+        Some(p) => {
+            let what = match p.kind {
+                "pitchfork" => "buckles",
+                "load_limit" | "displacement_limit" => "snaps",
+                _ => "loses its stability",
+            };
+            format!("The chain {what} at {} ({}).", place(p), p.name)
+        }
+    }
+}
+
+fn table(a: &CurveAnswer) -> String {
+    let u = &a.units;
+    let unit = |name: &str, unit: &str| {
+        if unit.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{name}, {unit}")
+        }
+    };
+    let mut header = vec![
+        "point".to_owned(),
+        unit(u.displacement, u.displacement_unit),
+        unit(u.load, u.load_unit),
+        unit("slope", u.slope_unit),
+        "dead load".to_owned(),
+        "held".to_owned(),
+    ];
+    let factor = a.grows == "load" && !u.load_unit.is_empty();
+    if factor {
+        header.insert(1, "factor".to_owned());
+    }
+    let mut rows = vec![header];
+    let ends = a.named_points.iter().filter(|p| p.kind == "end").count();
+    for p in &a.named_points {
+        if p.kind == "end" && ends > MOST_ENDS {
+            continue;
+        }
+        let [displacement, load, slope] = p.point.shown;
+        let mut row = vec![
+            p.name.clone(),
+            value(displacement),
+            value(load),
+            if slope.abs() > 1e9 {
+                "locked".to_owned()
+            } else {
+                number(slope, 5)
+            },
+            verdict_of(p.limits[0], p.point.stable_under_dead_load),
+            verdict_of(p.limits[1], p.point.stable_under_prescribed_motion),
+        ];
+        if factor {
+            row.insert(1, value(p.point.factor.unwrap_or(f64::NAN)));
+        }
+        rows.push(row);
+    }
+    let mut out = columns(&rows, 2);
+    if ends > MOST_ENDS {
+        out.push_str(&format!(
+            "  and {ends} ends of branches; JSON and CSV have them\n"
+        ));
+    }
+    out
+}
+
+fn value(x: f64) -> String {
+    if x.abs() < 1e-12 {
+        return "0".into();
+    }
+    number(x, 7)
+}
+
+fn verdict_of(limit: bool, stable: bool) -> String {
+    match (limit, stable) {
+        (true, _) => "limit",
+        (false, true) => "holds",
+        (false, false) => "snaps",
+    }
+    .to_owned()
+}
+
+fn point_in_words(p: &NamedPoint) -> String {
+    let branches: Vec<String> = p.branches.iter().map(usize::to_string).collect();
+    let mut text = format!(
+        "{} ({}, branch {}): {}",
+        p.name,
+        kind_in_words(p.kind),
+        branches.join(" and "),
+        p.in_words
+    );
+    if matches!(p.kind, "pitchfork" | "transcritical" | "multiple") {
+        text.push_str(&format!("; the mode moves {}", p.mode_in_words));
+    }
+    text
+}
+
+fn jumps(a: &CurveAnswer) -> String {
+    if a.jumps.is_empty() {
+        return String::new();
+    }
+    let mut out = String::from("\nJumps\n");
+    for jump in &a.jumps {
+        let under = if jump.under == "dead_load" {
+            "the load stays"
+        } else {
+            "the motion stays"
+        };
+        let text = match jump.to.as_slice() {
+            [] => format!(
+                "from {} ({under}): no stable shape was found on the branches followed; --all searches for others",
+                jump.from
+            ),
+            [one] => format!("from {} ({under}) to {one}", jump.from),
+            many => format!(
+                "from {} ({under}) to {}, nearest first",
+                jump.from,
+                many.join(" or ")
+            ),
+        };
+        out.push_str(&item(&text));
+    }
+    out
+}
+
+fn critical(a: &CurveAnswer) -> String {
+    if a.critical_loads.is_empty() {
+        return String::new();
+    }
+    let mut out = String::from("\nCritical load factor\n");
+    for c in &a.critical_loads {
+        out.push_str(&item(&critical_in_words(c)));
+    }
+    out
+}
+
+fn critical_in_words(c: &CriticalAnswer) -> String {
+    let what = if c.judged == "shape" {
+        "the shape, with the tool held where the load brings it"
+    } else {
+        "shape and tool, as they are held"
+    };
+    let exact = match c.factor {
+        Some(factor) => format!(
+            "{}{}; the mode moves {}",
+            number(factor, 8),
+            c.kind
+                .map_or_else(String::new, |k| format!(" ({})", kind_in_words(k))),
+            c.mode_in_words
+        ),
+        None => format!("none up to {}", number(c.followed_to_factor, 5)),
+    };
+    let linear = match c.linear_factor {
+        Some(factor) => format!(
+            "; from the first load step alone {} (linear buckling)",
+            number(factor, 6)
+        ),
+        None => "; the first load step destabilises nothing".to_owned(),
+    };
+    format!("{what}: {exact}{linear}")
+}
+
+fn branches(a: &CurveAnswer) -> String {
+    let points: usize = a.branches.iter().map(|b| b.points.len()).sum();
+    let mut text = match a.branches.len() {
+        1 => format!("One branch was followed, {points} points."),
+        n => format!("{n} branches were followed, {points} points."),
+    };
+    let margins: Vec<f64> = a
+        .branches
+        .first()
+        .into_iter()
+        .flat_map(|b| &b.points)
+        .filter_map(|p| p.buckling_margin)
+        .collect();
+    let most = margins.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if let (Some(_), Some(first)) = (margins.first(), a.named_points.first()) {
+        if let Some(mu) = first.point.buckling_margin {
+            text.push_str(&format!(
+                " Held at the start, the shape is {} % of the way to buckling (mu {}); on branch 1 mu reaches {}.",
+                fixed(100.0 * mu, 1),
+                fixed(mu, 4),
+                fixed(most, 4)
+            ));
+        }
+    }
+    format!("\n{}", wrapped(&text, 0))
+}

@@ -1,0 +1,146 @@
+//! `kinetostat equilibria`: all shapes that a serial chain can take.
+
+use kinetostat::{SearchSettings, Twist, moved};
+use nalgebra::Vector3;
+
+use crate::curve::Targets;
+use crate::curve_args::EquilibriaArgs;
+use crate::curve_chain::serial_chain;
+use crate::curve_csv;
+use crate::curve_question::{Holding, constant, constant_in_words, holding, with_loads, wrench};
+use crate::curve_work::interruptible;
+use crate::equilibria_answer::{self, EquilibriaAnswer, Question};
+use crate::equilibria_table;
+use crate::failure::{Answer, Failure};
+use crate::input::Files;
+use crate::machine::short;
+use crate::place::{Spot, spot};
+use crate::screen::triple;
+use crate::setting::vector;
+
+pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
+    let spot = spot(
+        &Files::default(),
+        &args.model,
+        &args.place,
+        args.tool_length_mm,
+        None,
+        None,
+    )?;
+    let q = question(&spot, args)?;
+    let targets = Targets::claim(&args.outputs, &spot.inputs)?;
+    let place = spot.asked();
+    let names = [
+        spot.name.clone(),
+        spot.source.clone(),
+        spot.tool_words.clone(),
+    ];
+    let mut answer: EquilibriaAnswer =
+        interruptible(move |stage| equilibria_answer::solve(&q, place, names, stage))?;
+    answer.warnings.extend(spot.warnings.iter().cloned());
+    let text = equilibria_table::in_words(&spot.heading(), &answer);
+    targets.finish(
+        &text,
+        &answer,
+        || curve_csv::of_equilibria(&answer),
+        || equilibria_table::plot(&answer).shape_svg(),
+    )
+}
+
+fn question(spot: &Spot, args: &EquilibriaArgs) -> Answer<Question> {
+    let chain = with_loads(serial_chain(spot)?, &args.end)?;
+    let acting = wrench(
+        ("--force", args.force.as_deref()),
+        ("--moment", args.moment.as_deref()),
+    )? + constant(&args.end)?;
+    let loaded = acting.0.amax() > 0.0 || args.force.is_some() || args.moment.is_some();
+    let part = |name: &str, values: &Option<Vec<f64>>| {
+        values
+            .as_ref()
+            .map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
+    };
+    let shift = part("--displaced-mm", &args.displaced_mm)?;
+    let turn = part("--turned-deg", &args.turned_deg)?;
+    let displaced = args.displaced_mm.is_some() || args.turned_deg.is_some();
+    let twist = Twist::new(shift * 1e-3, turn.map(f64::to_radians));
+    let movable = chain.movable();
+    if twist.0.amax() > 0.0 && chain.movable_share(&movable, &twist.0) < 1.0 - 1e-6 {
+        return Err(Failure::input(
+            "the tool cannot be held there: the chain cannot move its end that way (a planar chain stays in its plane). Leave out the part of --displaced-mm and --turned-deg across it",
+        ));
+    }
+    let place = moved(&chain.place, &twist);
+    let held = holding(
+        &chain,
+        &args.end,
+        &place,
+        acting,
+        displaced || !loaded,
+        None,
+    )?;
+    refuse_displaced_and_free(&held, &twist)?;
+    let count = |option: &str, value: Option<usize>, default: usize| match value {
+        None => Ok(default),
+        Some(n) if (1..=10_000_000).contains(&n) => Ok(n),
+        Some(_) => Err(Failure::input(format!(
+            "{option} takes a number from 1 to 10000000"
+        ))),
+    };
+    let default = SearchSettings::default();
+    let settings = SearchSettings {
+        starts: count("--starts", args.starts, default.starts)?,
+        fruitless: count("--fruitless", args.fruitless, default.fruitless)?,
+        ..default
+    };
+    let along = [shift, acting.force()]
+        .into_iter()
+        .find(|v| v.norm() > 0.0)
+        .map(|v| v.normalize());
+    let mut words = match (displaced, loaded) {
+        (true, _) => format!(
+            "Which shapes does the chain take while its tool is held {} mm from the commanded place{}?",
+            triple(shift.into(), short),
+            if turn.norm() > 0.0 {
+                format!(" and turned by {} deg", triple(turn.into(), short))
+            } else {
+                String::new()
+            }
+        ),
+        (false, true) => format!(
+            "Which shapes does the chain take under the force {} N and the moment {} N m on its tool?",
+            triple(acting.force().into(), short),
+            triple(acting.moment().into(), short)
+        ),
+        (false, false) => {
+            "Which shapes does the chain take while its tool is held at the commanded place?"
+                .to_owned()
+        }
+    };
+    words.push(' ');
+    words.push_str(&held.in_words());
+    words.push_str(&constant_in_words(&args.end));
+    Ok(Question {
+        end: held.end.clone(),
+        holding: held,
+        chain,
+        settings,
+        along,
+        words,
+    })
+}
+
+/// A displacement in a free direction would be ignored.
+fn refuse_displaced_and_free(held: &Holding, twist: &Twist) -> Answer<()> {
+    let local = kinetostat::turn_matrix(&held.end.axes).transpose() * twist.0;
+    let most = local.amax();
+    let wrong = (0..6).find(|&k| {
+        held.end.prescribed[k] == kinetostat::Prescribed::Wrench && local[k].abs() > 1e-9 * most
+    });
+    match wrong {
+        Some(k) => Err(Failure::input(format!(
+            "the tool is to be displaced in '{0}' and free in '{0}': hold it there, or leave that part of the displacement out",
+            crate::curve_question::DIRECTIONS[k]
+        ))),
+        None => Ok(()),
+    }
+}
