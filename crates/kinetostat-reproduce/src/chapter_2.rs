@@ -17,10 +17,13 @@ const TABLE_2_3: [(Material, f64, f64, [&str; 3]); 8] = [
     (AL_MG_4_5_MN, 1.0, 16.0, ["15.40", "14.96", "14.66"]),
 ];
 
+const DOUBLED: &str =
+    "The rows of b = 16 mm are twice the rounded ones of b = 8 mm, as shown below.";
+
 const SPEEDS: [f64; 3] = [1000.0, 1500.0, 2000.0];
 
 pub(crate) fn table_2_3() -> Result<Contents, Cause> {
-    let mut items = Vec::new();
+    let (mut items, mut doubled) = (Vec::new(), Vec::new());
     for (material, thickness, width, printed) in &TABLE_2_3 {
         for (speed, printed) in SPEEDS.iter().zip(printed) {
             let name = format!(
@@ -31,16 +34,20 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
             items.push(if *width > 8.0 {
                 // Half of it, rounded as the row above is, and doubled.
                 let half = (100.0 * 0.5 * force).round() / 100.0;
-                let note = format!(
-                    "The rows of b = 16 mm are twice the rounded ones of b = 8 mm: 2 x {half:.2} = {:.2}.",
-                    2.0 * half
-                );
-                Item::erratum(name, printed, force, "kN", &note)
+                doubled.push(Item::compared(
+                    format!("{name}: twice the rounded half"),
+                    printed,
+                    2.0 * half,
+                    "kN",
+                    "",
+                ));
+                Item::erratum(name, printed, force, "kN", DOUBLED)
             } else {
                 Item::compared(name, printed, force, "kN", "")
             });
         }
     }
+    items.extend(doubled);
     let literal = 1e-3 * printed_2_4(&MONEL_400, 0.2, 8.0);
     items.push(Item::erratum(
         "Monel 400, h = 0.2 mm, b = 8 mm by equation 2.4 as printed",

@@ -5,23 +5,28 @@
 //! stored as it is printed. A number agrees if the printed digits are the rounding of the computed
 //! one; where they differ, the note says why.
 //!
-//! [`IDS`] lists what there is; [`one`] computes one entry, [`all`] all of them.
+//! [`IDS`] lists what there is; [`one`] computes one entry, [`all`] all of them; [`html`] makes a page
+//! of them.
 
 mod chapter_2;
 mod curves;
 mod cutting;
+mod elastic_figures;
 mod entry;
 mod models;
 mod orthoglide;
+mod page;
 mod passive_joints;
 mod registry;
 mod stewart_gough;
 mod three_link_figures;
 mod three_links;
 mod toggle;
+mod two_link_matrices;
 mod two_links;
 
 pub use entry::{Entry, Item, Status, is_rounding};
+pub use page::html;
 pub use registry::{IDS, all, one};
 
 /// Numbers and plots of an entry; the registry knows its id and title.
@@ -50,6 +55,9 @@ pub enum Cause {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReproduceError {
+    /// The page could not be filled; a fault of this crate, never of the numbers.
+    #[error("the page could not be filled: {0}")]
+    Page(#[from] minijinja::Error),
     /// There is no such entry.
     #[error("there is no entry '{0}'")]
     Unknown(String),

@@ -1,8 +1,8 @@
 //! The chains of chapters 4 and 5, planar in x and y, in units of link length and spring stiffness.
 
 use kinetostat::{
-    Chain, ChainProblem, EndCondition, Error, Load, MotionKind, Parameter, Pose, Prescribed, Twist,
-    Wrench,
+    Chain, ChainBuilder, ChainProblem, EndCondition, Error, Load, MotionKind, Parameter, Pose,
+    Prescribed, Twist, Wrench,
 };
 use nalgebra::{Vector3, vector};
 
@@ -62,33 +62,35 @@ pub(crate) fn elastic_links_of(first: f64, second: f64, rest: f64) -> Result<Cha
         .build()
 }
 
-/// 5.5.1: `n` rigid links, a hinge at the base, torsion springs between the links, free to turn at
-/// the end. `rest` gives the springs' angles at rest, rad.
-pub(crate) fn linked(name: &str, rest: &[f64]) -> Result<Chain, Error> {
+/// 5.5.1: rigid links of unit length, a hinge at the base, torsion springs between the links. `rest`
+/// gives the springs' angles at rest, rad.
+pub(crate) fn linked(name: &str, rest: &[f64]) -> ChainBuilder {
     let z = Vector3::z();
     let mut b = Chain::builder(name).passive("q", MotionKind::Revolute, z, 0.0);
     for (i, rest) in rest.iter().enumerate() {
+        let name = format!("theta{}", i + 1);
         b = b.translation(vector![1.0, 0.0, 0.0]);
-        b = b.spring(
-            &format!("theta{}", i + 1),
-            MotionKind::Revolute,
-            z,
-            1.0,
-            *rest,
-        );
+        b = b.spring(&name, MotionKind::Revolute, z, 1.0, *rest);
     }
-    b.translation(vector![1.0, 0.0, 0.0]).build()
+    b.translation(vector![1.0, 0.0, 0.0])
+}
+
+/// The same with the hinge at the end [R 5.5.1].
+fn hinged(name: &str, rest: &[f64]) -> Result<Chain, Error> {
+    linked(name, rest)
+        .passive("end", MotionKind::Revolute, Vector3::z(), 0.0)
+        .build()
 }
 
 /// 5.5.1, straight at rest.
 pub(crate) fn s_chain() -> Result<Chain, Error> {
-    linked("S chain", &[0.0, 0.0])
+    hinged("S chain", &[0.0, 0.0])
 }
 
 /// 5.5.1, a zigzag of -30 and +30 degrees at rest.
 pub(crate) fn z_chain() -> Result<Chain, Error> {
     let a = 30_f64.to_radians();
-    linked("Z chain", &[-a, a])
+    hinged("Z chain", &[-a, a])
 }
 
 /// Where the end of the Z chain at rest is: `sqrt(5 + 4 cos 30 deg)`.

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use crate::{
-    Cause, Contents, Entry, ReproduceError, chapter_2, orthoglide, passive_joints, stewart_gough,
-    three_link_figures, three_links, toggle, two_links,
+    Cause, Contents, Entry, ReproduceError, chapter_2, elastic_figures, orthoglide, passive_joints,
+    stewart_gough, three_link_figures, three_links, toggle, two_link_matrices, two_links,
 };
 
 /// How an entry is computed.
@@ -49,6 +49,11 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
         stewart_gough::eq_3_35,
     ),
     (
+        "text-4.4",
+        "Sizes of the linear systems",
+        two_link_matrices::text_4_4,
+    ),
+    (
         "eq-4.31",
         "Force of two rigid links under a load on the middle",
         two_links::eq_4_31,
@@ -67,6 +72,26 @@ const ENTRIES: &[(&str, &str, Compute)] = &[
         "fig-4.3",
         "Two rigid links: force and stiffness against displacement",
         two_links::fig_4_3,
+    ),
+    (
+        "table-4.1",
+        "Two rigid links: Jacobians and Hessians",
+        two_link_matrices::table_4_1,
+    ),
+    (
+        "fig-4.4",
+        "Two elastic links: force against displacement, limit points",
+        elastic_figures::fig_4_4,
+    ),
+    (
+        "table-4.2",
+        "Two elastic links: Jacobians and Hessians",
+        two_link_matrices::table_4_2,
+    ),
+    (
+        "fig-4.5",
+        "Two elastic links: all shapes",
+        elastic_figures::fig_4_5,
     ),
     (
         "eq-5.32",

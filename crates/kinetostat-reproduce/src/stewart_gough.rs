@@ -80,7 +80,10 @@ fn compare(k: &UnloadedStiffness, length: f64, printed: &[Entry], notes: &str) -
         .iter()
         .map(|&(i, j, text, value)| {
             shown.push((i, j));
-            let text = format!("3K11/L^2 * {text}");
+            let text = match text {
+                "0" => "0".to_owned(),
+                text => format!("3K11/L^2 {text}"),
+            };
             let at = k.cartesian.matrix[(i - 1, j - 1)];
             let note = if i == j { notes } else { ARM };
             Item::formula(

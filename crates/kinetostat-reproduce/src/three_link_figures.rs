@@ -128,7 +128,7 @@ fn links(e: &Shape) -> Vec<(f64, f64)> {
     let mut at = (0.0, 0.0);
     let mut turned = 0.0;
     let mut points = vec![at];
-    for angle in &e.angles {
+    for angle in e.angles.iter().take(3) {
         turned += angle;
         at = (at.0 + turned.cos(), at.1 + turned.sin());
         points.push(at);
@@ -269,7 +269,7 @@ pub(crate) fn fig_5_8() -> Result<Contents, Cause> {
 
 fn z_curve(chain: &Chain) -> Result<(Curves<'_>, f64), Cause> {
     let mut problem = held(chain, z_at_rest());
-    problem.posture = vec![0.17, -0.52, 0.52];
+    problem.posture = vec![0.17, -0.52, 0.52, 0.0];
     let start = solve_chain(&problem, &Settings::default())?;
     let mut settings = CurveSettings::within(-0.45, 0.05);
     settings.branches = 10;
@@ -343,7 +343,7 @@ pub(crate) fn fig_5_7() -> Result<Contents, Cause> {
 
 /// First critical load of a straight column of `n` links, ends hinged.
 fn column(n: usize) -> Result<f64, Cause> {
-    let chain = linked("column", &vec![0.0; n - 1])?;
+    let chain = linked("column", &vec![0.0; n - 1]).build()?;
     let mut end = EndCondition::pose(Pose::translation(n as f64, 0.0, 0.0));
     end.prescribed[0] = Prescribed::Wrench;
     end.prescribed[5] = Prescribed::Wrench;

@@ -19,7 +19,7 @@ pub(crate) fn all(chain: &Chain, x: f64) -> Result<Equilibria, Cause> {
 /// What Table 5.1 lists of one equilibrium, K = l = 1.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
-    /// q, theta1, theta2, rad.
+    /// q, theta1, theta2 and the end hinge, rad.
     pub(crate) angles: Vec<f64>,
     pub(crate) force: f64,
     pub(crate) stiffness: f64,
@@ -34,7 +34,8 @@ pub(crate) fn shape(problem: &ChainProblem<'_>, e: &Equilibrium) -> Result<Shape
         angles: e.coordinates.clone(),
         force: e.wrench.0[0],
         stiffness: e.stiffness.cartesian.matrix[(0, 0)],
-        s_c: criterion.eigenvalues.last().copied().unwrap_or(f64::NAN),
+        // The end hinge turns for nothing: one inner freedom, and zero for the hinge.
+        s_c: criterion.matrix.trace(),
         margin: e.stability.margin.unwrap_or(f64::NAN),
         stable: e.stability.stable,
     })
@@ -60,7 +61,7 @@ pub(crate) fn pick(
 
 /// The straight chain pressed by `force`: its `S_c` along one motion, and the eigenvalues.
 fn straight(force: f64) -> Result<(f64, Vec<f64>, bool), Cause> {
-    let chain = s_chain()?;
+    let chain = linked("straight chain", &[0.0, 0.0]).build()?;
     // Any force keeps the chain straight; the end is free along x for the solver, held for the verdict.
     let mut problem = held(&chain, 3.0);
     problem.end.prescribed[0] = Prescribed::Wrench;
@@ -107,16 +108,20 @@ fn straight_items(items: &mut Vec<Item>) -> Result<(), Cause> {
             note: "The stiffness names x a rigid direction: the straight chain is locked along it."
                 .into(),
         });
-        let list: Vec<String> = eigenvalues.iter().map(|x| format!("{x:.6}")).collect();
+        let largest = eigenvalues.last().copied().unwrap_or(f64::NAN);
+        items.push(Item::erratum(
+            format!("{name}, Delta = 0: S_c (largest eigenvalue)"),
+            s_c,
+            largest,
+            "K",
+            "The null space has two dimensions, S_c is 2 x 2 and changes sign at F = -1. The print is S_c along the last singular vector only: it calls the straight chain stable up to F = -1.5, although it has buckled.",
+        ));
         items.push(Item::compared(
             format!("{name}, Delta = 0: S_c along (0, -3, 1)/sqrt 10 of (th1, th2, q)"),
             s_c,
             value,
             "K",
-            &format!(
-                "The null space has two dimensions and S_c two eigenvalues ({}): the print uses its last singular vector only, which calls the straight chain stable up to F = -1.5, although it has buckled at F = -1.",
-                list.join(", ")
-            ),
+            "How the print came about.",
         ));
         for (k, value) in eigenvalues.iter().enumerate() {
             items.push(Item::unprinted(
@@ -268,10 +273,10 @@ fn bent(chain: &Chain, delta: f64, stable: bool) -> Result<Shape, Cause> {
     let mut problem = held(chain, 3.0 - delta);
     let a = (1.0 - 0.5 * delta).acos();
     problem.posture = if stable {
-        vec![a, -a, -a]
+        vec![a, -a, -a, a]
     } else {
         let b = (delta / 3.0).sqrt();
-        vec![0.58 * b, -1.74 * b, 1.74 * b]
+        vec![0.58 * b, -1.74 * b, 1.74 * b, -0.58 * b]
     };
     shape(&problem, &solve_chain(&problem, &Settings::default())?)
 }
@@ -312,9 +317,13 @@ pub(crate) fn eq_5_33() -> Result<Contents, Cause> {
             ((q + t).cos() + 2.0 * q.cos() * t) / t.sin(),
             -own.force,
             "K/l",
-            &format!(
-                "th multiplies the whole bracket: (K/L) th (cos(q + th) + 2 cos q)/sin th = {right:.9}. Compression positive here."
-            ),
+            "th multiplies the whole bracket: (K/L) th (cos(q + th) + 2 cos q)/sin th. Compression positive here.",
+        ));
+        items.push(Item::unprinted(
+            format!("the corrected equation less the model at Delta = {delta}"),
+            right + own.force,
+            "K/l",
+            "",
         ));
     }
     Ok(Contents {
@@ -361,7 +370,7 @@ pub(crate) fn eq_5_34() -> Result<Contents, Cause> {
 
 /// `J^T J` of a three-link chain at angles, order (th1, th2, q), l = 1.
 fn gram(q: f64, t1: f64, t2: f64) -> Result<Matrix3<f64>, Cause> {
-    let chain = linked("three links", &[0.0, 0.0])?;
+    let chain = linked("three links", &[0.0, 0.0]).build()?;
     let k = Kinematics::new(&chain, &Pose::identity(), &[q, t1, t2], &[], false);
     let j = k.jacobian(chain.tip());
     let order = [1, 2, 0];

@@ -18,6 +18,7 @@ fn leg() -> Result<Chain, kinetostat::Error> {
         .spring("slide", MotionKind::Prismatic, Vector3::x(), 1.0, 0.0)
         .passive("hinge", MotionKind::Revolute, -Vector3::y(), 0.0)
         .translation(vector![1.0, 0.0, 0.0])
+        .passive("head", MotionKind::Revolute, -Vector3::y(), 0.0)
         .build()
 }
 
@@ -39,7 +40,7 @@ fn toggle(angle: f64) -> Result<Toggle, Cause> {
     let mut end = EndCondition::pose(Pose::translation(angle.cos(), 0.0, distance));
     end.prescribed[4] = Prescribed::Wrench;
     let mut problem = ChainProblem::new(&chain, end);
-    problem.posture = vec![0.0, angle];
+    problem.posture = vec![0.0, angle, -angle];
     let start = solve_chain(&problem, &Settings::default())?;
     let down = Parameter::Displacement(Twist::new(-Vector3::z(), Vector3::zeros()));
     let mut settings = CurveSettings::within(-0.2 * distance, 2.2 * distance);
