@@ -1,8 +1,10 @@
 //! Compliance of a chain's end: what exists even where the stiffness is infinite in some directions
 //! (a planar chain of rigid links in space) and zero in others (passive joints).
 
-use nalgebra::Matrix6;
+use nalgebra::{DMatrix, DVector, Matrix6};
 
+use crate::directions::{Direction, DirectionKind};
+use crate::saddle::column_space;
 use crate::spatial::{Twist, Wrench};
 
 /// `twist = springs * wrench + any combination of free`, for wrenches that do no work on the free
@@ -23,6 +25,37 @@ pub struct CartesianCompliance {
 }
 
 impl CartesianCompliance {
+    /// Of a stiffness (base axes, at the tip) within those of its principal directions that are
+    /// neither free nor rigid: with rotations times `length` (m) and `N` an orthonormal basis of
+    /// them, `C = N (N^T K N)^-1 N^T`. The inverse of `K` if there are no others.
+    pub(crate) fn of(stiffness: &Matrix6<f64>, directions: &[Direction], length: f64) -> Self {
+        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+        let of_kind = |wanted: DirectionKind| -> Vec<Twist> {
+            let own = directions.iter().filter(|d| d.kind == wanted);
+            own.map(|d| d.twist).collect()
+        };
+        let held: Vec<DVector<f64>> = [DirectionKind::Finite, DirectionKind::Negative]
+            .into_iter()
+            .flat_map(of_kind)
+            .map(|t| DVector::from_fn(6, |i, _| t.0[i] * unit(i)))
+            .collect();
+        let mut springs = Matrix6::zeros();
+        if !held.is_empty() {
+            let n = column_space(&DMatrix::from_columns(&held));
+            let balanced = DMatrix::from_fn(6, 6, |i, j| stiffness[(i, j)] / (unit(i) * unit(j)));
+            if let Some(inverse) = (n.transpose() * balanced * &n).try_inverse() {
+                let balanced = &n * inverse * n.transpose();
+                springs = Matrix6::from_fn(|i, j| balanced[(i, j)] / (unit(i) * unit(j)));
+            }
+        }
+        Self {
+            springs,
+            free: of_kind(DirectionKind::Free),
+            rigid: of_kind(DirectionKind::Rigid),
+            length,
+        }
+    }
+
     /// Number of directions with finite stiffness.
     #[must_use]
     pub fn rank(&self) -> usize {

@@ -169,15 +169,22 @@ impl Mechanism {
             .collect()
     }
 
-    /// The loads of a limb have a potential: statements about energy hold. A dead moment has one
+    /// The load has a potential on this limb: statements about energy hold. A dead moment has one
     /// only where everything before its node, from the fixed base on, turns about one axis.
     #[must_use]
-    pub fn loads_conservative(&self, limb: usize) -> bool {
+    pub fn load_conservative(&self, limb: usize, load: &Load) -> bool {
         let own = &self.limbs[limb];
-        self.loads(limb).iter().all(|load| match load {
+        match load {
             Load::Dead { wrench, .. } if own.from != 0 => wrench.moment() == Vector3::zeros(),
             load => load.conservative(&own.actual),
-        })
+        }
+    }
+
+    /// All loads of a limb have a potential.
+    #[must_use]
+    pub fn loads_conservative(&self, limb: usize) -> bool {
+        let mut loads = self.loads(limb).iter();
+        loads.all(|load| self.load_conservative(limb, load))
     }
 
     /// A dead moment on the tool (N m) has a potential: some limb from the base lets the tool turn

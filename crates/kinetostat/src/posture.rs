@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::{MotionKind, Scale};
+use crate::compliance::CartesianCompliance;
 use crate::equilibrium::{ChainProblem, EndCondition, Residual};
 use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, inverse_kinematics};
@@ -93,6 +94,8 @@ pub struct MechanismEquilibrium {
     pub stiffness: CartesianStiffness,
     /// Its principal directions.
     pub directions: Vec<Direction>,
+    /// Natural length, m: what a rotation is multiplied with to be compared with a translation.
+    pub length: f64,
     /// Whether the free platform stays.
     pub platform: PlatformStability,
     /// Limbs in the mechanism's order.
@@ -104,10 +107,23 @@ pub struct MechanismEquilibrium {
 }
 
 impl MechanismEquilibrium {
+    /// Tangent compliance of the tool: it exists where the stiffness is infinite (rigid directions)
+    /// or zero (free ones).
+    #[must_use]
+    pub fn compliance(&self) -> CartesianCompliance {
+        CartesianCompliance::of(&self.stiffness.matrix, &self.directions, self.length)
+    }
+
+    /// Every limb keeps its shape while the tool is held.
+    #[must_use]
+    pub fn shapes_stable(&self) -> bool {
+        self.limbs.iter().all(|l| l.stability.stable)
+    }
+
     /// Every limb keeps its shape and the platform its place.
     #[must_use]
     pub fn stable(&self) -> bool {
-        self.platform.stable && self.limbs.iter().all(|l| l.stability.stable)
+        self.platform.stable && self.shapes_stable()
     }
 
     /// Largest buckling margin `mu` of all limbs; below 1 is stable.
@@ -412,6 +428,7 @@ impl<'m> Posture<'m> {
             .map(|((k, arm), scale)| (k, arm, scale));
         let directions = balanced_directions(&total, scale, own);
         let answer = UnloadedStiffness {
+            length: scale.length,
             cartesian: CartesianStiffness { matrix: total },
             directions,
             limbs,
@@ -520,9 +537,18 @@ pub struct UnloadedStiffness {
     pub directions: Vec<Direction>,
     /// `K_C^(i)` of every limb at its tip.
     pub limbs: Vec<ChainStiffness>,
+    /// Natural length, m: what a rotation is multiplied with to be compared with a translation.
+    pub length: f64,
 }
 
 impl UnloadedStiffness {
+    /// Compliance of the tool: it exists where the stiffness is infinite (rigid directions) or zero
+    /// (free ones).
+    #[must_use]
+    pub fn compliance(&self) -> CartesianCompliance {
+        CartesianCompliance::of(&self.cartesian.matrix, &self.directions, self.length)
+    }
+
     /// Number of directions with stiffness.
     #[must_use]
     pub fn rank(&self) -> usize {
@@ -676,6 +702,7 @@ pub(crate) fn conclude(
             free,
         },
         directions,
+        length: scale.length,
         limbs,
         residual,
         state: solver.state.clone(),
