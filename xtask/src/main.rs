@@ -2,6 +2,7 @@
 
 mod book;
 mod figures;
+mod fuzz;
 mod test;
 
 use std::path::{Path, PathBuf};
@@ -16,7 +17,9 @@ Tasks of the project
   cargo xtask book              the book as pages in book/book; with --open it is shown
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
-  cargo xtask figures --quick   without the ones that build from an empty registry cache";
+  cargo xtask figures --quick   without the ones that build from an empty registry cache
+  cargo xtask fuzz [--minutes M] [--seed N]   random chains through every question; --case N
+                                repeats one";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -25,6 +28,7 @@ fn main() -> ExitCode {
         ["test"] => test::run(),
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
+        ["fuzz", options @ ..] => fuzz::run(options),
         _ => {
             eprintln!("{HELP}");
             return ExitCode::FAILURE;

@@ -95,6 +95,9 @@ pub(crate) struct Reduced<'p, 'a> {
     pub system: System,
     /// Orthonormal directions of the reactions, balanced base axes, 6 x r.
     range: DMatrix<f64>,
+    /// Directions in which the pose is prescribed, base axes, 6 x k: those that the chain cannot
+    /// move in have no reaction here, but must be where they are prescribed all the same.
+    frame: DMatrix<f64>,
     /// Prescribed wrench and what grows of it, base axes.
     given: Vector6<f64>,
     grown: Vector6<f64>,
@@ -183,6 +186,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             factors,
             system,
             range: DMatrix::zeros(6, 0),
+            frame: DMatrix::zeros(6, 0),
             given,
             grown,
             neutral: 0,
@@ -217,7 +221,8 @@ impl<'p, 'a> Reduced<'p, 'a> {
             all.columns_mut(k * n, n)
                 .copy_from(&(frame.transpose() * self.balanced_jacobian()));
         }
-        self.range = frame * column_space(&all);
+        self.range = &frame * column_space(&all);
+        self.frame = frame;
     }
 
     /// Passive motions that change nothing, wherever the chain is and whatever its reactions are.
@@ -357,7 +362,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
         let miss = pose_residual(&target, &self.system.kinematics.tip_pose());
         self.turned = miss.angular();
         let scaled = DVector::from_fn(6, |i, _| -miss.0[i] * self.factors[i] / self.unit);
-        let closure = self.range.transpose() * scaled;
+        let closure = self.range.transpose() * &scaled;
         let (r, m) = (self.reactions(), self.count());
         let mut loads = 0.0_f64;
         let lack = DVector::from_fn(m, |i, _| {
@@ -375,7 +380,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             loads = loads.max((wrench.0[i] / (self.factors[i] * self.unit)).abs());
         }
         let balance = Balance {
-            closure: lack.rows(0, r).norm(),
+            closure: (self.frame.transpose() * &scaled).norm(),
             torque: lack.rows(r, m - r).norm(),
             loads,
         };

@@ -155,12 +155,13 @@ pub fn shape_criterion(
         (h - system.spring_tangent[(i, j)]) * unit[i] * unit[j]
     });
     let matrix = basis.transpose() * tangent * &basis;
-    let mut eigenvalues: Vec<f64> = matrix
-        .clone()
-        .symmetric_eigenvalues()
-        .iter()
-        .copied()
-        .collect();
+    // No inner freedom, no eigenvalue; the iteration for them takes no empty matrix.
+    let mut eigenvalues: Vec<f64> = if matrix.is_empty() {
+        Vec::new()
+    } else {
+        let all = matrix.clone().symmetric_eigenvalues();
+        all.iter().copied().collect()
+    };
     eigenvalues.sort_by(f64::total_cmp);
     Ok(ShapeCriterion {
         matrix,

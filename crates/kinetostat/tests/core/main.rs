@@ -24,6 +24,7 @@ mod energy_equals_work;
 mod figures;
 mod frames_that_snap;
 mod free_rigid_and_redundant_directions;
+mod fuzz_short;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
 mod links_that_bend;

@@ -1,0 +1,33 @@
+//! The short form of `cargo xtask fuzz`: the same cases in every run.
+
+#[path = "../fuzz/mod.rs"]
+mod fuzz;
+
+#[test]
+fn random_chains_through_every_question() {
+    let (count, largest) = (300, 16);
+    let mut all = fuzz::Outcome::default();
+    let mut faults = Vec::new();
+    for seed in 0..count {
+        match fuzz::run(seed, largest) {
+            Ok(outcome) => all.add(outcome),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    println!("{all:?}");
+    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(all.solved > 100, "{all:?}");
+}
+
+/// The checks are worth something only if they see what is wrong.
+#[test]
+fn a_coordinate_that_is_off_is_noticed() {
+    let seen: Vec<bool> = (0..400).filter_map(fuzz::notices).collect();
+    let missed = seen.iter().filter(|s| !**s).count();
+    println!("{missed} of {} missed", seen.len());
+    assert!(
+        seen.len() >= 20 && missed * 20 <= seen.len(),
+        "{missed} of {}",
+        seen.len()
+    );
+}

@@ -1,0 +1,402 @@
+//! What must hold for every answer, whatever was asked. Statics are computed again here: by the
+//! oracle's kinematics and by differences of energies written down anew.
+
+use kinetostat::{
+    ChainBlocks, ChainProblem, ChainStiffness, Direction, DirectionKind, Equilibrium, Error,
+    Inapplicable, Kinematics, Load, MotionKind, Prescribed, ShapeStability, SpringBlock, SpringLaw,
+    Wrench, load_energy,
+};
+use nalgebra::{DMatrix, Isometry3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
+
+use crate::oracle::Frames;
+
+fn all_finite<'a>(what: &str, numbers: impl IntoIterator<Item = &'a f64>) {
+    for (i, x) in numbers.into_iter().enumerate() {
+        assert!(x.is_finite(), "{what}[{i}] is {x}");
+    }
+}
+
+/// An error says where, and what was expected or found; it never shows a number that the input
+/// did not hold.
+pub fn explained(error: &Error, place: &str, spoilt: bool) {
+    let words = error.to_string();
+    assert!(words.len() > 20, "too short: {words}");
+    assert!(words.contains(place), "no place '{place}': {words}");
+    assert!(
+        spoilt || !(words.contains("NaN") || words.contains(" inf ")),
+        "not a number: {words}"
+    );
+    if let Error::NotConverged { last, .. } = error {
+        all_finite("last iterate", last);
+    }
+}
+
+fn directions(list: &[Direction]) {
+    assert_eq!(list.len(), 6, "six directions");
+    for d in list {
+        let rigid = d.kind == DirectionKind::Rigid;
+        assert_eq!(d.stiffness_n_per_m == f64::INFINITY, rigid, "{d:?}");
+        assert!(rigid || d.stiffness_n_per_m.is_finite(), "{d:?}");
+        all_finite("twist", d.twist.0.iter());
+        all_finite("motion", d.behind.iter().map(|s| &s.motion));
+        all_finite("share", d.behind.iter().map(|s| &s.share));
+        assert!(!d.in_words().contains("NaN"), "{}", d.in_words());
+    }
+}
+
+/// Numbers and rank of a stiffness.
+pub fn stiffness(k: &ChainStiffness) {
+    all_finite("K_C", k.cartesian.matrix.iter());
+    all_finite("K_Cq", k.passive.iter());
+    all_finite("K_Ctheta", k.springs.iter());
+    directions(&k.directions);
+    let rank = k.count(DirectionKind::Finite) + k.count(DirectionKind::Negative);
+    assert_eq!(k.rank, rank, "rank and directions disagree");
+}
+
+/// What the forms of a stiffness answer, where they apply.
+pub fn blocks(blocks: &ChainBlocks) {
+    let order: Vec<usize> = (0..blocks.passive_joints().len()).collect();
+    let form = |what: &str, answer: Result<Vec<f64>, Inapplicable>| match answer {
+        Ok(numbers) => all_finite(what, &numbers),
+        Err(why) => assert!(why.to_string().len() > 20, "{what}: {why}"),
+    };
+    let list = |m: Matrix6<f64>| m.iter().copied().collect::<Vec<f64>>();
+    form("block inverse", blocks.block_inverse().map(list));
+    form("closed form", blocks.closed_form().map(list));
+    let recursion = blocks.recursion(&order).map(|r| {
+        let mut all = list(r.matrix);
+        all.extend(r.pivots);
+        all
+    });
+    form("recursion", recursion);
+    let loaded = blocks.loaded_closed_form().map(|c| {
+        let mut all = list(c.cartesian);
+        all.extend(c.passive.iter().chain(c.springs.iter()));
+        all
+    });
+    form("loaded closed form", loaded);
+    let c = blocks.compliance();
+    all_finite("compliance", c.springs.iter());
+    for twist in c.free.iter().chain(&c.rigid) {
+        all_finite("motion", twist.0.iter());
+    }
+    assert!(c.rank() <= 6);
+}
+
+pub fn stability(s: &ShapeStability, n: usize) {
+    match s.margin {
+        Some(mu) => {
+            assert!(!mu.is_nan(), "margin is NaN");
+            assert_eq!(s.stable, mu < 1.0, "verdict and margin {mu} disagree");
+        }
+        None => assert!(s.stable, "unstable without inner freedom"),
+    }
+    assert!(s.mode.is_empty() || s.mode.len() == n, "length of the mode");
+    all_finite("mode", &s.mode);
+}
+
+/// Logarithm of a motion: exponential coordinates.
+fn logarithm(pose: &Isometry3<f64>) -> Vector6<f64> {
+    let f = pose.rotation.scaled_axis();
+    let p = pose.translation.vector;
+    let angle = f.norm();
+    let c = if angle < 1e-4 {
+        1.0 / 12.0
+    } else {
+        (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle)
+    };
+    let once = f.cross(&p);
+    let v = p - 0.5 * once + c * f.cross(&once);
+    Vector6::new(v.x, v.y, v.z, f.x, f.y, f.z)
+}
+
+/// Strain of a block of six coordinates by its law.
+fn strain(law: &SpringLaw, d: &Vector6<f64>) -> Vector6<f64> {
+    let turn = |axis: Vector3<f64>, angle: f64| UnitQuaternion::from_scaled_axis(axis * angle);
+    let rotation = turn(Vector3::x(), d[3]) * turn(Vector3::y(), d[4]) * turn(Vector3::z(), d[5]);
+    match law {
+        SpringLaw::Bowing(law) => {
+            let (h, f) = (law.length, rotation.scaled_axis());
+            let bow =
+                |w: f64, p: f64| 0.5 * (1.2 * w * w / h - 0.2 * w * p + 2.0 / 15.0 * h * p * p);
+            let x = d[0] + bow(d[1], f.z) + bow(d[2], -f.y);
+            Vector6::new(x, d[1], d[2], f.x, f.y, f.z)
+        }
+        SpringLaw::Logarithm(law) => {
+            let ahead = Vector3::new(d[0] + law.length, d[1], d[2]);
+            let mut e = logarithm(&Isometry3::from_parts(ahead.into(), rotation));
+            e[0] -= law.length;
+            e
+        }
+        _ => *d,
+    }
+}
+
+/// Torques of a block at coordinates, and how exact they are: by its matrix, or `S^T K e` with the
+/// strain `e` differentiated by differences. `None` where a rotation vector is near its end at pi.
+fn block_torque(
+    block: &SpringBlock,
+    x: &[f64],
+    posture: &[f64],
+    length: f64,
+) -> Option<(Vec<f64>, f64)> {
+    let n = block.len();
+    let deflection: Vec<f64> = (0..n).map(|i| x[block.first + i] - block.rest[i]).collect();
+    let matrix: Matrix6<f64> = match &block.law {
+        SpringLaw::Bowing(law) => law.matrix,
+        SpringLaw::Logarithm(law) => law.matrix,
+        _ => {
+            let k: DMatrix<f64> = block.stiffness_at(posture);
+            let torque = (0..n)
+                .map(|i| (0..n).map(|j| k[(i, j)] * deflection[j]).sum())
+                .collect();
+            return Some((torque, 1e-13));
+        }
+    };
+    let own = match &block.law {
+        SpringLaw::Bowing(law) => law.length,
+        SpringLaw::Logarithm(law) if law.length > 0.0 => law.length,
+        _ => length,
+    };
+    let d = Vector6::from_column_slice(&deflection);
+    if (3..6).any(|k| d[k].abs() > 1.2) {
+        return None;
+    }
+    let force = matrix * strain(&block.law, &d);
+    let torque = (0..6)
+        .map(|k| {
+            let step = 1e-3 * if k < 3 { own } else { 1.0 };
+            let at = |s: f64| {
+                let mut near = d;
+                near[k] += s * step;
+                strain(&block.law, &near)
+            };
+            let slope = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step);
+            slope.dot(&force)
+        })
+        .collect();
+    Some((torque, 1e-8))
+}
+
+/// Wrenches of all loads at the given state.
+fn wrenches(problem: &ChainProblem<'_>, x: &[f64]) -> Vec<(usize, Wrench)> {
+    let chain = problem.chain;
+    let kinematics = Kinematics::new(chain, &problem.base, x, &problem.commands, false);
+    let mut list = Vec::new();
+    for load in &problem.loads {
+        match load {
+            Load::Dead { node, wrench } => list.push((*node, *wrench)),
+            Load::Gravity(g) => {
+                let bodies = chain.bodies().iter();
+                list.extend(bodies.map(|b| (b.node, Wrench::new(g * b.mass, Vector3::zeros()))));
+            }
+            Load::Custom(load) => load.wrenches(&kinematics, &mut list),
+            _ => panic!("a load that this check does not know"),
+        }
+    }
+    list
+}
+
+/// Everything about an equilibrium of a problem.
+pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
+    let chain = problem.chain;
+    let n = chain.coordinate_count();
+    assert_eq!(e.coordinates.len(), n);
+    assert_eq!(e.spring_torques.len(), n);
+    assert_eq!(e.nodes.len(), chain.nodes().len());
+    all_finite("coordinates", &e.coordinates);
+    all_finite("wrench", e.wrench.0.iter());
+    all_finite("spring torques", &e.spring_torques);
+    all_finite("energy", [&e.energy]);
+    all_finite("residual", [&e.residual.closure_m, &e.residual.torque]);
+    for pose in e.nodes.iter().chain([&e.tip]) {
+        all_finite("pose", pose.to_homogeneous().iter());
+    }
+    stiffness(&e.stiffness);
+    stability(&e.stability, n);
+    for link in e.link_loads(chain) {
+        all_finite(
+            "axial load",
+            [&link.axial_force, &link.euler_load, &link.share],
+        );
+    }
+
+    let scale = chain.scale();
+    let frames = Frames::new(chain, &problem.base, &e.coordinates, &problem.commands);
+    // Rounding of a position grows with everything that lies before it.
+    let reach = e.coordinates.iter().zip(chain.coordinates());
+    let reach = reach
+        .filter(|(_, c)| c.kind == MotionKind::Prismatic)
+        .map(|(x, _)| x.abs())
+        .chain(problem.commands.iter().map(|x| x.abs()))
+        .fold(
+            scale.length + problem.base.translation.vector.norm(),
+            |a, b| a + b,
+        );
+    let target = &problem.end.pose;
+    let mut miss = frames.miss(frames.tip(), target);
+    // The oracle's logarithm ends below pi.
+    let turn = target.rotation * frames_rotation(&e.tip).inverse();
+    let turn = turn.scaled_axis();
+    for k in 0..3 {
+        miss[3 + k] = turn[k];
+    }
+    let back: Rotation3<f64> = problem.end.axes.inverse();
+    let d = back * miss.fixed_rows::<3>(0);
+    let w = back * miss.fixed_rows::<3>(3);
+    let lack = Wrench(problem.end.wrench.0 - e.wrench.0).rotated(&back);
+    let unit = scale.stiffness.sqrt();
+    let natural = unit * scale.length;
+    let mut loads = 1e-9 * natural;
+    for k in 0..6 {
+        loads = loads.max(e.wrench.0[k].abs() / if k < 3 { unit } else { natural });
+    }
+    let kinetostat_tip = frames.miss(frames.tip(), &e.tip).fixed_rows::<3>(0).norm();
+    assert!(kinetostat_tip <= 1e-11 * reach, "tip: {kinetostat_tip:e}");
+
+    // Torques.
+    let mut all = wrenches(problem, &e.coordinates);
+    all.push((frames.tip(), e.wrench));
+    for (_, wrench) in &all {
+        all_finite("wrench of a load", wrench.0.iter());
+    }
+    let torque = frames.torque(&all);
+    let mut spring = vec![0.0; n];
+    let mut exact = 1e-13_f64;
+    for block in chain.springs() {
+        let own = block_torque(block, &e.coordinates, &problem.posture, scale.length);
+        let (own, exactness) = own.unwrap_or_else(|| {
+            let range = block.first..block.first + block.len();
+            (e.spring_torques[range].to_vec(), 1e-13)
+        });
+        exact = exact.max(exactness);
+        for (i, t) in own.into_iter().enumerate() {
+            spring[block.first + i] += t;
+        }
+    }
+    let mut factor = vec![0.0; n];
+    for (i, c) in chain.coordinates().iter().enumerate() {
+        factor[i] = match c.kind {
+            MotionKind::Prismatic => 1.0 / unit,
+            MotionKind::Revolute => 1.0 / natural,
+        };
+    }
+    for block in chain.springs() {
+        let k = block.stiffness_at(&problem.posture);
+        for i in 0..block.len() {
+            factor[block.first + i] = 1.0 / k[(i, i)].sqrt();
+        }
+    }
+    for i in 0..n {
+        let size = torque[i]
+            .abs()
+            .max(spring[i].abs())
+            .max(e.spring_torques[i].abs());
+        loads = loads.max(size * factor[i]);
+    }
+    // Rounding: of a chain of this size, and of loads that cancel.
+    let force: f64 = all.iter().map(|(_, w)| w.force().norm()).sum();
+    let moment: f64 = all.iter().map(|(_, w)| w.moment().norm()).sum();
+    let floor = 1e-13 * natural;
+    let cancelled = |i: usize| {
+        let turning = force * (reach + scale.length) + moment;
+        let kind = chain.coordinates()[i].kind;
+        let unit = if kind == MotionKind::Prismatic {
+            scale.length
+        } else {
+            1.0
+        };
+        1e-12 * turning / unit * factor[i]
+    };
+    for i in 0..n {
+        let floor = floor + cancelled(i);
+        let left = (torque[i] - spring[i]).abs() * factor[i];
+        assert!(
+            left <= slack.max(2.0 * exact) * loads + floor,
+            "torque {i} ('{}') unbalanced: {left:e} of {loads:e}, reported {:?}",
+            chain.coordinates()[i].name,
+            e.residual
+        );
+        let reported = (e.spring_torques[i] - spring[i]).abs() * factor[i];
+        assert!(
+            reported <= slack.max(2.0 * exact) * loads + floor,
+            "spring torque {i}"
+        );
+    }
+    for k in 0..6 {
+        match problem.end.prescribed[k] {
+            Prescribed::Pose => {
+                let gap = if k < 3 { d[k] } else { w[k - 3] * scale.length };
+                assert!(
+                    gap.abs() <= 1e-9 * reach,
+                    "direction {k} misses by {gap:e} of {reach:e}"
+                );
+            }
+            Prescribed::Wrench => {
+                let size = lack.0[k].abs() / if k < 3 { unit } else { natural };
+                assert!(
+                    size <= slack * loads + floor,
+                    "direction {k} lacks {size:e} of {loads:e}"
+                );
+            }
+        }
+    }
+    if e.conservative {
+        energy_balance(problem, e, &all, &frames, &factor, loads);
+    }
+}
+
+fn frames_rotation(tip: &kinetostat::Pose) -> UnitQuaternion<f64> {
+    tip.rotation
+}
+
+/// Slope of the loads' energy along every coordinate against the torque of their wrenches.
+fn energy_balance(
+    problem: &ChainProblem<'_>,
+    e: &Equilibrium,
+    all: &[(usize, Wrench)],
+    frames: &Frames,
+    factor: &[f64],
+    loads: f64,
+) {
+    let Ok(Some(here)) = load_energy(problem, &e.coordinates) else {
+        panic!("conservative, but without an energy");
+    };
+    assert!(here.is_finite(), "energy of the loads is {here}");
+    // The end's own part is what is prescribed.
+    let axes = &problem.end.axes;
+    let mut given = problem.end.wrench.rotated(&axes.inverse());
+    for k in 0..6 {
+        if problem.end.prescribed[k] == Prescribed::Pose {
+            given.0[k] = 0.0;
+        }
+    }
+    let mut all = all.to_vec();
+    let last = all.len() - 1;
+    all[last].1 = given.rotated(axes);
+    let torque = frames.torque(&all);
+    let length = problem.chain.scale().length;
+    for (i, c) in problem.chain.coordinates().iter().enumerate() {
+        let step = 1e-4
+            * if c.kind == MotionKind::Prismatic {
+                length
+            } else {
+                1.0
+            };
+        let at = |s: f64| {
+            let mut x = e.coordinates.clone();
+            x[i] += s * step;
+            load_energy(problem, &x).ok().flatten().unwrap_or(f64::NAN)
+        };
+        let points = [at(1.0), at(-1.0), at(2.0), at(-2.0)];
+        let slope = (8.0 * (points[0] - points[1]) - (points[2] - points[3])) / (12.0 * step);
+        // Differences of large energies are coarse; where they are, nothing is learnt.
+        let coarse = 1e-14 * here.abs().max(points[0].abs()) / step * factor[i];
+        let left = (slope + torque[i]).abs() * factor[i];
+        assert!(
+            left <= 1e-4 * loads + 10.0 * coarse,
+            "energy of the loads along {i}: {left:e} of {loads:e}"
+        );
+    }
+}

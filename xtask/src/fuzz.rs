@@ -1,0 +1,41 @@
+//! `cargo xtask fuzz`: random chains under random loads through every question, for a stated time.
+
+use anyhow::{Context, Result, bail};
+
+use crate::{cargo, step};
+
+/// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.
+pub fn run(options: &[&str]) -> Result<()> {
+    let (mut minutes, mut seed, mut case) = ("10", "1", None);
+    let mut words = options.iter();
+    while let Some(word) = words.next() {
+        let value = words
+            .next()
+            .with_context(|| format!("{word} needs a number"))?;
+        value
+            .parse::<f64>()
+            .with_context(|| format!("{word} {value}: a number is needed"))?;
+        match *word {
+            "--minutes" => minutes = value,
+            "--seed" => seed = value,
+            "--case" => case = Some(*value),
+            _ => bail!("{word} is unknown; there are --minutes, --seed and --case"),
+        }
+    }
+    let mut command = cargo();
+    command.args([
+        "run",
+        "--quiet",
+        "--release",
+        "--package",
+        "kinetostat",
+        "--example",
+        "fuzz_chains",
+        "--",
+    ]);
+    match case {
+        Some(case) => command.args(["case", case]),
+        None => command.args([minutes, seed]),
+    };
+    step("fuzz", &mut command)
+}
