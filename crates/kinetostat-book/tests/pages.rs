@@ -157,6 +157,12 @@ fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
 }
 
 #[test]
+fn the_picture_of_the_readme_is_that_of_the_introduction() {
+    let shown = read(&root().join("book/src/pictures/groove.svg"));
+    assert_eq!(shown, read(&root().join("docs/preview.svg")));
+}
+
+#[test]
 fn no_example_escapes_the_tests() {
     let tested = read(&root().join("crates/kinetostat-book/src/lib.rs"));
     let source = root().join("book/src");

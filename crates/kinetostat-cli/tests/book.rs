@@ -3,7 +3,8 @@
 //! A chapter is one directory and one story: a fence after `<!-- file: NAME -->` is written there as
 //! a file, and every `console` fence is run, in order. Lines after `$ ` are commands for `sh`; what
 //! follows is their whole output, where `...` stands for any lines and `[..]` for anything within a
-//! line. A command must succeed unless the line `? CODE` follows it.
+//! line. A command must succeed unless the line `? CODE` follows it. Pictures that the commands draw are
+//! those that the chapter shows.
 
 #![cfg(unix)]
 
@@ -141,7 +142,29 @@ fn play(page: &Path) -> (usize, Vec<String>) {
             ));
         }
     }
+    wrong.extend(other_pictures(page, &text, here.path()));
     (count, wrong)
+}
+
+/// Pictures of a chapter that its commands draw otherwise. With `BOOK_UPDATE=1` they are taken over.
+fn other_pictures(page: &Path, text: &str, here: &Path) -> Vec<String> {
+    let mut other = Vec::new();
+    for rest in text.split("pictures/").skip(1) {
+        let name = rest.split(')').next().unwrap_or_default();
+        let (drawn, shown) = (here.join(name), pages().join("pictures").join(name));
+        if !drawn.exists() || std::fs::read(&drawn).ok() == std::fs::read(&shown).ok() {
+            continue;
+        }
+        if std::env::var_os("BOOK_UPDATE").is_some() {
+            std::fs::copy(&drawn, &shown).expect("a picture");
+        } else {
+            other.push(format!(
+                "{}: {name} is drawn otherwise now: take it over with BOOK_UPDATE=1",
+                page.display()
+            ));
+        }
+    }
+    other
 }
 
 /// All chapters, folders included.
