@@ -21,6 +21,7 @@ mod condensed_equals_flattened;
 mod curves_and_bifurcations;
 mod end_conditions_are_consistent;
 mod energy_equals_work;
+mod euler_angles;
 mod figures;
 mod frames_that_snap;
 mod free_rigid_and_redundant_directions;

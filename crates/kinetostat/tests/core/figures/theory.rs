@@ -1,6 +1,7 @@
 //! The report's iteration and exact Newton (theory note, section 1), and frames that snap.
 
 use super::{Figures, Worst};
+use crate::euler_angles::compared;
 use crate::frames_that_snap::{
     POUND, apart, lee_settings, lees_frame, limits_by_shooting, limits_of_chain, williams_settings,
     williams_toggle,
@@ -198,6 +199,50 @@ fn frames_that_snap() {
         0.0,
         1e-4,
         "share of the first (test's tolerance)",
+    );
+    f.finish();
+}
+
+#[test]
+fn spatial_and_euler_versions() {
+    let mut f = Figures::new();
+    let [mut h, mut k, mut again] = [(); 3].map(|()| Worst::new());
+    let (mut h_without, mut k_without) = (Worst::new(), Worst::new());
+    let list = compared();
+    for c in &list {
+        h.add(c.hessian);
+        k.add(c.stiffness);
+        again.add(c.solved_again);
+        // The least of them, as what it is times smaller than the whole.
+        h_without.add(1.0 / c.hessian_without);
+        k_without.add(1.0 / c.stiffness_without.0);
+    }
+    let name = "Euler-angle version, spatial chains with end moments";
+    f.at_least(&format!("{name}: chains"), list.len(), 4, "of 40 seeds");
+    let unit = "share (test's tolerance)";
+    let rule = "H - (H_Euler + J_E^T D J_E)";
+    f.at_most(&format!("{name}: {rule}"), &h, 1e-9, unit);
+    let rule = "K - B^-T (K_Euler - D) B^-1";
+    f.at_most(&format!("{name}: {rule}"), &k, 1e-9, unit);
+    f.at_most(
+        &format!("{name}: {rule}, K_Euler by re-solved wrenches"),
+        &again,
+        1e-8,
+        unit,
+    );
+    let unit = "H over what is missing";
+    f.at_most(
+        &format!("{name}: H without D is off by at least 1 %"),
+        &h_without,
+        100.0,
+        unit,
+    );
+    let unit = "K over what is missing";
+    f.at_most(
+        &format!("{name}: K without D is off by at least 1 %"),
+        &k_without,
+        100.0,
+        unit,
     );
     f.finish();
 }
