@@ -255,6 +255,23 @@ pub(crate) fn solve(
     stage.is("following the curve");
     let mut curves = follow(&problem, &q.parameter, &start, value, &settings)?;
     let mut warnings = Vec::new();
+    if !q.by_load() && is_locked(&curves) {
+        // The load grows at one displacement, the end of the range: rounding must not end the curve.
+        let room = 1e-6 * (q.range.1 - q.range.0);
+        if value <= q.range.0 {
+            settings.range.0 -= room;
+        }
+        if value >= q.range.1 {
+            settings.range.1 += room;
+        }
+        curves = follow(&problem, &q.parameter, &start, value, &settings)?;
+        if q.force_limits.is_none() {
+            warnings.push(
+                "the chain is stretched out and locked at the start: the load grows there without any displacement; --force-limits LOW HIGH keeps the curve to the loads of interest"
+                    .to_owned(),
+            );
+        }
+    }
     if q.all {
         let mut values = vec![value, q.range.0, q.range.1];
         values.dedup();
@@ -332,6 +349,17 @@ pub(crate) fn solve(
         conservative,
         warnings,
         units: Units::of(q),
+    })
+}
+
+/// The displacement stands still at the start.
+fn is_locked(curves: &Curves<'_>) -> bool {
+    let points = curves.branches.first().map(|b| b.points.as_slice());
+    points.is_some_and(|list| {
+        list.len() < 20
+            && list
+                .iter()
+                .all(|p| !p.slope.is_finite() || p.slope.abs() > 1e9)
     })
 }
 

@@ -42,8 +42,6 @@ pub(crate) fn plot(a: &CurveAnswer) -> Plot {
             .collect();
         lines.extend(parts(&branch.points, &specials, a.grows == "load"));
     }
-    // The start's own branch and what is stable come on top.
-    lines.sort_by_key(|l| !l.dashed);
     Plot {
         title: format!("{}: {}", a.model, title(a)),
         x_label: label(u.displacement, u.displacement_unit),
@@ -89,7 +87,6 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
     let mut how = holds(points.get(1).unwrap_or(first));
     let mut open = start(how, place(first));
     let mut list: Vec<(usize, (f64, f64))> = Vec::new();
-    let mut held: Vec<(Holds, usize)> = vec![(how, open)];
     for i in 1..points.len() {
         let (before, here) = (place(&points[i - 1]), place(&points[i]));
         let next = holds(&points[i]);
@@ -107,7 +104,6 @@ fn parts(points: &[PointAnswer], specials: &[&NamedPoint], by_load: bool) -> Vec
         list.push((open, at));
         how = next;
         open = start(how, at);
-        held.push((how, open));
         list.push((open, here));
     }
     for (line, point) in list {
@@ -137,10 +133,7 @@ fn marks(a: &CurveAnswer) -> Vec<PlotMark> {
     let (width, height) = (size(0), size(1));
     for p in a.named_points.iter().filter(|p| p.kind != "end") {
         let at = (p.point.shown[0], p.point.shown[1]);
-        let words = match p.kind {
-            "landing" => "",
-            kind => kind_in_words(kind),
-        };
+        let words = kind_in_words(p.kind);
         let detail = format!(
             "{}: {} {}, {} {}: {}",
             p.name,

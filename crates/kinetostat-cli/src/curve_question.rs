@@ -463,6 +463,13 @@ pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question>
             ));
         }
     }
+    if question.driven.is_some()
+        && (args.force.is_some() || args.moment.is_some() || !args.grow.is_empty())
+    {
+        return Err(Failure::input(
+            "--force, --moment and --grow are loads that grow with --factor; here the motion grows. A load that acts all the time is --constant-force, --constant-moment or --load NODE=FX,FY,FZ",
+        ));
+    }
     if let Some(driven) = question.driven {
         question.parameter = Parameter::Displacement(Twist(driven.twist()));
         question.holding = holding(

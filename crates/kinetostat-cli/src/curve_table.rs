@@ -18,6 +18,7 @@ pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
     for p in a.named_points.iter().filter(|p| p.kind != "end") {
         out.push_str(&item(&point_in_words(p)));
     }
+    out.push_str(&ends(a));
     out.push_str(&jumps(a));
     out.push_str(&critical(a));
     out.push_str(&branches(a));
@@ -37,60 +38,72 @@ fn verdict(a: &CurveAnswer) -> String {
     let u = &a.units;
     let place = |p: &NamedPoint| {
         let load = if u.load_unit.is_empty() {
-            format!("the load factor {}", number(p.point.shown[1], 6))
+            format!("the load factor {}", short(p.point.shown[1]))
         } else {
-            format!("{} {}", number(p.point.shown[1], 6), u.load_unit)
+            format!("{} {}", short(p.point.shown[1]), u.load_unit)
         };
         format!(
             "{} {} and {load}",
-            number(p.point.shown[0], 6),
+            short(p.point.shown[0]),
             u.displacement_unit
         )
     };
-    // What stops the start's own branch first, on the way from nothing.
-    let held = usize::from(a.grows != "load");
-    let starts_stable = a.named_points.first().is_none_or(|p| {
-        if held == 1 {
-            p.point.stable_under_prescribed_motion
-        } else {
-            p.point.stable_under_dead_load
-        }
+    let first = |k: usize| {
+        let value = |q: &NamedPoint| q.point.shown[usize::from(k == 0 && a.grows == "load")];
+        let start = a.named_points.first().map_or(0.0, value);
+        a.named_points
+            .iter()
+            .filter(|p| p.limits[k] && p.branches.contains(&1))
+            .min_by(|p, q| {
+                let from = |p: &NamedPoint| (value(p) - start).abs();
+                from(p).total_cmp(&from(q))
+            })
+    };
+    let start = a.named_points.first().map(|p| {
+        [
+            p.point.stable_under_dead_load,
+            p.point.stable_under_prescribed_motion,
+        ]
     });
-    let under = if held == 1 {
-        "while the motion is prescribed"
-    } else {
-        "under this load"
-    };
-    if !starts_stable {
-        return format!("The chain does NOT keep its shape at the start {under}.");
-    }
-    let mut critical: Vec<&NamedPoint> = a
-        .named_points
-        .iter()
-        .filter(|p| p.limits[held] && p.branches.contains(&1))
-        .collect();
-    let from = |p: &NamedPoint| {
-        let value = |q: &NamedPoint| {
-            if held == 1 {
-                q.point.shown[0]
-            } else {
-                q.point.shown[1]
-            }
-        };
-        (value(p) - a.named_points.first().map_or(0.0, value)).abs()
-    };
-    critical.sort_by(|p, q| from(p).total_cmp(&from(q)));
-    match critical.first() {
-        None => format!("The shape holds over the whole range {under}."),
-        Some(p) => {
+    let ends = |k: usize| {
+        first(k).map(|p| {
             let what = match p.kind {
                 "pitchfork" => "buckles",
                 "load_limit" | "displacement_limit" => "snaps",
                 _ => "loses its stability",
             };
-            format!("The chain {what} at {} ({}).", place(p), p.name)
-        }
+            (what, format!("at {} ({})", place(p), p.name))
+        })
+    };
+    let [dead, held] = start.unwrap_or([true, true]);
+    if a.grows == "load" {
+        return match (dead, ends(0)) {
+            (false, _) => "The chain does NOT hold at the start under this load.".into(),
+            (true, Some((what, place))) => format!("The chain {what} {place}."),
+            (true, None) => "The chain holds over the whole range under this load.".into(),
+        };
     }
+    let mut text = match (held, ends(1)) {
+        (false, _) => {
+            "The chain does NOT keep its shape at the start, although its motion is prescribed."
+                .to_owned()
+        }
+        (true, Some((what, place))) => format!("The chain {what} {place}."),
+        (true, None) => {
+            "The shape holds over the whole range while the motion is prescribed.".to_owned()
+        }
+    };
+    let same = first(0).map(|p| &p.name) == first(1).map(|p| &p.name);
+    match (held, dead, ends(0)) {
+        (true, false, _) => text.push_str(
+            " Under a dead load in place of the prescribed motion it would run away at once.",
+        ),
+        (true, true, Some((what, place))) if !same => text.push_str(&format!(
+            " Under a dead load in place of the prescribed motion it {what} {place}."
+        )),
+        _ => {}
+    }
+    text
 }
 
 fn table(a: &CurveAnswer) -> String {
@@ -125,7 +138,9 @@ fn table(a: &CurveAnswer) -> String {
             p.name.clone(),
             value(displacement),
             value(load),
-            if slope.abs() > 1e9 {
+            if slope.abs() < 1e-15 {
+                "0".to_owned()
+            } else if !slope.is_finite() || slope.abs() > 1e9 {
                 "locked".to_owned()
             } else {
                 number(slope, 5)
@@ -154,6 +169,14 @@ fn value(x: f64) -> String {
     number(x, 7)
 }
 
+/// For sentences.
+fn short(x: f64) -> String {
+    if x.abs() < 1e-12 {
+        return "0".into();
+    }
+    number(x, 6)
+}
+
 fn verdict_of(limit: bool, stable: bool) -> String {
     match (limit, stable) {
         (true, _) => "limit",
@@ -176,6 +199,41 @@ fn point_in_words(p: &NamedPoint) -> String {
         text.push_str(&format!("; the mode moves {}", p.mode_in_words));
     }
     text
+}
+
+/// The ends of branches, those of one reason together.
+fn ends(a: &CurveAnswer) -> String {
+    let ends: Vec<&NamedPoint> = a.named_points.iter().filter(|p| p.kind == "end").collect();
+    if ends.len() > MOST_ENDS {
+        return String::new();
+    }
+    let why = |p: &NamedPoint| p.in_words.split_once(": ").map(|w| w.1.to_owned());
+    let mut out = String::new();
+    let mut told: Vec<Option<String>> = Vec::new();
+    for p in &ends {
+        let reason = why(p);
+        if told.contains(&reason) {
+            continue;
+        }
+        let names: Vec<&str> = ends
+            .iter()
+            .filter(|q| why(q) == reason)
+            .map(|q| q.name.as_str())
+            .collect();
+        let text = format!(
+            "{}: {} ({})",
+            names.join(", "),
+            if names.len() == 1 {
+                "end of a branch"
+            } else {
+                "ends of branches"
+            },
+            reason.as_deref().unwrap_or_default()
+        );
+        out.push_str(&item(&text));
+        told.push(reason);
+    }
+    out
 }
 
 fn jumps(a: &CurveAnswer) -> String {

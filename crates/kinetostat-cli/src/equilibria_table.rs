@@ -237,11 +237,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
     let at = |p: &Vector3<f64>| (1e3 * p[u], 1e3 * p[v]);
     let mut lines = Vec::new();
     let mut marks = Vec::new();
-    // What is stable comes on top.
-    let pairs: Vec<_> = a.equilibria.iter().zip(&a.outlines).collect();
-    let (stable, unstable): (Vec<_>, Vec<_>) = pairs.into_iter().partition(|(e, _)| e.stable);
-    let mut colours = 0..;
-    for (e, outline) in stable.iter().chain(&unstable) {
+    for (e, outline) in a.equilibria.iter().zip(&a.outlines) {
         lines.push(PlotLine {
             name: format!(
                 "{}: {}, {} J",
@@ -249,7 +245,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
                 if e.stable { "stable" } else { "unstable" },
                 number(e.energy_j, 4)
             ),
-            colour: colours.next().unwrap_or(0),
+            colour: e.number - 1,
             dashed: !e.stable,
             points: outline.iter().map(at).collect(),
         });
@@ -260,7 +256,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
                 let away = a
                     .outlines
                     .iter()
-                    .filter(|other| *other != *outline)
+                    .filter(|other| *other != outline)
                     .flat_map(|other| other.iter())
                     .map(|q| (p - q).norm())
                     .fold(f64::INFINITY, f64::min);
@@ -280,7 +276,27 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
             });
         }
     }
-    lines.reverse();
+    // Both ends, if all shapes share them.
+    for (name, end) in [
+        ("base", a.outlines.first().and_then(|o| o.first())),
+        ("tool", a.outlines.first().and_then(|o| o.last())),
+    ] {
+        let shared = |p: &Vector3<f64>| {
+            a.outlines.iter().all(|o| {
+                [o.first(), o.last()]
+                    .iter()
+                    .flatten()
+                    .any(|q| (p - **q).norm() < 1e-9)
+            })
+        };
+        if let Some(p) = end.filter(|p| shared(p)) {
+            marks.push(PlotMark {
+                at: at(p),
+                name: name.into(),
+                detail: format!("{name} of all shapes"),
+            });
+        }
+    }
     Plot {
         title: format!("{}: shapes of equilibrium", a.model),
         x_label: format!("{}, mm", axes[u]),

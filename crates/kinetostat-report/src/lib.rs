@@ -38,6 +38,8 @@ mod outline;
 mod page;
 mod plan;
 mod plot;
+mod plot_label;
+mod plot_path;
 mod preview;
 mod svg;
 mod text;

@@ -3,14 +3,21 @@
 //! For force-deflection curves and for the figures of `reproduce`: stable branches are solid, unstable
 //! ones dashed, limit and bifurcation points carry their names.
 
+use std::collections::BTreeMap;
+
 use crate::axis::{Scale, Span};
 use crate::chart::legend;
-use crate::label::{Frame, Labels, TEXT_SIZE};
+use crate::label::{Frame, TEXT_SIZE};
 use crate::outline::path_data;
+use crate::plot_label::Names;
+use crate::plot_path::Drawn;
 use crate::svg::{Anchor, Svg};
 use crate::{number, text};
 
 const SIZE: (f64, f64) = (760.0, 480.0);
+
+/// Size of the title; the style sheet says the same.
+const TITLE_SIZE: f64 = 13.5;
 
 const STYLE: &str = concat!(
     include_str!("template/palette.css"),
@@ -29,7 +36,8 @@ pub struct Plot {
     pub x_label: String,
     /// Quantity and unit of the vertical axis.
     pub y_label: String,
-    /// The curves, drawn in order.
+    /// The curves, drawn in order, dashed ones below solid ones. What a dashed line repeats of another
+    /// in its style is left out.
     pub lines: Vec<PlotLine>,
     /// Points with names.
     pub marks: Vec<PlotMark>,
@@ -63,19 +71,19 @@ impl Plot {
     /// The plot as an SVG document with its own style, right on light and on dark pages.
     #[must_use]
     pub fn svg(&self) -> String {
-        self.draw().document(SIZE, &self.title, STYLE)
+        self.draw(false).document(SIZE, &self.title, STYLE)
     }
 
     /// As [`Plot::svg`] with one unit as long on both axes: for shapes.
     #[must_use]
     pub fn shape_svg(&self) -> String {
-        self.draw().document(SIZE, &self.title, STYLE)
+        self.draw(true).document(SIZE, &self.title, STYLE)
     }
 
     /// The plot as an element for a page that carries [`Plot::style`].
     #[must_use]
     pub fn element(&self) -> String {
-        self.draw().inline("plot", SIZE, &self.title)
+        self.draw(false).inline("plot", SIZE, &self.title)
     }
 
     /// The style sheet of elements.
@@ -84,7 +92,7 @@ impl Plot {
         STYLE
     }
 
-    fn spans(&self) -> Option<(Span, Span)> {
+    fn spans(&self, shape: bool) -> Option<(Span, Span)> {
         let points = || {
             let lines = self.lines.iter().flat_map(|l| l.points.iter().copied());
             lines
@@ -93,50 +101,83 @@ impl Plot {
         };
         let x = Span::of(points().map(|p| p.0))?;
         let y = Span::of(points().map(|p| p.1))?;
-        Some((
-            x.with_near_zero().widened(),
-            y.with_near_zero().widened().padded(0.05, 0.05),
-        ))
+        Some(if shape {
+            let room = 0.05 * x.length().max(y.length());
+            let wide = |s: Span| Span {
+                low: s.low - room,
+                high: s.high + room,
+            };
+            (wide(x).widened(), wide(y).widened())
+        } else {
+            (
+                beyond(x.with_near_zero().widened()),
+                y.with_near_zero().widened().padded(0.05, 0.05),
+            )
+        })
     }
 
-    fn draw(&self) -> Svg {
-        let mut svg = Svg::default();
-        svg.rectangle("card", (0.5, 0.5), (SIZE.0 - 1.0, SIZE.1 - 1.0), 10.0);
-        let Some((x_span, y_span)) = self.spans() else {
-            let middle = (0.5 * SIZE.0, 0.5 * SIZE.1);
-            svg.text("name", middle, Anchor::Middle, "no points to show");
-            return svg;
-        };
-        svg.text("title", (18.0, 28.0), Anchor::Start, &self.title);
+    /// Title and legend; returns the height that they take.
+    fn head(&self, svg: &mut Svg) -> f64 {
+        let mut base = 28.0;
+        for line in title_lines(&self.title, SIZE.0 - 36.0) {
+            svg.text("title", (18.0, base), Anchor::Start, &line);
+            base += 18.0;
+        }
+        // What is solid first, each in the order of the lines.
         let mut entries: Vec<(String, String)> = Vec::new();
-        for line in self.lines.iter().filter(|l| !l.name.is_empty()) {
-            let entry = (class(line), line.name.clone());
-            if !entries.contains(&entry) {
-                entries.push(entry);
+        for dashed in [false, true] {
+            for line in &self.lines {
+                let entry = (class(line), line.name.clone());
+                if line.dashed == dashed && !line.name.is_empty() && !entries.contains(&entry) {
+                    entries.push(entry);
+                }
             }
         }
         let named: Vec<(&str, String)> = entries
             .iter()
             .map(|(class, name)| (class.as_str(), name.clone()))
             .collect();
-        let legend_height = if named.is_empty() {
-            0.0
-        } else {
-            legend(&mut svg, &named, (18.0, 50.0), SIZE.0 - 18.0)
+        if !named.is_empty() {
+            base += 4.0 + legend(svg, &named, (18.0, base + 4.0), SIZE.0 - 18.0);
+        }
+        base - 2.0
+    }
+
+    fn draw(&self, shape: bool) -> Svg {
+        let mut svg = Svg::default();
+        svg.rectangle("card", (0.5, 0.5), (SIZE.0 - 1.0, SIZE.1 - 1.0), 10.0);
+        let Some((mut x_span, mut y_span)) = self.spans(shape) else {
+            let middle = (0.5 * SIZE.0, 0.5 * SIZE.1);
+            svg.text("name", middle, Anchor::Middle, "no points to show");
+            return svg;
         };
+        let top = self.head(&mut svg);
+        let height = SIZE.1 - top - 54.0;
+        let gutter = |span: &Span| {
+            span.ticks(7)
+                .iter()
+                .map(|tick| text::width(&tick.label, TEXT_SIZE))
+                .fold(0.0, f64::max)
+                + 46.0
+        };
+        if shape {
+            let width = SIZE.0 - gutter(&y_span) - 24.0;
+            let unit = (x_span.length() / width).max(y_span.length() / height);
+            x_span = about(&x_span, unit * width);
+            y_span = about(&y_span, unit * height);
+        }
         let y_ticks = y_span.ticks(7);
-        let widest = y_ticks
-            .iter()
-            .map(|tick| text::width(&tick.label, TEXT_SIZE))
-            .fold(0.0, f64::max);
-        let top = 44.0 + legend_height;
-        let left = widest + 46.0;
+        let left = gutter(&y_span);
         let frame = Frame {
             x: left,
             y: top,
             width: SIZE.0 - left - 24.0,
-            height: SIZE.1 - top - 54.0,
+            height,
         };
+        if shape {
+            // The labels may need more room than before: the unit stays that of the height.
+            x_span = about(&x_span, y_span.length() / height * frame.width);
+        }
         let x = Scale::new(x_span, frame.x, frame.right());
         let y = Scale::new(y_span, frame.bottom(), frame.y);
         svg.rectangle(
@@ -171,12 +212,34 @@ impl Plot {
             let y = y.at(number::drawable(p.1)?);
             Some((x, y))
         };
-        for line in &self.lines {
-            let pixels: Vec<_> = line.points.iter().map(pixel).collect();
-            svg.path(&class(line), &path_data(&pixels));
+        let mut names = Names::within(frame);
+        let mut drawn: BTreeMap<String, Drawn> = BTreeMap::new();
+        // What is solid lies on top of what is dashed.
+        for dashed in [true, false] {
+            for line in self.lines.iter().filter(|l| l.dashed == dashed) {
+                let pixels: Vec<_> = line.points.iter().map(pixel).collect();
+                names.line(&pixels);
+                let class = class(line);
+                let data = if dashed {
+                    let drawn = drawn.entry(class.clone()).or_default();
+                    path_data(&drawn.fresh(&pixels))
+                } else {
+                    path_data(&pixels)
+                };
+                svg.path(&class, &data);
+            }
         }
-        let mut labels = Labels::default();
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
+        for at in at.iter().flatten() {
+            names.mark(*at);
+        }
+        for (mark, at) in self.marks.iter().zip(&at) {
+            if let Some(at) = at
+                && !mark.name.is_empty()
+            {
+                names.write(&mut svg, *at, &mark.name);
+            }
+        }
         for (mark, at) in self.marks.iter().zip(&at) {
             let Some(at) = at else { continue };
             let tooltip = if mark.detail.is_empty() {
@@ -185,20 +248,56 @@ impl Plot {
                 &mark.detail
             };
             svg.marker("mark", *at, tooltip);
-            labels.reserve(Frame {
-                x: at.0 - 5.0,
-                y: at.1 - 5.0,
-                width: 10.0,
-                height: 10.0,
-            });
-        }
-        for (mark, at) in self.marks.iter().zip(&at) {
-            if let Some(at) = at {
-                labels.place(&mut svg, "mark-name", &frame, *at, (0.0, -1.0), &mark.name);
-            }
         }
         svg
     }
+}
+
+/// A little room at both ends, so that what runs along the axis can be seen.
+fn beyond(span: Span) -> Span {
+    let room = 0.02 * span.length();
+    Span {
+        low: span.low - room,
+        high: span.high + room,
+    }
+}
+
+/// A span of a length with the same middle.
+fn about(span: &Span, length: f64) -> Span {
+    Span {
+        low: span.middle() - 0.5 * length,
+        high: span.middle() + 0.5 * length,
+    }
+}
+
+/// A title in at most two lines; what is longer is cut.
+fn title_lines(title: &str, width: f64) -> Vec<String> {
+    let size = |text: &str| 1.08 * text::width(text, TITLE_SIZE);
+    let mut lines = vec![String::new()];
+    for word in title.split_whitespace() {
+        let last = lines.len() - 1;
+        let longer = if lines[last].is_empty() {
+            word.to_owned()
+        } else {
+            format!("{} {word}", lines[last])
+        };
+        if size(&longer) <= width || lines[last].is_empty() {
+            lines[last] = longer;
+        } else if lines.len() < 2 {
+            lines.push(word.to_owned());
+        } else {
+            let fitting = longer.chars().count().saturating_sub(word.chars().count());
+            lines[last] = format!("{}\u{2026}", text::shorten(&lines[last], fitting));
+            break;
+        }
+    }
+    for line in &mut lines {
+        if size(line) > width {
+            let share = width / size(line);
+            *line = text::shorten(line, (share * line.chars().count() as f64) as usize);
+        }
+    }
+    lines
 }
 
 fn class(line: &PlotLine) -> String {
@@ -239,6 +338,42 @@ mod tests {
         assert_eq!(svg.matches("c0 dashed").count(), 2); // line and legend
         assert!(svg.contains("limit point") && svg.contains("displacement, mm"));
         assert!(!svg.contains("NaN") && !svg.contains("<and>"));
+        assert!(plot.shape_svg().contains("limit point"));
         assert!(Plot::default().svg().contains("no points to show"));
+    }
+
+    #[test]
+    fn long_titles_take_two_lines_and_no_more() {
+        let long = "a title of many words that goes on and on ".repeat(8);
+        let lines = title_lines(&long, 700.0);
+        assert_eq!(lines.len(), 2);
+        assert!(lines[1].ends_with('\u{2026}'));
+        assert!(
+            lines
+                .iter()
+                .all(|l| 1.08 * text::width(l, TITLE_SIZE) < 720.0)
+        );
+        assert_eq!(title_lines("short", 700.0), ["short"]);
+        assert_eq!(title_lines(&"x".repeat(500), 700.0).len(), 1);
+    }
+
+    #[test]
+    fn a_shape_is_as_long_both_ways() {
+        let plot = Plot {
+            lines: vec![PlotLine {
+                points: vec![(0.0, 0.0), (100.0, 0.0), (100.0, 100.0)],
+                ..PlotLine::default()
+            }],
+            ..Plot::default()
+        };
+        let svg = plot.shape_svg();
+        let path = svg.split("class=\"line c0\" d=\"").nth(1).unwrap();
+        let path = path.split('"').next().unwrap();
+        let steps: Vec<f64> = path
+            .split(|c: char| c.is_ascii_alphabetic() || c == ' ')
+            .filter_map(|n| n.parse().ok())
+            .collect();
+        let (right, up) = (steps[2], -steps[5]);
+        assert!((right - up).abs() < 0.3, "{right} {up}: {path}");
     }
 }

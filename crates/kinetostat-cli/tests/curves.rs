@@ -1,0 +1,705 @@
+//! `kinetostat curve` and `kinetostat equilibria`: the numbers of the report's chains through the
+//! commands, drawings, tables, refusals, and the same bytes twice.
+
+mod common;
+
+use common::{command, run, shell};
+use serde_json::Value;
+
+/// A Z of three unit links (springs at rest at -30 and 30 degrees) and the straight chain.
+fn chain(rest_deg: f64, q_deg: f64, x_mm: f64) -> String {
+    format!(
+        r#"schema = 1
+
+[mechanism]
+name = "three links"
+
+[[platform]]
+name = "tool"
+home = {{ position_mm = [{x_mm:?}, 0, 0] }}
+
+[chain.arm]
+elements = [
+  {{ passive = "revolute", name = "q", axis = "z", home_deg = {q_deg:?} }},
+  {{ rigid = {{ translation_mm = [1000, 0, 0] }} }},
+  {{ node = "first" }},
+  {{ actuator = "revolute", name = "th1", axis = "z", stiffness_n_m_per_rad = 1.0, home_deg = {first:?} }},
+  {{ rigid = {{ translation_mm = [1000, 0, 0] }} }},
+  {{ node = "second" }},
+  {{ actuator = "revolute", name = "th2", axis = "z", stiffness_n_m_per_rad = 1.0, home_deg = {rest_deg:?} }},
+  {{ rigid = {{ translation_mm = [1000, 0, 0] }} }},
+  {{ passive = "revolute", name = "e", axis = "z", home_deg = {back:?} }},
+]
+
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#,
+        first = -rest_deg,
+        back = -q_deg,
+    )
+}
+
+fn workplace() -> tempfile::TempDir {
+    let here = tempfile::tempdir().expect("a directory");
+    let reach = (5.0 + 4.0 * 30_f64.to_radians().cos()).sqrt();
+    // Of the Z at rest: the first link's angle to the line between the ends.
+    let (x, y) = (2.0 + 30_f64.to_radians().cos(), -30_f64.to_radians().sin());
+    assert!((x.hypot(y) - reach).abs() < 1e-12);
+    let q = (-y).atan2(x).to_degrees();
+    for (name, text) in [
+        ("z.toml", chain(30.0, q, 1e3 * reach)),
+        ("s.toml", chain(0.0, 0.0, 3e3)),
+    ] {
+        std::fs::write(here.path().join(name), text).expect("a file");
+    }
+    here
+}
+
+#[track_caller]
+fn json(here: &std::path::Path, arguments: &[&str]) -> Value {
+    let mut all = arguments.to_vec();
+    all.push("--json");
+    let said = run(here, &all).answered();
+    serde_json::from_str(&said.out).expect("JSON")
+}
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().unwrap_or(f64::NAN)
+}
+
+fn figure(name: &str, measured: f64, most: f64, unit: &str) -> bool {
+    let holds = measured <= most;
+    println!(
+        "figure {{\"name\":\"{name}\",\"measured\":{measured:e},\"asked\":\"at most {most:e}\",\"unit\":\"{unit}\",\"holds\":{holds}}}"
+    );
+    holds
+}
+
+fn named<'v>(answer: &'v Value, kind: &str) -> Vec<&'v Value> {
+    let list = answer["named_points"].as_array().expect("named points");
+    list.iter().filter(|p| p["kind"] == kind).collect()
+}
+
+/// reference-values.md: Delta 0.110931613194, F -1.03347699957.
+#[test]
+fn figure_the_z_chain_buckles_at_its_pitchfork() {
+    let here = workplace();
+    let pushed = [
+        "--direction",
+        "1",
+        "0",
+        "0",
+        "--displacement-mm",
+        "-400",
+        "0",
+    ];
+    let mut worst: [f64; 2] = [0.0; 2];
+    for model in ["z.toml", "three_link_z"] {
+        let mut arguments = vec!["curve", model];
+        arguments.extend(pushed);
+        let a = json(here.path(), &arguments);
+        assert_eq!(a["schema"], 1);
+        assert_eq!(a["branches"].as_array().expect("branches").len(), 2);
+        let forks = named(&a, "pitchfork");
+        assert_eq!(forks.len(), 1);
+        let fork = forks[0];
+        let delta = -1e-3 * number(&fork["displacement_mm"]);
+        worst[0] = worst[0].max((delta - 0.110931613194).abs());
+        worst[1] = worst[1].max((number(&fork["force_along_n"]) + 1.03347699957).abs());
+        assert!((number(&fork["position_mm"][0]) - 2798.38129798).abs() < 1e-7);
+        assert!(a["jumps"].as_array().expect("jumps").is_empty());
+        // The start is the chain at rest.
+        let start = named(&a, "start")[0];
+        assert!((number(&start["slope_n_per_mm"]) - 0.01692820323).abs() < 1e-9);
+        assert_eq!(start["stable_under_dead_load"], true);
+    }
+    let place = figure(
+        "kinetostat curve: pitchfork of the Z chain, Delta",
+        worst[0],
+        1e-8,
+        "m",
+    );
+    let force = figure(
+        "kinetostat curve: pitchfork of the Z chain, force",
+        worst[1],
+        1e-8,
+        "N",
+    );
+    assert!(place && force);
+}
+
+/// Delta (m), force along x (N), mu, stable: all equilibria with angles within 180 degrees.
+const Z_TABLE: [(f64, f64, f64, bool); 18] = [
+    (0.0, 0.0, 0.0, true),
+    (0.0, -6.09325071, 6.0025896, false),
+    (0.05, -0.611210298, 0.5972313, true),
+    (0.05, -5.5357834, 5.4091745, false),
+    (0.1, -0.971876963, 0.9420378, true),
+    (0.1, -5.23066014, 5.0700654, false),
+    (0.115, -1.03430334, 0.9609886, true),
+    (0.115, -1.03430334, 0.9609886, true),
+    (0.115, -1.05525021, 1.0204064, false),
+    (0.115, -5.1643198, 4.9937967, false),
+    (0.2, -1.05202636, 0.6153020, true),
+    (0.2, -1.05202636, 0.6153020, true),
+    (0.2, -1.41051127, 1.3458410, false),
+    (0.2, -4.90904012, 4.6839664, false),
+    (0.4, -1.09758209, 0.4614500, true),
+    (0.4, -1.09758209, 0.4614500, true),
+    (0.4, -1.90206432, 1.7617202, false),
+    (0.4, -4.67980504, 4.3345048, false),
+];
+
+#[test]
+fn figure_all_equilibria_of_the_z_chain() {
+    let here = workplace();
+    let mut worst: [f64; 2] = [0.0; 2];
+    for delta in [0.0, 0.05, 0.1, 0.115, 0.2, 0.4] {
+        let rows: Vec<_> = Z_TABLE.iter().filter(|r| r.0 == delta).collect();
+        let shift = format!("{}", -1e3 * delta);
+        let a = json(
+            here.path(),
+            &["equilibria", "z.toml", "--displaced-mm", &shift, "0", "0"],
+        );
+        let found = a["equilibria"].as_array().expect("equilibria");
+        assert_eq!(found.len(), rows.len(), "Delta {delta}");
+        assert_eq!(a["coverage"]["settled"], true);
+        assert!(number(&a["coverage"]["chance_of_more_at_most"]) < 0.03);
+        let energies: Vec<f64> = found.iter().map(|e| number(&e["energy_j"])).collect();
+        assert!(
+            energies.windows(2).all(|w| w[0] <= w[1]),
+            "sorted by energy"
+        );
+        let mut left: Vec<&Value> = found.iter().collect();
+        for &&(_, force, mu, stable) in &rows {
+            let i = left
+                .iter()
+                .position(|e| (number(&e["force_n"][0]) - force).abs() < 1e-5)
+                .unwrap_or_else(|| panic!("Delta {delta}: no equilibrium with the force {force}"));
+            let e = left.swap_remove(i);
+            worst[0] = worst[0].max((number(&e["force_n"][0]) - force).abs());
+            worst[1] = worst[1].max((number(&e["buckling_margin"]) - mu).abs());
+            assert_eq!(e["stable"], stable, "Delta {delta}, force {force}");
+        }
+    }
+    let force = figure(
+        "kinetostat equilibria: Z chain complete, forces",
+        worst[0],
+        2e-8,
+        "N",
+    );
+    let mu = figure(
+        "kinetostat equilibria: Z chain complete, mu",
+        worst[1],
+        1e-7,
+        "1",
+    );
+    assert!(force && mu);
+}
+
+#[test]
+fn the_straight_chain_buckles_at_one_and_three() {
+    let here = workplace();
+    let a = json(
+        here.path(),
+        &[
+            "curve",
+            "s.toml",
+            "--direction",
+            "-1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "0",
+            "600",
+            "--force-limits",
+            "-1",
+            "6",
+        ],
+    );
+    let forks = named(&a, "pitchfork");
+    assert_eq!(forks.len(), 2);
+    for (fork, force) in forks.iter().zip([1.0, 3.0]) {
+        assert!((number(&fork["force_along_n"]) - force).abs() < 1e-9);
+        assert!(number(&fork["displacement_mm"]).abs() < 1e-9);
+        assert!(fork["slope_n_per_mm"].is_null() || number(&fork["slope_n_per_mm"]).abs() > 1e6);
+    }
+    // Figure 5.7 at Delta 0.2, each shape with its mirror image.
+    let all = json(
+        here.path(),
+        &["equilibria", "s.toml", "--displaced-mm", "-200", "0", "0"],
+    );
+    let mut forces: Vec<f64> = all["equilibria"]
+        .as_array()
+        .expect("equilibria")
+        .iter()
+        .map(|e| -number(&e["force_n"][0]))
+        .collect();
+    forces.sort_by(f64::total_cmp);
+    let expected = [1.03472647, 1.03472647, 3.106545759, 3.106545759];
+    assert_eq!(forces.len(), expected.len());
+    for (f, e) in forces.iter().zip(expected) {
+        assert!((f - e).abs() < 2e-8, "{f} {e}");
+    }
+    // The same as a growing load: critical load factor 1, in the mode of the arch.
+    let a = json(
+        here.path(),
+        &[
+            "curve", "s.toml", "--force", "-2", "0", "0", "--factor", "0", "1", "--hold", "y",
+        ],
+    );
+    let critical = &a["critical_loads"][1];
+    assert_eq!(critical["judged"], "shape_and_tool");
+    for key in ["factor", "linear_factor"] {
+        assert!((number(&critical[key]) - 0.5).abs() < 1e-9, "{key}");
+    }
+    assert_eq!(critical["kind"], "pitchfork");
+    let mode: Vec<f64> = critical["mode"]
+        .as_array()
+        .expect("a mode")
+        .iter()
+        .map(number)
+        .collect();
+    assert!((mode[1] - mode[2]).abs() < 1e-6 && (mode[0] + mode[1]).abs() < 1e-6);
+    assert!((number(&named(&a, "pitchfork")[0]["force_along_n"]) - 1.0).abs() < 1e-9);
+}
+
+/// Example 4.6.1 with the load G/G* = 1.5 (G* = 4 sin 15 deg) on the middle: K_x vanishes on the upper branch where
+/// dx/L = -0.693675473, at F_x L/K = -2.245611734 (alpha = 0.9032153489). Under a dead load the
+/// chain snaps there.
+#[test]
+fn a_load_on_a_node_moves_the_limit_point() {
+    let here = workplace();
+    let g = 1.5 * 4.0 * 15_f64.to_radians().sin();
+    let load = format!("elbow=0,{:.17},0", -g);
+    let a = json(
+        here.path(),
+        &[
+            "curve",
+            "two_link",
+            "--direction",
+            "1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "-900",
+            "50",
+            "--load",
+            &load,
+            "--all",
+        ],
+    );
+    let near = |p: &&Value| (number(&p["displacement_mm"]) + 693.675473).abs() < 1e-5;
+    let limits = named(&a, "load_limit");
+    let limit = limits.into_iter().find(near).expect("the limit point");
+    assert!((number(&limit["force_along_n"]) + 2.245611734).abs() < 1e-8);
+    let jumps = a["jumps"].as_array().expect("jumps");
+    assert!(
+        jumps
+            .iter()
+            .any(|j| j["from"] == limit["name"] && j["under"] == "dead_load")
+    );
+    for jump in jumps {
+        for to in jump["to"].as_array().expect("landings") {
+            let p = named(&a, "landing").into_iter().find(|p| p["name"] == *to);
+            let p = p.expect("a landing that has a name");
+            assert_eq!(p["stable_under_dead_load"], true);
+        }
+    }
+}
+
+/// Weight, the tool's length and the load of a whole machine: the end of the curve of a growing
+/// load is where `deflect` puts the tool.
+#[test]
+fn a_growing_load_ends_where_deflect_puts_the_tool() {
+    let here = workplace();
+    let common = ["heavy_6r", "--tool-length-mm", "250"];
+    let mut arguments = vec!["curve"];
+    arguments.extend(common);
+    arguments.extend(["--force", "300", "-200", "800", "--factor", "0", "1"]);
+    let a = json(here.path(), &arguments);
+    let ends = named(&a, "end");
+    let end = ends
+        .iter()
+        .find(|p| (number(&p["factor"]) - 1.0).abs() < 1e-12)
+        .expect("the whole load");
+    let place = json(
+        here.path(),
+        &["deflect", "heavy_6r", "--at", "1100", "0", "1200"],
+    );
+    let mut arguments = vec!["deflect"];
+    arguments.extend(common);
+    arguments.extend(["--force", "300", "-200", "800"]);
+    let loaded = json(here.path(), &arguments);
+    for k in 0..3 {
+        let expected =
+            number(&loaded["place"]["position_mm"][k]) + number(&loaded["displacement_mm"][k]);
+        let found = number(&end["position_mm"][k]);
+        assert!((found - expected).abs() < 1e-7, "{k}: {found} {expected}");
+    }
+    assert!(
+        number(&place["displacement_size_mm"]) > 0.1,
+        "weight counts"
+    );
+}
+
+#[test]
+fn drawings_have_solid_and_dashed_parts_and_names() {
+    let here = workplace();
+    let pushed = [
+        "--direction",
+        "-1",
+        "0",
+        "0",
+        "--displacement-mm",
+        "0",
+        "400",
+    ];
+    let mut arguments = vec!["curve", "z.toml"];
+    arguments.extend(pushed);
+    arguments.extend(["--plot", "z.svg", "--csv", "z.csv", "--json", "z.json"]);
+    let said = run(here.path(), &arguments).answered();
+    assert!(
+        said.out.contains("buckles at 110.932 mm and 1.03348 N (B)"),
+        "{}",
+        said.out
+    );
+    assert!(said.out.contains("z.svg"));
+    assert!(
+        said.out.lines().all(|l| l.chars().count() <= 80),
+        "{}",
+        said.out
+    );
+    let read = |name: &str| std::fs::read_to_string(here.path().join(name)).expect(name);
+    let svg = read("z.svg");
+    assert!(svg.starts_with("<svg"));
+    assert!(svg.contains("class=\"line c0\"") && svg.contains("class=\"line c5 dashed\""));
+    for words in [
+        "B pitchfork",
+        "displacement, mm",
+        "force, N",
+        ">stable<",
+        ">unstable<",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    // Nothing is overwritten without leave.
+    let again = run(here.path(), &arguments);
+    assert_eq!(again.code, 1);
+    assert!(again.err.contains("--force-overwrite"), "{}", again.err);
+    arguments.push("--force-overwrite");
+    run(here.path(), &arguments).answered();
+
+    let answer: Value = serde_json::from_str(&read("z.json")).expect("JSON");
+    let mut table = csv::Reader::from_path(here.path().join("z.csv")).expect("a table");
+    let header = table.headers().expect("a header").clone();
+    let at = |name: &str| header.iter().position(|h| h == name).expect(name);
+    let (displacement, force) = (at("displacement_mm"), at("force_n"));
+    let (held, th1) = (at("stable_under_prescribed_motion"), at("th1_deg"));
+    let points: Vec<&Value> = answer["branches"]
+        .as_array()
+        .expect("branches")
+        .iter()
+        .flat_map(|b| b["points"].as_array().expect("points"))
+        .chain(answer["named_points"].as_array().expect("named points"))
+        .collect();
+    let mut count = 0;
+    for (row, point) in table.records().zip(&points) {
+        let row = row.expect("a row");
+        let cell = |k: usize| row[k].parse::<f64>().expect("a number");
+        assert_eq!(cell(displacement), number(&point["displacement_mm"]));
+        assert_eq!(cell(force), number(&point["force_along_n"]));
+        assert_eq!(cell(th1), number(&point["coordinates"][1]));
+        let stable = point["stable_under_prescribed_motion"].as_bool();
+        assert_eq!(&row[held] == "yes", stable == Some(true));
+        count += 1;
+    }
+    assert_eq!(count, points.len());
+
+    run(
+        here.path(),
+        &[
+            "equilibria",
+            "z.toml",
+            "--displaced-mm",
+            "-200",
+            "0",
+            "0",
+            "--plot",
+            "shapes.svg",
+            "--csv",
+            "shapes.csv",
+        ],
+    )
+    .answered();
+    let svg = read("shapes.svg");
+    for words in [
+        "x, mm",
+        "y, mm",
+        ">base<",
+        ">tool<",
+        "1: stable",
+        "3: unstable",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let mut table = csv::Reader::from_path(here.path().join("shapes.csv")).expect("a table");
+    assert_eq!(table.records().filter_map(Result::ok).count(), 4);
+}
+
+#[test]
+fn the_same_question_gives_the_same_bytes() {
+    let here = workplace();
+    for arguments in [
+        vec![
+            "curve",
+            "s.toml",
+            "--direction",
+            "-1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "0",
+            "600",
+            "--force-limits",
+            "-1",
+            "6",
+            "--all",
+            "--json",
+            "--plot",
+            "a.svg",
+            "--csv",
+            "a.csv",
+        ],
+        vec![
+            "equilibria",
+            "z.toml",
+            "--displaced-mm",
+            "-115",
+            "0",
+            "0",
+            "--json",
+            "--plot",
+            "a.svg",
+            "--csv",
+            "a.csv",
+        ],
+    ] {
+        let mut seen = Vec::new();
+        for _ in 0..2 {
+            let said = run(here.path(), &arguments).answered();
+            let read = |name: &str| std::fs::read(here.path().join(name)).expect(name);
+            seen.push((said.out, said.err, read("a.svg"), read("a.csv")));
+            for name in ["a.svg", "a.csv"] {
+                std::fs::remove_file(here.path().join(name)).expect(name);
+            }
+        }
+        assert!(seen[0] == seen[1], "{}", arguments[0]);
+    }
+}
+
+#[test]
+fn wrong_questions_are_refused_with_what_to_do() {
+    let here = workplace();
+    let pushed = |model: &'static str| {
+        vec![
+            "curve",
+            model,
+            "--direction",
+            "1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "0",
+            "10",
+        ]
+    };
+    let with = |more: &[&'static str]| {
+        let mut list = pushed("z.toml");
+        list.extend(more);
+        list
+    };
+    let cases: Vec<(Vec<&str>, &[&str])> = vec![
+        (
+            pushed("orthoglide"),
+            &["3 limbs", "one limb", "kinetostat deflect"],
+        ),
+        (
+            vec!["equilibria", "orthoglide"],
+            &["3 limbs", "kinetostat stiffness"],
+        ),
+        (vec!["curve", "z.toml"], &["--direction", "--factor"]),
+        (
+            vec!["curve", "z.toml", "--direction", "1", "0", "0"],
+            &["how far", "--displacement-mm"],
+        ),
+        (
+            vec![
+                "curve",
+                "z.toml",
+                "--direction",
+                "0",
+                "0",
+                "0",
+                "--displacement-mm",
+                "0",
+                "1",
+            ],
+            &["no direction"],
+        ),
+        (
+            vec![
+                "curve",
+                "z.toml",
+                "--direction",
+                "1",
+                "0",
+                "0",
+                "--displacement-mm",
+                "5",
+                "5",
+            ],
+            &["equal ends"],
+        ),
+        (
+            vec![
+                "curve",
+                "z.toml",
+                "--direction",
+                "nan",
+                "0",
+                "0",
+                "--displacement-mm",
+                "0",
+                "1",
+            ],
+            &["finite"],
+        ),
+        (
+            vec![
+                "curve",
+                "z.toml",
+                "--direction",
+                "0",
+                "0",
+                "1",
+                "--displacement-mm",
+                "0",
+                "1",
+            ],
+            &["rigid in z, rx, ry"],
+        ),
+        (with(&["--free", "sideways"]), &["'sideways'", "rx"]),
+        (with(&["--free", "x"]), &["free in 'x'", "others"]),
+        (
+            with(&["--constant-force", "0", "5", "0"]),
+            &["constant load", "'y'", "--free y"],
+        ),
+        (
+            with(&["--load", "middle=0,0,1"]),
+            &["no node 'middle'", "first, second"],
+        ),
+        (with(&["--load", "first=0,0"]), &["three numbers"]),
+        (with(&["--load", "first"]), &["first=0,0,-100"]),
+        (with(&["--force", "1", "0", "0"]), &["--factor"]),
+        (
+            vec!["curve", "z.toml", "--factor", "0", "1"],
+            &["which load", "--force"],
+        ),
+        (
+            vec![
+                "curve", "z.toml", "--factor", "0", "1", "--force", "1", "0", "0", "--hold", "x",
+            ],
+            &["growing load", "'x'"],
+        ),
+        (
+            vec!["equilibria", "z.toml", "--displaced-mm", "0", "0", "5"],
+            &["plane"],
+        ),
+        (
+            vec![
+                "equilibria",
+                "z.toml",
+                "--displaced-mm",
+                "5",
+                "0",
+                "0",
+                "--free",
+                "x",
+            ],
+            &["displaced in 'x'"],
+        ),
+        (vec!["equilibria", "z.toml", "--starts", "0"], &["--starts"]),
+        (
+            vec!["equilibria", "z.toml", "--free", "others"],
+            &["'others'"],
+        ),
+        (
+            with(&["--plot", "nowhere/z.svg"]),
+            &["does not exist", "create it"],
+        ),
+        (with(&["--csv", "z.toml"]), &["input"]),
+    ];
+    for (arguments, words) in cases {
+        let said = run(here.path(), &arguments);
+        assert_eq!(said.code, 1, "{arguments:?}: {said:?}");
+        assert!(said.out.is_empty(), "{arguments:?}");
+        for word in words {
+            assert!(
+                said.err.contains(word),
+                "{arguments:?}: no '{word}' in {}",
+                said.err
+            );
+        }
+    }
+    // Out of reach: the question is right and has no answer.
+    let said = run(
+        here.path(),
+        &[
+            "curve",
+            "z.toml",
+            "--direction",
+            "1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "200",
+            "300",
+        ],
+    );
+    assert_eq!(said.code, 2, "{said:?}");
+}
+
+#[test]
+fn an_interrupt_ends_a_search_and_writes_nothing() {
+    let here = workplace();
+    let mut child = command(here.path())
+        .args([
+            "equilibria",
+            "heavy_6r",
+            "--starts",
+            "10000000",
+            "--fruitless",
+            "10000000",
+            "--plot",
+            "a.svg",
+        ])
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the command starts");
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    shell(here.path(), &format!("kill -INT {}", child.id()));
+    let status = child.wait().expect("an end");
+    assert_eq!(status.code(), Some(130), "{status:?}");
+    let left: Vec<_> = std::fs::read_dir(here.path())
+        .expect("a directory")
+        .filter_map(Result::ok)
+        .map(|e| e.file_name())
+        .collect();
+    assert_eq!(left.len(), 2, "{left:?}");
+}
