@@ -8,12 +8,8 @@
 
 #![cfg(unix)]
 
-mod common;
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-use common::workplace;
 
 /// A piece of a chapter that does something.
 enum Step {
@@ -103,7 +99,7 @@ fn line_fits(expected: &str, found: &str) -> bool {
 /// Runs a chapter; returns the number of commands and what went otherwise than it says.
 fn play(page: &Path) -> (usize, Vec<String>) {
     let text = std::fs::read_to_string(page).expect("a chapter");
-    let here = workplace();
+    let here = tempfile::tempdir().expect("a directory");
     let own = Path::new(env!("CARGO_BIN_EXE_kinetostat"));
     let path = format!(
         "{}:{}",
