@@ -17,8 +17,7 @@ const TABLE_2_3: [(Material, f64, f64, [&str; 3]); 8] = [
     (AL_MG_4_5_MN, 1.0, 16.0, ["15.40", "14.96", "14.66"]),
 ];
 
-const DOUBLED: &str =
-    "The rows of b = 16 mm are twice the rounded ones of b = 8 mm, as shown below.";
+const DOUBLED: &str = "The rows of b = 16 mm are twice the rounded ones of b = 8 mm (below: 2 x rounded). Named by thickness h x width b and cutting speed.";
 
 const SPEEDS: [f64; 3] = [1000.0, 1500.0, 2000.0];
 
@@ -26,16 +25,13 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
     let (mut items, mut doubled) = (Vec::new(), Vec::new());
     for (material, thickness, width, printed) in &TABLE_2_3 {
         for (speed, printed) in SPEEDS.iter().zip(printed) {
-            let name = format!(
-                "{}, h = {thickness} mm, b = {width} mm, v = {speed} m/min",
-                material.name
-            );
+            let name = format!("{}, {thickness} x {width} mm, {speed} m/min", material.name);
             let force = 1e-3 * largest_force(material, *thickness, *width, *speed);
             items.push(if *width > 8.0 {
                 // Half of it, rounded as the row above is, and doubled.
                 let half = (100.0 * 0.5 * force).round() / 100.0;
                 doubled.push(Item::compared(
-                    format!("{name}: twice the rounded half"),
+                    format!("{name}, 2 x rounded"),
                     printed,
                     2.0 * half,
                     "kN",
@@ -50,7 +46,7 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
     items.extend(doubled);
     let literal = 1e-3 * printed_2_4(&MONEL_400, 0.2, 8.0);
     items.push(Item::erratum(
-        "Monel 400, h = 0.2 mm, b = 8 mm by equation 2.4 as printed",
+        "Monel 400, 0.2 x 8 mm, by equation 2.4 as printed",
         "6.97",
         literal,
         "kN",

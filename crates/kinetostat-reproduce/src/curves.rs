@@ -22,29 +22,80 @@ fn stable(drawn: &Drawn<'_>, p: &CurvePoint) -> bool {
     }
 }
 
-/// All branches, cut where stability changes: at the special point there, if there is one.
+/// All branches, cut where stability changes: at the special point there, if there is one. A branch
+/// and its mirror image that look the same are drawn once (two dashed lines on top of each other
+/// would look solid).
 pub(crate) fn lines(curves: &Curves<'_>, drawn: &Drawn<'_>) -> Vec<PlotLine> {
     let mut lines: Vec<PlotLine> = Vec::new();
     for branch in &curves.branches {
-        let mut current: Option<PlotLine> = None;
-        let mut before: Option<&CurvePoint> = None;
-        for p in &branch.points {
-            let here = (drawn.at)(p);
-            let dashed = !stable(drawn, p);
-            match (&mut current, before) {
-                (Some(line), _) if line.dashed == dashed => line.points.push(here),
-                (Some(line), Some(last)) => {
-                    let turn = between(curves, drawn, last, p);
-                    line.points.push(turn);
-                    lines.extend(current.replace(begun(drawn, dashed, vec![turn, here])));
-                }
-                _ => current = Some(begun(drawn, dashed, vec![here])),
-            }
-            before = Some(p);
+        let origin = branch.origin.and_then(|k| curves.specials.get(k));
+        let fork = origin.and_then(|s| {
+            let away = |p: &CurvePoint| way(p, &s.point);
+            let of = |k: usize| away(&branch.points[k]);
+            (0..branch.points.len()).min_by(|a, b| of(*a).total_cmp(&of(*b)))
+        });
+        let Some(fork) = fork else {
+            lines.extend(pieces(curves, drawn, branch.points.iter()));
+            continue;
+        };
+        let one = pieces(curves, drawn, branch.points[..=fork].iter().rev());
+        let other = pieces(curves, drawn, branch.points[fork..].iter());
+        if !alike(&one, &other) {
+            lines.extend(other);
         }
-        lines.extend(current);
+        lines.extend(one);
     }
     lines
+}
+
+fn alike(one: &[PlotLine], other: &[PlotLine]) -> bool {
+    let near = |a: &(f64, f64), b: &(f64, f64)| {
+        (a.0 - b.0).abs() + (a.1 - b.1).abs() <= 1e-6 * (1.0 + a.0.abs() + a.1.abs())
+    };
+    one.len() == other.len()
+        && one.iter().zip(other).all(|(a, b)| {
+            a.points.len() == b.points.len()
+                && a.points.iter().zip(&b.points).all(|(a, b)| near(a, b))
+        })
+}
+
+/// A path, cut where stability changes.
+fn pieces<'p>(
+    curves: &Curves<'_>,
+    drawn: &Drawn<'_>,
+    points: impl Iterator<Item = &'p CurvePoint>,
+) -> Vec<PlotLine> {
+    let mut lines: Vec<PlotLine> = Vec::new();
+    let mut current: Option<PlotLine> = None;
+    let mut before: Option<&CurvePoint> = None;
+    for p in points {
+        let here = (drawn.at)(p);
+        let dashed = !stable(drawn, p);
+        match (&mut current, before) {
+            (Some(line), _) if line.dashed == dashed => line.points.push(here),
+            (Some(line), Some(last)) => {
+                let turn = between(curves, drawn, last, p);
+                line.points.push(turn);
+                lines.extend(current.replace(begun(drawn, dashed, vec![turn, here])));
+            }
+            _ => current = Some(begun(drawn, dashed, vec![here])),
+        }
+        before = Some(p);
+    }
+    lines.extend(current);
+    lines
+}
+
+/// A distance of two states, for comparisons only.
+fn way(a: &CurvePoint, b: &CurvePoint) -> f64 {
+    let square: f64 = a
+        .equilibrium
+        .coordinates
+        .iter()
+        .zip(&b.equilibrium.coordinates)
+        .map(|(x, y)| (x - y).powi(2))
+        .sum();
+    square.sqrt() + (a.parameter - b.parameter).abs()
 }
 
 fn begun(drawn: &Drawn<'_>, dashed: bool, points: Vec<(f64, f64)>) -> PlotLine {
@@ -73,16 +124,6 @@ fn between(
     one: &CurvePoint,
     other: &CurvePoint,
 ) -> (f64, f64) {
-    let way = |a: &CurvePoint, b: &CurvePoint| {
-        let square: f64 = a
-            .equilibrium
-            .coordinates
-            .iter()
-            .zip(&b.equilibrium.coordinates)
-            .map(|(x, y)| (x - y).powi(2))
-            .sum();
-        square.sqrt() + (a.parameter - b.parameter).abs()
-    };
     let direct = way(one, other);
     let nearest = curves
         .specials
@@ -111,7 +152,11 @@ pub(crate) fn marks(
         .filter(|s| wanted(s.kind))
         .map(|s| PlotMark {
             at: (drawn.at)(&s.point),
-            name: word(s.kind).to_owned(),
+            name: match s.kind {
+                SpecialKind::LoadLimit | SpecialKind::DisplacementLimit => "limit",
+                kind => word(kind),
+            }
+            .to_owned(),
             detail: format!(
                 "{}: {}, parameter {:.9}, force {:.9}",
                 drawn.name,
@@ -130,7 +175,6 @@ pub(crate) fn word(kind: SpecialKind) -> &'static str {
         SpecialKind::Pitchfork => "pitchfork",
         SpecialKind::Transcritical => "transcritical",
         SpecialKind::Multiple { .. } => "multiple bifurcation",
-        _ => "special point",
     }
 }
 

@@ -40,6 +40,14 @@ fn node_y(e: &Equilibrium) -> f64 {
     e.nodes.first().map_or(f64::NAN, |n| n.translation.y)
 }
 
+fn load_name(g: f64) -> String {
+    match g {
+        0.0 => "G = 0".into(),
+        1.0 => "G = G*".into(),
+        g => format!("G = {g} G*"),
+    }
+}
+
 fn missing(what: &str) -> Cause {
     Cause::Missing(what.to_owned())
 }
@@ -50,7 +58,7 @@ fn curves<'c>(chain: &'c Chain, g: f64, range: (f64, f64)) -> Result<Curves<'c>,
     let found = all(chain, g, at)?;
     let first = found.found.first().ok_or_else(|| missing("a shape"))?;
     let mut settings = CurveSettings::within(range.0 - at, range.1 - at);
-    settings.largest_turn = 0.05;
+    settings.largest_turn = 0.03;
     let problem = problem(chain, g, at)?;
     let mut curves = follow(&problem, &along_x(), &first.equilibrium, 0.0, &settings)?;
     for other in found.found.iter().skip(1) {
@@ -71,11 +79,7 @@ pub(crate) fn fig_4_4() -> Result<Contents, Cause> {
     };
     for (colour, g) in LOADS.into_iter().enumerate() {
         let c = curves(&chain, g, (-0.1, 0.08))?;
-        let name = if g == 0.0 {
-            "G = 0".to_owned()
-        } else {
-            format!("G = {g} G*")
-        };
+        let name = load_name(g);
         for limit in of_kind(&c, SpecialKind::DisplacementLimit) {
             let p = &limit.point.equilibrium;
             let at = format!("limit point with the end held, G = {g} G*");
@@ -238,7 +242,7 @@ pub(crate) fn fig_4_5() -> Result<Contents, Cause> {
     let mut plots = Vec::new();
     for dx in [-0.05, 0.0, 0.05] {
         let mut plot = Plot {
-            title: format!("Figure 4.5: all shapes at dx = {dx} L"),
+            title: format!("Figure 4.5: all shapes at dx = {dx} L (y drawn larger than x)"),
             x_label: "x / L".into(),
             y_label: "y / L".into(),
             lines: vec![unstable_entry("unstable, end held")],
@@ -285,8 +289,8 @@ pub(crate) fn fig_4_5() -> Result<Contents, Cause> {
                     ));
                 }
                 plot.lines.push(PlotLine {
-                    name: if f.stable && k == 0 || f.stable && !shapes[0].stable {
-                        format!("G = {g} G*")
+                    name: if f.stable && (k == 0 || !shapes[0].stable) {
+                        load_name(g)
                     } else {
                         String::new()
                     },

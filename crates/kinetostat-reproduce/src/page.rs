@@ -80,7 +80,7 @@ fn row<'i>(item: &'i Item, notes: &mut Vec<&'i str>) -> Value {
     };
     context! {
         name => &item.name,
-        printed => &item.printed,
+        printed => item.printed.as_ref().map(|text| text.replace('-', "\u{2212}")),
         formula => item.printed.as_ref().is_some_and(|p| p.chars().count() > 12),
         computed => item.computed.map(shown),
         unit => &item.unit,

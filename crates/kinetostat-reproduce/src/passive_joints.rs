@@ -135,6 +135,15 @@ pub(crate) fn eq_3_26() -> Result<Contents, Cause> {
 /// A printed factor of an entry: the print, its value, row and column from 1.
 type Factor = (&'static str, f64, usize, usize);
 
+/// A rule by its name.
+type Rule = fn(&Matrix3<f64>) -> Matrix3<f64>;
+
+/// A row of Table 3.1: the joint, the rule, the eliminated direction, the chain, the print.
+type PlanarRow = (&'static str, Rule, Option<usize>, Place, [Factor; 4]);
+
+/// A row of Tables 3.2 and 3.3: the joint, the rule's matrix and the chain, what is left of ENTRIES.
+type SpatialRow = (&'static str, (Matrix6<f64>, Place), [&'static str; 8]);
+
 pub(crate) fn table_3_1() -> Result<Contents, Cause> {
     let (ea, ei) = (
         SECTION.youngs_modulus * SECTION.area,
@@ -143,8 +152,7 @@ pub(crate) fn table_3_1() -> Result<Contents, Cause> {
     let (l, beam) = (LENGTH, planar_beam(ea, ei, LENGTH));
     // Rows: the joint, the named rule on any matrix and on the beam, and what is printed of the beam
     // in units of EA/L, EI/L^3, EI/L^2, EI/L.
-    type Rule = fn(&Matrix3<f64>) -> Matrix3<f64>;
-    let rows: [(&str, Rule, Option<usize>, Place, [Factor; 4]); 4] = [
+    let rows: [PlanarRow; 4] = [
         (
             "no joint",
             |k| *k,
@@ -346,7 +354,7 @@ pub(crate) fn table_3_2() -> Result<Contents, Cause> {
         )
     };
     // In the order of ENTRIES: K11 K22 K33 K44 K55 K66 K26 K35.
-    let rows: [(&str, (Matrix6<f64>, Place), [&'static str; 8]); 6] = [
+    let rows: [SpatialRow; 6] = [
         (
             "T_x",
             slide(Axis::X),
@@ -389,7 +397,7 @@ pub(crate) fn table_3_3() -> Result<Contents, Cause> {
             Place::Root(MotionKind::Revolute, axis),
         )
     };
-    let rows: [(&str, (Matrix6<f64>, Place), [&'static str; 8]); 2] = [
+    let rows: [SpatialRow; 2] = [
         (
             "R_y at L",
             root(Axis::Y),

@@ -272,6 +272,7 @@ fn z_curve(chain: &Chain) -> Result<(Curves<'_>, f64), Cause> {
     problem.posture = vec![0.17, -0.52, 0.52, 0.0];
     let start = solve_chain(&problem, &Settings::default())?;
     let mut settings = CurveSettings::within(-0.45, 0.05);
+    settings.largest_turn = 0.03;
     settings.branches = 10;
     let c = follow(&problem, &along_x(), &start, 0.0, &settings)?;
     Ok((c, z_at_rest()))
@@ -282,6 +283,7 @@ pub(crate) fn fig_5_7() -> Result<Contents, Cause> {
     let problem = held(&chain, 3.0);
     let start = solve_chain(&problem, &Settings::default())?;
     let mut settings = CurveSettings::within(-1.52, 0.1);
+    settings.largest_turn = 0.05;
     settings.conjugate_range = (-6.0, 1.0);
     settings.branches = 10;
     let c = follow(&problem, &along_x(), &start, 0.0, &settings)?;

@@ -44,7 +44,7 @@ fn toggle(angle: f64) -> Result<Toggle, Cause> {
     let start = solve_chain(&problem, &Settings::default())?;
     let down = Parameter::Displacement(Twist::new(-Vector3::z(), Vector3::zeros()));
     let mut settings = CurveSettings::within(-0.2 * distance, 2.2 * distance);
-    settings.largest_turn = 0.05 * angle;
+    settings.largest_turn = 0.03 * angle;
     let c = follow(&problem, &down, &start, 0.0, &settings)?;
     let limits = of_kind(&c, SpecialKind::LoadLimit);
     let first = limits
@@ -104,7 +104,7 @@ pub(crate) fn eq_5_45() -> Result<Contents, Cause> {
         items.push(Item::formula(
             format!("critical force, {at}"),
             "3 K L (1 - cos(phi0)/cos(phi)) sin(phi)",
-            3.0 * (angle.cos() / phi.cos() - 1.0) * phi.sin() * -1.0,
+            3.0 * (1.0 - angle.cos() / phi.cos()) * phi.sin(),
             t.force,
             "K L",
             "The print at the critical displacement of the model.",
