@@ -1,5 +1,7 @@
 //! `cargo xtask book`: the book as pages that need no network.
 
+use std::path::PathBuf;
+
 use anyhow::{Result, bail};
 
 use crate::{cargo, root, step};
@@ -14,7 +16,7 @@ pub fn run(options: &[&str]) -> Result<()> {
         ["--open"] => true,
         [other, ..] => bail!("'{other}' is no option of book; --open is"),
     };
-    build()?;
+    tool("book", "run")?;
     if open {
         let page = root().join("book/book/index.html");
         let program = match std::env::consts::OS {
@@ -27,14 +29,23 @@ pub fn run(options: &[&str]) -> Result<()> {
     Ok(())
 }
 
-/// The book's own tool builds it: a workspace of its own, so that nobody compiles mdBook to mill.
-pub fn build() -> Result<()> {
-    let target = std::env::var_os("CARGO_TARGET_DIR")
-        .map_or_else(|| root().join("target"), std::path::PathBuf::from);
+/// The book builds, and its tool's own tests pass.
+///
+/// # Errors
+/// What does not.
+pub fn check() -> Result<()> {
+    tool("tests of the book's tool", "test")?;
+    tool("book", "run")
+}
+
+/// The tool is a workspace of its own, so that nobody compiles mdBook to mill.
+fn tool(title: &str, command: &str) -> Result<()> {
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
     step(
-        "book",
+        title,
         cargo()
-            .args(["run", "--quiet", "--locked"])
+            .args([command, "--quiet", "--locked"])
             .args(["--manifest-path", "book/tool/Cargo.toml"])
             .arg("--target-dir")
             .arg(target.join("book-tool")),

@@ -29,7 +29,7 @@ pub fn run() -> Result<()> {
         "tests",
         cargo().args(["test", "--workspace", "--no-fail-fast"]),
     )?;
-    book::build()?;
+    book::check()?;
     eprintln!("== all passed");
     Ok(())
 }
