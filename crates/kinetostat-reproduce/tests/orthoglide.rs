@@ -136,8 +136,11 @@ fn table_6_1_agrees_to_first_order() {
     assert_eq!((count(&e, Status::Agrees), printed), (26, 26));
 }
 
+/// Point, shift (mm), rotation (deg) and the columns of [`COLUMNS`].
+type Row = (&'static str, [f64; 3], [f64; 3], [f64; 5]);
+
 /// Reference values, part 2, section 2.2, "correct (own matrix, finite eps)".
-const TABLE_6_2: [(&str, [f64; 3], [f64; 3], [f64; 5]); 5] = [
+const TABLE_6_2: [Row; 5] = [
     (
         "Q0",
         [0.0, 0.0, 0.0],
@@ -171,7 +174,7 @@ const TABLE_6_2: [(&str, [f64; 3], [f64; 3], [f64; 5]); 5] = [
 ];
 
 /// The same, "as printed (leg-1 matrix, finite eps)", rows Q3 and Q4.
-const LEG_1: [(&str, [f64; 3], [f64; 3], [f64; 5]); 2] = [
+const LEG_1: [Row; 2] = [
     (
         "Q3",
         [-0.911603, 1.310664, 0.575263],

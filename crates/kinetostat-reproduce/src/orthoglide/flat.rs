@@ -157,7 +157,7 @@ impl Configuration {
                 a.stiffness,
                 "N/mm",
                 if q == "Q2" {
-                    "the report defines it and does not print it; reference values 2.3 say 406, the compliance matrix of their section 2.4 gives this number"
+                    "the report defines it and does not print it; reference values 2.3 say 406 for a reason that is not known: the stiffness behind their own section 2.4 gives this number"
                 } else {
                     "the report defines it and does not print it"
                 },
