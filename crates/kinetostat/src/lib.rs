@@ -109,6 +109,7 @@ mod load_check;
 mod load_energy;
 mod loading;
 mod logarithm;
+mod machine_directions;
 mod mechanism;
 mod mobility;
 mod parallelogram;

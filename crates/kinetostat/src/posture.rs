@@ -3,24 +3,25 @@
 //!
 //! The thing right of the bar is a [`Posture`]; the thing left of it is an argument.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix3, Matrix6};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{MotionKind, Scale};
+use crate::chain::MotionKind;
 use crate::compliance::CartesianCompliance;
 use crate::equilibrium::{ChainProblem, EndCondition, Residual};
 use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::link_load::{LinkLoad, link_loads};
 use crate::load_energy::load_energy;
+use crate::machine_directions::{balanced_directions, condensed, others_hold};
 use crate::mechanism::Mechanism;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
-use crate::saddle::{column_space, complement, pseudo_inverse};
+use crate::saddle::pseudo_inverse;
 use crate::settings::Settings;
-use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual, shift_matrix};
+use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 use crate::stability::{ShapeStability, shape_stability};
 use crate::stiffness::{
-    ChainStiffness, Direction, DirectionKind, chain_stiffness, directions, unloaded_stiffness,
+    ChainStiffness, Direction, DirectionKind, chain_stiffness, unloaded_stiffness,
 };
 
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
@@ -559,39 +560,6 @@ impl UnloadedStiffness {
     }
 }
 
-/// Principal directions of a platform's stiffness; motions that a limb (its own stiffness and the
-/// arm to its tip) cannot follow are rigid.
-fn balanced_directions<'a>(
-    matrix: &Matrix6<f64>,
-    scale: Scale,
-    limbs: impl Iterator<Item = (&'a ChainStiffness, Vector3<f64>, Scale)>,
-) -> Vec<Direction> {
-    let root = scale.stiffness.sqrt();
-    let factor = |i: usize| if i < 3 { root } else { root * scale.length };
-    let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (factor(i) * factor(j)));
-    let mut blocked: Vec<DVector<f64>> = Vec::new();
-    for (limb, arm, own) in limbs {
-        for direction in limb
-            .directions
-            .iter()
-            .filter(|d| d.kind == DirectionKind::Rigid)
-        {
-            // The limb's balanced normal, as a wrench on the platform, in the platform's balance.
-            let t = direction.twist.0;
-            let square = own.length * own.length;
-            let wrench = Vector6::from_fn(|k, _| if k < 3 { t[k] } else { t[k] * square });
-            let on_platform = shift_matrix(&arm).transpose() * wrench;
-            blocked.push(DVector::from_fn(6, |k, _| on_platform[k] / factor(k)).normalize());
-        }
-    }
-    let range = if blocked.is_empty() {
-        DMatrix::identity(6, 6)
-    } else {
-        complement(&column_space(&DMatrix::from_columns(&blocked)))
-    };
-    directions(scale, &balanced, &range)
-}
-
 /// Stiffness, stability and limbs at a solved state.
 pub(crate) fn conclude(
     solver: &mut PlatformSolver<'_>,
@@ -708,50 +676,4 @@ pub(crate) fn conclude(
         state: solver.state.clone(),
     };
     Ok(answer.named(m))
-}
-
-/// Whether the platforms' tangent has no negative direction; with `held`, while the tool is held.
-fn others_hold(tangent: &DMatrix<f64>, platform: usize, scale: Scale, held: bool) -> bool {
-    let unit = |i: usize| {
-        let root = scale.stiffness.sqrt();
-        if i % 6 < 3 { root } else { root * scale.length }
-    };
-    let kept: Vec<usize> = (0..tangent.nrows())
-        .filter(|i| !held || i / 6 != platform)
-        .collect();
-    if tangent.nrows() == 6 || kept.is_empty() {
-        return true;
-    }
-    let balanced = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
-        let (i, j) = (kept[a], kept[b]);
-        0.5 * (tangent[(i, j)] + tangent[(j, i)]) / (unit(i) * unit(j))
-    });
-    let eigenvalues = balanced.symmetric_eigenvalues();
-    eigenvalues.min() >= -1e-9 * eigenvalues.amax()
-}
-
-/// Stiffness of one platform with all others free: Schur complement.
-fn condensed(tangent: &DMatrix<f64>, platform: usize, scale: Scale) -> Matrix6<f64> {
-    let own: Vec<usize> = (6 * platform..6 * platform + 6).collect();
-    let pick =
-        |rows: &[usize], columns: &[usize]| tangent.select_rows(rows).select_columns(columns);
-    let mut k = pick(&own, &own);
-    let others: Vec<usize> = (0..tangent.nrows()).filter(|i| !own.contains(i)).collect();
-    if !others.is_empty() {
-        let mut b = pick(&others, &own);
-        let root = scale.stiffness.sqrt();
-        let units: Vec<f64> = others
-            .iter()
-            .map(|i| {
-                if i % 6 < 3 {
-                    1.0 / root
-                } else {
-                    1.0 / (root * scale.length)
-                }
-            })
-            .collect();
-        crate::saddle::Saddle::new(pick(&others, &others), &units, &units).solve(&mut b);
-        k -= pick(&own, &others) * b;
-    }
-    k.fixed_view::<6, 6>(0, 0).into_owned()
 }
