@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use kinetostat::{
-    DirectionKind, Limb, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench,
+    DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench,
 };
 use kinetostat_model::Model;
+use kinetostat_model::schema::{Convention, Element};
 use serde::Serialize;
 
 use crate::along;
@@ -14,7 +15,7 @@ use crate::failure::Answer;
 use crate::input::Files;
 use crate::machine::{deviations_in_words, short};
 use crate::screen::{self, Stream, fixed, item, number, triple, wrapped};
-use crate::stiffness::{Principal, principal, principals};
+use crate::stiffness::{Principal, principal, principals, what_moves};
 
 /// Findings, stable names with units.
 #[derive(Serialize)]
@@ -54,12 +55,34 @@ struct LimbFinding {
     springs: Vec<String>,
     spring_coordinates: usize,
     preloaded_springs: Vec<String>,
+    links: Vec<LinkFinding>,
+    loads: Vec<LoadFinding>,
     bodies: Vec<String>,
     mass_kg: f64,
     redundant_passive_joints: Vec<String>,
     /// Directions of the tool that this limb blocks for rigid links.
     constrained_directions: Option<usize>,
     stiffness_rank: Option<usize>,
+}
+
+/// An elastic link.
+#[derive(Serialize)]
+struct LinkFinding {
+    name: String,
+    length_mm: f64,
+    segments: usize,
+    convention: Convention,
+    /// Pinned at both ends, in its softer plane.
+    euler_load_n: f64,
+}
+
+/// A load on a limb.
+#[derive(Serialize)]
+struct LoadFinding {
+    name: String,
+    kind: &'static str,
+    in_words: String,
+    conservative: bool,
 }
 
 #[derive(Serialize)]
@@ -84,7 +107,13 @@ struct HomeFinding {
     rotation_without_load_deg: [f64; 3],
     largest_internal_force_n: f64,
     largest_internal_moment_n_m: f64,
+    /// Every limb keeps its shape while the tool is held.
+    shapes_stable: bool,
+    /// The tool stays where it is.
+    platform_stable: bool,
+    /// Both.
     stable: bool,
+    conservative: bool,
     largest_buckling_margin: Option<f64>,
 }
 
@@ -107,7 +136,7 @@ fn findings(model: &Model, source: String) -> Findings {
     let m = &model.mechanism;
     let home = m.platforms()[m.tool()].home;
     let posture = m.posture(&home);
-    let mut limbs: Vec<LimbFinding> = m.limbs().iter().map(|l| limb(m, l)).collect();
+    let mut limbs: Vec<LimbFinding> = (0..m.limbs().len()).map(|i| limb(model, i)).collect();
     let solved = posture
         .as_ref()
         .map_err(ToString::to_string)
@@ -153,7 +182,9 @@ fn findings(model: &Model, source: String) -> Findings {
     }
 }
 
-fn limb(m: &Mechanism, limb: &Limb) -> LimbFinding {
+fn limb(model: &Model, index: usize) -> LimbFinding {
+    let m = &model.mechanism;
+    let limb = &m.limbs()[index];
     let chain = &limb.nominal;
     let name = |i: usize| m.platforms()[i].name.clone();
     LimbFinding {
@@ -192,12 +223,55 @@ fn limb(m: &Mechanism, limb: &Limb) -> LimbFinding {
             .filter(|s| s.rest.iter().any(|x| *x != 0.0))
             .map(|s| s.name.clone())
             .collect(),
+        links: links(model, index),
+        loads: loads(model, index),
         bodies: chain.bodies().iter().map(|b| b.name.clone()).collect(),
         mass_kg: chain.bodies().iter().map(|b| b.mass).sum(),
         redundant_passive_joints: Vec::new(),
         constrained_directions: None,
         stiffness_rank: None,
     }
+}
+
+fn links(model: &Model, index: usize) -> Vec<LinkFinding> {
+    let chain = &model.mechanism.limbs()[index].nominal;
+    let written = &model.document.limb[index].chain;
+    let elements = model.document.chain.get(written).map(|c| c.elements.iter());
+    let elements = elements.into_iter().flatten().enumerate();
+    elements
+        .filter_map(|(i, element)| {
+            let Element::Link(link) = element else {
+                return None;
+            };
+            let name = element
+                .name()
+                .map_or_else(|| format!("{} {}", element.word(), i + 1), str::to_owned);
+            let own = |s: &&kinetostat::Segment| s.link == name;
+            let pieces = || chain.springs().iter().filter_map(|s| s.segment.as_ref());
+            let piece = pieces().find(own)?;
+            let slenderness = std::f64::consts::PI / piece.link_length;
+            Some(LinkFinding {
+                length_mm: 1e3 * piece.link_length,
+                segments: pieces().filter(own).count(),
+                convention: link.convention.unwrap_or_default(),
+                euler_load_n: slenderness * slenderness * piece.bending_stiffness,
+                name,
+            })
+        })
+        .collect()
+}
+
+fn loads(model: &Model, index: usize) -> Vec<LoadFinding> {
+    let m = &model.mechanism;
+    let written = &model.document.limb[index].load;
+    let both = written.iter().zip(m.loads(index));
+    both.map(|(written, load)| LoadFinding {
+        name: written.name().to_owned(),
+        kind: written.word(),
+        in_words: written.in_words(),
+        conservative: m.load_conservative(index, load),
+    })
+    .collect()
 }
 
 const DIRECTIONS: [&str; 6] = [
@@ -246,7 +320,10 @@ fn at_home(
         rotation_without_load_deg: rest.displacement.angular().map(f64::to_degrees).into(),
         largest_internal_force_n: largest(&rest, |w| w.force().norm()),
         largest_internal_moment_n_m: largest(&rest, |w| w.moment().norm()),
+        shapes_stable: rest.shapes_stable(),
+        platform_stable: rest.platform.stable,
         stable: rest.stable(),
+        conservative: rest.conservative,
         largest_buckling_margin: rest.margin().filter(|m| m.is_finite()),
     })
 }
@@ -388,6 +465,33 @@ fn limb_in_words(l: &LimbFinding) -> String {
         springs.push_str(&format!("; preloaded: {}", list(&l.preloaded_springs)));
     }
     out.push_str(&wrapped(&springs, 2));
+    for link in &l.links {
+        let pieces = match link.segments {
+            1 => String::new(),
+            n => format!(" in {n} segments"),
+        };
+        out.push_str(&wrapped(
+            &format!(
+                "link '{}': {} mm{pieces}, {}; Euler load {} N",
+                link.name,
+                short(link.length_mm),
+                convention_in_words(link.convention),
+                number(link.euler_load_n, 4)
+            ),
+            2,
+        ));
+    }
+    for load in &l.loads {
+        let flag = if load.conservative {
+            ""
+        } else {
+            " (not conservative)"
+        };
+        out.push_str(&wrapped(
+            &format!("load '{}': {}{flag}", load.name, load.in_words),
+            2,
+        ));
+    }
     if l.mass_kg > 0.0 {
         out.push_str(&wrapped(
             &format!(
@@ -416,6 +520,17 @@ fn limb_in_words(l: &LimbFinding) -> String {
         ));
     }
     out
+}
+
+fn convention_in_words(convention: Convention) -> &'static str {
+    match convention {
+        Convention::Bowing => "bows",
+        Convention::TranslationsFirst => "plain spring, translations first",
+        Convention::RotationsFirst => "plain spring, rotations first",
+        Convention::Middle => "plain spring in the middle",
+        Convention::Exponential => "plain spring, exponential coordinates",
+        Convention::ConstantStrain => "constant strain",
+    }
 }
 
 fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
@@ -454,11 +569,26 @@ fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         )));
     }
     let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
-    let cause = match (f.deviations.is_empty(), f.mass_kg > 0.0) {
-        (true, false) => "without load the tool is where it is commanded",
-        (true, true) => "under its own weight",
-        (false, false) => "by its deviations, without load",
-        (false, true) => "by its deviations and its own weight",
+    let causes: Vec<&str> = [
+        ("its deviations", !f.deviations.is_empty()),
+        ("its own weight", f.mass_kg > 0.0),
+        (
+            "the loads on its limbs",
+            f.limbs.iter().any(|l| !l.loads.is_empty()),
+        ),
+        (
+            "its preloads",
+            f.limbs.iter().any(|l| !l.preloaded_springs.is_empty()),
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(cause, acts)| acts.then_some(cause))
+    .collect();
+    let cause = match causes.as_slice() {
+        [] => "without load".to_owned(),
+        ["its own weight"] => "under its own weight".to_owned(),
+        ["its deviations"] => "by its deviations, without load".to_owned(),
+        causes => format!("by {}", causes.join(" and ")),
     };
     let moved = shift.iter().chain(&turn).any(|x| x.abs() > 1e-9);
     if moved {
@@ -490,8 +620,16 @@ fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
             6 - h.stiffness_rank
         ),
         (true, _) => "stable".to_owned(),
+        (false, _) if h.shapes_stable => {
+            "NOT STABLE: the limbs keep their shapes, but the tool does not stay".to_owned()
+        }
         (false, _) => "NOT STABLE: it would jump to another shape".to_owned(),
     }));
+    if !h.conservative {
+        out.push_str(&item(
+            "not conservative: a load on a limb has no potential, so that stability is judged by stiffness alone",
+        ));
+    }
     if !f.deviations.is_empty() {
         out.push_str("\nDeviations\n");
         for d in &f.deviations {
@@ -503,5 +641,13 @@ fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         h.stiffness_rank
     ));
     out.push_str(&principals(&h.principal_directions));
+    let loose = |p: &&Principal| p.kind != DirectionKind::Finite;
+    if h.principal_directions.iter().any(|p| loose(&p)) {
+        out.push_str("\nWhat moves, and what nothing moves\n");
+        h.principal_directions
+            .iter()
+            .filter(loose)
+            .for_each(|p| out.push_str(&what_moves(p)));
+    }
     out
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench};
+use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench};
 use serde::Serialize;
 
 use crate::along::{self, Aim, Files as Targets, tell};
@@ -15,6 +15,7 @@ use crate::output::{Existing, Outputs};
 use crate::place::{Spot, spot};
 use crate::screen::{self, Stream, columns, fixed, number, triple, wrapped};
 use crate::setting::{JobFile, WritingFlags, setting};
+use crate::stiffness::motion_in_words;
 use crate::summary;
 
 pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
@@ -103,8 +104,20 @@ struct Deflection {
     /// Against a force in the softest direction, the tool free to turn.
     smallest_stiffness_n_per_mm: f64,
     free_directions: usize,
+    /// Motions by which the tool runs away by itself: `turns about z by arm: q`.
+    negative_directions: Vec<String>,
+    /// The tool stays where it is.
     platform_stable: bool,
+    /// Every limb keeps its shape while the tool is held.
+    shapes_stable: bool,
+    /// Both.
     stable: bool,
+    /// All loads have a potential; if not, see the reasons.
+    conservative: bool,
+    not_conservative_because: Vec<String>,
+    /// Of springs, weights and loads on limbs, without the load on the tool; none without a
+    /// potential. Its zero is arbitrary.
+    energy_j: Option<f64>,
     converged: bool,
     iterations: usize,
     /// How far the loops are from closing; rotations at the machine's length.
@@ -141,6 +154,19 @@ struct LimbAnswer {
     /// None without inner freedom; also where a passive motion is pushed out of line (then unstable).
     buckling_margin: Option<f64>,
     neutral_passive_joints: Vec<String>,
+    links: Vec<LinkAnswer>,
+}
+
+/// How a link is loaded along its axis.
+#[derive(Serialize)]
+struct LinkAnswer {
+    name: String,
+    /// Of its most compressed segment; negative compresses.
+    axial_force_n: f64,
+    /// Both ends pinned, in its softer plane.
+    euler_load_n: f64,
+    /// Compression as a share of the Euler load; zero in tension.
+    share_of_euler_load: f64,
 }
 
 fn at_place(args: &DeflectArgs) -> Answer<()> {
@@ -259,17 +285,52 @@ fn answer(
                 stable: l.stability.stable,
                 buckling_margin: l.stability.margin.filter(|m| m.is_finite()),
                 neutral_passive_joints: l.stability.neutral.clone(),
+                links: l
+                    .link_loads
+                    .iter()
+                    .map(|link| LinkAnswer {
+                        name: link.link.clone(),
+                        axial_force_n: link.axial_force,
+                        euler_load_n: link.euler_load,
+                        share_of_euler_load: link.share,
+                    })
+                    .collect(),
             })
             .collect(),
         smallest_stiffness_n_per_mm: 1e-3 * loaded.stiffness_against_force(),
         free_directions: loaded.platform.free,
+        negative_directions: loaded
+            .directions
+            .iter()
+            .filter(|d| d.kind == DirectionKind::Negative)
+            .map(motion_in_words)
+            .collect(),
         platform_stable: loaded.platform.stable,
+        shapes_stable: loaded.shapes_stable(),
         stable: loaded.stable(),
+        conservative: loaded.conservative,
+        not_conservative_because: not_conservative(loaded),
+        energy_j: loaded.energy,
         converged: true,
         iterations: loaded.residual.iterations,
         closure_mm: 1e3 * loaded.residual.closure_m,
         warnings,
     }
+}
+
+/// Why statements about energy do not hold.
+fn not_conservative(e: &MechanismEquilibrium) -> Vec<String> {
+    let limbs = e.limbs.iter().filter(|l| !l.conservative);
+    let mut reasons: Vec<String> = limbs
+        .map(|l| format!("a load on limb '{}' has no potential", l.name))
+        .collect();
+    if reasons.is_empty() && !e.conservative {
+        reasons.push(
+            "the moment on the tool keeps its direction while the tool can turn about several axes"
+                .to_owned(),
+        );
+    }
+    reasons
 }
 
 fn actuators(mechanism: &Mechanism, posture: &Posture<'_>, forces: &[f64]) -> Vec<ActuatorAnswer> {
@@ -346,7 +407,13 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         out.push_str(&screen::item(&limb_in_words(limb)));
     }
     let platform = if !a.platform_stable {
-        "the platform does NOT stay: a direction has negative stiffness".to_owned()
+        match a.negative_directions.as_slice() {
+            [] => "the platform does NOT stay: one in between has negative stiffness".to_owned(),
+            list => format!(
+                "the platform does NOT stay, its stiffness is negative: it {}",
+                list.join("; it ")
+            ),
+        }
     } else if a.free_directions > 0 {
         format!(
             "the platform stays, but {} direction(s) have no stiffness at all",
@@ -359,6 +426,13 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         )
     };
     out.push_str(&screen::item(&platform));
+    if !a.conservative {
+        out.push_str(&screen::item(&format!(
+            "not conservative: {}; the verdicts compare stiffnesses, not energies",
+            a.not_conservative_because.join(", ")
+        )));
+    }
+    out.push_str(&links(a));
     out.push_str(&internal(a));
     out.push_str(&summary::warnings(&a.warnings));
     out
@@ -366,6 +440,7 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
 
 fn limb_in_words(limb: &LimbAnswer) -> String {
     let margin = match limb.buckling_margin {
+        Some(mu) if mu.abs() < 1e-6 => "mu 0: no load bends or buckles it".to_owned(),
         Some(mu) if mu < 0.0 => format!("mu {}: the load stretches it", number(mu, 3)),
         Some(mu) => format!(
             "mu {}, {} % of the way to buckling",
@@ -389,6 +464,42 @@ fn limb_in_words(limb: &LimbAnswer) -> String {
         )
     };
     format!("limb '{}' {verdict} ({margin}){neutral}", limb.name)
+}
+
+/// Axial loads of the links.
+fn links(a: &Deflection) -> String {
+    let single = a.limbs.len() == 1;
+    let mut rows = vec![
+        ["link", "axial force, N", "Euler load, N", "share, %"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for (limb, link) in a
+        .limbs
+        .iter()
+        .flat_map(|l| l.links.iter().map(move |k| (l, k)))
+    {
+        rows.push(vec![
+            match single {
+                true => link.name.clone(),
+                false => format!("{}: {}", limb.name, link.name),
+            },
+            fixed(link.axial_force_n, 3),
+            number(link.euler_load_n, 4),
+            number(100.0 * link.share_of_euler_load, 3),
+        ]);
+    }
+    if rows.len() == 1 {
+        return String::new();
+    }
+    format!(
+        "\n{}{}",
+        columns(&rows, 2),
+        wrapped(
+            "Negative forces compress; the Euler load is that of the link pinned at both ends, in its softer plane.",
+            2
+        )
+    )
 }
 
 /// What the limbs do to each other through the platform without any load on the tool.

@@ -1,6 +1,9 @@
 //! `kinetostat stiffness`: the 6 x 6 matrix with units, axes and reference point.
 
-use kinetostat::{CartesianStiffness, ChainStiffness, Direction, DirectionKind};
+use kinetostat::{
+    CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, MotionKind,
+    Role,
+};
 use nalgebra::Matrix6;
 use serde::Serialize;
 
@@ -28,9 +31,15 @@ struct Stiffness {
     moment_n_m: [f64; 3],
     /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad).
     stiffness_n_m_rad: [[f64; 6]; 6],
-    /// Inverse, m and rad per N and N m; none where a direction is free.
+    /// Inverse, m and rad per N and N m, zero along rigid directions; none where a direction is free.
     compliance_m_rad_per_n: Option<[[f64; 6]; 6]>,
+    /// Where directions are free: the motion under a load that pushes along none of them, up to
+    /// motions along them.
+    compliance_besides_free_motions_m_rad_per_n: Option<[[f64; 6]; 6]>,
     rank: usize,
+    free_directions: usize,
+    rigid_directions: usize,
+    negative_directions: usize,
     principal_directions: Vec<Principal>,
     limbs: Vec<LimbShare>,
     warnings: Vec<String>,
@@ -44,6 +53,22 @@ pub(crate) struct Principal {
     pub(crate) stiffness_n_per_mm: Option<f64>,
     pub(crate) translation_share: [f64; 3],
     pub(crate) rotation_deg_per_mm: [f64; 3],
+    /// The motion and what lets it happen: `turns about z by arm: q`.
+    pub(crate) in_words: String,
+    /// Joints and springs that move with it, the most first.
+    pub(crate) behind: Vec<Behind>,
+}
+
+/// A joint or spring that moves while the tool moves in a direction.
+#[derive(Serialize)]
+pub(crate) struct Behind {
+    pub(crate) name: String,
+    pub(crate) role: Role,
+    /// Its motion per mm of the direction's longest part.
+    pub(crate) motion_per_mm: f64,
+    pub(crate) unit: &'static str,
+    /// Of all squares, rotations at the machine's natural length: 0 to 1.
+    pub(crate) share: f64,
 }
 
 #[derive(Serialize)]
@@ -70,11 +95,28 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
     let answer = if loaded {
         let e = posture.deflected_by(&spot.wrench)?;
         let limbs: Vec<&ChainStiffness> = e.limbs.iter().map(|l| &l.stiffness).collect();
-        answer(&spot, true, &e.stiffness, &e.directions, &limbs)
+        let behind = |d: &Direction| e.behind(&spot.mechanism, &d.twist);
+        let directions = with_causes(&e.directions, behind);
+        answer(
+            &spot,
+            true,
+            &e.stiffness,
+            &e.compliance(),
+            &directions,
+            &limbs,
+        )
     } else {
         let k = posture.stiffness()?;
         let limbs: Vec<&ChainStiffness> = k.limbs.iter().collect();
-        answer(&spot, false, &k.cartesian, &k.directions, &limbs)
+        let directions = with_causes(&k.directions, |d| k.behind(&posture, &d.twist));
+        answer(
+            &spot,
+            false,
+            &k.cartesian,
+            &k.compliance(),
+            &directions,
+            &limbs,
+        )
     };
     let text = in_words(&spot, &answer);
     if args.json {
@@ -84,14 +126,31 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
     screen::print(Stream::Out, &text)
 }
 
+/// Directions with the joints and springs behind them, the stiff ones too.
+fn with_causes(
+    directions: &[Direction],
+    behind: impl Fn(&Direction) -> Vec<kinetostat::Share>,
+) -> Vec<Direction> {
+    let mut list = directions.to_vec();
+    for direction in &mut list {
+        if direction.kind != DirectionKind::Rigid {
+            direction.behind = behind(direction);
+        }
+    }
+    list
+}
+
 fn answer(
     spot: &Spot,
     loaded: bool,
     cartesian: &CartesianStiffness,
+    compliance: &CartesianCompliance,
     directions: &[Direction],
     limbs: &[&ChainStiffness],
 ) -> Stiffness {
-    let free = directions.iter().any(|d| d.kind == DirectionKind::Free);
+    let count = |kind| directions.iter().filter(|d| d.kind == kind).count();
+    let free = count(DirectionKind::Free);
+    let held = free + count(DirectionKind::Rigid) < 6;
     Stiffness {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -103,11 +162,12 @@ fn answer(
         force_n: spot.wrench.force().into(),
         moment_n_m: spot.wrench.moment().into(),
         stiffness_n_m_rad: rows(&cartesian.matrix),
-        compliance_m_rad_per_n: if free {
-            None
-        } else {
-            cartesian.compliance().map(|c| rows(&c))
-        },
+        compliance_m_rad_per_n: (free == 0).then(|| rows(&compliance.springs)),
+        compliance_besides_free_motions_m_rad_per_n: (free > 0 && held)
+            .then(|| rows(&compliance.springs)),
+        free_directions: free,
+        rigid_directions: count(DirectionKind::Rigid),
+        negative_directions: count(DirectionKind::Negative),
         rank: directions
             .iter()
             .filter(|d| d.kind != DirectionKind::Free)
@@ -144,6 +204,37 @@ pub(crate) fn principal(d: &Direction) -> Principal {
             .then_some(1e-3 * d.stiffness_n_per_m),
         translation_share: d.twist.linear().into(),
         rotation_deg_per_mm: turn.into(),
+        in_words: motion_in_words(d),
+        behind: d
+            .behind
+            .iter()
+            .map(|s| {
+                let (factor, unit) = match s.kind {
+                    MotionKind::Prismatic => (1.0, "mm"),
+                    MotionKind::Revolute => (1e-3 * 1_f64.to_degrees(), "deg"),
+                };
+                Behind {
+                    name: s.name.clone(),
+                    role: s.role,
+                    motion_per_mm: factor * s.motion,
+                    unit,
+                    share: s.share,
+                }
+            })
+            .collect(),
+    }
+}
+
+/// `turns about z by arm: q`, with no more names than a line holds.
+pub(crate) fn motion_in_words(d: &Direction) -> String {
+    const NAMES: usize = 3;
+    let mut short = d.clone();
+    short.behind.truncate(NAMES);
+    let text = short.in_words();
+    let motion = text.split_once(": ").map_or(text.as_str(), |(_, m)| m);
+    match d.behind.len().saturating_sub(NAMES) {
+        0 => motion.to_owned(),
+        more => format!("{motion} and {more} more"),
     }
 }
 
@@ -177,33 +268,61 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
     ));
     out.push_str(&asymmetry(spot, a));
     if let Some(c) = &a.compliance_m_rad_per_n {
-        out.push_str("\nCompliance, its inverse: micrometres and microradians\n\n");
-        out.push_str(&matrix(
-            c,
-            [
-                "dx, um", "dy, um", "dz, um", "rx, urad", "ry, urad", "rz, urad",
-            ],
-            ["per N", "per N", "per N", "per N m", "per N m", "per N m"],
-            |_, _| 1e6,
-        ));
+        out.push_str(match a.rigid_directions {
+            0 => "\nCompliance, its inverse: micrometres and microradians\n\n",
+            _ => "\nCompliance, zero along rigid directions: micrometres and microradians\n\n",
+        });
+        out.push_str(&compliance(c));
     } else {
         out.push('\n');
         out.push_str(&wrapped(
-            "There is no compliance: a direction is free, so a force along it meets nothing.",
+            "There is no inverse: a direction is free, so a force along it meets nothing.",
             0,
         ));
     }
-    out.push_str(&format!(
-        "\nPrincipal directions: {} of 6 have stiffness\n\n",
-        a.rank
+    if let Some(c) = &a.compliance_besides_free_motions_m_rad_per_n {
+        out.push_str(&wrapped(
+            "Compliance besides: motion under a load that pushes along no free direction, up to free motions; micrometres and microradians",
+            0,
+        ));
+        out.push('\n');
+        out.push_str(&compliance(c));
+    }
+    out.push('\n');
+    out.push_str(&wrapped(
+        &format!(
+            "Principal directions: {} of 6 have stiffness{}",
+            a.rank,
+            match a.rigid_directions {
+                0 => String::new(),
+                n => format!(", infinite in {n} (the machine cannot move that way)"),
+            }
+        ),
+        0,
     ));
+    out.push('\n');
     out.push_str(&principals(&a.principal_directions));
+    out.push_str("\nWhat moves\n");
+    a.principal_directions
+        .iter()
+        .for_each(|p| out.push_str(&what_moves(p)));
     out.push_str("\nLimbs\n");
     for limb in &a.limbs {
         out.push_str(&item(&limb_in_words(limb)));
     }
     out.push_str(&summary::warnings(&a.warnings));
     out
+}
+
+fn compliance(c: &[[f64; 6]; 6]) -> String {
+    matrix(
+        c,
+        [
+            "dx, um", "dy, um", "dz, um", "rx, urad", "ry, urad", "rz, urad",
+        ],
+        ["per N", "per N", "per N", "per N m", "per N m", "per N m"],
+        |_, _| 1e6,
+    )
 }
 
 /// A 6 x 6 table; entries that are rounding noise beside the diagonal show as 0.
@@ -221,10 +340,14 @@ fn matrix(
         let block = if i < 3 { 0..3 } else { 3..6 };
         block.map(|k| m[k][k].abs()).fold(0.0, f64::max)
     };
+    let most = m
+        .iter()
+        .flatten()
+        .fold(0.0_f64, |most, x| most.max(x.abs()));
     for i in 0..6 {
         let mut row = vec![names[i].to_owned()];
         for j in 0..6 {
-            let noise = 1e-9 * (scale(i) * scale(j)).sqrt();
+            let noise = (1e-9 * (scale(i) * scale(j)).sqrt()).max(1e-15 * most);
             row.push(if m[i][j].abs() <= noise {
                 "0".to_owned()
             } else {
@@ -265,13 +388,7 @@ pub(crate) fn principals(list: &[Principal]) -> String {
     ];
     for p in list {
         rows.push(vec![
-            match p.kind {
-                DirectionKind::Free => "free",
-                DirectionKind::Finite => "stiff",
-                DirectionKind::Negative => "NEGATIVE",
-                DirectionKind::Rigid => "rigid",
-            }
-            .to_owned(),
+            kind_in_words(p.kind).to_owned(),
             p.stiffness_n_per_mm
                 .map_or_else(|| "infinite".to_owned(), |s| number(s, 4)),
             triple(p.translation_share, |x| fixed(x, 3)),
@@ -284,6 +401,30 @@ pub(crate) fn principals(list: &[Principal]) -> String {
         2,
     ));
     out
+}
+
+fn kind_in_words(kind: DirectionKind) -> &'static str {
+    match kind {
+        DirectionKind::Free => "free",
+        DirectionKind::Finite => "stiff",
+        DirectionKind::Negative => "NEGATIVE",
+        DirectionKind::Rigid => "rigid",
+    }
+}
+
+/// A direction with the joints and springs behind it.
+pub(crate) fn what_moves(p: &Principal) -> String {
+    let stiffness = match (p.kind, p.stiffness_n_per_mm) {
+        (DirectionKind::Finite | DirectionKind::Negative, Some(s)) => {
+            format!(", {} N/mm", number(s, 4))
+        }
+        _ => String::new(),
+    };
+    item(&format!(
+        "{}{stiffness}: {}",
+        kind_in_words(p.kind),
+        p.in_words
+    ))
 }
 
 fn limb_in_words(limb: &LimbShare) -> String {

@@ -171,6 +171,135 @@ fn deflect_at_a_place() {
 }
 
 #[test]
+fn stiffness_names_what_moves_and_what_nothing_moves() {
+    let here = workplace();
+    let said = run(here.path(), &["stiffness", "three_link_z", "--json"]).answered();
+    narrow(&said.err);
+    for line in [
+        "rigid: nothing moves along z",
+        "rigid: nothing turns about x",
+        "free: turns about z by arm: e",
+        "free: moves along y by arm: q, arm: e",
+        "moves along x by arm: th1",
+        "up to free motions",
+    ] {
+        assert!(
+            said.err.replace("\n", " ").contains(line),
+            "{line}: {}",
+            said.err
+        );
+    }
+    let k: Value = serde_json::from_str(&said.out).unwrap();
+    let kinds: Vec<&str> = k["principal_directions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|d| d["kind"].as_str().unwrap())
+        .collect();
+    assert_eq!(kinds, ["rigid", "rigid", "rigid", "finite", "free", "free"]);
+    assert_eq!(k["rigid_directions"], 3);
+    assert_eq!(k["free_directions"], 2);
+    // Table 5.1: K = 16.92820323; its inverse is the compliance besides the free motions.
+    assert!(k["compliance_m_rad_per_n"].is_null());
+    let c = &k["compliance_besides_free_motions_m_rad_per_n"][0][0];
+    assert!((c.as_f64().unwrap() * 16.92820323 - 1.0).abs() < 1e-8);
+    let shares: f64 = k["principal_directions"][3]["behind"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|b| b["share"].as_f64().unwrap())
+        .sum();
+    assert!((shares - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn deflect_tells_the_load_of_links_and_both_verdicts() {
+    let here = workplace();
+    // A pushed Z: its shape holds, but nothing keeps its end on the line.
+    let args = [
+        "deflect",
+        "three_link_z",
+        "--force",
+        "-0.5",
+        "0",
+        "0",
+        "--json",
+    ];
+    let said = run(here.path(), &args).answered();
+    narrow(&said.err);
+    assert!(said.err.contains("keeps its shape"), "{}", said.err);
+    assert!(said.err.contains("platform does NOT stay"), "{}", said.err);
+    let d: Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(d["shapes_stable"], true);
+    assert_eq!(d["platform_stable"], false);
+    assert_eq!(d["stable"], false);
+    assert_eq!(d["negative_directions"].as_array().unwrap().len(), 1);
+    assert_eq!(d["conservative"], true);
+
+    let args = [
+        "deflect",
+        "compensated_arm",
+        "--force",
+        "0",
+        "0",
+        "-300",
+        "--moment",
+        "0",
+        "0",
+        "3",
+        "--json",
+    ];
+    let said = run(here.path(), &args).answered();
+    narrow(&said.err);
+    for words in ["Euler load, N", "upper arm", "not conservative"] {
+        assert!(said.err.contains(words), "{words}: {}", said.err);
+    }
+    let d: Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(d["conservative"], false);
+    let links = d["limbs"][0]["links"].as_array().unwrap();
+    assert_eq!(links.len(), 2);
+    for link in links {
+        let (force, euler, share) = (
+            link["axial_force_n"].as_f64().unwrap(),
+            link["euler_load_n"].as_f64().unwrap(),
+            link["share_of_euler_load"].as_f64().unwrap(),
+        );
+        assert!((share - (-force / euler).max(0.0)).abs() < 1e-15);
+        assert!((1e6..1e8).contains(&euler));
+    }
+}
+
+#[test]
+fn check_lists_loads_and_links() {
+    let here = workplace();
+    let text = run(here.path(), &["model", "show", "compensated_arm"]).answered();
+    let follower = "\n[[limb.load]]\nwrench = \"jet\"\nnode = \"hand\"\naxes = \"node\"\nforce_n = [0, 0, 5]\n";
+    std::fs::write(here.path().join("own.toml"), text.out + follower).unwrap();
+    let said = run(here.path(), &["check", "own.toml", "--json"]).answered();
+    narrow(&said.err);
+    for words in [
+        "link 'upper arm': 900 mm in 2 segments, bows",
+        "load 'gravity compensator': spring of 20 N/mm from the base",
+        "load 'jet': force (0, 0, 5) N on 'hand' in the axes of its node",
+        "(not conservative)",
+        "by its own weight and the loads on its limbs",
+    ] {
+        assert!(
+            said.err.replace("\n ", "").contains(words),
+            "{words}: {}",
+            said.err
+        );
+    }
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    let limb = &found["limbs"][0];
+    assert_eq!(limb["links"][0]["convention"], "bowing");
+    assert_eq!(limb["loads"][0]["kind"], "spring");
+    assert_eq!(limb["loads"][0]["conservative"], true);
+    assert_eq!(limb["loads"][1]["conservative"], false);
+    assert_eq!(found["home"]["conservative"], false);
+}
+
+#[test]
 fn help_completions_and_manual_pages() {
     let here = workplace();
     for command in [
