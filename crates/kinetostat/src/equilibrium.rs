@@ -571,7 +571,7 @@ fn grow_load(
             Err((spent, _)) => {
                 iterations += spent;
                 step *= 0.5;
-                if step < attempt.settings.smallest_load_step {
+                if step < attempt.settings.smallest_load_step.max(1e-9) {
                     attempt.offset = Twist::zero();
                     let (closure, lack) = attempt.evaluate(&x, &wrench, 1.0);
                     let balance = attempt.measure(&attempt.end_rows(&closure, &lack), &wrench);

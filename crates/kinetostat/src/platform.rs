@@ -398,7 +398,7 @@ impl<'m> PlatformSolver<'m> {
                     iterations += spent;
                     self.state = kept;
                     step *= 0.5;
-                    if step < self.settings.smallest_load_step {
+                    if step < self.settings.smallest_load_step.max(1e-9) {
                         return Err(self.not_converged(iterations, share, &first.1));
                     }
                 }

@@ -13,7 +13,7 @@ pub struct Settings {
     pub iterations: usize,
     /// Steps of the report's iteration (loads and Jacobians lagged) before Newton. Default 1.
     pub picard_steps: usize,
-    /// Smallest load step before a failure is reported. Default 1/1024.
+    /// Smallest load step before a failure is reported (1e-9 at least). Default 1/1024.
     pub smallest_load_step: f64,
 }
 

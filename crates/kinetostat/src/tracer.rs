@@ -237,7 +237,7 @@ impl Tracer<'_, '_, '_> {
             h = h.min(self.longest(&here.tangent));
             let Some((point, next, iterations)) = self.step(&here, h) else {
                 h *= 0.5;
-                if h < self.settings.smallest_step {
+                if h < self.settings.smallest_step.max(1e-12) {
                     return (points, BranchEnd::Lost);
                 }
                 continue;
