@@ -291,14 +291,23 @@ pub(crate) fn solve(
                 if found.singular {
                     continue;
                 }
-                curves.add(&found.equilibrium, v)?;
+                if let Err(error) = curves.add(&found.equilibrium, v) {
+                    warnings.push(format!(
+                        "a shape found at {} could not be followed: {error}",
+                        q.shown(v)
+                    ));
+                }
             }
         }
     }
+    let conjugate = match &q.parameter {
+        Parameter::Displacement(twist) => twist.dot(&start.wrench),
+        Parameter::Load(_) => 0.0,
+    };
     stage.is("looking where the jumps land");
     let jumps = curves.jumps()?;
     let view = View { q, curves: &curves };
-    let (named, jumps) = view.named(value, &jumps);
+    let (named, jumps) = view.named((value, conjugate), &jumps);
     stage.is("looking for the critical load");
     let critical = critical_loads(q, &problem, &settings)?;
     let branches: Vec<BranchAnswer> = view.branches(&named);
@@ -467,8 +476,7 @@ impl View<'_> {
         let coordinates = self.q.chain.chain.coordinates();
         let length = self.q.chain.chain.scale().length;
         let distance = |other: &CurvePoint| {
-            let joints = x
-                .iter()
+            x.iter()
                 .zip(&other.equilibrium.coordinates)
                 .zip(coordinates)
                 .map(|((a, b), c)| {
@@ -482,8 +490,7 @@ impl View<'_> {
                         _ => d * d,
                     }
                 })
-                .sum::<f64>();
-            joints
+                .sum::<f64>()
         };
         let mut best = (f64::INFINITY, 0);
         for (k, branch) in self.curves.branches.iter().enumerate() {
@@ -497,7 +504,22 @@ impl View<'_> {
         best.1 + 1
     }
 
-    fn named(&self, start: f64, jumps: &[kinetostat::Jump]) -> (Vec<NamedPoint>, Vec<JumpAnswer>) {
+    fn named(
+        &self,
+        start: (f64, f64),
+        jumps: &[kinetostat::Jump],
+    ) -> (Vec<NamedPoint>, Vec<JumpAnswer>) {
+        // A locked chain has many points at the start's displacement: the load tells them apart.
+        let width = self.q.range.1 - self.q.range.0;
+        let off = |p: &CurvePoint| {
+            (p.parameter - start.0).abs() / width
+                + (p.conjugate - start.1).abs() / (1.0 + start.1.abs())
+        };
+        let own = self.curves.branches.first();
+        let first = own.and_then(|b| b.points.iter().min_by(|a, b| off(a).total_cmp(&off(b))));
+        let same_place = |p: &CurvePoint, other: Option<&CurvePoint>| {
+            other.is_some_and(|o| p.parameter == o.parameter && p.conjugate == o.conjugate)
+        };
         let mut named: Vec<NamedPoint> = Vec::new();
         let mut add = |kind: &'static str,
                        words: String,
@@ -522,21 +544,9 @@ impl View<'_> {
             });
             name
         };
-        let first = self.curves.branches.first();
-        if let Some(p) = first.and_then(|b| {
-            b.points.iter().min_by(|a, b| {
-                let off = |p: &CurvePoint| (p.parameter - start).abs();
-                off(a).total_cmp(&off(b))
-            })
-        }) {
-            add(
-                "start",
-                "where the curve starts".into(),
-                vec![1],
-                p,
-                &[],
-                [false; 2],
-            );
+        if let Some(p) = first {
+            let words = "where the curve starts".into();
+            add("start", words, vec![1], p, &[], [false; 2]);
         }
         let mut specials = Vec::new();
         for s in &self.curves.specials {
@@ -592,7 +602,8 @@ impl View<'_> {
                     BranchEnd::Lost => "no further point was found",
                     BranchEnd::Closed | BranchEnd::Found => continue,
                 };
-                if let Some(p) = p {
+                // The start has a name already.
+                if let Some(p) = p.filter(|p| k > 0 || !same_place(p, first)) {
                     let words = format!("end of branch {}: {words}", k + 1);
                     add("end", words, vec![k + 1], p, &[], [false; 2]);
                 }

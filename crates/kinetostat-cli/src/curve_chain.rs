@@ -317,8 +317,8 @@ pub(crate) fn mode_in_words(chain: &SerialChain, mode: &[f64]) -> String {
                 MotionKind::Prismatic => (by.abs(), "mm"),
             };
             let shown = crate::screen::fixed(by, 3);
-            (shown.trim_matches(['-', '0', '.']) != "")
-                .then(|| (size, format!("{} by {shown} {word}", c.name)))
+            let something = shown.bytes().any(|b| (b'1'..=b'9').contains(&b));
+            something.then(|| (size, format!("{} by {shown} {word}", c.name)))
         })
         .collect();
     parts.sort_by(|a, b| b.0.total_cmp(&a.0));

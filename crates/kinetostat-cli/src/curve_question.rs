@@ -235,7 +235,8 @@ impl Holding {
                 triple(turned.into(), short)
             ));
         }
-        if !self.rigid.is_empty() && !(self.held.is_empty() && self.free.is_empty()) {
+        let moves = !self.held.is_empty() || !self.free.is_empty();
+        if moves && !self.rigid.is_empty() {
             text.push_str(&format!(
                 "; the chain cannot move in {}",
                 self.rigid.join(", ")

@@ -1,6 +1,6 @@
 //! The answer of `curve` for a person.
 
-use crate::curve_answer::{CriticalAnswer, CurveAnswer, NamedPoint, kind_in_words};
+use crate::curve_answer::{CriticalAnswer, CurveAnswer, NamedPoint, PointAnswer, kind_in_words};
 use crate::screen::{columns, fixed, item, number, wrapped};
 use crate::summary;
 
@@ -35,55 +35,57 @@ pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
 
 /// One or two sentences that answer the question.
 fn verdict(a: &CurveAnswer) -> String {
-    let u = &a.units;
-    let place = |p: &NamedPoint| {
+    let place = |p: &PointAnswer| {
+        let u = &a.units;
         let load = if u.load_unit.is_empty() {
-            format!("the load factor {}", short(p.point.shown[1]))
+            format!("the load factor {}", short(p.shown[1]))
         } else {
-            format!("{} {}", short(p.point.shown[1]), u.load_unit)
+            format!("{} {}", short(p.shown[1]), u.load_unit)
         };
-        format!(
-            "{} {} and {load}",
-            short(p.point.shown[0]),
-            u.displacement_unit
-        )
+        format!("{} {} and {load}", short(p.shown[0]), u.displacement_unit)
     };
-    let first = |k: usize| {
-        let value = |q: &NamedPoint| q.point.shown[usize::from(k == 0 && a.grows == "load")];
-        let start = a.named_points.first().map_or(0.0, value);
-        a.named_points
+    let Some(start) = a.named_points.first().map(|p| &p.point) else {
+        return "The curve has no points.".into();
+    };
+    // 0: under a dead load, 1: while the motion is prescribed.
+    let stable =
+        |p: &PointAnswer, k: usize| [p.stable_under_dead_load, p.stable_under_prescribed_motion][k];
+    let from = |p: &PointAnswer| {
+        let k = usize::from(a.grows == "load");
+        (p.shown[k] - start.shown[k]).abs()
+    };
+    // What ends stability first on the start's own branch: a named point, or somewhere between two
+    // points of the curve.
+    let end = |k: usize| {
+        let named = a
+            .named_points
             .iter()
             .filter(|p| p.limits[k] && p.branches.contains(&1))
-            .min_by(|p, q| {
-                let from = |p: &NamedPoint| (value(p) - start).abs();
-                from(p).total_cmp(&from(q))
-            })
-    };
-    let start = a.named_points.first().map(|p| {
-        [
-            p.point.stable_under_dead_load,
-            p.point.stable_under_prescribed_motion,
-        ]
-    });
-    let ends = |k: usize| {
-        first(k).map(|p| {
+            .min_by(|p, q| from(&p.point).total_cmp(&from(&q.point)));
+        if let Some(p) = named {
             let what = match p.kind {
                 "pitchfork" => "buckles",
                 "load_limit" | "displacement_limit" => "snaps",
                 _ => "loses its stability",
             };
-            (what, format!("at {} ({})", place(p), p.name))
-        })
+            return Some((what, format!("at {} ({})", place(&p.point), p.name)));
+        }
+        let points = a.branches.first().map_or(&[][..], |b| &b.points);
+        points
+            .iter()
+            .filter(|p| !stable(p, k))
+            .min_by(|p, q| from(p).total_cmp(&from(q)))
+            .map(|p| ("does NOT hold", format!("from {} on, or before", place(p))))
     };
-    let [dead, held] = start.unwrap_or([true, true]);
     if a.grows == "load" {
-        return match (dead, ends(0)) {
+        return match (stable(start, 0), end(0)) {
             (false, _) => "The chain does NOT hold at the start under this load.".into(),
             (true, Some((what, place))) => format!("The chain {what} {place}."),
             (true, None) => "The chain holds over the whole range under this load.".into(),
         };
     }
-    let mut text = match (held, ends(1)) {
+    let held = stable(start, 1);
+    let mut text = match (held, end(1)) {
         (false, _) => {
             "The chain does NOT keep its shape at the start, although its motion is prescribed."
                 .to_owned()
@@ -93,14 +95,15 @@ fn verdict(a: &CurveAnswer) -> String {
             "The shape holds over the whole range while the motion is prescribed.".to_owned()
         }
     };
-    let same = first(0).map(|p| &p.name) == first(1).map(|p| &p.name);
-    match (held, dead, ends(0)) {
+    match (held, stable(start, 0), end(0)) {
         (true, false, _) => text.push_str(
             " Under a dead load in place of the prescribed motion it would run away at once.",
         ),
-        (true, true, Some((what, place))) if !same => text.push_str(&format!(
-            " Under a dead load in place of the prescribed motion it {what} {place}."
-        )),
+        (true, true, Some((what, place))) if end(1) != Some((what, place.clone())) => {
+            text.push_str(&format!(
+                " Under a dead load in place of the prescribed motion it {what} {place}."
+            ));
+        }
         _ => {}
     }
     text
@@ -127,6 +130,13 @@ fn table(a: &CurveAnswer) -> String {
     if factor {
         header.insert(1, "factor".to_owned());
     }
+    let size = |k: usize| {
+        a.named_points
+            .iter()
+            .map(|p| p.point.shown[k].abs())
+            .fold(0.0, f64::max)
+    };
+    let sizes = [size(0), size(1)];
     let mut rows = vec![header];
     let ends = a.named_points.iter().filter(|p| p.kind == "end").count();
     for p in &a.named_points {
@@ -136,8 +146,8 @@ fn table(a: &CurveAnswer) -> String {
         let [displacement, load, slope] = p.point.shown;
         let mut row = vec![
             p.name.clone(),
-            value(displacement),
-            value(load),
+            value(displacement, sizes[0]),
+            value(load, sizes[1]),
             if slope.abs() < 1e-15 {
                 "0".to_owned()
             } else if !slope.is_finite() || slope.abs() > 1e9 {
@@ -149,7 +159,7 @@ fn table(a: &CurveAnswer) -> String {
             verdict_of(p.limits[1], p.point.stable_under_prescribed_motion),
         ];
         if factor {
-            row.insert(1, value(p.point.factor.unwrap_or(f64::NAN)));
+            row.insert(1, value(p.point.factor.unwrap_or(f64::NAN), 1.0));
         }
         rows.push(row);
     }
@@ -162,8 +172,9 @@ fn table(a: &CurveAnswer) -> String {
     out
 }
 
-fn value(x: f64) -> String {
-    if x.abs() < 1e-12 {
+/// A number of a column whose largest is `size`.
+fn value(x: f64, size: f64) -> String {
+    if x.abs() < 1e-11 * size {
         return "0".into();
     }
     number(x, 7)
@@ -315,15 +326,21 @@ fn branches(a: &CurveAnswer) -> String {
         .filter_map(|p| p.buckling_margin)
         .collect();
     let most = margins.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if let (Some(_), Some(first)) = (margins.first(), a.named_points.first()) {
-        if let Some(mu) = first.point.buckling_margin {
-            text.push_str(&format!(
-                " Held at the start, the shape is {} % of the way to buckling (mu {}); on branch 1 mu reaches {}.",
-                fixed(100.0 * mu, 1),
-                fixed(mu, 4),
-                fixed(most, 4)
-            ));
-        }
+    let at_start = a.named_points.first().and_then(|p| p.point.buckling_margin);
+    if let Some(mu) = at_start {
+        let words = if mu < 0.0 {
+            "its load stretches the shape".to_owned()
+        } else {
+            format!(
+                "the shape is {} % of the way to buckling",
+                fixed(100.0 * mu, 1)
+            )
+        };
+        text.push_str(&format!(
+            " Held at the start, {words} (mu {}); on branch 1 mu reaches {}.",
+            fixed(mu, 4),
+            fixed(most, 4)
+        ));
     }
     format!("\n{}", wrapped(&text, 0))
 }
