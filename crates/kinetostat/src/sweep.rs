@@ -26,7 +26,7 @@
 //! Everything here is balanced: wrenches and coordinates in the units of
 //! [`crate::equilibrium::balance`].
 
-use nalgebra::{Matrix3, Matrix6, Matrix6xX, Vector6};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3, Vector6};
 
 use crate::chain::{Chain, Element};
 use crate::kinematics::Kinematics;
@@ -43,6 +43,56 @@ pub(crate) struct Stage {
     pub first: usize,
     /// One to six.
     pub len: usize,
+    /// Place of its `len * len` block in lists of such blocks.
+    pub block: usize,
+}
+
+impl Stage {
+    /// Six numbers per coordinate as the columns of a matrix, filled up with zeros.
+    pub fn columns(&self, list: &[f64]) -> Matrix6<f64> {
+        let own = &list[6 * self.first..6 * (self.first + self.len)];
+        if self.len == 6 {
+            return Matrix6::from_column_slice(own);
+        }
+        let mut all = [0.0; 36];
+        all[..own.len()].copy_from_slice(own);
+        Matrix6::from_column_slice(&all)
+    }
+
+    /// Stores the columns of a matrix again.
+    pub fn store_columns(&self, matrix: &Matrix6<f64>, list: &mut [f64]) {
+        let count = 6 * self.len;
+        list[6 * self.first..6 * self.first + count].copy_from_slice(&matrix.as_slice()[..count]);
+    }
+
+    /// A block, filled up with zeros.
+    pub fn square(&self, list: &[f64]) -> Matrix6<f64> {
+        let own = &list[self.block..self.block + self.len * self.len];
+        if self.len == 6 {
+            return Matrix6::from_column_slice(own);
+        }
+        let mut matrix = Matrix6::zeros();
+        for j in 0..self.len {
+            for i in 0..self.len {
+                matrix[(i, j)] = own[j * self.len + i];
+            }
+        }
+        matrix
+    }
+
+    /// Stores a block again.
+    pub fn store_square(&self, matrix: &Matrix6<f64>, list: &mut [f64]) {
+        for j in 0..self.len {
+            for i in 0..self.len {
+                list[self.block + j * self.len + i] = matrix[(i, j)];
+            }
+        }
+    }
+}
+
+/// Six numbers of one coordinate.
+pub(crate) fn column(list: &[f64], coordinate: usize) -> Vector6<f64> {
+    Vector6::from_column_slice(&list[6 * coordinate..6 * coordinate + 6])
 }
 
 /// Which tangent is meant.
@@ -52,6 +102,8 @@ pub(crate) enum Form {
     Lagged,
     /// `H - K`, `H` of dead wrenches as it is.
     Exact,
+    /// `-K'`: springs at rest, no load.
+    Rest,
     /// `H' - mu K'` in exponential coordinates: `K'` at rest, `H'` with what deflection changed in
     /// the springs. At `mu = 1` the symmetric part of [`Form::Exact`].
     Pencil(f64),
@@ -61,7 +113,7 @@ impl Form {
     /// Factors of `A` below and above the diagonal.
     pub fn skew(self) -> (f64, f64) {
         match self {
-            Self::Lagged => (0.0, 0.0),
+            Self::Lagged | Self::Rest => (0.0, 0.0),
             Self::Exact => (1.0, 0.0),
             Self::Pencil(_) => (0.5, -0.5),
         }
@@ -76,22 +128,22 @@ pub(crate) struct Sweep {
     /// Stage of every spring block.
     stage_of: Vec<usize>,
     factors: Vec<f64>,
-    /// `s`, 6 x len, filled up with zeros.
-    pub twists: Vec<Matrix6<f64>>,
-    /// `K`, len x len, filled up with zeros.
-    pub springs: Vec<Matrix6<f64>>,
-    /// Change of `K` since rest.
-    pub geometric: Vec<Option<Matrix6<f64>>>,
-    /// `A` of the loads beyond a stage; `None` where there are none.
-    pub outer: Vec<Option<Matrix6<f64>>>,
-    /// `g` of the nodes beyond `c` stages and before the next one; entry 0 is of no interest.
-    pub between: Vec<Option<Matrix6<f64>>>,
-    /// Inverse of `K` at rest.
-    compliance: Vec<Matrix6<f64>>,
+    /// `s`, six numbers per coordinate.
+    pub twists: Vec<f64>,
+    /// `K`, a block per stage.
+    springs: Vec<f64>,
+    /// `K'`: the same at rest.
+    rest: Vec<f64>,
+    /// Inverse of `K` of the posture at rest.
+    compliance: Vec<f64>,
+    /// Wrench beyond each stage about the tip's place, N and N m.
+    outer: Vec<Vector6<f64>>,
+    /// Which of `nodes` is beyond `c` stages and before the next one, counted from 1; 0 for none.
+    between: Vec<usize>,
+    /// `g`.
+    nodes: Vec<Matrix6<f64>>,
     /// No load couples the motions of nodes in different places.
     pub serial: bool,
-    /// Scratch: wrench on the nodes between two stages, about the tip's place.
-    wrenches: Vec<Vector6<f64>>,
 }
 
 /// Stages of a chain and number of stages before each node; `None` if it is no sequence of them: a
@@ -108,7 +160,7 @@ fn stages(chain: &Chain) -> Option<(Vec<Stage>, Vec<usize>, Vec<usize>)> {
     }
     let (mut stages, mut before) = (Vec::<Stage>::new(), Vec::new());
     let mut stage_of = vec![0; chain.springs().len()];
-    let (mut next, mut missing) = (0, 0);
+    let (mut next, mut missing, mut block) = (0, 0, 0);
     for element in chain.elements() {
         match element {
             Element::Rigid(_) => {}
@@ -133,6 +185,7 @@ fn stages(chain: &Chain) -> Option<(Vec<Stage>, Vec<usize>, Vec<usize>)> {
                 let mut stage = Stage {
                     first: drive.index,
                     len: 1,
+                    block,
                 };
                 if let Some(k) = block_of[drive.index] {
                     stage_of[k] = stages.len();
@@ -142,6 +195,7 @@ fn stages(chain: &Chain) -> Option<(Vec<Stage>, Vec<usize>, Vec<usize>)> {
                     }
                 }
                 missing = stage.len - 1;
+                block += stage.len * stage.len;
                 stages.push(stage);
             }
         }
@@ -157,31 +211,30 @@ impl Sweep {
             return None;
         }
         let count = stages.len();
-        let mut compliance = vec![Matrix6::zeros(); count];
+        let blocks: usize = stages.iter().map(|s| s.len * s.len).sum();
+        let mut compliance = vec![0.0; blocks];
         for (block, &stage) in chain.springs().iter().zip(&stage_of) {
             let k = block.stiffness_at(posture);
-            let balanced = nalgebra::DMatrix::from_fn(block.len(), block.len(), |i, j| {
-                k[(i, j)] * factors[6 + block.first + i] * factors[6 + block.first + j]
+            let unit = |i: usize| factors[6 + block.first + i];
+            let balanced = DMatrix::from_fn(block.len(), block.len(), |i, j| {
+                k[(i, j)] * unit(i) * unit(j)
             });
             let inverse = balanced.cholesky()?.inverse();
-            for i in 0..block.len() {
-                for j in 0..block.len() {
-                    compliance[stage][(i, j)] = inverse[(i, j)];
-                }
-            }
+            let at = stages[stage].block;
+            compliance[at..at + inverse.len()].copy_from_slice(inverse.as_slice());
         }
         Some(Self {
             before,
             stage_of,
             factors: factors.to_vec(),
-            twists: vec![Matrix6::zeros(); count],
-            springs: vec![Matrix6::zeros(); count],
-            geometric: vec![None; count],
-            outer: vec![None; count],
-            between: vec![None; count + 1],
+            twists: vec![0.0; 6 * chain.coordinate_count()],
+            springs: vec![0.0; blocks],
+            rest: vec![0.0; blocks],
             compliance,
+            outer: vec![Vector6::zeros(); count],
+            between: vec![0; count + 1],
+            nodes: Vec::new(),
             serial: true,
-            wrenches: vec![Vector6::zeros(); count + 1],
             stages,
         })
     }
@@ -192,32 +245,31 @@ impl Sweep {
     }
 
     /// Springs of one state: `add(block, entry)` gives the entries of block number `block` in N, m,
-    /// rad; `geometric` is what changed since rest.
-    pub fn set_springs(
-        &mut self,
-        chain: &Chain,
-        mut add: impl FnMut(usize, &mut dyn FnMut(usize, usize, f64)),
-    ) {
+    /// rad.
+    pub fn set_springs(&mut self, mut add: impl FnMut(usize, &mut dyn FnMut(usize, usize, f64))) {
+        self.springs.fill(0.0);
         for (k, &stage) in self.stage_of.iter().enumerate() {
-            let first = 6 + chain.springs()[k].first;
-            let own = &mut self.springs[stage];
-            own.fill(0.0);
-            let factors = &self.factors;
+            let Stage { first, len, block } = self.stages[stage];
+            let unit = &self.factors[6 + first..];
+            let own = &mut self.springs[block..block + len * len];
             add(k, &mut |i, j, value| {
-                own[(i, j)] += value * factors[first + i] * factors[first + j];
+                own[j * len + i] += value * unit[i] * unit[j]
             });
         }
+        self.rest.copy_from_slice(&self.springs);
     }
 
-    /// What deflection changed in the springs: first coordinate and matrix, in N, m, rad.
+    /// What deflection changed in the springs since rest: first coordinate and matrix, in N, m, rad.
     pub fn set_geometric(&mut self, changes: &[(usize, Matrix6<f64>)]) {
-        self.geometric.fill(None);
         for (first, change) in changes {
-            let at = self.stages.binary_search_by_key(first, |s| s.first);
-            if let Ok(stage) = at {
-                let f = &self.factors[6 + first..];
-                let balanced = Matrix6::from_fn(|i, j| change[(i, j)] * f[i] * f[j]);
-                self.geometric[stage] = Some(balanced);
+            if let Ok(at) = self.stages.binary_search_by_key(first, |s| s.first) {
+                let Stage { len, block, .. } = self.stages[at];
+                let unit = &self.factors[6 + first..];
+                for j in 0..len {
+                    for i in 0..len {
+                        self.rest[block + j * len + i] -= change[(i, j)] * unit[i] * unit[j];
+                    }
+                }
             }
         }
     }
@@ -234,21 +286,24 @@ impl Sweep {
     ) {
         let unit = Vector6::from_column_slice(&self.factors[..6]);
         let per_unit = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] / (unit[i] * unit[j]));
-        let tip = kinematics.tip_pose().translation.vector;
-        self.wrenches.fill(Vector6::zeros());
-        self.between.fill(None);
+        let tip = kinematics.node_position(self.before.len() - 1);
+        self.between.fill(0);
+        self.nodes.clear();
+        self.outer.fill(Vector6::zeros());
         for (node, wrench) in wrenches {
             let (place, f) = (self.before[*node], wrench.force());
             let arm = kinematics.node_position(*node) - tip;
-            let moment = wrench.moment() + arm.cross(&f);
-            let sum = &mut self.wrenches[place];
-            *sum += Wrench::new(f, moment).0;
-            if f != nalgebra::Vector3::zeros() {
+            if place > 0 {
+                // Summed up below.
+                let moment = wrench.moment() + arm.cross(&f);
+                self.outer[place - 1] += Wrench::new(f, moment).0;
+            }
+            if f != Vector3::zeros() {
                 let mut g = Matrix6::zeros();
                 g.fixed_view_mut::<3, 3>(3, 0).copy_from(&-hat(&f));
                 g.fixed_view_mut::<3, 3>(3, 3)
                     .copy_from(&(hat(&f) * hat(&arm)));
-                *self.between[place].get_or_insert_with(Matrix6::zeros) += per_unit(&g);
+                self.add_between(place, per_unit(&g));
             }
         }
         self.serial = true;
@@ -257,40 +312,58 @@ impl Sweep {
             self.serial &= place == self.before[tangent.by];
             let shift = |node| shift_matrix(&(kinematics.node_position(node) - tip));
             let g = shift(tangent.on).transpose() * tangent.matrix * shift(tangent.by);
-            *self.between[place].get_or_insert_with(Matrix6::zeros) += per_unit(&g);
+            self.add_between(place, per_unit(&g));
         }
         let mut sum = Vector6::zeros();
-        for (c, stage) in self.stages.iter().enumerate().rev() {
-            sum += self.wrenches[c + 1];
-            self.outer[c] = (sum != Vector6::zeros()).then(|| {
-                let w = Wrench(sum);
-                let (f, m) = (hat(&w.force()), hat(&w.moment()));
-                let mut a = Matrix6::zeros();
-                a.fixed_view_mut::<3, 3>(0, 3).copy_from(&f);
-                a.fixed_view_mut::<3, 3>(3, 0).copy_from(&f);
-                a.fixed_view_mut::<3, 3>(3, 3).copy_from(&m);
-                per_unit(&a)
-            });
-            for i in 0..stage.len {
-                let column = jacobian.column(stage.first + i);
-                torque[stage.first + i] = column.dot(&sum);
-                let factor = self.factors[6 + stage.first + i];
+        for (stage, outer) in self.stages.iter().zip(&mut self.outer).rev() {
+            sum += *outer;
+            *outer = sum;
+            for own in stage.first..stage.first + stage.len {
+                let column = jacobian.column(own);
+                torque[own] = column.dot(&sum);
+                let factor = self.factors[6 + own];
                 for k in 0..6 {
-                    self.twists[c][(k, i)] = column[k] * unit[k] * factor;
+                    self.twists[6 * own + k] = column[k] * unit[k] * factor;
                 }
             }
         }
+    }
+
+    fn add_between(&mut self, place: usize, g: Matrix6<f64>) {
+        if self.between[place] == 0 {
+            self.nodes.push(Matrix6::zeros());
+            self.between[place] = self.nodes.len();
+        }
+        self.nodes[self.between[place] - 1] += g;
+    }
+
+    /// `A` of the loads beyond a stage, `None` where there are none.
+    pub fn outer(&self, stage: usize) -> Option<Matrix6<f64>> {
+        let sum = self.outer[stage];
+        if sum == Vector6::zeros() {
+            return None;
+        }
+        let (along, about) = (self.factors[0], self.factors[3]);
+        let f = hat(&Wrench(sum).force()) / (along * about);
+        let m = hat(&Wrench(sum).moment()) / (about * about);
+        let mut a = Matrix6::zeros();
+        a.fixed_view_mut::<3, 3>(0, 3).copy_from(&f);
+        a.fixed_view_mut::<3, 3>(3, 0).copy_from(&f);
+        a.fixed_view_mut::<3, 3>(3, 3).copy_from(&m);
+        Some(a)
     }
 
     /// Stiffness of the chain as it lies with its passive joints locked and its springs at rest: the
     /// natural size of a spring at its end. Directions that hardly or never yield are capped.
     pub fn end_spring(&self) -> Matrix6<f64> {
         let mut compliance = Matrix6::zeros();
-        for ((stage, s), c) in self.stages.iter().zip(&self.twists).zip(&self.compliance) {
+        for stage in &self.stages {
             if stage.len == 1 {
-                let column = s.column(0);
-                compliance.ger(c[(0, 0)], &column, &column, 1.0);
+                let s = column(&self.twists, stage.first);
+                compliance.ger(self.compliance[stage.block], &s, &s, 1.0);
             } else {
+                let s = stage.columns(&self.twists);
+                let c = stage.square(&self.compliance);
                 compliance += s * c * s.transpose();
             }
         }
@@ -303,21 +376,33 @@ impl Sweep {
 
     /// `g` between stages in one form.
     pub fn between(&self, form: Form, stage: usize) -> Option<Matrix6<f64>> {
-        let g = self.between[stage]?;
+        let g = self.nodes.get(self.between[stage].wrapping_sub(1))?;
         match form {
-            Form::Lagged => None,
-            Form::Exact => Some(g),
+            Form::Lagged | Form::Rest => None,
+            Form::Exact => Some(*g),
             Form::Pencil(_) => Some(0.5 * (g + g.transpose())),
         }
     }
 
     /// What is subtracted on the diagonal block of a stage.
-    pub fn held(&self, form: Form, stage: usize) -> Matrix6<f64> {
-        let k = self.springs[stage];
-        match (form, self.geometric[stage]) {
-            (Form::Pencil(mu), Some(change)) => change + (k - change) * mu,
-            (Form::Pencil(mu), None) => k * mu,
-            _ => k,
+    pub fn held(&self, form: Form, stage: &Stage) -> Matrix6<f64> {
+        match form {
+            Form::Lagged | Form::Exact => stage.square(&self.springs),
+            Form::Rest => stage.square(&self.rest),
+            Form::Pencil(mu) => {
+                let rest = stage.square(&self.rest);
+                stage.square(&self.springs) - rest + rest * mu
+            }
+        }
+    }
+
+    /// The same of a stage of one coordinate.
+    pub fn held_alone(&self, form: Form, stage: &Stage) -> f64 {
+        let (now, rest) = (self.springs[stage.block], self.rest[stage.block]);
+        match form {
+            Form::Lagged | Form::Exact => now,
+            Form::Rest => rest,
+            Form::Pencil(mu) => now - rest + rest * mu,
         }
     }
 
@@ -332,91 +417,69 @@ impl Sweep {
     ) -> Vector6<f64> {
         let (below, above) = form.skew();
         motions.clear();
+        motions.push(Vector6::zeros());
         let mut t = Vector6::zeros();
-        for (stage, s) in self.stages.iter().zip(&self.twists) {
-            for i in 0..stage.len {
-                t.axpy(x[stage.first + i], &s.column(i), 1.0);
+        for stage in &self.stages {
+            for own in stage.first..stage.first + stage.len {
+                t.axpy(x[own], &column(&self.twists, own), 1.0);
             }
             motions.push(t);
         }
-        let tip = t;
         let mut y = Vector6::zeros();
         for (c, stage) in self.stages.iter().enumerate().rev() {
             if let Some(g) = self.between(form, c + 1) {
-                y += g * motions[c];
+                y += g * motions[c + 1];
             }
-            let s = &self.twists[c];
-            let k = self.held(form, c);
-            let own = |i: usize| x[stage.first + i];
-            let outer = self.outer[c].filter(|_| below != 0.0);
+            let k = self.held(form, stage);
             for i in 0..stage.len {
-                let mut row = s.column(i).dot(&y);
+                let mut row = column(&self.twists, stage.first + i).dot(&y);
                 for j in 0..stage.len {
-                    row -= k[(i, j)] * own(j);
+                    row -= k[(i, j)] * x[stage.first + j];
                 }
                 out[stage.first + i] = row;
             }
-            if let Some(a) = outer {
+            if below == 0.0 {
+                continue;
+            }
+            if let Some(a) = self.outer(c) {
                 // Within the stage a coordinate sees what lies before it, or beyond.
-                let mut near = if c == 0 {
-                    Vector6::zeros()
-                } else {
-                    motions[c - 1]
-                };
-                let mut far = motions[c] - near;
-                for i in 0..stage.len {
-                    let own_motion = s.column(i) * own(i);
-                    far -= own_motion;
-                    out[stage.first + i] += s.column(i).dot(&(a * (near * below + far * above)));
-                    near += own_motion;
+                let (mut near, moved) = (motions[c], motions[c + 1] - motions[c]);
+                let mut far = moved;
+                for own in stage.first..stage.first + stage.len {
+                    let s = column(&self.twists, own);
+                    let motion = s * x[own];
+                    far -= motion;
+                    out[own] += s.dot(&(a * (near * below + far * above)));
+                    near += motion;
                 }
                 if above != 0.0 {
-                    let moved = motions[c]
-                        - if c == 0 {
-                            Vector6::zeros()
-                        } else {
-                            motions[c - 1]
-                        };
                     y += a * moved * above;
                 }
             }
         }
-        tip
-    }
-
-    /// `x^T K' x` with the springs at rest.
-    pub fn spring_form(&self, x: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        for (c, stage) in self.stages.iter().enumerate() {
-            let k = self.springs[c] - self.geometric[c].unwrap_or_else(Matrix6::zeros);
-            for i in 0..stage.len {
-                for j in 0..stage.len {
-                    sum += x[stage.first + i] * k[(i, j)] * x[stage.first + j];
-                }
-            }
-        }
-        sum
+        t
     }
 
     /// `K' x` with the springs at rest.
     pub fn spring_product(&self, x: &[f64], out: &mut [f64]) {
-        for (c, stage) in self.stages.iter().enumerate() {
-            let k = self.springs[c] - self.geometric[c].unwrap_or_else(Matrix6::zeros);
-            for i in 0..stage.len {
-                out[stage.first + i] = (0..stage.len).map(|j| k[(i, j)] * x[stage.first + j]).sum();
+        for stage in &self.stages {
+            let len = stage.len;
+            for i in 0..len {
+                out[stage.first + i] = (0..len)
+                    .map(|j| self.rest[stage.block + j * len + i] * x[stage.first + j])
+                    .sum();
             }
         }
     }
 
     /// Nothing depends on how far the chain is loaded.
     pub fn unloaded(&self) -> bool {
-        self.outer.iter().all(Option::is_none)
-            && self.between.iter().all(Option::is_none)
-            && self
-                .geometric
-                .iter()
-                .flatten()
-                .all(|m| m.amax() <= RANK_TOLERANCE)
+        let springs = self.springs.iter().zip(&self.rest);
+        self.nodes.is_empty()
+            && self.outer.iter().all(|w| *w == Vector6::zeros())
+            && springs
+                .into_iter()
+                .all(|(now, rest)| (now - rest).abs() <= RANK_TOLERANCE)
     }
 }
 

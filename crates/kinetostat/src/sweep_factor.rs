@@ -18,34 +18,29 @@
 use nalgebra::{Matrix6, Vector6};
 
 use crate::saddle::{Inertia, RANK_TOLERANCE};
-use crate::sweep::{Form, Sweep};
-
-/// What is kept of a stage.
-#[derive(Clone, Copy)]
-struct Kept {
-    /// `D^-1`, filled up with zeros.
-    inverse: Matrix6<f64>,
-    /// `s^T (Y + a A)`.
-    left: Matrix6<f64>,
-    /// `(Y + b A) s`.
-    right: Matrix6<f64>,
-}
+use crate::sweep::{Form, Sweep, column};
 
 /// A chain, its end on a spring, with all coordinates eliminated.
 pub(crate) struct Factored {
-    kept: Vec<Kept>,
+    /// `D^-1`, a block per stage.
+    inverse: Vec<f64>,
+    /// `(Y + a A)^T s`, six numbers per coordinate.
+    left: Vec<f64>,
+    /// `(Y + b A) s`, six numbers per coordinate.
+    right: Vec<f64>,
     /// The spring at the end.
     pub spring: Matrix6<f64>,
     /// `E`: motion of the end per wrench, its own spring included.
     pub end: Matrix6<f64>,
-    /// Motion of the coordinates of every stage per wrench on the end, `-M^-1 J^T`.
-    pub responses: Vec<Matrix6<f64>>,
+    /// Motion of every coordinate per wrench on the end, `-M^-1 J^T`, six numbers each.
+    responses: Vec<f64>,
     /// Signs of the pivots; only of a symmetric form.
     pub inertia: Inertia,
 }
 
-/// Inverse by Gauss-Jordan with row exchanges, `None` where a pivot is lost in rounding.
-fn inverse(matrix: &Matrix6<f64>, len: usize) -> Option<Matrix6<f64>> {
+/// Inverse by Gauss-Jordan with row exchanges, `None` where a pivot is below a share of the largest
+/// entry.
+fn inverse(matrix: &Matrix6<f64>, len: usize, least: f64) -> Option<Matrix6<f64>> {
     let (mut a, mut b) = (*matrix, Matrix6::identity());
     let size = a.view((0, 0), (len, len)).amax();
     for k in 0..len {
@@ -56,8 +51,7 @@ fn inverse(matrix: &Matrix6<f64>, len: usize) -> Option<Matrix6<f64>> {
             }
         }
         let pivot = a[(best, k)];
-        // Not a number is no pivot either.
-        if !(pivot.abs() > 10.0 * RANK_TOLERANCE * size) {
+        if !is_above(pivot.abs(), least * size) {
             return None;
         }
         if best != k {
@@ -90,7 +84,8 @@ fn negative_definite(matrix: &Matrix6<f64>, len: usize) -> bool {
     let mut a = *matrix;
     for k in 0..len {
         let pivot = a[(k, k)];
-        if !(pivot < 1e-6 * matrix[(k, k)] && pivot < 0.0) {
+        let regular = pivot < 0.0 && pivot < 1e-6 * matrix[(k, k)];
+        if !regular {
             return false;
         }
         for i in k + 1..len {
@@ -122,42 +117,46 @@ impl Factored {
         if let Form::Pencil(mu) = form {
             spring *= mu.abs().max(1e-12);
         }
-        let count = sweep.stages.len();
         let (below, above) = form.skew();
-        let mut kept = vec![
-            Kept {
-                inverse: Matrix6::zeros(),
-                left: Matrix6::zeros(),
-                right: Matrix6::zeros(),
-            };
-            count
-        ];
-        let mut inertia = Inertia::default();
+        let symmetric = !matches!(form, Form::Lagged | Form::Exact);
+        // Shifts come close to eigenvalues, where a pivot is small by right.
+        let least = if symmetric {
+            1e-3 * RANK_TOLERANCE
+        } else {
+            10.0 * RANK_TOLERANCE
+        };
+        let n = sweep.count();
+        let blocks = sweep.stages.last().map_or(0, |s| s.block + s.len * s.len);
+        let mut factored = Self {
+            inverse: vec![0.0; blocks],
+            left: vec![0.0; 6 * n],
+            right: vec![0.0; 6 * n],
+            spring,
+            end: Matrix6::zeros(),
+            responses: vec![0.0; 6 * n],
+            inertia: Inertia::default(),
+        };
+        let inertia = &mut factored.inertia;
         let mut y = -spring;
-        for c in (0..count).rev() {
+        for (c, stage) in sweep.stages.iter().enumerate().rev() {
             if let Some(g) = sweep.between(form, c + 1) {
                 y += g;
             }
-            let (s, len) = (&sweep.twists[c], sweep.stages[c].len);
-            let held = sweep.held(form, c);
-            let outer = sweep.outer[c].filter(|_| below != 0.0);
-            if len == 1 {
-                let column = s.column(0).into_owned();
-                let (mut right, mut left) = (y * column, y.tr_mul(&column));
-                let pivot = column.dot(&right) - held[(0, 0)];
-                let mut size = held[(0, 0)].abs();
-                for i in 0..6 {
-                    for j in 0..6 {
-                        let product = (column[i] * column[j]).abs();
-                        size += product * (y[(i, j)].abs() + spring[(i, j)].abs());
-                    }
-                }
-                if !(pivot.abs() > 10.0 * RANK_TOLERANCE * size) {
+            let outer = if below == 0.0 { None } else { sweep.outer(c) };
+            if stage.len == 1 {
+                let s = column(&sweep.twists, stage.first);
+                let (mut right, mut left) = (y * s, y.tr_mul(&s));
+                let held = sweep.held_alone(form, stage);
+                let pivot = s.dot(&right) - held;
+                // Against the largest number that was subtracted on the way here.
+                let size = s.abs();
+                let size = held.abs() + size.dot(&((y.abs() + spring.abs()) * size));
+                if !is_above(pivot.abs(), least * size) {
                     return None;
                 }
                 if let Some(a) = outer {
                     // A is skew.
-                    let turned = a * column;
+                    let turned = a * s;
                     left -= turned * below;
                     right += turned * above;
                 }
@@ -167,83 +166,78 @@ impl Factored {
                     inertia.negative += 1;
                 }
                 y.ger(-1.0 / pivot, &right, &left, 1.0);
-                kept[c].inverse[(0, 0)] = 1.0 / pivot;
-                kept[c].left.set_row(0, &left.transpose());
-                kept[c].right.set_column(0, &right);
+                factored.inverse[stage.block] = 1.0 / pivot;
+                let own = 6 * stage.first..6 * stage.first + 6;
+                factored.left[own.clone()].copy_from_slice(left.as_slice());
+                factored.right[own].copy_from_slice(right.as_slice());
             } else {
-                let (mut right, mut left) = (y * s, s.tr_mul(&y));
-                let mut pivot = s.tr_mul(&right) - held;
+                let s = stage.columns(&sweep.twists);
+                let (mut right, mut left) = (y * s, y.tr_mul(&s));
+                let mut pivot = s.tr_mul(&right) - sweep.held(form, stage);
                 if let Some(a) = outer {
                     let turned = a * s;
                     let within = s.tr_mul(&turned);
-                    for i in 0..len {
+                    for i in 0..stage.len {
                         for j in 0..i {
                             pivot[(i, j)] += below * within[(i, j)];
                             pivot[(j, i)] += above * within[(j, i)];
                         }
                     }
-                    left -= (turned * below).transpose();
+                    left -= turned * below;
                     right += turned * above;
                 }
-                let inverse = inverse(&pivot, len)?;
-                if matches!(form, Form::Pencil(_)) {
-                    let (positive, negative) = signs(&pivot, len);
+                let inverse = inverse(&pivot, stage.len, least)?;
+                if symmetric {
+                    let (positive, negative) = signs(&pivot, stage.len);
                     inertia.positive += positive;
                     inertia.negative += negative;
                 }
-                y -= right * (inverse * left);
-                kept[c] = Kept {
-                    inverse,
-                    left,
-                    right,
-                };
+                y -= right * (inverse * left.transpose());
+                stage.store_square(&inverse, &mut factored.inverse);
+                stage.store_columns(&left, &mut factored.left);
+                stage.store_columns(&right, &mut factored.right);
             }
-            if matches!(form, Form::Pencil(_)) {
+            if symmetric {
                 y = 0.5 * (y + y.transpose());
             }
         }
-        let mut factored = Self {
-            kept,
-            spring,
-            end: Matrix6::zeros(),
-            responses: vec![Matrix6::zeros(); count],
-            inertia,
-        };
         factored.respond(sweep);
-        factored
-            .end
-            .iter()
-            .all(|x| x.is_finite())
-            .then_some(factored)
+        let finite = factored.end.iter().all(|x| x.is_finite());
+        finite.then_some(factored)
     }
 
     /// Solves `M X = -J^T`.
     fn respond(&mut self, sweep: &Sweep) {
         let mut eta = Matrix6::identity();
-        for (c, stage) in sweep.stages.iter().enumerate().rev() {
-            let (s, k) = (&sweep.twists[c], &self.kept[c]);
+        for stage in sweep.stages.iter().rev() {
             if stage.len == 1 {
-                let z = eta.tr_mul(&s.column(0)) * k.inverse[(0, 0)];
-                eta.ger(-1.0, &k.right.column(0), &z, 1.0);
-                self.responses[c].set_row(0, &-z.transpose());
+                let s = column(&sweep.twists, stage.first);
+                let z = eta.tr_mul(&s) * self.inverse[stage.block];
+                eta.ger(-1.0, &column(&self.right, stage.first), &z, 1.0);
+                let own = 6 * stage.first..6 * stage.first + 6;
+                self.responses[own].copy_from_slice((-z).as_slice());
             } else {
-                let z = k.inverse * s.tr_mul(&eta);
-                eta -= k.right * z;
-                self.responses[c] = -z;
+                let s = stage.columns(&sweep.twists);
+                let z = stage.square(&self.inverse) * s.tr_mul(&eta);
+                eta -= stage.columns(&self.right) * z;
+                stage.store_columns(&-z.transpose(), &mut self.responses);
             }
         }
         let mut t = Matrix6::zeros();
-        for (c, stage) in sweep.stages.iter().enumerate() {
-            let (s, k) = (&sweep.twists[c], &self.kept[c]);
+        for stage in &sweep.stages {
             if stage.len == 1 {
-                let more = t.tr_mul(&k.left.row(0).transpose()) * k.inverse[(0, 0)];
-                let row = self.responses[c].row(0).transpose() - more;
-                self.responses[c].set_row(0, &row.transpose());
-                t.ger(1.0, &s.column(0), &row, 1.0);
+                let s = column(&sweep.twists, stage.first);
+                let more = t.tr_mul(&column(&self.left, stage.first)) * self.inverse[stage.block];
+                let x = column(&self.responses, stage.first) - more;
+                let own = 6 * stage.first..6 * stage.first + 6;
+                self.responses[own].copy_from_slice(x.as_slice());
+                t.ger(1.0, &s, &x, 1.0);
             } else {
-                let x = self.responses[c] - k.inverse * (k.left * t);
+                let s = stage.columns(&sweep.twists);
+                let more = stage.square(&self.inverse) * stage.columns(&self.left).tr_mul(&t);
+                let x = stage.columns(&self.responses).transpose() - more;
                 t += s * x;
-                self.responses[c] = x;
+                stage.store_columns(&x.transpose(), &mut self.responses);
             }
         }
         self.end = t;
@@ -252,35 +246,35 @@ impl Factored {
     /// Solves `M x = right`, in place; returns `J x`.
     pub fn solve(&self, sweep: &Sweep, x: &mut [f64]) -> Vector6<f64> {
         let mut eta = Vector6::zeros();
-        for (c, stage) in sweep.stages.iter().enumerate().rev() {
-            let (s, k, own) = (&sweep.twists[c], &self.kept[c], stage.first);
+        for stage in sweep.stages.iter().rev() {
+            let own = stage.first;
             if stage.len == 1 {
-                let z = (s.column(0).dot(&eta) - x[own]) * k.inverse[(0, 0)];
-                eta.axpy(-z, &k.right.column(0), 1.0);
+                let z = (column(&sweep.twists, own).dot(&eta) - x[own]) * self.inverse[stage.block];
+                eta.axpy(-z, &column(&self.right, own), 1.0);
                 x[own] = -z;
             } else {
-                let mut right = s.tr_mul(&eta);
+                let mut right = stage.columns(&sweep.twists).tr_mul(&eta);
                 for i in 0..stage.len {
                     right[i] -= x[own + i];
                 }
-                let z = k.inverse * right;
-                eta -= k.right * z;
+                let z = stage.square(&self.inverse) * right;
+                eta -= stage.columns(&self.right) * z;
                 for i in 0..stage.len {
                     x[own + i] = -z[i];
                 }
             }
         }
         let mut t = Vector6::zeros();
-        for (c, stage) in sweep.stages.iter().enumerate() {
-            let (s, k, own) = (&sweep.twists[c], &self.kept[c], stage.first);
+        for stage in &sweep.stages {
+            let own = stage.first;
             if stage.len == 1 {
-                x[own] -= k.left.row(0).transpose().dot(&t) * k.inverse[(0, 0)];
-                t.axpy(x[own], &s.column(0), 1.0);
+                x[own] -= column(&self.left, own).dot(&t) * self.inverse[stage.block];
+                t.axpy(x[own], &column(&sweep.twists, own), 1.0);
             } else {
-                let more = k.inverse * (k.left * t);
+                let more = stage.square(&self.inverse) * stage.columns(&self.left).tr_mul(&t);
                 for i in 0..stage.len {
                     x[own + i] -= more[i];
-                    t.axpy(x[own + i], &s.column(i), 1.0);
+                    t.axpy(x[own + i], &column(&sweep.twists, own + i), 1.0);
                 }
             }
         }
@@ -288,11 +282,14 @@ impl Factored {
     }
 
     /// Adds the motion under a wrench on the end (its own spring included).
-    pub fn add_response(&self, sweep: &Sweep, wrench: &Vector6<f64>, x: &mut [f64]) {
-        for (stage, response) in sweep.stages.iter().zip(&self.responses) {
-            for i in 0..stage.len {
-                x[stage.first + i] += response.row(i).transpose().dot(wrench);
-            }
+    pub fn add_response(&self, wrench: &Vector6<f64>, x: &mut [f64]) {
+        for (i, x) in x.iter_mut().enumerate() {
+            *x += column(&self.responses, i).dot(wrench);
         }
     }
+}
+
+/// Not a number is above nothing.
+fn is_above(value: f64, limit: f64) -> bool {
+    value > limit
 }

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, Dyn, LU, Matrix6, Vector6};
 
 use crate::saddle::{Inertia, RANK_TOLERANCE, Saddle, complement};
-use crate::sweep::{Form, Sweep};
+use crate::sweep::{Form, Sweep, column};
 use crate::sweep_factor::Factored;
 
 /// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced.
@@ -96,7 +96,7 @@ impl<'s> Bordered<'s> {
         let wrench = Vector6::from_fn(|i, _| b[(i, 0)] / self.size);
         let motion = Vector6::from_fn(|i, _| b[(6 + i, 0)]);
         let pulled = wrench + self.factored.spring * motion;
-        self.factored.add_response(self.sweep, &pulled, &mut x);
+        self.factored.add_response(&pulled, &mut x);
         (wrench, x)
     }
 
@@ -111,17 +111,12 @@ impl<'s> Bordered<'s> {
             // Where only passive joints move, all torques are rounding.
             let moved = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             let (mut worst, mut size) = (0.0_f64, RANK_TOLERANCE * moved);
-            for (stage, s) in self.sweep.stages.iter().zip(&self.sweep.twists) {
-                for i in 0..stage.len {
-                    let own = stage.first + i;
-                    let pull = s.column(i).dot(&wrench);
-                    size = size
-                        .max(pull.abs())
-                        .max(torque[own].abs())
-                        .max(left[own].abs());
-                    left[own] = torque[own] - pull - left[own];
-                    worst = worst.max(left[own].abs());
-                }
+            for own in 0..x.len() {
+                let pull = column(&self.sweep.twists, own).dot(&wrench);
+                let given = torque[own];
+                size = size.max(pull.abs()).max(given.abs()).max(left[own].abs());
+                left[own] = given - pull - left[own];
+                worst = worst.max(left[own].abs());
             }
             if !worst.is_finite() {
                 return None;
@@ -190,8 +185,8 @@ struct Shifted<'s> {
 
 impl<'s> Shifted<'s> {
     /// `None` where a pivot is lost in rounding.
-    fn new(sweep: &'s Sweep, range: &'s DMatrix<f64>, mu: f64) -> Option<Self> {
-        let factored = Factored::new(sweep, Form::Pencil(mu))?;
+    fn new(sweep: &'s Sweep, range: &'s DMatrix<f64>, form: Form) -> Option<Self> {
+        let factored = Factored::new(sweep, form)?;
         let end = range.transpose() * factored.end * range;
         let end = 0.5 * (&end + end.transpose());
         let values = end.symmetric_eigenvalues();
@@ -224,7 +219,7 @@ impl<'s> Shifted<'s> {
         let held = self.end.solve(&(self.range.transpose() * start))?;
         let wrench = self.range * held;
         let wrench = Vector6::from_fn(|i, _| -wrench[i]);
-        self.factored.add_response(self.sweep, &wrench, &mut x);
+        self.factored.add_response(&wrench, &mut x);
         x.iter().all(|v| v.is_finite()).then_some(x)
     }
 }
@@ -238,94 +233,177 @@ pub(crate) struct Shape {
     pub mode: Vec<f64>,
 }
 
-/// Rayleigh quotient, and the vector scaled so that its springs store one half.
-fn quotient(sweep: &Sweep, v: &mut [f64], scratch: &mut [f64]) -> Option<f64> {
-    let stored = sweep.spring_form(v);
-    if !(stored > 0.0 && stored.is_finite()) {
-        return None;
+/// Vector of the pencil with its springs at rest storing one half, and what acts on it.
+struct Trial {
+    v: Vec<f64>,
+    /// `K' v`.
+    springs: Vec<f64>,
+    /// `H' v`.
+    loads: Vec<f64>,
+    /// Rayleigh quotient.
+    quotient: f64,
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl Trial {
+    fn new(sweep: &Sweep, mut v: Vec<f64>) -> Option<Self> {
+        let mut springs = vec![0.0; v.len()];
+        sweep.spring_product(&v, &mut springs);
+        let stored = dot(&v, &springs);
+        if !(stored.is_finite() && stored > 0.0) {
+            return None;
+        }
+        let unit = 1.0 / stored.sqrt();
+        v.iter_mut().chain(&mut springs).for_each(|x| *x *= unit);
+        let mut loads = vec![0.0; v.len()];
+        let mut motions = Vec::with_capacity(sweep.stages.len() + 1);
+        sweep.product(Form::Pencil(0.0), &v, &mut motions, &mut loads);
+        Some(Self {
+            quotient: dot(&v, &loads),
+            v,
+            springs,
+            loads,
+        })
     }
-    let unit = 1.0 / stored.sqrt();
-    v.iter_mut().for_each(|x| *x *= unit);
-    let mut motions = Vec::with_capacity(sweep.stages.len());
-    sweep.product(Form::Pencil(0.0), v, &mut motions, scratch);
-    Some(v.iter().zip(scratch.iter()).map(|(a, b)| a * b).sum())
+}
+
+/// Steps of Lanczos' method before shifts take over.
+const LANCZOS: usize = 16;
+
+/// Lanczos' method for `K'^-1 H'` with the motions in `range` held, in the energy of the springs at
+/// rest: a vector near the largest eigenvalue, and how near its quotient may be.
+fn lanczos(sweep: &Sweep, range: &DMatrix<f64>) -> Option<(Trial, f64)> {
+    let n = sweep.count();
+    let rest = Shifted::new(sweep, range, Form::Rest)?;
+    // Any start that no eigenvector is orthogonal to.
+    #[allow(clippy::cast_precision_loss)]
+    let start: Vec<f64> = (0..n)
+        .map(|i| (i as f64 * 0.618_033_988_749_895 + 0.25).fract() - 0.4)
+        .collect();
+    let mut basis: Vec<Trial> = Vec::with_capacity(LANCZOS);
+    basis.push(Trial::new(sweep, rest.solve(&start)?)?);
+    let mut beyond = 0.0;
+    let mut couplings = Vec::with_capacity(LANCZOS);
+    while let Some(last) = basis.last() {
+        // -K' x = -H' v, but for reactions.
+        let torque: Vec<f64> = last.loads.iter().map(|x| -x).collect();
+        let mut next = rest.solve(&torque)?;
+        for _ in 0..2 {
+            for other in &basis {
+                let share = dot(&next, &other.springs);
+                for (x, o) in next.iter_mut().zip(&other.v) {
+                    *x -= share * o;
+                }
+            }
+        }
+        let mut springs = vec![0.0; n];
+        sweep.spring_product(&next, &mut springs);
+        beyond = dot(&next, &springs).max(0.0).sqrt();
+        let size = basis.iter().map(|t| t.quotient.abs()).fold(1e-3, f64::max);
+        if basis.len() == LANCZOS || beyond <= 1e-12 * size {
+            break;
+        }
+        couplings.push(beyond);
+        basis.push(Trial::new(sweep, next)?);
+    }
+    let m = basis.len();
+    let reduced = DMatrix::from_fn(m, m, |i, j| {
+        if i == j {
+            basis[i].quotient
+        } else if i.abs_diff(j) == 1 {
+            couplings[i.min(j)]
+        } else {
+            0.0
+        }
+    });
+    let eigen = reduced.symmetric_eigen();
+    let top = eigen.eigenvalues.imax();
+    let mut v = vec![0.0; n];
+    for (k, trial) in basis.iter().enumerate() {
+        let share = eigen.eigenvectors[(k, top)];
+        for (x, o) in v.iter_mut().zip(&trial.v) {
+            *x += share * o;
+        }
+    }
+    let off = beyond * eigen.eigenvectors[(m - 1, top)].abs();
+    Some((Trial::new(sweep, v)?, off))
 }
 
 /// Largest eigenvalue of the pencil while the motions in `range` are held. Rayleigh quotients bound
 /// it from below, the count of eigenvalues above a shift from above; each shift costs one sweep, and
 /// inverse iteration at the shift improves the quotient. `None` where a sweep loses a pivot.
 pub(crate) fn shape(sweep: &Sweep, range: &DMatrix<f64>) -> Option<Shape> {
-    let n = sweep.count();
-    let mut now = Shifted::new(sweep, range, 1.0)?;
-    let inertia = now.inertia;
-    let (mut low, mut high) = (f64::NEG_INFINITY, 1.0);
-    while now.above > 0 {
-        low = high;
-        high *= 4.0;
-        if high > 1e9 {
-            return None;
-        }
-        now = Shifted::new(sweep, range, high)?;
+    let judged = Shifted::new(sweep, range, Form::Pencil(1.0))?;
+    let inertia = judged.inertia;
+    let (mut best, mut off) = lanczos(sweep, range)?;
+    if sweep.unloaded() {
+        return Some(Shape {
+            inertia,
+            margin: 0.0,
+            mode: best.v,
+        });
     }
-    // Any start that no eigenvector is orthogonal to.
-    #[allow(clippy::cast_precision_loss)]
-    let mut v: Vec<f64> = (0..n)
-        .map(|i| (i as f64 * 0.618_033_988_749_895 + 0.25).fract() - 0.4)
-        .collect();
-    let (mut torque, mut scratch) = (vec![0.0; n], vec![0.0; n]);
-    let mut best = f64::NEG_INFINITY;
-    let mut failed = 0;
-    for _ in 0..80 {
-        let before = best;
-        for _ in 0..2 {
-            sweep.spring_product(&v, &mut torque);
-            v = now.solve(&torque)?;
-            best = quotient(sweep, &mut v, &mut scratch)?;
-        }
-        if sweep.unloaded() {
-            best = 0.0;
+    // Largest eigenvalue: above `low`, not above `high`.
+    let (mut low, mut high) = (best.quotient, f64::INFINITY);
+    if judged.above == 0 {
+        high = 1.0;
+    } else {
+        low = low.max(1.0);
+    }
+    let mut lost = 0;
+    for _ in 0..60 {
+        let scale = best.quotient.abs().max(1e-2);
+        if high - best.quotient <= 1e-9 * scale {
             break;
         }
-        low = low.max(best);
-        let scale = best.abs().max(1e-2);
-        let settled = (best - before).abs() <= 1e-13 * scale;
-        if high - best <= 1e-10 * scale || (settled && high - best <= 1e-7 * scale) {
-            break;
-        }
-        // The next shift: just above what the quotient still may grow by, farther if that was not
-        // above the largest eigenvalue.
-        let change = if before.is_finite() {
-            (best - before).abs()
+        let near = low - best.quotient <= 1e-9 * scale;
+        // Just above what the quotient still may grow by.
+        let mut ahead = if near {
+            (3.0 * off).max(3e-10 * scale)
         } else {
-            0.3 * (high - best)
+            f64::INFINITY
         };
-        let mut ahead = (10.0 * change).clamp(1e-11 * scale, 0.3 * (high - low));
-        loop {
-            let trial = low + ahead;
-            let Some(next) = Shifted::new(sweep, range, trial) else {
-                // An eigenvalue lies too near.
-                ahead *= 1.7;
-                failed += 1;
-                if failed > 40 {
-                    return None;
-                }
-                continue;
-            };
-            if next.above == 0 {
-                high = trial;
-                now = next;
-                break;
+        if high.is_finite() {
+            ahead = ahead.min(0.5 * (high - low));
+        } else if ahead.is_infinite() {
+            ahead = low.abs().max(scale);
+        }
+        let shift = low + ahead;
+        let Some(next) = Shifted::new(sweep, range, Form::Pencil(shift)) else {
+            // An eigenvalue lies too near.
+            lost += 1;
+            if lost > 12 {
+                return None;
             }
-            low = trial;
-            ahead = 0.5 * (high - low);
-            if high - low <= 1e-12 * scale {
-                break;
+            off = 4.0 * off + 1e-9 * scale;
+            continue;
+        };
+        if next.above > 0 {
+            low = shift;
+            off *= 4.0;
+            if low > 1e9 {
+                return None;
             }
+        } else {
+            high = shift;
+        }
+        // From either side the nearest eigenvalue grows in the vector; only a larger quotient counts.
+        let mut v = next.solve(&best.springs)?;
+        let mut trial = Trial::new(sweep, v)?;
+        v = next.solve(&trial.springs)?;
+        trial = Trial::new(sweep, v)?;
+        if trial.quotient > best.quotient - 1e-12 * scale {
+            off = (trial.quotient - best.quotient).abs();
+            best = trial;
+            low = low.max(best.quotient);
         }
     }
     Some(Shape {
         inertia,
-        margin: best,
-        mode: v,
+        margin: best.quotient,
+        mode: best.v,
     })
 }

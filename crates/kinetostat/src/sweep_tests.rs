@@ -144,6 +144,7 @@ fn reference(system: &System, factors: &[f64], form: Form) -> DMatrix<f64> {
         let (h, k) = (&system.hessian, system.spring_tangent[(i, j)]);
         let value = match form {
             Form::Lagged => -k,
+            Form::Rest => geometric[(i, j)] - k,
             Form::Exact => h[(i, j)] - k,
             Form::Pencil(mu) => {
                 let g = geometric[(i, j)];
@@ -154,8 +155,9 @@ fn reference(system: &System, factors: &[f64], form: Form) -> DMatrix<f64> {
     })
 }
 
-const FORMS: [Form; 4] = [
+const FORMS: [Form; 5] = [
     Form::Lagged,
+    Form::Rest,
     Form::Exact,
     Form::Pencil(1.0),
     Form::Pencil(0.3),

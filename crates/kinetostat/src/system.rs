@@ -168,7 +168,7 @@ impl System {
         if let Some(sweep) = &mut self.sweep {
             let (energy, torque) = (&mut self.energy, &mut self.spring_torque);
             let geometric = &mut self.spring_geometric;
-            sweep.set_springs(chain, |k, entry| {
+            sweep.set_springs(|k, entry| {
                 *energy += chain.springs()[k].add_entries(
                     coordinates,
                     posture,

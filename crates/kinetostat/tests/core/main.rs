@@ -31,6 +31,7 @@ mod jacobians_are_derivatives;
 mod links_that_bend;
 mod loads_in_mechanisms;
 mod loads_of_every_kind;
+mod long_chains;
 mod machines_with_rigid_directions;
 mod orthoglide_reference;
 mod report_iteration;
