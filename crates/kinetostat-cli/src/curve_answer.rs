@@ -264,13 +264,21 @@ pub(crate) fn solve(
         if value >= q.range.1 {
             settings.range.1 += room;
         }
-        curves = follow(&problem, &q.parameter, &start, value, &settings)?;
         if q.force_limits.is_none() {
-            warnings.push(
-                "the chain is stretched out and locked at the start: the load grows there without any displacement; --force-limits LOW HIGH keeps the curve to the loads of interest"
-                    .to_owned(),
-            );
+            // Chains of this stiffness and length buckle at about one of these units.
+            let scale = q.chain.chain.scale();
+            let (unit, word) = match q.measure {
+                Measure::Moment(_) => (scale.stiffness * scale.length.powi(2), "N m"),
+                _ => (scale.stiffness * scale.length, "N"),
+            };
+            let limit = 20.0 * unit;
+            settings.conjugate_range = (-limit, limit);
+            warnings.push(format!(
+                "the chain is stretched out and locked at the start: the load grows there without any displacement. The curve was kept within {} {word} both ways; --force-limits LOW HIGH sets other limits",
+                crate::screen::number(limit, 3)
+            ));
         }
+        curves = follow(&problem, &q.parameter, &start, value, &settings)?;
     }
     if q.all {
         let mut values = vec![value, q.range.0, q.range.1];
@@ -365,10 +373,8 @@ pub(crate) fn solve(
 fn is_locked(curves: &Curves<'_>) -> bool {
     let points = curves.branches.first().map(|b| b.points.as_slice());
     points.is_some_and(|list| {
-        list.len() < 20
-            && list
-                .iter()
-                .all(|p| !p.slope.is_finite() || p.slope.abs() > 1e9)
+        list.iter()
+            .all(|p| !p.slope.is_finite() || p.slope.abs() > 1e9)
     })
 }
 

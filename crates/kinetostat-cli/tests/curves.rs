@@ -229,6 +229,25 @@ fn the_straight_chain_buckles_at_one_and_three() {
         assert!(number(&fork["displacement_mm"]).abs() < 1e-9);
         assert!(fork["slope_n_per_mm"].is_null() || number(&fork["slope_n_per_mm"]).abs() > 1e6);
     }
+    // Without limits of the force the locked chain is told about, and buckles all the same.
+    let said = run(
+        here.path(),
+        &[
+            "curve",
+            "s.toml",
+            "--direction",
+            "-1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "0",
+            "600",
+        ],
+    )
+    .answered();
+    for words in ["locked at the start", "buckles at 0 mm and 1.00000 N (B)"] {
+        assert!(said.out.replace('\n', " ").contains(words), "{}", said.out);
+    }
     // Figure 5.7 at Delta 0.2, each shape with its mirror image.
     let all = json(
         here.path(),
