@@ -97,9 +97,6 @@ fn word(status: Status) -> &'static str {
     }
 }
 
-/// Longest name that stands in its row; others get a line of their own.
-const NAME: usize = 40;
-
 /// Longest print that stands in its column; formulas get a line of their own.
 const PRINT: usize = 10;
 
@@ -124,8 +121,9 @@ fn tell(out: &mut String, entry: &Entry, everything: bool) {
         .filter(|item| everything || item.status != Status::NoPrint)
         .collect();
     let mut notes: Vec<&str> = Vec::new();
-    // A row, the name above it if that is long, the formula below it if one is printed.
-    let mut rows: Vec<(Option<&str>, Vec<String>, Option<&str>)> = Vec::new();
+    // Print, computed number, unit and status of every row; the formula below it if one is printed.
+    let mut cells: Vec<[String; 4]> = Vec::new();
+    let mut formulas: Vec<Option<&str>> = Vec::new();
     for item in &shown {
         let mut status = word(item.status).to_owned();
         if !item.note.is_empty() {
@@ -136,37 +134,44 @@ fn tell(out: &mut String, entry: &Entry, everything: bool) {
             });
             status = format!("{status} [{}]", index + 1).trim_start().to_owned();
         }
-        let long = item.name.chars().count() > NAME;
         let (print, formula) = match item.printed.as_deref() {
             Some(text) if text.chars().count() > PRINT => ("", Some(text)),
             Some(text) => (text, None),
             None => ("", None),
         };
-        let row = vec![
-            if long {
-                String::new()
-            } else {
-                item.name.clone()
-            },
-            print.to_owned(),
-            computed_text(item),
-            item.unit.clone(),
-            status,
-        ];
-        rows.push((long.then_some(item.name.as_str()), row, formula));
+        let print = print.to_owned();
+        cells.push([print, computed_text(item), item.unit.clone(), status]);
+        formulas.push(formula);
     }
-    let mut table: Vec<Vec<String>> = rows.iter().map(|(_, row, _)| row.clone()).collect();
-    for column in [1, 2] {
-        let width = table.iter().map(|row| row[column].chars().count()).max();
-        let width = width.unwrap_or(0);
-        for row in &mut table {
-            row[column] = format!("{:>width$}", row[column]);
-        }
-    }
+    let width = |column: usize| {
+        let widths = cells.iter().map(|row| row[column].chars().count());
+        widths.max().unwrap_or(0)
+    };
+    // Names that find no room in the row stand above it.
+    let taken: usize = (0..4).map(|column| width(column) + 2).sum();
+    let room = screen::WIDTH.saturating_sub(2 + taken);
+    let fits = |item: &Item| item.name.chars().count() <= room;
+    let table: Vec<Vec<String>> = shown
+        .iter()
+        .zip(&cells)
+        .map(|(item, [print, computed, unit, status])| {
+            vec![
+                if fits(item) {
+                    item.name.clone()
+                } else {
+                    String::new()
+                },
+                format!("{print:>width$}", width = width(0)),
+                format!("{computed:>width$}", width = width(1)),
+                unit.clone(),
+                status.clone(),
+            ]
+        })
+        .collect();
     let table = listed(&table, 2);
-    for ((name, _, formula), line) in rows.iter().zip(table.lines()) {
-        if let Some(name) = name {
-            out.push_str(&wrapped(name, 2));
+    for ((item, formula), line) in shown.iter().zip(&formulas).zip(table.lines()) {
+        if !fits(item) {
+            out.push_str(&wrapped(&item.name, 2));
         }
         out.push_str(line);
         out.push('\n');

@@ -206,8 +206,13 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
 
 /// Where the stiffness of the upper shape at dx = 0 vanishes.
 fn critical(chain: &Chain, items: &mut Vec<Item>) -> Result<(), Cause> {
+    // The stiffness is steep here: converged beyond the default.
+    let settings = Settings {
+        torque: 1e-13,
+        ..Settings::default()
+    };
     let at = |g: f64| -> Result<Equilibrium, Cause> {
-        Ok(solve_chain(&problem(chain, g, 0.0)?, &Settings::default())?)
+        Ok(solve_chain(&problem(chain, g, 0.0)?, &settings)?)
     };
     let (mut a, mut b) = (1.0, 1.02);
     let (mut at_a, mut at_b) = (k_x(&at(a)?), k_x(&at(b)?));

@@ -159,7 +159,7 @@ pub(crate) fn eq_4_32() -> Result<Contents, Cause> {
         ));
         items.push(Item::wrong_formula(
             format!("K_y {at}"),
-            "0",
+            "K_y = 0",
             0.0,
             e.stiffness.cartesian.matrix[(1, 1)],
             "K/L^2",
