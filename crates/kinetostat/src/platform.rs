@@ -68,6 +68,8 @@ pub(crate) struct PlatformSolver<'m> {
     /// Closure at the start, kept while the load grows.
     offsets: Vec<Twist>,
     pub share: f64,
+    /// See [`crate::Residual::rate`], of the limbs' wrenches and coordinates.
+    pub rate: Option<f64>,
     pub length: f64,
     pub stiffness: f64,
 }
@@ -141,6 +143,7 @@ impl<'m> PlatformSolver<'m> {
             linear,
             offsets: vec![Twist::zero(); limbs.len()],
             share: 1.0,
+            rate: None,
             length,
             stiffness,
         }
@@ -275,6 +278,8 @@ impl<'m> PlatformSolver<'m> {
         picard: usize,
     ) -> std::result::Result<(usize, MechanismBalance), (usize, MechanismBalance)> {
         self.share = share;
+        self.rate = None;
+        let mut before: Option<f64> = None;
         let (mut now, mut lack) = self.evaluate();
         // A tangent that gains this much in one step (squared) serves for the next step too.
         const STILL_GOOD: f64 = 1e-5;
@@ -304,6 +309,12 @@ impl<'m> PlatformSolver<'m> {
                     .min(0.5 / motion.angular().norm().max(1e-300))
                     .min(0.5 * self.length / motion.linear().norm().max(1e-300));
             }
+            let correction: f64 = steps
+                .iter()
+                .zip(&self.factors)
+                .flat_map(|(step, units)| step.iter().zip(units))
+                .map(|(change, unit)| (change / unit).powi(2))
+                .sum();
             let start = (self.state.clone(), self.posture.clone(), self.target);
             let retargets = target.0 != Vector6::zeros();
             loop {
@@ -330,6 +341,9 @@ impl<'m> PlatformSolver<'m> {
                 let (next, missing) = self.evaluate();
                 let better = reached && next.merit <= merit * (1.0 - 0.1 * length);
                 if better || (reached && (iteration < picard || self.converged(&next))) {
+                    let moved = length * correction.sqrt();
+                    self.rate = before.filter(|b| *b > 0.0).map(|b| moved / b);
+                    before = Some(moved);
                     fresh = iteration < picard || next.merit > STILL_GOOD * merit;
                     (now, lack) = (next, missing);
                     break;
@@ -369,7 +383,7 @@ impl<'m> PlatformSolver<'m> {
             self.settings.picard_steps
         };
         let first = match self.solve(1.0, picard) {
-            Ok((iterations, balance)) => return Ok(balance.residual(iterations)),
+            Ok((iterations, balance)) => return Ok(self.residual(&balance, iterations)),
             Err(failed) => failed,
         };
         self.state = start;
@@ -405,7 +419,18 @@ impl<'m> PlatformSolver<'m> {
             }
         }
         self.offsets.fill(Twist::zero());
-        Ok(last.residual(iterations))
+        Ok(self.residual(&last, iterations))
+    }
+
+    fn residual(
+        &self,
+        balance: &MechanismBalance,
+        iterations: usize,
+    ) -> crate::equilibrium::Residual {
+        crate::equilibrium::Residual {
+            rate: self.rate,
+            ..balance.residual(iterations)
+        }
     }
 
     pub fn not_converged(

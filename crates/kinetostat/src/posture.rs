@@ -176,7 +176,8 @@ impl Mechanism {
     ///
     /// # Errors
     /// [`Error::Unreachable`] with the nearest pose, naming the limb; [`Error::Model`] for a graph
-    /// in which a limb does not run from the base to the tool.
+    /// in which a limb does not run from the base to the tool, unless the target is the tool's home,
+    /// where all platforms are known.
     pub fn posture(&self, target: &Pose) -> Result<Posture<'_>> {
         self.posture_from(target, None)
     }
@@ -202,22 +203,24 @@ impl Mechanism {
                 value,
             });
         }
+        let off = pose_residual(target, &self.platforms[self.tool].home).0;
+        let at_home = off.amax() <= 1e-9 * self.scale().length.max(1.0);
         let mut limbs = Vec::with_capacity(self.limbs.len());
         for (i, limb) in self.limbs.iter().enumerate() {
-            if limb.from != 0 || limb.to != self.tool {
+            if (limb.from != 0 || limb.to != self.tool) && !at_home {
                 return Err(Error::model(
                     format!("mechanism '{}', limb '{}'", self.name, limb.name),
-                    "inverse kinematics needs limbs that run from the base to the tool; command this mechanism with `posture_from_joints`",
+                    "inverse kinematics needs limbs that run from the base to the tool; with platforms in between a machine can be commanded at home, elsewhere by its joints (`posture_from_joints`)",
                 ));
             }
-            let tip = target * limb.platform_from_tip;
+            let end = match limb.to == self.tool {
+                true => target,
+                false => &self.platforms[limb.to].home,
+            };
+            let tip = end * limb.platform_from_tip;
             let start = near.map(|n| &n[i]);
-            limbs.push(inverse_kinematics(
-                &limb.nominal,
-                &self.platforms[0].home,
-                &tip,
-                start,
-            )?);
+            let base = &self.platforms[limb.from].home;
+            limbs.push(inverse_kinematics(&limb.nominal, base, &tip, start)?);
         }
         Ok(Posture {
             mechanism: self,

@@ -378,6 +378,27 @@ fn links_bow_in_closed_loops() {
     }
 }
 
+/// At home every platform's place is known, so the joints are; elsewhere somebody must say them.
+#[test]
+fn a_machine_with_platforms_in_between_is_commanded_at_home() {
+    let machine = hybrid(3, false);
+    let home = machine.platforms()[2].home;
+    let posture = machine.posture(&home).unwrap();
+    for (found, limb) in posture.limbs().iter().zip(machine.limbs()) {
+        for (a, b) in found.commands.iter().zip(limb.nominal.home_commands()) {
+            assert!((a - b).abs() < 1e-9);
+        }
+    }
+    let e = posture.deflected_by(&Wrench::zero()).unwrap();
+    let by_joints = at_home(&machine).deflected_by(&Wrench::zero()).unwrap();
+    assert!(pose_residual(&e.tool, &by_joints.tool).0.amax() < 1e-9);
+    // Newton: the last correction is a small share of the one before.
+    assert!(e.residual.rate.unwrap() < 1e-2, "{:?}", e.residual);
+    let elsewhere = home * Pose::translation(0.01, 0.0, 0.0);
+    let error = machine.posture(&elsewhere).unwrap_err().to_string();
+    assert!(error.contains("at home"), "{error}");
+}
+
 #[test]
 fn loads_that_do_not_fit_say_why() {
     let chain = Piece::new(&mut Rng(1))
