@@ -273,14 +273,34 @@ impl Chain {
                     found: given.len(),
                 });
             }
-            if let Some(i) = given.iter().position(|x| !x.is_finite()) {
-                return Err(Error::NotFinite {
-                    place: place(),
-                    what: format!("{what}[{i}]"),
-                    value: given[i],
-                });
+            for (i, &value) in given.iter().enumerate() {
+                sensible(&place(), || format!("{what}[{i}]"), value)?;
             }
         }
         Ok(())
     }
+}
+
+/// Numbers beyond this lose themselves when they are multiplied.
+const LARGEST: f64 = 1e60;
+
+/// Refuses a number that is not finite, or so large that its powers are not.
+pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Result<()> {
+    if !value.is_finite() {
+        return Err(Error::NotFinite {
+            place: place.to_owned(),
+            what: what(),
+            value,
+        });
+    }
+    if value.abs() > LARGEST {
+        return Err(Error::model(
+            place,
+            format!(
+                "{} is {value:e}, a number between -{LARGEST:e} and {LARGEST:e} is needed",
+                what()
+            ),
+        ));
+    }
+    Ok(())
 }

@@ -165,6 +165,9 @@ pub(crate) fn directions(
         let motion = Vector6::from_fn(|i, _| column[i]);
         list.push(direction(DirectionKind::Rigid, f64::INFINITY, &motion));
     }
+    if range.ncols() == 0 {
+        return list; // a chain that cannot move at all
+    }
     let symmetric = 0.5 * (balanced + balanced.transpose());
     let within = range.transpose() * symmetric * range;
     let eigen = within.symmetric_eigen();

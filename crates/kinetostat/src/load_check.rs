@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::chain::{Chain, MotionKind};
+use crate::chain::{Chain, MotionKind, sensible};
 use crate::equilibrium::ChainProblem;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
@@ -192,6 +192,23 @@ pub(crate) fn check_load(
 /// every tangent.
 pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
     let (chain, base) = (problem.chain, &problem.base);
+    let place = format!("chain '{}'", chain.name());
+    let end = &problem.end;
+    let of_pose = |pose: &Pose| {
+        let (p, r) = (pose.translation.vector, pose.rotation.coords);
+        [p.x, p.y, p.z, r.x, r.y, r.z, r.w]
+    };
+    let checked: [(&str, &[f64]); 4] = [
+        ("pose of the base", &of_pose(base)),
+        ("pose of the end condition", &of_pose(&end.pose)),
+        ("wrench of the end condition", end.wrench.0.as_slice()),
+        ("axes of the end condition", end.axes.matrix().as_slice()),
+    ];
+    for (what, numbers) in checked {
+        for &value in numbers {
+            sensible(&place, || format!("the {what}"), value)?;
+        }
+    }
     let (x, commands) = (&problem.posture, &problem.commands);
     let kinematics = Kinematics::new(chain, base, x, commands, false);
     problem

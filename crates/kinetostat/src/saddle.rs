@@ -48,6 +48,9 @@ impl Saddle {
 
     /// Solves for all columns of `b`, in place.
     pub fn solve(&self, b: &mut DMatrix<f64>) {
+        if self.row_scale.is_empty() {
+            return; // a chain without coordinates; nalgebra takes no empty system
+        }
         for mut column in b.column_iter_mut() {
             for (x, s) in column.iter_mut().zip(&self.row_scale) {
                 *x *= s;

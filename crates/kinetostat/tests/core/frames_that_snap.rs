@@ -241,7 +241,7 @@ impl<'f> Shot<'f> {
         let minor = |k: usize| {
             let columns: Vec<usize> = (0..4).filter(|&c| c != k).collect();
             let m = Matrix3::from_fn(|r, c| s[(r, columns[c])]);
-            m.determinant() * if k % 2 == 0 { 1.0 } else { -1.0 }
+            m.determinant() * if k.is_multiple_of(2) { 1.0 } else { -1.0 }
         };
         let t = Vector4::from_fn(|k, _| minor(k)).normalize();
         if t.dot(guide) < 0.0 { -t } else { t }

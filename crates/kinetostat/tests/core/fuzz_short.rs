@@ -11,7 +11,7 @@ fn random_chains_through_every_question() {
     for seed in 0..count {
         match fuzz::run(seed, largest) {
             Ok(outcome) => all.add(outcome),
-            Err(fault) => faults.push(fault),
+            Err(fault) => faults.push(format!("{fault}\n{}", fuzz::describe(seed, largest))),
         }
     }
     println!("{all:?}");

@@ -427,7 +427,16 @@ pub fn wrong_chain(random: &mut Random, sizes: &Sizes) -> (&'static str, Result<
 pub fn spoil(random: &mut Random, problem: &mut ChainProblem<'_>) -> &'static str {
     let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][random.below(3)];
     let nodes = problem.chain.nodes().len();
-    match random.below(7) {
+    match random.below(9) {
+        7 => {
+            problem.base.translation.vector[random.below(3)] = bad;
+            "base"
+        }
+        8 => {
+            let own = problem.end.pose.rotation.into_inner() * bad;
+            problem.end.pose.rotation = nalgebra::UnitQuaternion::new_unchecked(own);
+            "rotation of the end pose"
+        }
         0 if !problem.posture.is_empty() => {
             let i = random.below(problem.posture.len());
             problem.posture[i] = bad;

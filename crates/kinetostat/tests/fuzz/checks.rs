@@ -198,13 +198,8 @@ fn wrenches(problem: &ChainProblem<'_>, x: &[f64]) -> Vec<(usize, Wrench)> {
     list
 }
 
-/// Everything about an equilibrium of a problem.
-pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
-    let chain = problem.chain;
-    let n = chain.coordinate_count();
-    assert_eq!(e.coordinates.len(), n);
-    assert_eq!(e.spring_torques.len(), n);
-    assert_eq!(e.nodes.len(), chain.nodes().len());
+/// No number of an equilibrium is missing.
+pub fn finite(e: &Equilibrium) {
     all_finite("coordinates", &e.coordinates);
     all_finite("wrench", e.wrench.0.iter());
     all_finite("spring torques", &e.spring_torques);
@@ -214,6 +209,17 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
         all_finite("pose", pose.to_homogeneous().iter());
     }
     stiffness(&e.stiffness);
+    assert!(e.stability.margin.is_none_or(|mu| !mu.is_nan()));
+}
+
+/// Everything about an equilibrium of a problem.
+pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
+    let chain = problem.chain;
+    let n = chain.coordinate_count();
+    assert_eq!(e.coordinates.len(), n);
+    assert_eq!(e.spring_torques.len(), n);
+    assert_eq!(e.nodes.len(), chain.nodes().len());
+    finite(e);
     stability(&e.stability, n);
     for link in e.link_loads(chain) {
         all_finite(

@@ -82,7 +82,10 @@ fn begin(random: &mut Random, largest: usize) -> (Sizes, usize) {
     let sizes = Sizes::random(random);
     // Mostly small ones: they are as nasty and much faster.
     let share = random.between(0.0, 1.0).powi(2);
-    let size = 1 + (share * largest as f64) as usize;
+    let size = match random.below(40) {
+        0 => 0,
+        _ => 1 + (share * largest as f64) as usize,
+    };
     (sizes, size)
 }
 
@@ -125,6 +128,16 @@ fn case(seed: u64, largest: usize, stage: &std::cell::Cell<&'static str>) -> Out
             (_, Err(e)) => checks::explained(&e, "chain 'wrong'", true),
         }
         outcome.refused += 1;
+    }
+
+    if random.once_in(20) {
+        stage.set("odd settings");
+        odd_settings(&mut random, &problem);
+    }
+
+    if random.once_in(15) {
+        stage.set("huge numbers");
+        huge(&mut random, &problem);
     }
 
     if random.once_in(12) {
@@ -288,6 +301,117 @@ pub fn notices(seed: u64) -> Option<bool> {
     e.tip = k.tip_pose();
     let broken = catch_unwind(AssertUnwindSafe(|| checks::equilibrium(&problem, &e, 1e-7)));
     Some(broken.is_err())
+}
+
+/// One finite number far beyond all sense: what comes back is finite, or an error.
+fn huge(random: &mut Random, problem: &ChainProblem<'_>) {
+    let mut problem = problem.clone();
+    let size = random.power(15.0, 300.0) * if random.once_in(2) { 1.0 } else { -1.0 };
+    let n = problem.posture.len();
+    match random.below(5) {
+        0 if n > 0 => problem.posture[random.below(n)] = size,
+        1 if !problem.commands.is_empty() => problem.commands[0] = size,
+        2 => problem.end.pose.translation.vector.y = size,
+        3 => problem.base.translation.vector.x = size,
+        _ => problem.end.wrench.0[random.below(6)] = size,
+    }
+    let chain = problem.chain;
+    match unloaded_stiffness(chain, &problem.base, &problem.posture, &problem.commands) {
+        Ok(k) => checks::stiffness(&k),
+        Err(e) => checks::explained(&e, "chain 'random'", true),
+    }
+    match solve_chain(&problem, &Settings::default()) {
+        Ok(e) => {
+            checks::finite(&e);
+            if let Ok(blocks) = ChainBlocks::loaded(&problem, &e) {
+                checks::blocks(&blocks);
+            }
+        }
+        Err(e) => checks::explained(&e, "chain 'random'", true),
+    }
+    for iteration in [report_iteration, newton_iteration] {
+        match iteration(
+            &problem,
+            None,
+            &IterationSettings {
+                steps: 10,
+                ..IterationSettings::default()
+            },
+        ) {
+            Ok(i) => i
+                .equilibrium
+                .iter()
+                .chain(&i.nearest)
+                .for_each(checks::finite),
+            Err(e) => checks::explained(&e, "", true),
+        }
+    }
+}
+
+/// Settings that nobody would choose: an answer or an error that explains itself, never a panic.
+fn odd_settings(random: &mut Random, problem: &ChainProblem<'_>) {
+    let odd = |random: &mut Random| [0.0, -1.0, f64::NAN, f64::INFINITY, 1e300][random.below(5)];
+    let solver = Settings {
+        closure: odd(random),
+        torque: odd(random),
+        iterations: random.below(3),
+        picard_steps: random.below(4),
+        smallest_load_step: [0.3, odd(random)][random.below(2)],
+    };
+    let start = match solve_chain(problem, &solver) {
+        Ok(e) => Some(e),
+        Err(e) => {
+            checks::explained(&e, "", true);
+            None
+        }
+    };
+    let settings = IterationSettings {
+        tolerance: odd(random),
+        steps: random.below(3),
+    };
+    for iteration in [
+        report_iteration(problem, None, &settings),
+        newton_iteration(problem, None, &settings),
+    ] {
+        match iteration {
+            Ok(i) => assert!(!i.words().contains("NaN")),
+            Err(e) => checks::explained(&e, "", true),
+        }
+    }
+    let mut bounds = Bounds::of(problem.chain);
+    match random.below(4) {
+        0 => bounds.low.push(0.0),
+        1 => bounds.high.iter_mut().for_each(|x| *x = odd(random)),
+        2 => bounds.low.iter_mut().for_each(|x| *x = f64::NAN),
+        _ => {}
+    }
+    let search = SearchSettings {
+        fruitless: random.below(2),
+        starts: random.below(3),
+        most: random.below(3),
+        sweep: random.once_in(2),
+        solver,
+    };
+    if problem.chain.coordinate_count() <= 12
+        && let Err(e) = equilibria(problem, &bounds, &search)
+    {
+        checks::explained(&e, "", true);
+    }
+    let Some(start) = start.filter(|_| problem.chain.coordinate_count() <= 12) else {
+        return;
+    };
+    let held = (0..6).find(|&k| problem.end.prescribed[k] == Prescribed::Pose);
+    let parameter = Parameter::along(&problem.end.axes, held.unwrap_or(0));
+    let mut curve = CurveSettings::within(odd(random), odd(random));
+    curve.points = random.below(4);
+    curve.branches = random.below(3);
+    curve.largest_turn = [0.1, odd(random)][random.below(2)];
+    curve.largest_angle = [1.0, odd(random)][random.below(2)];
+    curve.smallest_step = [1e-7, odd(random)][random.below(2)];
+    curve.largest_change = [None, Some(odd(random))][random.below(2)];
+    if let Err(e) = follow(problem, &parameter, &start, odd(random), &curve) {
+        checks::explained(&e, "", true);
+    }
 }
 
 fn critical(random: &mut Random, problem: &ChainProblem<'_>, pattern: &LoadPattern) {
