@@ -245,6 +245,8 @@ pub(crate) fn solve(
     let mut settings = CurveSettings::within(q.range.0, q.range.1);
     settings.branches = q.branches;
     settings.points = q.points;
+    // Fine enough to be drawn.
+    settings.largest_turn = 0.05;
     settings.largest_change = Some((q.range.1 - q.range.0) / 60.0);
     if let Some(limits) = q.force_limits {
         settings.conjugate_range = limits;

@@ -52,7 +52,8 @@ pub(crate) fn plot(a: &CurveAnswer) -> Plot {
 }
 
 fn title(a: &CurveAnswer) -> String {
-    let first = a.question.split(". ").next().unwrap_or_default();
+    let first = a.question.split([';', '?']).next().unwrap_or_default();
+    let first = first.split(". ").next().unwrap_or_default();
     let text = first.trim_end_matches('.');
     let mut chars = text.chars();
     chars

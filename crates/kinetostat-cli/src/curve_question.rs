@@ -426,7 +426,7 @@ pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question>
                 turns: false,
             };
             question.words = format!(
-                "The tool is pushed along {} from {} to {} mm.",
+                "The tool is pushed along {} from {} to {} mm; the force is what pushes it that way.",
                 axis_in_words(&driven.axis),
                 short(low),
                 short(high)
@@ -450,7 +450,7 @@ pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question>
                 turns: true,
             };
             question.words = format!(
-                "The tool is turned about {} from {} to {} deg.",
+                "The tool is turned about {} from {} to {} deg; the moment is what turns it that way.",
                 axis_in_words(&driven.axis),
                 short(low),
                 short(high)
