@@ -120,6 +120,8 @@ struct Deflection {
     energy_j: Option<f64>,
     converged: bool,
     iterations: usize,
+    /// Last correction of the iteration by the one before it; none with fewer than two.
+    rate_observed: Option<f64>,
     /// How far the loops are from closing; rotations at the machine's length.
     closure_mm: f64,
     warnings: Vec<String>,
@@ -313,6 +315,7 @@ fn answer(
         energy_j: loaded.energy,
         converged: true,
         iterations: loaded.residual.iterations,
+        rate_observed: loaded.residual.rate,
         closure_mm: 1e3 * loaded.residual.closure_m,
         warnings,
     }
@@ -434,6 +437,18 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     }
     out.push_str(&links(a));
     out.push_str(&internal(a));
+    if let Some(rate) = a.rate_observed {
+        out.push('\n');
+        out.push_str(&wrapped(
+            &format!(
+                "Found in {} steps, the last one {} of the one before; the loops close to {} mm.",
+                a.iterations,
+                number(rate, 2),
+                number(a.closure_mm, 2)
+            ),
+            2,
+        ));
+    }
     out.push_str(&summary::warnings(&a.warnings));
     out
 }
