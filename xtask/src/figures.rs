@@ -155,6 +155,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     pocket(&mut figures)?;
     real_programs(&mut figures)?;
     golden(&mut figures)?;
+    cost_growth(&mut figures)?;
     if !quick {
         clean_clone(&mut figures)?;
     }
@@ -446,21 +447,51 @@ fn golden(figures: &mut Vec<Figure>) -> Result<()> {
         .stderr(Stdio::inherit())
         .output()
         .context("cannot run the golden tests")?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let mut found = Vec::new();
-    for line in text.lines() {
-        if let Some(at) = line.find("figure {") {
-            let figure: Figure = serde_json::from_str(&line[at + 7..])
-                .with_context(|| format!("a test printed a figure that cannot be read: {line}"))?;
-            found.push(figure);
-        }
-    }
+    let mut found = printed(&String::from_utf8_lossy(&output.stdout))?;
     // Tests run side by side: their order is not the same in every run.
     found.sort_by(|a, b| a.name.cmp(&b.name));
     figures.append(&mut found);
     if !output.status.success() {
         figures.push(Figure::yes("golden tests pass", false));
     }
+    Ok(())
+}
+
+/// The figures in what a test or an example printed.
+fn printed(text: &str) -> Result<Vec<Figure>> {
+    let lines = text.lines().filter_map(|line| {
+        let at = line.find("figure {")?;
+        let figure = serde_json::from_str(&line[at + 7..])
+            .with_context(|| format!("a test printed a figure that cannot be read: {line}"));
+        Some(figure)
+    });
+    lines.collect()
+}
+
+/// How the cost of a chain's equilibrium grows with its length. The tables go to stderr.
+fn cost_growth(figures: &mut Vec<Figure>) -> Result<()> {
+    let output = cargo()
+        .args([
+            "run",
+            "--release",
+            "--quiet",
+            "-p",
+            "kinetostat",
+            "--example",
+            "cost_growth",
+        ])
+        .current_dir(root())
+        .stderr(Stdio::inherit())
+        .output()
+        .context("cannot run the example cost_growth")?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    if !output.status.success() {
+        bail!("the example cost_growth failed: {text}");
+    }
+    for line in text.lines().filter(|line| !line.starts_with("figure {")) {
+        eprintln!("{line}");
+    }
+    figures.append(&mut printed(&text)?);
     Ok(())
 }
 

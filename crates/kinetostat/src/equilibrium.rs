@@ -26,10 +26,10 @@ use crate::reduced::rotation_rate;
 use crate::saddle::Saddle;
 use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, pose_residual};
-use crate::stability::ShapeStability;
-use crate::stiffness::ChainStiffness;
+use crate::stability::{ShapeStability, shape_stability, swept_stability};
+use crate::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
 use crate::sweep::{Form, Path, turned_rows};
-use crate::sweep_solve::{Bordered, EndRows};
+use crate::sweep_solve::{Bordered, END_SPRINGS, EndRows};
 pub(crate) use crate::system::{System, balance};
 
 /// What is prescribed in one direction of the end.
@@ -315,9 +315,12 @@ impl Attempt<'_, '_> {
         let torque: Vec<f64> = (0..n)
             .map(|i| -self.system.unbalanced(i) * self.factors[6 + i])
             .collect();
-        let (wrench, x) = Bordered::new(sweep, form, held)?.solve(&torque, &right)?;
+        // A pivot may be lost by accident far from equilibrium: not with every spring at the end.
+        let (wrench, x) = END_SPRINGS
+            .into_iter()
+            .find_map(|share| Bordered::new(sweep, form, held, share)?.solve(&torque, &right))?;
         let balanced = wrench.iter().chain(&x);
-        let step: Vec<f64> = balanced.zip(&self.factors).map(|(v, f)| v * f).collect();
+        let step = balanced.zip(&self.factors).map(|(v, f)| v * f).collect();
         Some(step)
     }
 
@@ -640,6 +643,82 @@ impl Attempt<'_, '_> {
         let [last, before] = self.corrections;
         equilibrium.residual.rate = (before > 0.0).then(|| last / before);
         (equilibrium, self.system.path())
+    }
+}
+
+impl System {
+    /// Tangent and shape by sweeps; `None` where there are none, or where passive joints are
+    /// redundant or a pivot is lost.
+    fn swept_verdicts(
+        &self,
+        chain: &Chain,
+        factors: &[f64],
+    ) -> Option<(ChainStiffness, ShapeStability)> {
+        let sweep = self.sweep.as_ref()?;
+        let stiffness = swept_stiffness(chain, self, sweep, factors)?;
+        let stability = swept_stability(self, sweep, factors)?;
+        Some((stiffness, stability))
+    }
+
+    fn dense_verdicts(&self, chain: &Chain, factors: &[f64]) -> (ChainStiffness, ShapeStability) {
+        let stiffness = chain_stiffness(chain, self, factors, None);
+        (stiffness, shape_stability(chain, self, factors))
+    }
+
+    /// Everything that is known about the state at which the (dense) system was evaluated.
+    #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
+    pub fn equilibrium(
+        &self,
+        chain: &Chain,
+        factors: &[f64],
+        x: Vec<f64>,
+        wrench: Wrench,
+        conservative: bool,
+        iterations: usize,
+        balance: &Balance,
+    ) -> Equilibrium {
+        let verdicts = self.dense_verdicts(chain, factors);
+        self.described(
+            chain,
+            x,
+            wrench,
+            conservative,
+            iterations,
+            balance,
+            verdicts,
+        )
+    }
+
+    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
+    fn described(
+        &self,
+        chain: &Chain,
+        x: Vec<f64>,
+        wrench: Wrench,
+        conservative: bool,
+        iterations: usize,
+        balance: &Balance,
+        (stiffness, stability): (ChainStiffness, ShapeStability),
+    ) -> Equilibrium {
+        Equilibrium {
+            tip: self.kinematics.tip_pose(),
+            nodes: (0..chain.nodes().len())
+                .map(|i| self.kinematics.node_pose(i))
+                .collect(),
+            spring_torques: self.spring_torque.clone(),
+            energy: self.energy,
+            conservative,
+            coordinates: x,
+            wrench,
+            stiffness,
+            stability,
+            residual: Residual {
+                closure_m: balance.closure / chain.scale().stiffness.sqrt(),
+                torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
+                iterations,
+                rate: None,
+            },
+        }
     }
 }
 

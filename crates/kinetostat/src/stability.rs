@@ -11,10 +11,10 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::Chain;
-use crate::equilibrium::System;
 use crate::saddle::{Inertia, RANK_TOLERANCE, column_space, complement, inertia};
 use crate::stiffness::{balanced_jacobian, names_in, passive_null_space};
 use crate::sweep::Sweep;
+use crate::system::System;
 
 /// Whether a chain keeps its shape while its end is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

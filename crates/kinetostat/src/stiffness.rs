@@ -16,11 +16,11 @@ use crate::chain::{Chain, Role};
 pub(crate) use crate::directions::directions;
 pub(crate) use crate::directions::{Direction, DirectionKind};
 use crate::directions::{Share, free_by_joints, largest, shares};
-use crate::equilibrium::{System, balance};
 use crate::error::Result;
 use crate::saddle::{Saddle, column_space, complement, rows_certainly_independent};
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 use crate::sweep::Sweep;
+use crate::system::{System, balance};
 
 /// Stiffness of a chain at its tip.
 #[derive(Clone, Debug, PartialEq)]

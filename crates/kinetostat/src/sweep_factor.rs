@@ -112,8 +112,9 @@ fn signs(matrix: &Matrix6<f64>, len: usize) -> (usize, usize) {
 
 impl Factored {
     /// `None` where a pivot is lost in rounding: redundant passive joints, or bad luck.
-    pub fn new(sweep: &Sweep, form: Form) -> Option<Self> {
-        let mut spring = sweep.end_spring();
+    /// The spring at the end is `share` times the chain's own stiffness.
+    pub fn new(sweep: &Sweep, form: Form, share: f64) -> Option<Self> {
+        let mut spring = sweep.end_spring() * share;
         if let Form::Pencil(mu) = form {
             spring *= mu.abs().max(1e-12);
         }

@@ -7,7 +7,11 @@ use crate::saddle::{Inertia, RANK_TOLERANCE, Saddle, complement};
 use crate::sweep::{Form, Sweep, column};
 use crate::sweep_factor::Factored;
 
+/// Springs at the end that are tried one after the other, as shares of the chain's own stiffness.
+pub(crate) const END_SPRINGS: [f64; 3] = [1.0, 0.17, 5.3];
+
 /// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced.
+#[derive(Clone, Copy)]
 pub(crate) struct EndRows {
     pub motion: Matrix6<f64>,
     pub wrench: Matrix6<f64>,
@@ -49,11 +53,8 @@ pub(crate) struct Bordered<'s> {
 
 impl<'s> Bordered<'s> {
     /// `None` where a pivot is lost in rounding.
-    pub fn new(sweep: &'s Sweep, form: Form, rows: EndRows) -> Option<Self> {
-        Some(Self::with(sweep, Factored::new(sweep, form)?, form, rows))
-    }
-
-    fn with(sweep: &'s Sweep, factored: Factored, form: Form, rows: EndRows) -> Self {
+    pub fn new(sweep: &'s Sweep, form: Form, rows: EndRows, share: f64) -> Option<Self> {
+        let factored = Factored::new(sweep, form, share)?;
         let size = factored.end.amax().max(f64::MIN_POSITIVE);
         let mut a = DMatrix::zeros(12, 12);
         a.view_mut((0, 0), (6, 6))
@@ -63,14 +64,14 @@ impl<'s> Bordered<'s> {
         a.view_mut((6, 0), (6, 6)).copy_from(&rows.wrench);
         a.view_mut((6, 6), (6, 6)).copy_from(&rows.motion);
         let end = Saddle::new(a, &[1.0; 12], &[1.0; 12]);
-        Self {
+        Some(Self {
             sweep,
             factored,
             form,
             rows,
             end,
             size,
-        }
+        })
     }
 
     /// Wrench on the end and coordinates for given right-hand sides, once.
@@ -147,8 +148,14 @@ impl<'s> Bordered<'s> {
 /// Wrench and coordinates per unit motion of the tip, (6 + n) x 6, balanced, over the motions in
 /// `range` that the chain can make.
 pub(crate) fn unit_motions(sweep: &Sweep, range: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    END_SPRINGS
+        .into_iter()
+        .find_map(|share| unit_motions_by(sweep, range, share))
+}
+
+fn unit_motions_by(sweep: &Sweep, range: &DMatrix<f64>, share: f64) -> Option<DMatrix<f64>> {
     let n = sweep.count();
-    let bordered = Bordered::new(sweep, Form::Exact, EndRows::held(range))?;
+    let bordered = Bordered::new(sweep, Form::Exact, EndRows::held(range), share)?;
     let mut answer = DMatrix::zeros(6 + n, 6);
     let torque = vec![0.0; n];
     for j in 0..6 {
@@ -186,7 +193,8 @@ struct Shifted<'s> {
 impl<'s> Shifted<'s> {
     /// `None` where a pivot is lost in rounding.
     fn new(sweep: &'s Sweep, range: &'s DMatrix<f64>, form: Form) -> Option<Self> {
-        let factored = Factored::new(sweep, form)?;
+        let mut springs = END_SPRINGS.into_iter();
+        let factored = springs.find_map(|share| Factored::new(sweep, form, share))?;
         let end = range.transpose() * factored.end * range;
         let end = 0.5 * (&end + end.transpose());
         let values = end.symmetric_eigenvalues();

@@ -4,12 +4,9 @@
 use nalgebra::{DMatrix, Matrix6, Matrix6xX};
 
 use crate::chain::{Chain, MotionKind, Role};
-use crate::equilibrium::{Balance, Equilibrium, LEAST_LOAD, Residual, natural};
 use crate::kinematics::Kinematics;
 use crate::loading::{Load, NodeTangent};
 use crate::spatial::{Pose, Wrench};
-use crate::stability::{ShapeStability, shape_stability, swept_stability};
-use crate::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
 use crate::sweep::{Path, SWEEP_FROM, Sweep};
 
 /// Matrices and residuals of a chain at one state; buffers are reused between iterations.
@@ -265,84 +262,4 @@ pub(crate) fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
             }),
     );
     factors
-}
-
-impl System {
-    /// Tangent and shape by sweeps; `None` where there are none, or where passive joints are
-    /// redundant or a pivot is lost.
-    pub fn swept_verdicts(
-        &self,
-        chain: &Chain,
-        factors: &[f64],
-    ) -> Option<(ChainStiffness, ShapeStability)> {
-        let sweep = self.sweep.as_ref()?;
-        let stiffness = swept_stiffness(chain, self, sweep, factors)?;
-        let stability = swept_stability(self, sweep, factors)?;
-        Some((stiffness, stability))
-    }
-
-    pub fn dense_verdicts(
-        &self,
-        chain: &Chain,
-        factors: &[f64],
-    ) -> (ChainStiffness, ShapeStability) {
-        let stiffness = chain_stiffness(chain, self, factors, None);
-        (stiffness, shape_stability(chain, self, factors))
-    }
-
-    /// Everything that is known about the state at which the (dense) system was evaluated.
-    #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
-    pub fn equilibrium(
-        &self,
-        chain: &Chain,
-        factors: &[f64],
-        x: Vec<f64>,
-        wrench: Wrench,
-        conservative: bool,
-        iterations: usize,
-        balance: &Balance,
-    ) -> Equilibrium {
-        let verdicts = self.dense_verdicts(chain, factors);
-        self.described(
-            chain,
-            x,
-            wrench,
-            conservative,
-            iterations,
-            balance,
-            verdicts,
-        )
-    }
-
-    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
-    pub fn described(
-        &self,
-        chain: &Chain,
-        x: Vec<f64>,
-        wrench: Wrench,
-        conservative: bool,
-        iterations: usize,
-        balance: &Balance,
-        (stiffness, stability): (ChainStiffness, ShapeStability),
-    ) -> Equilibrium {
-        Equilibrium {
-            tip: self.kinematics.tip_pose(),
-            nodes: (0..chain.nodes().len())
-                .map(|i| self.kinematics.node_pose(i))
-                .collect(),
-            spring_torques: self.spring_torque.clone(),
-            energy: self.energy,
-            conservative,
-            coordinates: x,
-            wrench,
-            stiffness,
-            stability,
-            residual: Residual {
-                closure_m: balance.closure / chain.scale().stiffness.sqrt(),
-                torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
-                iterations,
-                rate: None,
-            },
-        }
-    }
 }
