@@ -90,6 +90,7 @@ fn question(spot: &Spot, args: &EquilibriaArgs) -> Answer<Question> {
     let settings = SearchSettings {
         starts: count("--starts", args.starts, default.starts)?,
         fruitless: count("--fruitless", args.fruitless, default.fruitless)?,
+        most: equilibria_answer::MOST_KNOWN,
         ..default
     };
     let along = [shift, acting.force()]

@@ -13,6 +13,9 @@ use crate::curve_work::Stage;
 use crate::deflect::PlaceAsked;
 use crate::failure::Answer;
 
+/// The search ends when so many are known.
+pub(crate) const MOST_KNOWN: usize = 100;
+
 /// A question of `equilibria`.
 pub(crate) struct Question {
     pub(crate) chain: SerialChain,

@@ -3,9 +3,12 @@
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use nalgebra::Vector3;
 
-use crate::equilibria_answer::{EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria_answer::{EquilibriaAnswer, MOST_KNOWN, ShapeAnswer};
 use crate::screen::{WIDTH, columns, fixed, item, number, wrapped};
 use crate::summary;
+
+/// More equilibria than this are only counted on the screen.
+const MOST_SHOWN: usize = 20;
 
 pub(crate) fn in_words(heading: &str, a: &EquilibriaAnswer) -> String {
     let mut out = heading.to_owned();
@@ -17,6 +20,12 @@ pub(crate) fn in_words(heading: &str, a: &EquilibriaAnswer) -> String {
         out.push_str(&table(a));
         out.push('\n');
         out.push_str(&joints(a));
+        if a.equilibria.len() > MOST_SHOWN {
+            out.push_str(&format!(
+                "  and {} more of higher energy; JSON and CSV have them\n",
+                a.equilibria.len() - MOST_SHOWN
+            ));
+        }
         out.push_str(&modes(a));
     }
     out.push_str("\nHow complete this is\n");
@@ -91,7 +100,7 @@ fn table(a: &EquilibriaAnswer) -> String {
     ];
     header.extend(shown.iter().map(|&k| names[k].to_owned()));
     let mut rows = vec![header];
-    for e in &a.equilibria {
+    for e in a.equilibria.iter().take(MOST_SHOWN) {
         let verdict = match (e.stable, e.shape_stable, e.singular) {
             (_, _, true) => "at a limit",
             (true, ..) => "yes",
@@ -132,7 +141,7 @@ fn joints(a: &EquilibriaAnswer) -> String {
             }))
             .collect::<Vec<String>>(),
     ];
-    for e in &a.equilibria {
+    for e in a.equilibria.iter().take(MOST_SHOWN) {
         let mut row = vec![e.number.to_string()];
         row.extend(moving.iter().map(|&i| fixed(e.coordinates[i], 3)));
         rows.push(row);
@@ -181,13 +190,17 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
             c.ended_outside_bounds
         ));
     }
-    if !a.equilibria.is_empty() {
+    if seldom > 0 {
         text.push_str(&format!(
             "; each one listed was found at least {seldom} times"
         ));
     }
     list.push(text);
-    list.push(if c.settled {
+    list.push(if !c.settled && a.equilibria.len() >= MOST_KNOWN {
+        format!(
+            "the search ended when {MOST_KNOWN} were known; those of high energy strain the machine far beyond what it is made for"
+        )
+    } else if c.settled {
         format!(
             "the search ended because the last {} starts found nothing new",
             c.fruitless

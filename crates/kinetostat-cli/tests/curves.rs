@@ -332,39 +332,51 @@ fn a_load_on_a_node_moves_the_limit_point() {
     }
 }
 
-/// Weight, the tool's length and the load of a whole machine: the end of the curve of a growing
-/// load is where `deflect` puts the tool.
+/// Weight, compensators, the tool's length and the load of a whole machine: the end of the curve of
+/// a growing load is where `deflect` puts the tool.
 #[test]
 fn a_growing_load_ends_where_deflect_puts_the_tool() {
     let here = workplace();
-    let common = ["heavy_6r", "--tool-length-mm", "250"];
-    let mut arguments = vec!["curve"];
-    arguments.extend(common);
-    arguments.extend(["--force", "300", "-200", "800", "--factor", "0", "1"]);
-    let a = json(here.path(), &arguments);
-    let ends = named(&a, "end");
-    let end = ends
-        .iter()
-        .find(|p| (number(&p["factor"]) - 1.0).abs() < 1e-12)
-        .expect("the whole load");
-    let place = json(
-        here.path(),
-        &["deflect", "heavy_6r", "--at", "1100", "0", "1200"],
-    );
-    let mut arguments = vec!["deflect"];
-    arguments.extend(common);
-    arguments.extend(["--force", "300", "-200", "800"]);
-    let loaded = json(here.path(), &arguments);
-    for k in 0..3 {
-        let expected =
-            number(&loaded["place"]["position_mm"][k]) + number(&loaded["displacement_mm"][k]);
-        let found = number(&end["position_mm"][k]);
-        assert!((found - expected).abs() < 1e-7, "{k}: {found} {expected}");
+    for model in ["heavy_6r", "compensated_arm"] {
+        let common = [
+            model,
+            "--tool-length-mm",
+            "250",
+            "--force",
+            "300",
+            "-200",
+            "800",
+        ];
+        let mut arguments = vec!["curve"];
+        arguments.extend(common);
+        arguments.extend(["--factor", "0", "1"]);
+        let a = json(here.path(), &arguments);
+        let mut arguments = vec!["deflect"];
+        arguments.extend(common);
+        let loaded = json(here.path(), &arguments);
+        // At no load the weight has moved the tool already.
+        let mut arguments = vec!["deflect"];
+        arguments.extend(&common[..3]);
+        arguments.extend(["--force", "0", "0", "0"]);
+        let rest = json(here.path(), &arguments);
+        assert!(number(&rest["displacement_size_mm"]) > 0.1, "weight counts");
+        let ends = named(&a, "end");
+        let end = ends
+            .iter()
+            .find(|p| (number(&p["factor"]) - 1.0).abs() < 1e-12)
+            .expect("the whole load");
+        for (point, deflected) in [(*end, &loaded), (named(&a, "start")[0], &rest)] {
+            for k in 0..3 {
+                let expected = number(&deflected["place"]["position_mm"][k])
+                    + number(&deflected["displacement_mm"][k]);
+                let found = number(&point["position_mm"][k]);
+                assert!(
+                    (found - expected).abs() < 1e-7,
+                    "{model}, {k}: {found} {expected}"
+                );
+            }
+        }
     }
-    assert!(
-        number(&place["displacement_size_mm"]) > 0.1,
-        "weight counts"
-    );
 }
 
 #[test]
