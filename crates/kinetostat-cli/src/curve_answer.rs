@@ -40,6 +40,11 @@ pub(crate) struct CurveAnswer {
     pub(crate) warnings: Vec<String>,
     #[serde(skip)]
     pub(crate) units: Units,
+    /// What was asked and what the start's own branch covers of it, as the parameter is shown.
+    #[serde(skip)]
+    pub(crate) asked: (f64, f64),
+    #[serde(skip)]
+    pub(crate) reached: (f64, f64),
 }
 
 /// Names of the quantities of a curve.
@@ -344,6 +349,7 @@ pub(crate) fn solve(
     }
     warnings.dedup();
     let conservative = start.conservative;
+    let own = curves.branches.first().map_or(&[][..], |b| &b.points);
     let [model, model_source, tool] = spot;
     Ok(CurveAnswer {
         schema: 1,
@@ -368,6 +374,13 @@ pub(crate) fn solve(
         conservative,
         warnings,
         units: Units::of(q),
+        asked: (q.shown(q.range.0), q.shown(q.range.1)),
+        reached: own
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+                let x = q.shown(p.parameter);
+                (low.min(x), high.max(x))
+            }),
     })
 }
 

@@ -550,6 +550,16 @@ fn load_pattern(question: &mut Question, args: &CurveArgs, constant: Wrench) -> 
     );
     let holding = holding(chain, &args.end, &chain.place, constant, false, None)?;
     holding.accepts("the growing load", &end)?;
+    let movable = chain.movable();
+    // Work of the wrench on the motions that the chain can make, moments at the natural length.
+    let length = chain.chain.scale().length;
+    let pull = Vector6::from_fn(|i, _| if i < 3 { end.0[i] * length } else { end.0[i] });
+    if loads.is_empty() && (movable.transpose() * pull).norm() < 1e-9 * pull.norm() {
+        return Err(Failure::input(format!(
+            "the growing load does nothing: the chain is rigid in {}, where it acts. Choose another direction",
+            holding.rigid.join(", ")
+        )));
+    }
     question.holding = holding;
     question.parameter = Parameter::Load(LoadPattern { end, loads });
     Ok(())

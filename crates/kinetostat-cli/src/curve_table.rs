@@ -11,7 +11,7 @@ pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
     let mut out = heading.to_owned();
     out.push_str(&wrapped(&a.question, 0));
     out.push('\n');
-    out.push_str(&wrapped(&verdict(a), 2));
+    out.push_str(&wrapped(&format!("{}{}", verdict(a), reach(a)), 2));
     out.push('\n');
     out.push_str(&table(a));
     out.push('\n');
@@ -81,7 +81,7 @@ fn verdict(a: &CurveAnswer) -> String {
         return match (stable(start, 0), end(0)) {
             (false, _) => "The chain does NOT hold at the start under this load.".into(),
             (true, Some((what, place))) => format!("The chain {what} {place}."),
-            (true, None) => "The chain holds over the whole range under this load.".into(),
+            (true, None) => "The chain holds all along under this load.".into(),
         };
     }
     let held = stable(start, 1);
@@ -91,9 +91,7 @@ fn verdict(a: &CurveAnswer) -> String {
                 .to_owned()
         }
         (true, Some((what, place))) => format!("The chain {what} {place}."),
-        (true, None) => {
-            "The shape holds over the whole range while the motion is prescribed.".to_owned()
-        }
+        (true, None) => "The shape holds all along while the motion is prescribed.".to_owned(),
     };
     match (held, stable(start, 0), end(0)) {
         (true, false, _) => text.push_str(
@@ -107,6 +105,26 @@ fn verdict(a: &CurveAnswer) -> String {
         _ => {}
     }
     text
+}
+
+/// Says so if the start's own branch does not cover what was asked.
+fn reach(a: &CurveAnswer) -> String {
+    let slack = 1e-6 * (a.asked.1 - a.asked.0);
+    let (low, high) = a.reached;
+    if low <= a.asked.0 + slack && high >= a.asked.1 - slack {
+        return String::new();
+    }
+    let unit = if a.grows == "load" {
+        "times the load".to_owned()
+    } else {
+        a.units.displacement_unit.to_owned()
+    };
+    let clean = |x: f64| if x.abs() < slack { 0.0 } else { x };
+    format!(
+        " From the start its shapes reach only from {} to {} {unit}.",
+        short(clean(low)),
+        short(clean(high))
+    )
 }
 
 fn table(a: &CurveAnswer) -> String {
@@ -148,7 +166,7 @@ fn table(a: &CurveAnswer) -> String {
             p.name.clone(),
             value(displacement, sizes[0]),
             value(load, sizes[1]),
-            if slope.abs() < 1e-15 {
+            if slope.abs() < 1e-9 * sizes[1] / sizes[0].max(f64::MIN_POSITIVE) {
                 "0".to_owned()
             } else if !slope.is_finite() || slope.abs() > 1e9 {
                 "locked".to_owned()

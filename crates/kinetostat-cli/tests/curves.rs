@@ -689,6 +689,32 @@ fn wrong_questions_are_refused_with_what_to_do() {
             );
         }
     }
+    let said = run(
+        here.path(),
+        &[
+            "curve", "z.toml", "--force", "0", "0", "5", "--factor", "0", "1",
+        ],
+    );
+    assert_eq!(said.code, 1);
+    assert!(said.err.contains("does nothing"), "{}", said.err);
+    // A range beyond reach is answered as far as it goes, and that is said.
+    let said = run(
+        here.path(),
+        &[
+            "curve",
+            "z.toml",
+            "--direction",
+            "1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "-50",
+            "200",
+        ],
+    )
+    .answered();
+    let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("reach only from -50"), "{text}");
     // Out of reach: the question is right and has no answer.
     let said = run(
         here.path(),
