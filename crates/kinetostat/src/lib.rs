@@ -74,9 +74,9 @@
 //!
 //! # Order of the modules
 //!
-//! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <- system with
-//! sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse <- platform, platform_step <- posture <-
-//! assembly, mobility, compensation`; and `equilibrium, stability <- reduced, singular_point <-
+//! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <- system
+//! with sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse
+//! <- platform, platform_step <- posture <- assembly, mobility, compensation`; and `equilibrium, stability <- reduced, singular_point <-
 //! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
 mod assembly;

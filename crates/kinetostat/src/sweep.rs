@@ -355,7 +355,8 @@ impl Sweep {
 
     /// Stiffness of the chain as it lies with its passive joints locked and its springs at rest: the
     /// natural size of a spring at its end. Directions that hardly or never yield are capped.
-    pub fn end_spring(&self) -> Matrix6<f64> {
+    /// `None` where a number is not finite.
+    pub fn end_spring(&self) -> Option<Matrix6<f64>> {
         let mut compliance = Matrix6::zeros();
         for stage in &self.stages {
             if stage.len == 1 {
@@ -367,11 +368,14 @@ impl Sweep {
                 compliance += s * c * s.transpose();
             }
         }
+        if !compliance.iter().all(|x| x.is_finite()) {
+            return None;
+        }
         let eigen = (0.5 * (compliance + compliance.transpose())).symmetric_eigen();
         let most = eigen.eigenvalues.amax().max(f64::MIN_POSITIVE);
         let v = &eigen.eigenvectors;
         let stiff = eigen.eigenvalues.map(|x| 1.0 / x.max(1e-7 * most));
-        v * Matrix6::from_diagonal(&stiff) * v.transpose()
+        Some(v * Matrix6::from_diagonal(&stiff) * v.transpose())
     }
 
     /// `g` between stages in one form.

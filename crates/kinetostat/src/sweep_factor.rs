@@ -114,7 +114,7 @@ impl Factored {
     /// `None` where a pivot is lost in rounding: redundant passive joints, or bad luck.
     /// The spring at the end is `share` times the chain's own stiffness.
     pub fn new(sweep: &Sweep, form: Form, share: f64) -> Option<Self> {
-        let mut spring = sweep.end_spring() * share;
+        let mut spring = sweep.end_spring()? * share;
         if let Form::Pencil(mu) = form {
             spring *= mu.abs().max(1e-12);
         }

@@ -195,6 +195,9 @@ impl<'s> Shifted<'s> {
     fn new(sweep: &'s Sweep, range: &'s DMatrix<f64>, form: Form) -> Option<Self> {
         let mut springs = END_SPRINGS.into_iter();
         let factored = springs.find_map(|share| Factored::new(sweep, form, share))?;
+        if range.ncols() == 0 {
+            return None;
+        }
         let end = range.transpose() * factored.end * range;
         let end = 0.5 * (&end + end.transpose());
         let values = end.symmetric_eigenvalues();
@@ -327,6 +330,9 @@ fn lanczos(sweep: &Sweep, range: &DMatrix<f64>) -> Option<(Trial, f64)> {
             0.0
         }
     });
+    if !reduced.iter().all(|x| x.is_finite()) {
+        return None;
+    }
     let eigen = reduced.symmetric_eigen();
     let top = eigen.eigenvalues.imax();
     let mut v = vec![0.0; n];

@@ -351,3 +351,36 @@ fn the_rate_observed_falls_towards_zero_for_newton() {
     let read: Residual = serde_json::from_str(old).unwrap();
     assert_eq!((read.iterations, read.rate), (4, None));
 }
+
+#[test]
+fn absurd_questions_to_long_chains_end_in_words() {
+    let mut rng = Rng(0x40c);
+    let (mut answered, mut refused) = (0, 0);
+    for case in 0..6 {
+        let r = long_chain(&mut rng, 7, case, LinkConvention::Bowing);
+        let force = [1e5, 1e8, 1e20, 1e120, 1e200, 1e300][case];
+        let mut end = EndCondition::wrench(rng.wrench(force, force));
+        end.pose = r.tip();
+        if case % 2 == 0 {
+            end.prescribed[case] = Prescribed::Pose;
+        }
+        let settings = Settings {
+            iterations: 15,
+            smallest_load_step: 0.1,
+            ..Settings::default()
+        };
+        match solve_chain(&r.problem(end), &settings) {
+            Ok(e) => {
+                answered += 1;
+                assert!(e.coordinates.iter().all(|x| x.is_finite()));
+                assert!(e.stiffness.cartesian.matrix.iter().all(|x| x.is_finite()));
+                assert!(!e.stability.margin.unwrap_or(0.0).is_nan());
+            }
+            Err(error) => {
+                refused += 1;
+                assert!(error.to_string().len() > 20, "{error}");
+            }
+        }
+    }
+    println!("{answered} answered, {refused} refused");
+}
