@@ -202,6 +202,9 @@ fn at_place(args: &DeflectArgs) -> Answer<()> {
     screen::print(Stream::Out, &format!("{text}{}", along::written(&paths)))
 }
 
+/// From this rate of the last corrections on, an iteration is slow.
+const SLOW: f64 = 0.2;
+
 /// A displacement by this share of the machine's size is no deflection any more.
 const LARGE: f64 = 0.05;
 
@@ -437,14 +440,13 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     }
     out.push_str(&links(a));
     out.push_str(&internal(a));
-    if let Some(rate) = a.rate_observed {
+    // Newton's corrections fall faster and faster; where they do not, something is singular nearby.
+    if let Some(rate) = a.rate_observed.filter(|rate| *rate > SLOW) {
         out.push('\n');
         out.push_str(&wrapped(
             &format!(
-                "Found in {} steps, the last one {} of the one before; the loops close to {} mm.",
-                a.iterations,
-                number(rate, 2),
-                number(a.closure_mm, 2)
+                "The iteration ended slowly, its last correction {} of the one before: a limit of the load or a change of shape is near.",
+                number(rate, 2)
             ),
             2,
         ));

@@ -281,6 +281,7 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
         ));
     }
     if let Some(c) = &a.compliance_besides_free_motions_m_rad_per_n {
+        out.push('\n');
         out.push_str(&wrapped(
             "Compliance besides: motion under a load that pushes along no free direction, up to free motions; micrometres and microradians",
             0,
