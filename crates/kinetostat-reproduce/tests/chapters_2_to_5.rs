@@ -85,7 +85,7 @@ fn beams_and_platforms_of_chapter_3() {
             "{name}: {found}"
         );
     }
-    let cases: [(&str, [(&str, f64); 8], f64); 2] = [
+    let cases = [
         (
             "eq-3.34",
             [

@@ -76,7 +76,7 @@ fn every_id_exists_once_and_holds_numbers() {
 }
 
 #[test]
-fn statuses_are_what_they_say() {
+fn figure_statuses_are_what_they_say() {
     let mut compared = 0;
     for e in entries() {
         for i in &e.items {
