@@ -438,6 +438,8 @@ fn golden(figures: &mut Vec<Figure>) -> Result<()> {
             "kinetostat-cli",
             "-p",
             "kinetostat-model",
+            "-p",
+            "kinetostat-reproduce",
             "--",
             "--nocapture",
             "--test-threads=2",

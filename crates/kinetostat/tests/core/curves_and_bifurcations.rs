@@ -4,11 +4,11 @@
 use crate::common::{
     Recipe, Rng, assert_chain_equilibrium, close, golden, number, planar_column, random_chain,
 };
+use crate::curves_of_columns::press;
 use kinetostat::{
-    Anchor, BeamSection, BranchEnd, Chain, ChainProblem, CurvePoint, CurveSettings, Curves,
-    EndCondition, Equilibrium, Judged, LinkSpec, Load, LoadPattern, MotionKind, Parameter, Pose,
-    Prescribed, Settings, Special, SpecialKind, Twist, Wrench, critical_load_factor, follow, moved,
-    solve_chain,
+    Anchor, BranchEnd, Chain, ChainProblem, CurvePoint, CurveSettings, Curves, EndCondition,
+    Equilibrium, Judged, Load, LoadPattern, MotionKind, Parameter, Pose, Prescribed, Settings,
+    Special, SpecialKind, Twist, Wrench, critical_load_factor, follow, moved, solve_chain,
 };
 use nalgebra::{Vector3, vector};
 
@@ -245,11 +245,11 @@ pub const ELASTIC: [(f64, f64, f64, f64, f64, bool, bool); 31] = [
     (2.0, 0.05, -0.170732964, 0.943231422, 36.2957185, true, true),
 ];
 
-fn along_x() -> Parameter {
+pub fn along_x() -> Parameter {
     Parameter::Displacement(Twist::new(vector![1.0, 0.0, 0.0], Vector3::zeros()))
 }
 
-fn solved(problem: &ChainProblem<'_>) -> Equilibrium {
+pub fn solved(problem: &ChainProblem<'_>) -> Equilibrium {
     let e = solve_chain(problem, &Settings::default()).unwrap();
     assert_chain_equilibrium(problem, &e);
     e
@@ -257,7 +257,7 @@ fn solved(problem: &ChainProblem<'_>) -> Equilibrium {
 
 /// What holds for every curve: equilibria at every point, finite numbers, steps along the tangent.
 #[track_caller]
-fn assert_curves(c: &Curves<'_>) {
+pub fn assert_curves(c: &Curves<'_>) {
     for branch in &c.branches {
         assert!(branch.points.len() > 1, "a branch without a step");
         for p in &branch.points {
@@ -300,7 +300,7 @@ fn assert_point(c: &Curves<'_>, p: &CurvePoint) {
     assert_chain_equilibrium(&problem, &p.equilibrium);
 }
 
-fn of_kind<'c>(c: &'c Curves<'_>, kind: SpecialKind) -> Vec<&'c Special> {
+pub fn of_kind<'c>(c: &'c Curves<'_>, kind: SpecialKind) -> Vec<&'c Special> {
     c.specials.iter().filter(|s| s.kind == kind).collect()
 }
 
@@ -396,51 +396,56 @@ fn the_s_chain_passes_through_figure_5_7() {
     }
 }
 
+/// G/G*, x, dx, node y, F_x of the five limit points of 4.6.2.
+pub const ELASTIC_LIMITS: [(f64, f64, f64, f64, f64); 5] = [
+    (0.0, 1.922272795, -0.0095788571, -0.137732345, -5.86836656),
+    (0.5, 1.942925249, 0.011073597, -0.111303931, -4.49506146),
+    (1.0, 1.975281172, 0.043429519, -0.0405154222, -2.32892263),
+    (1.5, 1.945566931, 0.013715278, 0.103783052, -4.28099972),
+    (2.0, 1.92463389, -0.0072177621, 0.13138615, -5.66307168),
+];
+
+/// The limit point on the branch of the unstable shape between the two folds of its loop: x, dx,
+/// node y, F_x; `y` is near it.
+pub fn elastic_limit(g: f64, y: f64) -> [f64; 4] {
+    let label = format!("G/G* {g}");
+    let chain = elastic_links(15_f64.to_radians());
+    let mut problem = elastic_problem(&chain, g, -0.05);
+    problem.posture = vec![y.atan2(1.0) * 0.6, -0.05, 0.0, -0.05, 0.0];
+    problem.posture[2] = -2.0 * problem.posture[0];
+    let bounds = kinetostat::Bounds::of(&chain);
+    let all = kinetostat::equilibria(&problem, &bounds, &Default::default()).unwrap();
+    let start = &all.found.last().unwrap().equilibrium;
+    assert!(!start.stability.stable, "{label}");
+    let settings = CurveSettings::within(-0.02, 0.2);
+    let c = follow(&problem, &along_x(), start, 0.0, &settings).unwrap();
+    assert_curves(&c);
+    let limits = of_kind(&c, SpecialKind::DisplacementLimit);
+    assert_eq!(limits.len(), 1, "{label}");
+    let p = &limits[0].point;
+    assert!(limits[0].stable_side, "{label}");
+    assert!(
+        p.slope.abs() > 1e6,
+        "{label}: the displacement stands still"
+    );
+    let y = p.equilibrium.nodes[0].translation.y;
+    [
+        p.equilibrium.tip.translation.x,
+        p.parameter - 0.05,
+        y,
+        p.conjugate,
+    ]
+}
+
 #[test]
 fn the_two_elastic_links_have_the_five_limit_points() {
-    let chain = elastic_links(15_f64.to_radians());
-    let table = [
-        (0.0, 1.922272795, -0.0095788571, -0.137732345, -5.86836656),
-        (0.5, 1.942925249, 0.011073597, -0.111303931, -4.49506146),
-        (1.0, 1.975281172, 0.043429519, -0.0405154222, -2.32892263),
-        (1.5, 1.945566931, 0.013715278, 0.103783052, -4.28099972),
-        (2.0, 1.92463389, -0.0072177621, 0.13138615, -5.66307168),
-    ];
-    for (g, x, dx, y, force) in table as [(f64, f64, f64, f64, f64); 5] {
+    for (g, x, dx, y, force) in ELASTIC_LIMITS {
         let label = format!("G/G* {g}");
-        // From the unstable shape between the two folds of its loop.
-        let mut problem = elastic_problem(&chain, g, -0.05);
-        problem.posture = vec![y.atan2(1.0) * 0.6, -0.05, 0.0, -0.05, 0.0];
-        problem.posture[2] = -2.0 * problem.posture[0];
-        let all = kinetostat::equilibria(
-            &problem,
-            &kinetostat::Bounds::of(&chain),
-            &Default::default(),
-        )
-        .unwrap();
-        let start = &all.found.last().unwrap().equilibrium;
-        assert!(!start.stability.stable, "{label}");
-        let c = follow(
-            &problem,
-            &along_x(),
-            start,
-            0.0,
-            &CurveSettings::within(-0.02, 0.2),
-        )
-        .unwrap();
-        assert_curves(&c);
-        let limits = of_kind(&c, SpecialKind::DisplacementLimit);
-        assert_eq!(limits.len(), 1, "{label}");
-        let p = &limits[0].point;
-        assert!(limits[0].stable_side, "{label}");
-        close(&label, p.equilibrium.tip.translation.x, x, 6e-10);
-        close(&label, p.parameter - 0.05, dx, 6e-10);
-        close(&label, p.equilibrium.nodes[0].translation.y, y, 6e-10);
-        close(&label, p.conjugate, force, 6e-9);
-        assert!(
-            p.slope.abs() > 1e6,
-            "{label}: the displacement stands still"
-        );
+        let found = elastic_limit(g, y);
+        for (found, expected) in found.into_iter().zip([x, dx, y]) {
+            close(&label, found, expected, 6e-10);
+        }
+        close(&label, found[3], force, 6e-9);
     }
 }
 
@@ -450,6 +455,16 @@ fn the_two_elastic_links_have_the_five_limit_points() {
 /// constant load.
 #[test]
 fn the_flat_chain_forks_without_preload_and_has_a_limit_point_with_it() {
+    let r = 0.5 * (1.0 + (1.0_f64 - 8.0 / 200.0).sqrt());
+    let [fork, force, limit, y] = flat_chain();
+    close("x", fork, 1.979795897113, 1e-11);
+    close("F_x", force, 200.0 * (r - 1.0), 1e-9);
+    close("x", limit, 1.979795897113, 1e-11);
+    close("flat", y, 0.0, 1e-9);
+}
+
+/// x and F_x of the fork without preload, x and node y of the limit point with it.
+pub fn flat_chain() -> [f64; 4] {
     let r = 0.5 * (1.0 + (1.0_f64 - 8.0 / 200.0).sqrt());
     close("reference", 2.0 * r, 1.979795897113, 1e-12);
     let chain = elastic_links(0.0);
@@ -461,8 +476,8 @@ fn the_flat_chain_forks_without_preload_and_has_a_limit_point_with_it() {
     assert_curves(&c);
     let forks = of_kind(&c, SpecialKind::Pitchfork);
     assert_eq!(forks.len(), 1);
-    close("x", 2.0 + forks[0].point.parameter, 1.979795897113, 1e-11);
-    close("F_x", forks[0].point.conjugate, 200.0 * (r - 1.0), 1e-9);
+    let fork = &forks[0].point;
+    let fork = [2.0 + fork.parameter, fork.conjugate];
     assert_eq!(c.branches.len(), 2);
     assert!(
         c.branches[1]
@@ -497,8 +512,8 @@ fn the_flat_chain_forks_without_preload_and_has_a_limit_point_with_it() {
     let limits = of_kind(&c, SpecialKind::DisplacementLimit);
     assert_eq!(limits.len(), 1);
     let p = &limits[0].point;
-    close("x", 2.0 * r - 0.01 + p.parameter, 1.979795897113, 1e-11);
-    close("flat", p.equilibrium.nodes[0].translation.y, 0.0, 1e-9);
+    let y = p.equilibrium.nodes[0].translation.y;
+    [fork[0], fork[1], 2.0 * r - 0.01 + p.parameter, y]
 }
 
 /// Zeros of K_x of the rigid two-link chain (4.6.1): load limits of the upper branch, two of them
@@ -558,88 +573,6 @@ fn the_rigid_links_have_the_load_limits_of_the_closed_form() {
             }
         }
     }
-}
-
-/// End on its line under a dead force along x, free to turn.
-fn pressed(chain: &Chain, length: f64) -> ChainProblem<'_> {
-    let mut problem = held(chain, length);
-    problem.end.prescribed[0] = Prescribed::Wrench;
-    problem
-}
-
-fn press() -> Wrench {
-    Wrench::new(vector![-1.0, 0.0, 0.0], Vector3::zeros())
-}
-
-#[test]
-fn straight_columns_fork_at_two_one_minus_cosine() {
-    for n in 2..=6 {
-        let (l, k) = (0.4, 50.0);
-        let chain = planar_column(n, l, k);
-        let problem = pressed(&chain, n as f64 * l);
-        let loads: Vec<f64> = (1..n)
-            .map(|m| 2.0 * (1.0 - (m as f64 * std::f64::consts::PI / n as f64).cos()) * k / l)
-            .collect();
-        let c = follow(
-            &problem,
-            &Parameter::end_wrench(press()),
-            &solved(&problem),
-            0.0,
-            &CurveSettings::within(0.0, 5.0 * k / l),
-        )
-        .unwrap();
-        assert_curves(&c);
-        let forks = of_kind(&c, SpecialKind::Pitchfork);
-        assert_eq!(forks.len(), n - 1, "{n} links");
-        for (fork, load) in forks.iter().zip(&loads) {
-            close(
-                &format!("{n} links"),
-                fork.point.parameter,
-                *load,
-                1e-9 * load,
-            );
-        }
-        let pattern = LoadPattern {
-            end: press(),
-            loads: vec![],
-        };
-        for judged in [Judged::Shape, Judged::ShapeAndEnd] {
-            let label = format!("{n} links, {judged:?}");
-            let limit = CurveSettings::within(0.0, f64::INFINITY);
-            let critical = critical_load_factor(&problem, &pattern, judged, &limit).unwrap();
-            close(&label, critical.linear.unwrap(), loads[0], 1e-9 * loads[0]);
-            let exact = critical.exact.unwrap();
-            close(&label, exact.factor, loads[0], 1e-9 * loads[0]);
-            // Mode: joint i deflects by sin(i pi / n).
-            let middle = (1..n)
-                .map(|i| (i as f64 * std::f64::consts::PI / n as f64).sin())
-                .fold(0.0, f64::max);
-            let own = &exact.mode[1..n];
-            let most = own.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            for mode in [&exact.mode, &critical.linear_mode] {
-                let scale = mode[1..n].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-                for i in 1..n {
-                    let s = (i as f64 * std::f64::consts::PI / n as f64).sin() / middle;
-                    close(&label, mode[i].abs() / scale, s, 1e-6);
-                }
-            }
-            assert!(most > 0.1);
-        }
-    }
-}
-
-#[test]
-fn a_pulled_column_never_buckles() {
-    let chain = planar_column(4, 1.0, 1.0);
-    let problem = pressed(&chain, 4.0);
-    let pattern = LoadPattern {
-        end: press() * -1.0,
-        loads: vec![],
-    };
-    let limit = CurveSettings::within(0.0, 50.0);
-    let c = critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &limit).unwrap();
-    assert!(c.linear.is_none() && c.exact.is_none());
-    close("reached", c.reached, 50.0, 1e-9);
 }
 
 #[test]
@@ -797,46 +730,6 @@ fn a_bar_on_an_inclined_spring_forks_transcritically() {
     assert!(below > 2 && above > 2);
 }
 
-/// A column of universal joints buckles in two planes at once.
-#[test]
-fn a_column_in_space_has_two_modes_at_once() {
-    let (y, z) = (Vector3::y(), Vector3::z());
-    let mut b = Chain::builder("column in space").passive_universal("foot", y, z);
-    for i in 1..3 {
-        b = b.translation(vector![1.0, 0.0, 0.0]);
-        b = b
-            .spring(&format!("y{i}"), MotionKind::Revolute, y, 1.0, 0.0)
-            .spring(&format!("z{i}"), MotionKind::Revolute, z, 1.0, 0.0);
-    }
-    let chain = b.translation(vector![1.0, 0.0, 0.0]).build().unwrap();
-    let mut end = EndCondition::pose(Pose::translation(3.0, 0.0, 0.0));
-    for k in [0, 3, 4, 5] {
-        end.prescribed[k] = Prescribed::Wrench;
-    }
-    let problem = ChainProblem::new(&chain, end);
-    let mut settings = CurveSettings::within(0.0, 1.8);
-    settings.branches = 3;
-    let parameter = Parameter::end_wrench(press());
-    let c = follow(&problem, &parameter, &solved(&problem), 0.0, &settings).unwrap();
-    let fork = &c.specials[0];
-    assert_eq!(fork.kind, SpecialKind::Multiple { modes: 2 });
-    close("load", fork.point.parameter, 1.0, 1e-8);
-    assert!(c.branches.len() > 1, "buckled shapes are followed");
-    let buckled = c.branches[1].points.last().unwrap();
-    assert!(buckled.parameter > 1.05 && buckled.conjugate > 0.1);
-    let pattern = LoadPattern {
-        end: press(),
-        loads: vec![],
-    };
-    let r = critical_load_factor(
-        &problem,
-        &pattern,
-        Judged::ShapeAndEnd,
-        &CurveSettings::within(0.0, 9.0),
-    );
-    close("critical", r.unwrap().exact.unwrap().factor, 1.0, 1e-8);
-}
-
 #[test]
 fn a_pushed_shape_snaps_where_its_displacement_ends() {
     // 4.6.2 without load: the lower shape, drawn apart, ends at dx = -0.00958 and snaps to the
@@ -916,69 +809,5 @@ fn curves_of_random_chains_hold() {
             assert!(p.equilibrium.residual.torque < 1e-8, "seed {seed}");
         }
         c.jumps().unwrap();
-    }
-}
-
-/// Euler columns of the default link, in the plane of least stiffness: critical loads within 0.1 % at 8
-/// segments, linear and on the path, and never unstable in tension.
-#[test]
-fn euler_columns_have_their_critical_loads() {
-    let section = BeamSection {
-        youngs_modulus: 1.0,
-        shear_modulus: 0.5,
-        area: 1e5,
-        second_moment_y: 1.0,
-        second_moment_z: 2.0,
-        torsion_constant: 1.0,
-    };
-    let euler = std::f64::consts::PI.powi(2);
-    // Smallest root of tan x = x.
-    let tangent = 4.493_409_457_909_064_f64.powi(2) / euler;
-    // Foot hinged; head: held sideways, held against rotation.
-    for (name, hinged, sideways, turning, expected) in [
-        ("pinned", true, true, false, 1.0),
-        ("clamped-free", false, false, false, 0.25),
-        ("clamped-clamped", false, true, true, 4.0),
-        ("clamped-pinned", false, true, false, tangent),
-    ] {
-        let mut b = Chain::builder(name);
-        if hinged {
-            b = b.passive("q", MotionKind::Revolute, Vector3::y(), 0.0);
-        }
-        let chain = b
-            .link_with("link", &LinkSpec::beam(section, 1.0).segments(8))
-            .build()
-            .unwrap();
-        let mut end = EndCondition::pose(Pose::translation(1.0, 0.0, 0.0));
-        end.prescribed = [Prescribed::Wrench; 6];
-        for k in [1, 2, 3, 5] {
-            if sideways {
-                end.prescribed[k] = Prescribed::Pose;
-            }
-        }
-        if turning {
-            end.prescribed[4] = Prescribed::Pose;
-        }
-        let problem = ChainProblem::new(&chain, end);
-        let settings = CurveSettings::within(0.0, 10.0 * euler);
-        let critical = |force: f64| {
-            let pattern = LoadPattern {
-                end: press() * force,
-                loads: vec![],
-            };
-            critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings).unwrap()
-        };
-        let pressed = critical(1.0);
-        let exact = pressed.exact.unwrap();
-        close(name, exact.factor / euler, expected, 1e-3 * expected);
-        close(
-            name,
-            pressed.linear.unwrap() / euler,
-            expected,
-            1e-3 * expected,
-        );
-        assert_eq!(exact.kind, Some(SpecialKind::Pitchfork), "{name}");
-        let pulled = critical(-1.0);
-        assert!(pulled.exact.is_none() && pulled.linear.is_none(), "{name}");
     }
 }

@@ -7,6 +7,7 @@
 mod orthoglide;
 mod properties;
 mod report;
+mod shapes;
 mod structure;
 mod theory;
 

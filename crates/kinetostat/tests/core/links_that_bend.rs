@@ -40,7 +40,7 @@ fn general() -> BeamSection {
     }
 }
 
-fn link(n: usize, convention: LinkConvention) -> LinkSpec {
+pub fn link(n: usize, convention: LinkConvention) -> LinkSpec {
     LinkSpec::beam(flat(), 1.0)
         .segments(n)
         .convention(convention)
@@ -62,15 +62,15 @@ fn force(x: f64, y: f64, z: f64) -> EndCondition {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Support {
+pub enum Support {
     Clamped,
     Pinned,
     Free,
 }
-use Support::{Clamped, Free, Pinned};
+pub use Support::{Clamped, Free, Pinned};
 
 /// A column along x between a clamped or pinned root and a clamped, pinned or free end.
-fn column(root: Support, spec: &LinkSpec, end: Support) -> Chain {
+pub fn column(root: Support, spec: &LinkSpec, end: Support) -> Chain {
     let hinge =
         |b: ChainBuilder, name: &str| b.passive(name, MotionKind::Revolute, Vector3::z(), 0.0);
     let mut b = Chain::builder("column");
@@ -97,14 +97,14 @@ fn straight(chain: &Chain, force: f64) -> Equilibrium {
 
 /// The verdict by the inertia of the bordered matrix (Sylvester's law), which needs no assumption
 /// about the springs: as many positive eigenvalues as the end has directions.
-fn holds(chain: &Chain, force: f64) -> bool {
+pub fn holds(chain: &Chain, force: f64) -> bool {
     straight(chain, force).stability.inertia.positive == 6
 }
 
 /// Smallest load at which the shape fails, in Euler loads; `sign` is -1 for compression, +1 for
 /// tension. `None`: none up to 100. An eigenvalue counts as zero within a small band: the load is
 /// the middle of it.
-fn critical(chain: &Chain, sign: f64) -> Option<f64> {
+pub fn critical(chain: &Chain, sign: f64) -> Option<f64> {
     let inertia = |load: f64| straight(chain, sign * load * PI * PI).stability.inertia;
     let mut beyond = 0.05;
     while inertia(beyond).positive == 6 {
@@ -130,10 +130,17 @@ fn critical(chain: &Chain, sign: f64) -> Option<f64> {
     Some(0.5 * (first + last))
 }
 
+/// A critical load in Euler loads (`None`: none), found and expected, with the half of its last digit.
+pub struct Critical {
+    pub label: String,
+    pub found: Option<f64>,
+    pub expected: Option<f64>,
+    pub digit: f64,
+}
+
 /// Theory note, section 4, to its digits (there, as here, EA / EI = 1e6 / m^2: the limit of an
 /// inextensible column is 1.98548 where 1.986 stands, 1.00003 where 1.00004 stands).
-#[test]
-fn pinned_columns_buckle_as_in_the_table_of_conventions() {
+pub fn table_of_conventions() -> Vec<Critical> {
     type Row = (
         LinkConvention,
         [Option<f64>; 4],
@@ -188,20 +195,30 @@ fn pinned_columns_buckle_as_in_the_table_of_conventions() {
             [0.0; 3],
         ),
     ];
+    let mut all = Vec::new();
     for (convention, pushed, digits, pulled, digits_pulled) in table {
-        let found = |n, sign| critical(&column(Pinned, &link(n, convention), Pinned), sign);
+        let mut row = |n, sign, expected, digit| {
+            all.push(Critical {
+                label: format!("{convention:?}, {n} segments, sign {sign}"),
+                found: critical(&column(Pinned, &link(n, convention), Pinned), sign),
+                expected,
+                digit,
+            });
+        };
         for (k, n) in [1, 2, 4, 8].into_iter().enumerate() {
-            check(
-                &format!("{convention:?}, {n}"),
-                found(n, -1.0),
-                pushed[k],
-                digits[k],
-            );
+            row(n, -1.0, pushed[k], digits[k]);
         }
         for (k, n) in [1, 2, 4].into_iter().enumerate() {
-            let label = format!("{convention:?}, {n}, tension");
-            check(&label, found(n, 1.0), pulled[k], digits_pulled[k]);
+            row(n, 1.0, pulled[k], digits_pulled[k]);
         }
+    }
+    all
+}
+
+#[test]
+fn pinned_columns_buckle_as_in_the_table_of_conventions() {
+    for c in table_of_conventions() {
+        check(&c.label, c.found, c.expected, c.digit);
     }
 }
 
@@ -215,16 +232,19 @@ fn check(label: &str, found: Option<f64>, expected: Option<f64>, tolerance: f64)
     }
 }
 
-#[test]
-fn eulers_columns_buckle_within_a_thousandth_at_8_segments_and_never_in_tension() {
-    // Clamped-pinned: tan(x) = x at x = 4.493409457909.
-    let cases = [
+/// Supports and critical load in Euler loads. Clamped-pinned: tan(x) = x at x = 4.493409457909.
+pub fn euler_cases() -> [(Support, Support, f64); 4] {
+    [
         (Pinned, Pinned, 1.0),
         (Clamped, Free, 0.25),
         (Clamped, Clamped, 4.0),
         (Clamped, Pinned, (4.493_409_457_909_f64 / PI).powi(2)),
-    ];
-    for (root, end, exact) in cases {
+    ]
+}
+
+#[test]
+fn eulers_columns_buckle_within_a_thousandth_at_8_segments_and_never_in_tension() {
+    for (root, end, exact) in euler_cases() {
         for n in [1, 2, 4, 8] {
             let chain = column(root, &link(n, Bowing), end);
             let label = format!("{root:?} {end:?} {n}");
@@ -277,7 +297,7 @@ fn a_column_in_space_buckles_in_its_softer_plane() {
 }
 
 /// Error of the deflection at the end of a cantilever under `P L^2 / EI = 10`, exact 0.810609024880.
-fn elastica(n: usize, convention: LinkConvention) -> f64 {
+pub fn elastica(n: usize, convention: LinkConvention) -> f64 {
     let chain = cantilever(&link(n, convention));
     let e = solve(&ChainProblem::new(&chain, force(0.0, 10.0, 0.0)));
     e.tip.translation.y - 0.810_609_024_880
@@ -329,6 +349,22 @@ fn the_elastica_converges_as_in_the_theory_note() {
     close("32 segments", elastica(32, Bowing), 0.0, 1e-4);
 }
 
+/// A cantilever under the end moment that rolls it up to a full circle; it has a node in its middle.
+pub fn rolled_up(n: usize, convention: LinkConvention) -> (Chain, Equilibrium) {
+    let half = LinkSpec::beam(flat(), 0.5)
+        .segments(n / 2)
+        .convention(convention);
+    let chain = Chain::builder("roll")
+        .link_with("first", &half)
+        .node("middle")
+        .link_with("second", &half)
+        .build()
+        .unwrap();
+    let moment = Wrench::new(Vector3::zeros(), vector![0.0, 0.0, 2.0 * PI]);
+    let e = solve(&ChainProblem::new(&chain, EndCondition::wrench(moment)));
+    (chain, e)
+}
+
 #[test]
 fn an_end_moment_rolls_a_cantilever_up_to_a_circle() {
     for (convention, n, tolerance) in [
@@ -336,17 +372,7 @@ fn an_end_moment_rolls_a_cantilever_up_to_a_circle() {
         (Bowing, 32, 2e-4),
         (Exponential, 16, 1e-2),
     ] {
-        let half = LinkSpec::beam(flat(), 0.5)
-            .segments(n / 2)
-            .convention(convention);
-        let chain = Chain::builder("roll")
-            .link_with("first", &half)
-            .node("middle")
-            .link_with("second", &half)
-            .build()
-            .unwrap();
-        let moment = Wrench::new(Vector3::zeros(), vector![0.0, 0.0, 2.0 * PI]);
-        let e = solve(&ChainProblem::new(&chain, EndCondition::wrench(moment)));
+        let (chain, e) = rolled_up(n, convention);
         let label = format!("{convention:?} {n}");
         // Angles of the segments add up to a full turn, and the end comes back to the root.
         let angle: f64 = e.coordinates.iter().skip(5).step_by(6).sum();
@@ -409,11 +435,8 @@ fn arc_by_shooting(stretch: Vector3<f64>, bend: Vector3<f64>, f: Vector3<f64>) -
     panic!("shooting: no convergence")
 }
 
-/// Bathe and Bolourchi (1979): a cantilever bent to 45 degrees, radius 100 in, section 1 in x 1 in,
-/// E = 1e7 psi, no Poisson effect, a force across its plane at the end. Published places of the end:
-/// theirs, and Simo and Vu-Quoc (1986, example 7.5, eight elements).
-#[test]
-fn the_45_degree_bend_of_bathe_and_bolourchi() {
+/// Place of the end of the 45-degree bend under a load across its plane, in `n` straight links.
+pub fn bend(load: f64, n: u32) -> Vector3<f64> {
     let section = BeamSection {
         youngs_modulus: 1e7,
         shear_modulus: 5e6,
@@ -422,35 +445,48 @@ fn the_45_degree_bend_of_bathe_and_bolourchi() {
         second_moment_z: 1.0 / 12.0,
         torsion_constant: 1.0 / 6.0,
     };
+    let turn = 0.25 * PI / f64::from(n);
+    let chord = 200.0 * (0.5 * turn).sin();
+    let spec = LinkSpec::matrix(shearing(&section, 5e6, chord), chord);
+    let half_turn = Pose::rotation(vector![0.0, 0.0, 0.5 * turn]);
+    let mut b = Chain::builder("bend");
+    for k in 0..n {
+        b = b
+            .rigid(half_turn)
+            .link_with(&format!("arc {k}"), &spec)
+            .rigid(half_turn);
+    }
+    let chain = b.build().unwrap();
+    let e = solve(&ChainProblem::new(&chain, force(0.0, 0.0, load)));
+    e.tip.translation.vector
+}
+
+/// The same by shooting.
+pub fn bend_by_shooting(load: f64) -> Vector3<f64> {
+    arc_by_shooting(
+        vector![1e7, 5e6, 5e6],
+        vector![1e7 / 6.0 / 2.0, 1e7 / 12.0, 1e7 / 12.0],
+        vector![0.0, 0.0, load],
+    )
+}
+
+/// Bathe and Bolourchi (1979): a cantilever bent to 45 degrees, radius 100 in, section 1 in x 1 in,
+/// E = 1e7 psi, no Poisson effect, a force across its plane at the end. Published places of the end:
+/// theirs, and Simo and Vu-Quoc (1986, example 7.5, eight elements).
+#[test]
+fn the_45_degree_bend_of_bathe_and_bolourchi() {
     for (load, bathe, simo) in [
         (300.0, [59.2, 22.5, 39.5], [58.84, 22.33, 40.08]),
         (600.0, [47.2, 15.9, 53.4], [47.23, 15.79, 53.37]),
     ] {
-        let shear = 5e6;
-        let exact = arc_by_shooting(
-            vector![1e7, shear, shear],
-            vector![1e7 / 6.0 / 2.0, 1e7 / 12.0, 1e7 / 12.0],
-            vector![0.0, 0.0, load],
-        );
+        let exact = bend_by_shooting(load);
         let mut errors = Vec::new();
         for n in [8, 16, 32] {
-            let turn = 0.25 * PI / f64::from(n);
-            let chord = 200.0 * (0.5 * turn).sin();
-            let spec = LinkSpec::matrix(shearing(&section, shear, chord), chord);
-            let half_turn = Pose::rotation(vector![0.0, 0.0, 0.5 * turn]);
-            let mut b = Chain::builder("bend");
-            for k in 0..n {
-                b = b
-                    .rigid(half_turn)
-                    .link_with(&format!("arc {k}"), &spec)
-                    .rigid(half_turn);
-            }
-            let chain = b.build().unwrap();
-            let e = solve(&ChainProblem::new(&chain, force(0.0, 0.0, load)));
-            errors.push((e.tip.translation.vector - exact).norm());
+            let end = bend(load, n);
+            errors.push((end - exact).norm());
             if n == 32 {
                 for k in 0..3 {
-                    let found = e.tip.translation.vector[k];
+                    let found = end[k];
                     close("Bathe, Bolourchi", found, bathe[k], 0.7);
                     close("Simo, Vu-Quoc", found, simo[k], 0.12);
                 }

@@ -19,6 +19,7 @@ mod change_of_frame_and_reference_point;
 mod compensation_closes;
 mod condensed_equals_flattened;
 mod curves_and_bifurcations;
+mod curves_of_columns;
 mod end_conditions_are_consistent;
 mod energy_equals_work;
 mod euler_angles;
