@@ -193,6 +193,6 @@ pub use spatial::{
     CartesianStiffness, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix, turn_matrix,
 };
 pub use spring::{Segment, SpringBlock, SpringLaw};
-pub use stability::ShapeStability;
+pub use stability::{ShapeStability, ShapeVerdict};
 pub use stiffness::{ChainStiffness, unloaded_stiffness};
 pub use strut::{Anchor, Strut};

@@ -32,6 +32,58 @@ pub struct ShapeStability {
     pub neutral: Vec<String>,
 }
 
+/// What a shape is, in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShapeVerdict {
+    /// It holds: every neighbouring shape has more energy.
+    Stable,
+    /// A neighbouring shape has less energy.
+    Unstable,
+    /// At its critical load within rounding: some motion neither stores nor frees energy.
+    Singular,
+}
+
+/// Margins that differ from 1 by less are taken as 1: rounding of a converged equilibrium.
+const AT_CRITICAL: f64 = 1e-9;
+
+impl ShapeStability {
+    /// Stable, unstable, or singular.
+    #[must_use]
+    pub fn verdict(&self) -> ShapeVerdict {
+        match self.margin {
+            Some(mu) if (mu - 1.0).abs() <= AT_CRITICAL => ShapeVerdict::Singular,
+            _ if self.stable => ShapeVerdict::Stable,
+            _ => ShapeVerdict::Unstable,
+        }
+    }
+
+    /// The verdict and how far it is from changing, for people.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let mu = self.margin.unwrap_or(0.0);
+        match self.verdict() {
+            ShapeVerdict::Singular => "stands at its critical load (mu 1)".into(),
+            ShapeVerdict::Unstable if mu.is_finite() => {
+                format!("does not keep its shape (mu {mu:.4}; it does below 1)")
+            }
+            ShapeVerdict::Unstable => {
+                "does not keep its shape: the load pushes passive joints that nothing holds".into()
+            }
+            ShapeVerdict::Stable if self.margin.is_none() => {
+                "keeps its shape: it has no inner freedom".into()
+            }
+            ShapeVerdict::Stable if mu <= 0.0 => {
+                format!("keeps its shape; the load only stiffens it (mu {mu:.4})")
+            }
+            ShapeVerdict::Stable => format!(
+                "keeps its shape, {:.3} % of the way to buckling (mu {mu:.4})",
+                100.0 * mu
+            ),
+        }
+    }
+}
+
 pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -> ShapeStability {
     stability_within(chain, system, factors, &balanced_jacobian(system, factors))
 }

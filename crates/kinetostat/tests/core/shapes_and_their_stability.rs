@@ -10,7 +10,7 @@ use kinetostat::{
     BeamSection, Chain, ChainProblem, DirectionKind, EndCondition, Equilibrium, Load, MotionKind,
     Pose, Prescribed, Settings, Twist, Wrench, moved, solve_chain,
 };
-use kinetostat::{Limb, LimbPosture, Mechanism, Platform};
+use kinetostat::{Limb, LimbPosture, Mechanism, Platform, ShapeVerdict};
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 use proptest::prelude::*;
 
@@ -112,6 +112,28 @@ fn pressed(chain: &Chain, x: f64, p: f64) -> ChainProblem<'_> {
     end.prescribed[5] = Prescribed::Wrench;
     end.wrench = Wrench::new(vector![-p, 0.0, 0.0], Vector3::zeros());
     ChainProblem::new(chain, end)
+}
+
+/// One word and one sentence for every state of a pressed column, up to its critical load and beyond.
+#[test]
+fn a_verdict_in_words_for_every_shape() {
+    let chain = planar_column(3, 1.0, 1.0);
+    let at = |p: f64| {
+        let problem = pressed(&chain, 3.0, p);
+        solve_chain(&problem, &Settings::default())
+            .unwrap()
+            .stability
+    };
+    for (p, verdict, word) in [
+        (0.25, ShapeVerdict::Stable, "25.000 %"),
+        (-0.5, ShapeVerdict::Stable, "stiffens"),
+        (1.0, ShapeVerdict::Singular, "critical"),
+        (2.0, ShapeVerdict::Unstable, "does not keep"),
+    ] {
+        let s = at(p);
+        assert_eq!(s.verdict(), verdict, "{p}: {s:?}");
+        assert!(s.in_words().contains(word), "{p}: {}", s.in_words());
+    }
 }
 
 #[test]
