@@ -110,8 +110,26 @@ impl Problem {
         if styled { &self.styled } else { &self.plain }
     }
 
+    /// A problem that another reader found in `text`, at the bytes of `span`; `path` is its way to
+    /// the value in words.
+    #[must_use]
+    pub fn found(
+        severity: Severity,
+        file: &str,
+        text: &str,
+        span: Range<usize>,
+        path: &str,
+        [message, help]: [String; 2],
+    ) -> Self {
+        let finding = Finding::new(&Place::root(), message, help);
+        let mut problem = Self::in_text(severity, file, text, span, &finding);
+        problem.path = path.to_owned();
+        problem
+    }
+
     /// A problem with a file that could not be read as text.
-    pub(crate) fn without_text(file: &str, message: String, help: String) -> Self {
+    #[must_use]
+    pub fn without_text(file: &str, message: String, help: String) -> Self {
         let mut problem = Self::bare(Severity::Error, file, message, help, String::new());
         problem.render(None);
         problem
@@ -282,7 +300,9 @@ impl ModelError {
     /// More than this many are counted, not shown.
     const SHOWN: usize = 10;
 
-    pub(crate) fn new(problems: Vec<Problem>) -> Self {
+    /// For readers of other formats that lead to a model.
+    #[must_use]
+    pub fn new(problems: Vec<Problem>) -> Self {
         Self { problems }
     }
 

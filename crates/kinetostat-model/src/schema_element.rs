@@ -274,12 +274,13 @@ pub struct ParallelogramElement {
     pub assumption: Option<String>,
 }
 
-/// One more motion driven by a coordinate that comes earlier in the chain.
+/// One more motion driven by a joint that comes earlier in the chain: a mimic joint, a parallelogram.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-word" = "coupled"))]
 pub struct CoupledElement {
-    /// Name of the coordinate.
+    /// Name of the coordinate: an actuator (command and deflection of its drive), a passive joint or
+    /// a spring.
     pub coupled: String,
     /// Slides or turns.
     pub motion: JointKind,

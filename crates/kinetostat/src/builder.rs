@@ -223,7 +223,8 @@ impl ChainBuilder {
     }
 
     /// One more motion driven by an existing coordinate: displacement `ratio * coordinate`. This is
-    /// how parallelograms and mimic joints are written.
+    /// how parallelograms and mimic joints are written. Where the name is an actuator's, the motion
+    /// follows the joint: its command, and with it the deflection of its drive.
     #[must_use]
     pub fn coupled(
         mut self,
@@ -233,11 +234,18 @@ impl ChainBuilder {
         ratio: f64,
     ) -> Self {
         let axis = self.unit_axis(coordinate, axis);
-        match self.chain.coordinates.iter().position(|c| c.name == coordinate) {
-            Some(index) => self.motion(kind, axis, Some(Drive { index, ratio }), None),
-            None => self.fault(format!(
+        if !ratio.is_finite() {
+            self.fault(format!("a motion is coupled to '{coordinate}' by {ratio}"));
+        }
+        let drive = |index| Drive { index, ratio };
+        let follows = self.chain.coordinates.iter().position(|c| c.name == coordinate);
+        let commanded = self.chain.actuators.iter().position(|a| a.name == coordinate);
+        if follows.is_none() && commanded.is_none() {
+            self.fault(format!(
                 "a motion is coupled to '{coordinate}', but no coordinate of that name comes before it"
-            )),
+            ));
+        } else {
+            self.motion(kind, axis, follows.map(drive), commanded.map(drive));
         }
         self
     }

@@ -1,0 +1,123 @@
+//! Masses that were never meant: missing, equal everywhere, unit matrices, too heavy or too light for
+//! the robot's size. They are imported as written and noticed.
+
+use kinetostat::Pose;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::log::{Log, some_names};
+use crate::urdf::robot::{Inertial, Robot};
+
+/// Mass per reach squared, kg/m^2, of arms as they are built: 15 (light collaborative arms) to 350
+/// (heavy ones of 700 kg payload); a factor of about 1.3 to 3 beside these is let pass.
+const LIGHTEST: f64 = 5.0;
+const HEAVIEST: f64 = 450.0;
+
+/// Looks at the inertials of the links that move; `reach` is the length of the moving arm, m.
+pub(crate) fn look(robot: &Robot, moving: &[usize], frames: &[Pose], reach: f64, log: &mut Log) {
+    let named = |links: &[usize]| {
+        let names: Vec<&str> = links
+            .iter()
+            .map(|l| robot.links[*l].name.as_str())
+            .collect();
+        some_names(&names)
+    };
+    let of = |l: &usize| robot.links[*l].inertial.as_ref();
+    // Frames such as 'flange' and 'tool0' have neither mass nor shape.
+    let without: Vec<usize> = moving
+        .iter()
+        .copied()
+        .filter(|l| of(l).is_none() && !robot.links[*l].meshes.is_empty())
+        .collect();
+    let with: Vec<usize> = moving.iter().copied().filter(|l| of(l).is_some()).collect();
+    if with.is_empty() {
+        log.notice(
+            &robot.at,
+            "no moving link has a mass: the model bends under loads, but not under its own weight",
+            "add { body = ... } elements to the chain, or <inertial> to the URDF",
+        );
+        return;
+    }
+    if !without.is_empty() {
+        log.notice(
+            &robot.links[without[0]].at,
+            format!("links with a shape but without a mass: {}", named(&without)),
+            "their weight is left out; add { body = ... } elements to the chain",
+        );
+    }
+    for &link in &with {
+        let Some(inertial) = of(&link) else { continue };
+        one(inertial, &frames[link], reach, log);
+    }
+    let heavy: Vec<&Inertial> = with.iter().filter_map(of).collect();
+    let first = heavy[0];
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+    if heavy.len() >= 3 && heavy.iter().all(|i| same(i.mass, first.mass)) && first.mass > 0.0 {
+        log.notice(
+            &first.at,
+            format!(
+                "all {} moving links have the same mass, {} kg: a placeholder",
+                heavy.len(),
+                first.mass
+            ),
+            "gravity will be wrong; write the true masses into the model, or gravity_m_per_s2 = [0, 0, 0]",
+        );
+    }
+    let total: f64 = heavy.iter().map(|i| i.mass).sum();
+    let ratio = total / (reach * reach);
+    if reach > 0.05 && total > 0.0 && !(LIGHTEST..=HEAVIEST).contains(&ratio) {
+        let (word, side) = match ratio > HEAVIEST {
+            true => ("much", "heaviest"),
+            false => ("little", "lightest"),
+        };
+        log.notice(
+            &first.at,
+            format!(
+                "the moving links weigh {total:.1} kg in all, {word} for an arm of {reach:.2} m: the {side} that are built have about {:.0} kg",
+                match ratio > HEAVIEST {
+                    true => 350.0 * reach * reach,
+                    false => 15.0 * reach * reach,
+                }
+            ),
+            "gravity will be wrong if these are placeholders; compare with the data sheet, and write the true masses into the model",
+        );
+    }
+}
+
+/// One inertial by itself.
+fn one(inertial: &Inertial, _frame: &Pose, reach: f64, log: &mut Log) {
+    let at = &inertial.at;
+    let m = &inertial.inertia;
+    if inertial.mass == 0.0 {
+        log.notice(
+            at,
+            "the mass is zero",
+            "its weight is left out; write the true mass into the URDF or the model",
+        );
+        return;
+    }
+    if *m == Matrix3::identity() {
+        log.notice(
+            at,
+            "the inertia is the unit matrix: a placeholder",
+            "statics does not use it; is the mass a placeholder too?",
+        );
+    }
+    let centre = Vector3::from(inertial.origin.xyz).norm();
+    if reach > 0.05 && centre > 2.0 * reach {
+        log.notice(
+            at,
+            format!("the centre of mass lies {centre:.2} m away from the link's frame"),
+            "lengths of a URDF are metres; are these millimetres?",
+        );
+    }
+    let gyration = (m.diagonal().max() / inertial.mass).sqrt();
+    if reach > 0.05 && gyration > 2.0 * reach && *m != Matrix3::identity() {
+        log.notice(
+            at,
+            format!(
+                "the inertia belongs to a body of about {gyration:.1} m, the arm has {reach:.1} m"
+            ),
+            "check its unit: kg m^2 (CAD programs like kg mm^2); statics does not use it",
+        );
+    }
+}

@@ -1,0 +1,18 @@
+//! URDF: text to robot ([`read`]), robot to checked tree ([`tree`]), tree to platforms and ways
+//! ([`graph`]), ways to chains ([`chain`]), all of it to a model file ([`write`]).
+
+mod chain;
+mod close;
+mod graph;
+mod import;
+mod inertial;
+mod loops;
+mod read;
+mod robot;
+mod tree;
+mod write;
+mod xml;
+
+pub use import::{Imported, UrdfOptions, import_urdf};
+pub use loops::LoopFile;
+pub use xml::{MOST_URDF_BYTES, read_text};
