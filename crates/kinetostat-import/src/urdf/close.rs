@@ -50,9 +50,89 @@ fn gaps(
     gaps
 }
 
+/// A variable that may move to close the loops, and what it is allowed.
+pub(crate) struct Free {
+    pub(crate) variable: usize,
+    pub(crate) turns: bool,
+    pub(crate) limits: Option<(f64, f64)>,
+    /// A joint of the tree: of several ways to close the loops, the one in which these are nearest to
+    /// their start is taken. Closing joints come as they come.
+    pub(crate) in_tree: bool,
+}
+
+/// Starts besides the given one, from which other assemblies are looked for.
+const STARTS: u64 = 40;
+/// Larger robots are closed from the given start only.
+const MOST_LINKS: usize = 100;
+
 /// Moves the `free` variables until all loops are closed; returns the distance (m) and the angle
-/// (rad) that stay open in the worst of them.
+/// (rad) that stay open in the worst of them. Most loops close in several ways: joints stay within
+/// their limits and near to where they started, if they can.
 pub(crate) fn close(
+    robot: &Robot,
+    tree: &Tree,
+    base: usize,
+    closings: &[([usize; 2], Vec<Step>)],
+    free: &[Free],
+    values: &mut [f64],
+) -> (f64, f64) {
+    let start = values.to_vec();
+    let variables: Vec<usize> = free.iter().map(|f| f.variable).collect();
+    let open = |gap: (f64, f64)| gap.0 > 1e-9 || gap.1 > 1e-9;
+    // Whether it is open, joints outside their limits, distance from the start.
+    let cost = |values: &[f64], gap: (f64, f64)| {
+        let outside = free
+            .iter()
+            .filter(|f| {
+                let x = values[f.variable];
+                f.limits.is_some_and(|(low, high)| x < low || x > high)
+            })
+            .count();
+        let away: f64 = free
+            .iter()
+            .filter(|f| f.in_tree)
+            .map(|f| (values[f.variable] - start[f.variable]).powi(2))
+            .sum();
+        (open(gap), outside, away)
+    };
+    let mut gap = search(robot, tree, base, closings, &variables, values);
+    wrap(free, values);
+    let mut best = (cost(values, gap), values.to_vec());
+    let starts = if robot.links.len() <= MOST_LINKS {
+        STARTS
+    } else {
+        0
+    };
+    for attempt in 1..=starts {
+        let mut trial = start.clone();
+        for (k, f) in free.iter().enumerate() {
+            // Evenly spread numbers in [-1, 1], the same in every run.
+            let number =
+                (attempt as f64 * 0.754_877_666 + (k as f64 + 1.0) * 0.569_840_291).fract();
+            let spread = if f.turns { std::f64::consts::PI } else { 0.5 };
+            trial[f.variable] += spread * (2.0 * number - 1.0);
+        }
+        let found = search(robot, tree, base, closings, &variables, &mut trial);
+        wrap(free, &mut trial);
+        let candidate = cost(&trial, found);
+        if candidate.partial_cmp(&best.0) == Some(std::cmp::Ordering::Less) {
+            gap = found;
+            best = (candidate, trial);
+        }
+    }
+    values.copy_from_slice(&best.1);
+    gap
+}
+
+/// Turning joints within half a turn of zero.
+fn wrap(free: &[Free], values: &mut [f64]) {
+    for f in free.iter().filter(|f| f.turns) {
+        let turn = std::f64::consts::TAU;
+        values[f.variable] -= turn * (values[f.variable] / turn).round();
+    }
+}
+
+fn search(
     robot: &Robot,
     tree: &Tree,
     base: usize,

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, Vector3};
 use crate::log::{At, Log, refusal, some_names, suggestion};
 use crate::stiffness::{self, JointStiffness, Stiffnesses};
 use crate::urdf::chain::{Plan, Variable, Written, unique};
-use crate::urdf::close::{close, frames};
+use crate::urdf::close::{Free, close, frames};
 use crate::urdf::graph::{Graph, closing_steps, graph, link_at};
 use crate::urdf::loops::{self, LoopFile, Loops};
 use crate::urdf::robot::{Closure, JointType, Robot};
@@ -154,7 +154,7 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
         );
     }
     let reach = reach(&graph);
-    inertial::look(&robot, &moving, &frames, reach, &mut log);
+    inertial::look(&robot, &moving, reach, &mut log);
     standing(&robot, &tree, &variables, &home, &mut log);
     if graph.ways.len() == 1 {
         singular(&plan, &graph, &frames, reach, &mut log);
@@ -549,12 +549,21 @@ fn closed(
     if closings.is_empty() {
         return;
     }
-    let free: Vec<usize> = (0..variables.len())
+    let free: Vec<Free> = (0..variables.len())
         .filter(|v| variables[*v].moves && variables[*v].passive)
+        .map(|v| Free {
+            variable: v,
+            turns: variables[v].kind == MotionKind::Revolute,
+            limits: variables[v].limits,
+            in_tree: v < robot.joints.len(),
+        })
         .collect();
     let (distance, angle) = close(robot, tree, base, closings, &free, home);
     if distance > 1e-9 || angle > 1e-9 {
-        let mut names: Vec<&str> = free.iter().map(|v| variables[*v].name.as_str()).collect();
+        let mut names: Vec<&str> = free
+            .iter()
+            .map(|f| variables[f.variable].name.as_str())
+            .collect();
         names.dedup();
         log.error(
             &robot.constraints[0].at,
@@ -566,7 +575,25 @@ fn closed(
             ),
             "name the joints of the loops that nothing drives (passive = [...] in the loop file, or --passive), and give homes at which the loops can close (home_rad, home_m); check origins and axes of the constraints",
         );
+        return;
     }
+    let stands: Vec<String> = free
+        .iter()
+        .filter(|f| f.in_tree)
+        .map(|f| {
+            let v = &variables[f.variable];
+            let (value, unit) = match f.turns {
+                true => (home[f.variable].to_degrees(), "deg"),
+                false => (1e3 * home[f.variable], "mm"),
+            };
+            format!("{} {value:.3} {unit}", v.name)
+        })
+        .collect();
+    log.notice(
+        &robot.constraints[0].at,
+        format!("at home the loops close with {}", stands.join(", ")),
+        "where loops close in several ways, passive joints stay near their start: give other starts by home_rad and home_m in the loop file, or --home",
+    );
 }
 
 /// Names in the table of stiffnesses that no drive has.

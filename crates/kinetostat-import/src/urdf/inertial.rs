@@ -1,7 +1,6 @@
 //! Masses that were never meant: missing, equal everywhere, unit matrices, too heavy or too light for
 //! the robot's size. They are imported as written and noticed.
 
-use kinetostat::Pose;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::log::{Log, some_names};
@@ -13,7 +12,7 @@ const LIGHTEST: f64 = 5.0;
 const HEAVIEST: f64 = 450.0;
 
 /// Looks at the inertials of the links that move; `reach` is the length of the moving arm, m.
-pub(crate) fn look(robot: &Robot, moving: &[usize], frames: &[Pose], reach: f64, log: &mut Log) {
+pub(crate) fn look(robot: &Robot, moving: &[usize], reach: f64, log: &mut Log) {
     let named = |links: &[usize]| {
         let names: Vec<&str> = links
             .iter()
@@ -46,7 +45,7 @@ pub(crate) fn look(robot: &Robot, moving: &[usize], frames: &[Pose], reach: f64,
     }
     for &link in &with {
         let Some(inertial) = of(&link) else { continue };
-        one(inertial, &frames[link], reach, log);
+        one(inertial, reach, log);
     }
     let heavy: Vec<&Inertial> = with.iter().filter_map(of).collect();
     let first = heavy[0];
@@ -62,7 +61,13 @@ pub(crate) fn look(robot: &Robot, moving: &[usize], frames: &[Pose], reach: f64,
             "gravity will be wrong; write the true masses into the model, or gravity_m_per_s2 = [0, 0, 0]",
         );
     }
-    let total: f64 = heavy.iter().map(|i| i.mass).sum();
+    // Data sheets count the base too.
+    let total: f64 = robot
+        .links
+        .iter()
+        .filter_map(|l| l.inertial.as_ref())
+        .map(|i| i.mass)
+        .sum();
     let ratio = total / (reach * reach);
     if reach > 0.05 && total > 0.0 && !(LIGHTEST..=HEAVIEST).contains(&ratio) {
         let (word, side) = match ratio > HEAVIEST {
@@ -72,7 +77,7 @@ pub(crate) fn look(robot: &Robot, moving: &[usize], frames: &[Pose], reach: f64,
         log.notice(
             &first.at,
             format!(
-                "the moving links weigh {total:.1} kg in all, {word} for an arm of {reach:.2} m: the {side} that are built have about {:.0} kg",
+                "the links weigh {total:.1} kg in all, {word} for an arm of {reach:.2} m: the {side} that are built have about {:.0} kg",
                 match ratio > HEAVIEST {
                     true => 350.0 * reach * reach,
                     false => 15.0 * reach * reach,
@@ -84,7 +89,7 @@ pub(crate) fn look(robot: &Robot, moving: &[usize], frames: &[Pose], reach: f64,
 }
 
 /// One inertial by itself.
-fn one(inertial: &Inertial, _frame: &Pose, reach: f64, log: &mut Log) {
+fn one(inertial: &Inertial, reach: f64, log: &mut Log) {
     let at = &inertial.at;
     let m = &inertial.inertia;
     if inertial.mass == 0.0 {

@@ -118,7 +118,12 @@ pub(crate) fn text(parts: &Parts<'_>) -> Result<String, toml::ser::Error> {
         let _ = write!(out, "\n[section]\n{name} = {}\n", value(section)?);
     }
     for (name, _, _, lines) in &parts.limbs {
-        let _ = write!(out, "\n[chain.{}]\nelements = [\n", value(name)?);
+        let plain = |c: char| c.is_ascii_alphanumeric() || "_-".contains(c);
+        let key = match name.chars().all(plain) {
+            true => name.clone(),
+            false => value(name)?,
+        };
+        let _ = write!(out, "\n[chain.{key}]\nelements = [\n");
         for line in lines {
             comment(&mut out, "  ", &line.comment);
             let _ = write!(out, "  {},", value(&line.element)?);

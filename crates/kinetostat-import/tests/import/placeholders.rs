@@ -1,0 +1,125 @@
+//! What looks wrong but can be imported is noticed in words.
+
+use crate::{between, import, notices};
+
+/// An arm of three links with these inertials.
+fn arm(inertials: [&str; 3]) -> String {
+    let mut text = String::from("<robot name='r'><link name='l0'/>");
+    for (i, inertial) in inertials.iter().enumerate() {
+        let (a, b) = (i, i + 1);
+        text.push_str(&format!(
+            "<link name='l{b}'>{inertial}<visual><geometry><mesh filename='package://m/{b}.stl'/></geometry></visual></link>
+             <joint name='j{b}' type='revolute'><origin xyz='0.5 0 0'/><parent link='l{a}'/><child link='l{b}'/>
+             <axis xyz='0 1 0'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>"
+        ));
+    }
+    text + "</robot>"
+}
+
+fn inertial(mass: f64, i: f64) -> String {
+    format!(
+        "<inertial><origin xyz='0.2 0 0'/><mass value='{mass}'/><inertia ixx='{i}' ixy='0' ixz='0' iyy='{i}' iyz='0' izz='{i}'/></inertial>"
+    )
+}
+
+#[test]
+fn inertials_that_were_never_meant() {
+    let good = [inertial(20.0, 0.4), inertial(12.0, 0.2), inertial(8.0, 0.1)];
+    let with = |k: usize, text: &str| {
+        let mut all: Vec<&str> = good.iter().map(String::as_str).collect();
+        all[k] = text;
+        notices(&import(
+            &arm([all[0], all[1], all[2]]),
+            &between("l0", "l3"),
+        ))
+    };
+    let plain = with(0, &good[0]);
+    for word in ["placeholder", "weigh", "mass", "unit matrix"] {
+        assert!(!plain.contains(word), "{word}: {plain}");
+    }
+    for (text, needle) in [
+        (inertial(0.0, 0.0), "the mass is zero"),
+        (inertial(20.0, 1.0), "the inertia is the unit matrix"),
+        (inertial(4e4, 100.0), "much for an arm of"),
+        (inertial(20.0, 4e5), "check its unit: kg m^2"),
+        (String::new(), "links with a shape but without a mass: 'l1'"),
+        (
+            inertial(20.0, 0.4).replace("0.2 0 0", "200 0 0"),
+            "are these millimetres?",
+        ),
+        (
+            inertial(20.0, 0.4).replace("izz='0.4'", "izz='4'"),
+            "no rigid body has this inertia",
+        ),
+        (
+            "<inertial><mass value='20'/></inertial>".into(),
+            "the inertia is missing",
+        ),
+    ] {
+        let said = with(0, &text);
+        assert!(said.contains(needle), "{needle}: {said}");
+    }
+    let same = inertial(2.0, 0.01);
+    let said = notices(&import(&arm([&same, &same, &same]), &between("l0", "l3")));
+    assert!(
+        said.contains("all 3 moving links have the same mass, 2 kg"),
+        "{said}"
+    );
+}
+
+#[test]
+fn units_that_smell() {
+    let none = arm(["", "", ""]);
+    for (from, to, needle) in [
+        ("xyz='0.5 0 0'", "xyz='500 0 0'", "are these millimetres?"),
+        (
+            "<origin xyz='0.5 0 0'/>",
+            "<origin xyz='0.5 0 0' rpy='0 90 0'/>",
+            "are these degrees?",
+        ),
+        (
+            "lower='-1' upper='1'",
+            "lower='-180' upper='180'",
+            "are these degrees?",
+        ),
+        (
+            "xyz='0 1 0'",
+            "xyz='0 2 0'",
+            "the axis has the length 2.0000",
+        ),
+        ("lower='-1' upper='1'", "", "are missing"),
+        (
+            "<limit lower='-1' upper='1' effort='1' velocity='1'/>",
+            "",
+            "there is no <limit>",
+        ),
+        (
+            "lower='-1' upper='1'",
+            "lower='0' upper='0'",
+            "the joint stands still",
+        ),
+    ] {
+        let wrong = none.replacen(from, to, 1);
+        assert_ne!(wrong, none);
+        let said = notices(&import(&wrong, &between("l0", "l3")));
+        assert!(said.contains(needle), "{needle}: {said}");
+    }
+}
+
+#[test]
+fn what_neither_moves_nor_bends_is_skipped_aloud() {
+    let extras = "<material name='m'><color rgba='1 0 0 1'/></material><transmission name='t'><type>x</type></transmission>
+        <gazebo reference='l1'/><ros2_control name='c' type='system'/><frobnicator/></robot>";
+    let text = arm(["", "", ""]).replace("</robot>", extras);
+    let said = notices(&import(&text, &between("l0", "l3")));
+    for needle in [
+        "<material> 1x",
+        "<transmission> 1x",
+        "<gazebo> 1x",
+        "<ros2_control> 1x",
+        "<visual> 3x",
+        "the element <frobnicator> is not read",
+    ] {
+        assert!(said.contains(needle), "{needle}: {said}");
+    }
+}

@@ -1,0 +1,156 @@
+//! The eight robots of ../shared/data/urdf.
+
+use kinetostat_import::{Imported, JointStiffness, UrdfOptions, import_urdf, read_text};
+use kinetostat_model::Model;
+
+use crate::agreement::{with_oracle, with_pinocchio};
+use crate::{data, figure_at_most, notices};
+
+const ROBOTS: [(&str, usize); 8] = [
+    ("abb_irb6640", 6),
+    ("abb_irb6640_185_280", 6),
+    ("fanuc_m900ib700", 6),
+    ("fanuc_r1000ia80f", 6),
+    ("kuka_kr120r2500pro", 6),
+    ("kuka_kr150r3100_2", 6),
+    ("kuka_kr210l150", 6),
+    ("kuka_lbr_iiwa_14_r820", 7),
+];
+
+fn robot(name: &str, options: UrdfOptions) -> Option<(String, Imported)> {
+    let path = data()?.join(format!("{name}.urdf"));
+    let text = read_text("URDF file", &path).unwrap_or_else(|e| panic!("{e}"));
+    let options = UrdfOptions {
+        base: Some("base_link".into()),
+        tip: Some("tool0".into()),
+        ..options
+    };
+    let imported = import_urdf(&text, name, &options).unwrap_or_else(|e| panic!("{e}"));
+    Some((text, imported))
+}
+
+#[test]
+fn all_of_them_import_and_load_again() {
+    for (name, actuators) in ROBOTS {
+        let Some((_, imported)) = robot(name, UrdfOptions::default()) else {
+            return;
+        };
+        assert_eq!(imported.actuators.len(), actuators, "{name}");
+        assert_eq!(imported.rigid_drives, imported.actuators, "{name}");
+        let model = Model::from_toml(&imported.toml, "again.toml").unwrap();
+        assert_eq!(model.mechanism.actuator_names(), imported.actuators);
+        // At home the chain ends where the platform is said to stand, and limits are there.
+        assert!(model.warnings.is_empty(), "{name}: {:?}", model.warnings);
+        for a in model.mechanism.limbs()[0].nominal.actuators() {
+            assert!(a.limits.is_some(), "{name}: {}", a.name);
+        }
+        // What was written can be written again by the model crate, and says the same.
+        let again = Model::from_toml(&model.to_toml().unwrap(), "twice.toml").unwrap();
+        assert_eq!(again.document, model.document, "{name}");
+    }
+}
+
+#[test]
+fn figure_robots_move_and_weigh_as_their_files_say() {
+    let (mut pose, mut torque) = (0.0_f64, 0.0_f64);
+    for (name, _) in ROBOTS {
+        let Some((text, imported)) = robot(name, UrdfOptions::default()) else {
+            return;
+        };
+        let d = with_oracle(&text, &imported, 1000);
+        pose = pose.max(d.pose);
+        torque = torque.max(d.torque);
+        if !imported.bodies.is_empty() {
+            println!(
+                "{name}: gravity torques differ by {:.1e} of the largest",
+                d.torque
+            );
+        }
+    }
+    figure_at_most(
+        "URDF of 8 robots: poses at 1000 postures",
+        pose,
+        1e-10,
+        "m and 1",
+    );
+    figure_at_most(
+        "URDF of 8 robots: gravity torques at 1000 postures",
+        torque,
+        1e-10,
+        "of the largest",
+    );
+}
+
+#[test]
+fn figure_robots_agree_with_pinocchio() {
+    let (mut pose, mut torque) = (0.0_f64, 0.0_f64);
+    for (name, _) in ROBOTS {
+        let Some((text, imported)) = robot(name, UrdfOptions::default()) else {
+            return;
+        };
+        let Some(d) = with_pinocchio(&text, &imported, 1000) else {
+            return;
+        };
+        pose = pose.max(d.pose);
+        torque = torque.max(d.torque);
+    }
+    figure_at_most("URDF of 8 robots, Pinocchio: poses", pose, 1e-10, "m and 1");
+    figure_at_most(
+        "URDF of 8 robots, Pinocchio: gravity torques",
+        torque,
+        1e-10,
+        "of the largest",
+    );
+}
+
+#[test]
+fn placeholders_of_real_files_are_noticed() {
+    let Some((_, heavy)) = robot("kuka_kr210l150", UrdfOptions::default()) else {
+        return;
+    };
+    assert!(
+        notices(&heavy).contains("the links weigh 4879"),
+        "{}",
+        notices(&heavy)
+    );
+    let (_, light) = robot("kuka_kr120r2500pro", UrdfOptions::default()).unwrap();
+    let said = notices(&light);
+    assert!(
+        said.contains("all 6 moving links have the same mass, 2 kg"),
+        "{said}"
+    );
+    assert!(said.contains("little for an arm"), "{said}");
+    let (_, none) = robot("kuka_lbr_iiwa_14_r820", UrdfOptions::default()).unwrap();
+    assert!(notices(&none).contains("no moving link has a mass"));
+    // Meshes stay as references.
+    assert!(
+        none.toml
+            .contains("# mesh of link_1: package://kuka_lbr_iiwa_support/meshes/")
+    );
+}
+
+#[test]
+fn a_robot_with_stiffnesses_bends() {
+    let options = UrdfOptions {
+        stiffness: JointStiffness::All(2e6),
+        home: [("joint_5".to_owned(), 0.6)].into(),
+        ..UrdfOptions::default()
+    };
+    let Some((_, imported)) = robot("fanuc_m900ib700", options) else {
+        return;
+    };
+    assert!(imported.rigid_drives.is_empty());
+    assert!(
+        !notices(&imported).contains("singular"),
+        "{}",
+        notices(&imported)
+    );
+    let mechanism = &imported.model.mechanism;
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let posture = mechanism.posture(&home).unwrap();
+    let k_c = posture.stiffness().unwrap();
+    assert_eq!(k_c.rank(), 6);
+    // Along y at home only joint 1 and the wrist give way; the arm of joint 1 is the tool's x.
+    let compliance = k_c.cartesian.compliance().unwrap();
+    assert!(compliance[(1, 1)] >= home.translation.vector.x.powi(2) / 2e6);
+}
