@@ -48,4 +48,6 @@ mod stiffness;
 mod urdf;
 
 pub use stiffness::JointStiffness;
-pub use urdf::{Imported, LoopFile, MOST_URDF_BYTES, UrdfOptions, import_urdf, read_text};
+pub use urdf::{
+    Imported, LoopFile, MOST_URDF_BYTES, UrdfOptions, import_urdf, read_section, read_text,
+};

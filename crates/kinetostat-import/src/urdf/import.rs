@@ -263,6 +263,31 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
     })
 }
 
+/// Section of links from a file of its own: the keys of a `[section.NAME]` table of a model file.
+///
+/// # Errors
+/// [`ModelError`] with the line where it is no section.
+pub fn read_section(text: &str, file: &str) -> Result<Section, ModelError> {
+    let mut log = Log::default();
+    let index = log.file(file, text);
+    toml::from_str(text).map_err(|e| {
+        let at = At {
+            file: index,
+            span: e.span().unwrap_or_default(),
+            element: String::new(),
+        };
+        log.error(
+            &at,
+            format!("this is no section: {}", e.message()),
+            "write the keys of a section, as in: tube = { outer_diameter_mm = 300, inner_diameter_mm = 260 }, youngs_modulus_gpa = 210, poissons_ratio = 0.3, each on a line of its own",
+        );
+        match log.stop() {
+            Err(told) => told,
+            Ok(()) => refusal(file, "this is no section", ""),
+        }
+    })
+}
+
 /// Lists over all limbs.
 struct Summary {
     actuators: Vec<String>,
@@ -742,7 +767,7 @@ fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f64, log: &m
         log.notice(
             &plan.robot.at,
             "the arm is singular at home: two of its axes do the same there",
-            "choose a home that is not, as in --home joint_5=30 (degrees); `check` and the search for joint values start from it",
+            "choose a home that is not, as in --home joint_5=30deg; `check` and the search for joint values start from it",
         );
     }
 }

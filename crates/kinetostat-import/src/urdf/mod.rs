@@ -13,6 +13,6 @@ mod tree;
 mod write;
 mod xml;
 
-pub use import::{Imported, UrdfOptions, import_urdf};
+pub use import::{Imported, UrdfOptions, import_urdf, read_section};
 pub use loops::LoopFile;
 pub use xml::{MOST_URDF_BYTES, read_text};
