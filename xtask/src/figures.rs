@@ -440,6 +440,8 @@ fn golden(figures: &mut Vec<Figure>) -> Result<()> {
             "kinetostat-model",
             "-p",
             "kinetostat-reproduce",
+            "-p",
+            "kinetostat-import",
             "--",
             "--nocapture",
             "--test-threads=2",

@@ -26,6 +26,7 @@ mod equilibria;
 mod equilibria_answer;
 mod equilibria_table;
 mod failure;
+mod import;
 mod input;
 mod job;
 mod machine;
@@ -81,6 +82,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => models::run(&args),
         Command::Completions(args) => shell::completions(&args),

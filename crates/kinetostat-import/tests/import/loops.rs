@@ -308,5 +308,8 @@ fn figure_drives_of_the_heavy_arm_hold_its_weight() {
     let forces = at_home(&imported, &Wrench::zero()).actuator_forces();
     let without = forces[names.iter().position(|n| n.contains("crank")).unwrap()];
     let moment = 1199.0 * 9.81 * 0.9;
-    assert!((without - crank - moment).abs() < 1e-6 * moment, "{without}");
+    assert!(
+        (without - crank - moment).abs() < 1e-6 * moment,
+        "{without}"
+    );
 }
