@@ -263,7 +263,11 @@ fn in_words(imported: &Imported, out: Option<&Path>) -> String {
         text.push_str("\nNext\n");
         text.push_str(&wrapped(
             &format!(
-                "fill in what bends (FILL IN), then: kinetostat check {}",
+                "{}kinetostat check {}",
+                match imported.rigid_drives.is_empty() {
+                    true => "",
+                    false => "fill in what bends (FILL IN), then: ",
+                },
                 path.display()
             ),
             2,

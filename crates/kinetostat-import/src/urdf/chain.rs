@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use kinetostat::{MotionKind, Pose};
 use kinetostat_model::schema::{
     ActuatorElement, Axis, AxisName, BodyElement, CoupledElement, Element, JointKind, LinkElement,
-    PassiveElement, PassiveKind, Placement, RigidElement,
+    NodeElement, PassiveElement, PassiveKind, Placement, RigidElement,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -285,7 +285,8 @@ impl Plan<'_> {
             return;
         };
         if let Some((name, scale, shift)) = out.defined.get(&variable).cloned() {
-            if !out.coupled.contains(joint) {
+            // On the way to a side branch a joint may be walked backward.
+            if *joint != name && !out.coupled.contains(joint) {
                 out.coupled.push(joint.clone());
             }
             let ratio = follow.ratio / scale;
@@ -384,6 +385,9 @@ impl Plan<'_> {
     fn excursion(&self, out: &mut Written, link: usize, steps: &[Step], last: usize) {
         let name = &self.robot.links[link].name;
         out.comment = format!("side branch: out to {name} and back");
+        for mesh in &self.robot.links[link].meshes {
+            out.comment.push_str(&format!("\nmesh of {name}: {mesh}"));
+        }
         let (out_there, rest) = steps.split_at(last + 1);
         let rigidly = |out: &mut Written, step: &Step| {
             if let Some(placement) = placement(&step.pose(self.home)) {
@@ -399,7 +403,9 @@ impl Plan<'_> {
             go(out, step);
         }
         let pose = product(rest, Pose::identity(), self.home);
-        self.body(out, link, &pose);
+        if !self.body(out, link, &pose) {
+            self.node(out, link, &pose);
+        }
         for step in out_there.iter().rev() {
             match step {
                 // A constant and a coupled part of one motion commute.
@@ -409,13 +415,28 @@ impl Plan<'_> {
         }
     }
 
-    /// The mass of a link whose frame is at `pose` in the frame reached.
-    fn body(&self, out: &mut Written, link: usize, pose: &Pose) {
+    /// A name for the frame of a link without a mass at `pose`: springs and cylinders attach there.
+    fn node(&self, out: &mut Written, link: usize, pose: &Pose) {
+        let node = unique(&mut out.body_names, &self.robot.links[link].name, "link");
+        for element in [
+            placement(pose).map(|p| rigid(p, None)),
+            Some(Element::Node(NodeElement { node })),
+            placement(&pose.inverse()).map(|p| rigid(p, None)),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            out.push(element, "");
+        }
+    }
+
+    /// The mass of a link whose frame is at `pose` in the frame reached; false if it has none.
+    fn body(&self, out: &mut Written, link: usize, pose: &Pose) -> bool {
         let Some(inertial) = &self.robot.links[link].inertial else {
-            return;
+            return false;
         };
         if inertial.mass == 0.0 {
-            return;
+            return false;
         }
         let whole = pose * inertial.origin.pose();
         let exact = *pose == Pose::identity();
@@ -446,6 +467,7 @@ impl Plan<'_> {
             }),
             "",
         );
+        true
     }
 }
 

@@ -94,7 +94,8 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
     log.stop()?;
     let graph = graph(&robot, &tree, &closings, [base, tip], &mut log);
     let graph = stopped(graph, &mut log)?;
-    used(&robot, &tree, &graph, &mut variables);
+    used(&graph, &mut variables);
+    followers(&robot, &tree, &mut variables, &mut log);
     let mut home = homes(&robot, &mut variables, options, &loops, &mut log);
     log.stop()?;
     closed(
@@ -124,10 +125,10 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
         for_all,
         section: options.section.as_ref().map(|_| SECTION),
     };
-    // What is fixed to the base does not move, and what has no mass has no weight.
+    // What is fixed to the base does not move.
     let still = |s: &Step| s.variable().is_none_or(|v| !variables[v].moves);
     let mut placed: Vec<bool> = (0..robot.links.len())
-        .map(|l| robot.links[l].inertial.is_none() || tree.steps(&robot, base, l).iter().all(still))
+        .map(|l| tree.steps(&robot, base, l).iter().all(still))
         .collect();
     let moving: Vec<usize> = (0..robot.links.len())
         .filter(|l| !tree.steps(&robot, base, *l).iter().all(still))
@@ -140,7 +141,7 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
     one_limb_each(&robot, &variables, &chains, &mut log);
     log.stop()?;
     let left: Vec<&str> = (0..robot.links.len())
-        .filter(|l| !placed[*l])
+        .filter(|l| !placed[*l] && robot.links[*l].has_inertial)
         .map(|l| robot.links[l].name.as_str())
         .collect();
     if !left.is_empty() {
@@ -478,14 +479,49 @@ fn closings(robot: &Robot, log: &mut Log) -> Vec<([usize; 2], Vec<Step>)> {
 }
 
 /// Marks what lies between base and tip.
-fn used(robot: &Robot, tree: &Tree, graph: &Graph, variables: &mut [Variable]) {
+fn used(graph: &Graph, variables: &mut [Variable]) {
     for step in graph.ways.iter().flat_map(|w| &w.steps) {
         if let Some(v) = step.variable() {
             variables[v].moves = true;
         }
     }
-    // A joint beside the way that moves what is on it was seen by its follower there.
-    debug_assert_eq!(tree.follows.len(), robot.joints.len());
+}
+
+/// Limits of joints that follow others hold for the joints that lead them.
+fn followers(robot: &Robot, tree: &Tree, variables: &mut [Variable], log: &mut Log) {
+    for (joint, follow) in robot.joints.iter().zip(&tree.follows) {
+        let (Some(v), Some((low, high)), Some(_)) = (follow.variable, joint.limits, &joint.mimic)
+        else {
+            continue;
+        };
+        let of = |x: f64| (x - follow.offset) / follow.ratio;
+        let (low, high) = (of(low).min(of(high)), of(low).max(of(high)));
+        let own = variables[v]
+            .limits
+            .unwrap_or((-f64::INFINITY, f64::INFINITY));
+        let both = (own.0.max(low), own.1.min(high));
+        let at = joint.limit_at.as_ref().unwrap_or(&joint.at);
+        if both.0 >= both.1 {
+            log.error(
+                at,
+                format!(
+                    "these limits leave nothing of those of '{}', which it follows",
+                    variables[v].name
+                ),
+                "correct the limits, or multiplier and offset of <mimic>",
+            );
+        } else if both.0 > own.0 + 1e-6 || both.1 < own.1 - 1e-6 {
+            log.notice(
+                at,
+                format!(
+                    "these limits are narrower than those of '{}', which it follows: there they are {:.4} .. {:.4}",
+                    variables[v].name, both.0, both.1
+                ),
+                "the model has the narrower ones",
+            );
+            variables[v].limits = Some(both);
+        }
+    }
 }
 
 /// Values at home: as told, else zero, else the middle of the limits.

@@ -97,6 +97,32 @@ fn compare(
     worst
 }
 
+/// Largest difference of the frames of side branches (nodes named like their links), m or 1.
+pub fn side_branches(urdf: &str, imported: &Imported, count: usize) -> (usize, f64) {
+    let oracle = Oracle::new(urdf);
+    let chain = &imported.model.mechanism.limbs()[0].nominal;
+    let nodes: Vec<usize> = (0..chain.nodes().len() - 1)
+        .filter(|n| chain.bodies().iter().all(|b| b.node != *n))
+        .collect();
+    let mut worst = 0.0_f64;
+    for commands in postures(imported, count) {
+        let values: BTreeMap<&str, f64> = imported
+            .actuators
+            .iter()
+            .map(String::as_str)
+            .zip(commands.iter().copied())
+            .collect();
+        let coordinates = chain.home_coordinates();
+        let base = kinetostat::Pose::identity();
+        let k = Kinematics::new(chain, &base, &coordinates, &commands, false);
+        for &n in &nodes {
+            let wanted = oracle.pose(&imported.base, &chain.nodes()[n], &values);
+            worst = worst.max((k.node_pose(n).to_homogeneous() - wanted).amax());
+        }
+    }
+    (nodes.len(), worst)
+}
+
 /// Against the oracle.
 pub fn with_oracle(urdf: &str, imported: &Imported, count: usize) -> Difference {
     let oracle = Oracle::new(urdf);

@@ -123,3 +123,20 @@ fn what_neither_moves_nor_bends_is_skipped_aloud() {
         assert!(said.contains(needle), "{needle}: {said}");
     }
 }
+
+#[test]
+fn limits_of_followers_hold_for_their_leaders() {
+    let text = arm(["", "", ""]);
+    let follower = "<link name='f'/><joint name='jf' type='revolute'><parent link='l1'/><child link='f'/><axis xyz='0 1 0'/>
+        <limit lower='-0.8' upper='0.4' effort='1' velocity='1'/><mimic joint='j2' multiplier='-2' offset='0.1'/></joint></robot>";
+    let imported = import(&text.replace("</robot>", follower), &between("l0", "l3"));
+    let said = notices(&imported);
+    assert!(said.contains("narrower than those of 'j2'"), "{said}");
+    let limits = imported.model.mechanism.limbs()[0].nominal.actuators()[1].limits;
+    let (low, high) = limits.unwrap_or_default();
+    // -0.8 = -2 q + 0.1 and 0.4 = -2 q + 0.1.
+    assert!(
+        (low + 0.15).abs() < 1e-12 && (high - 0.45).abs() < 1e-12,
+        "{low} {high}"
+    );
+}

@@ -3,7 +3,7 @@
 use kinetostat_import::{Imported, JointStiffness, UrdfOptions, import_urdf, read_text};
 use kinetostat_model::Model;
 
-use crate::agreement::{with_oracle, with_pinocchio};
+use crate::agreement::{side_branches, with_oracle, with_pinocchio};
 use crate::{data, figure_at_most, notices};
 
 const ROBOTS: [(&str, usize); 8] = [
@@ -101,6 +101,24 @@ fn figure_robots_agree_with_pinocchio() {
         1e-10,
         "of the largest",
     );
+}
+
+#[test]
+fn figure_balancers_and_bars_follow_their_joints() {
+    for (name, coupled) in [("fanuc_m900ib700", 6), ("abb_irb6640_185_280", 2)] {
+        let Some((text, imported)) = robot(name, UrdfOptions::default()) else {
+            return;
+        };
+        assert_eq!(imported.coupled_joints.len(), coupled, "{name}");
+        let (count, worst) = side_branches(&text, &imported, 1000);
+        assert_eq!(count, coupled);
+        figure_at_most(
+            &format!("URDF {name}: poses of {count} links on mimic joints"),
+            worst,
+            1e-10,
+            "m and 1",
+        );
+    }
 }
 
 #[test]

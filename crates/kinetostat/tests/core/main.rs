@@ -29,6 +29,7 @@ mod free_rigid_and_redundant_directions;
 mod fuzz_short;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
+mod joints_that_follow;
 mod links_that_bend;
 mod loads_in_mechanisms;
 mod loads_of_every_kind;
