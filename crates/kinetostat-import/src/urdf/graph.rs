@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, VecDeque};
 
-use crate::log::{At, Log};
+use crate::log::Log;
 use crate::urdf::robot::{Closure, Constraint, JointType, Robot};
 use crate::urdf::tree::{Follow, Step, Tree};
 
@@ -326,9 +326,4 @@ fn ways(
         platforms,
         ways: found,
     }
-}
-
-/// Where a link's name is in the file, for messages about it.
-pub(crate) fn link_at(robot: &Robot, link: usize) -> &At {
-    &robot.links[link].at
 }

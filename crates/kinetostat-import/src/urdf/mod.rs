@@ -7,9 +7,12 @@ mod graph;
 mod import;
 mod inertial;
 mod loops;
+mod question;
 mod read;
+mod remarks;
 mod robot;
 mod tree;
+mod values;
 mod write;
 mod xml;
 

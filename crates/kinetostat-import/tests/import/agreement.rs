@@ -29,7 +29,7 @@ pub fn postures(imported: &Imported, count: usize) -> Vec<Vec<f64>> {
                 .iter()
                 .map(|a| {
                     let (low, high) = a.limits.unwrap_or((-3.0, 3.0));
-                    0.5 * (low + high) + 0.5 * (high - low) * random.next()
+                    0.5 * (low + high) + 0.5 * (high - low) * random.number()
                 })
                 .collect()
         })

@@ -270,7 +270,7 @@ const EDITS: &[(&str, &str, &str, usize)] = &[
 ];
 
 #[test]
-fn broken_files_are_refused_with_line_and_advice() {
+fn figure_broken_files_are_refused_with_line_and_advice() {
     for (from, to, needle, line) in EDITS {
         let wrong = GOOD.replacen(from, to, 1);
         assert_ne!(wrong, GOOD, "{from}");
@@ -285,7 +285,11 @@ fn broken_files_are_refused_with_line_and_advice() {
         );
         assert!(said.contains("help: "), "{said}");
     }
-    println!("{} broken files", EDITS.len());
+    crate::figure_at_least(
+        "URDF: broken files refused with line, element and advice",
+        EDITS.len(),
+        30,
+    );
 }
 
 #[test]
@@ -378,7 +382,7 @@ fn memory() -> u64 {
 }
 
 #[test]
-fn bombs_are_refused_quickly_and_in_bounded_memory() {
+fn figure_bombs_are_refused_quickly_and_in_bounded_memory() {
     let many = 8_000_000 / 4;
     let bombs: [(&str, String, &str); 8] = [
         ("entities", entity_bomb(), "document type definition"),
@@ -446,9 +450,12 @@ fn bombs_are_refused_quickly_and_in_bounded_memory() {
             clock.elapsed().as_secs_f64()
         );
     }
-    let held = memory();
-    println!("most memory of the process: {} MB", held >> 20);
-    assert!(held < 1 << 30, "{held}");
+    crate::figure_at_most(
+        "URDF: most memory of the process that refuses bombs of 8 MB",
+        memory() as f64 / 1e6,
+        1000.0,
+        "MB",
+    );
 }
 
 #[test]

@@ -313,3 +313,67 @@ fn figure_drives_of_the_heavy_arm_hold_its_weight() {
         "{without}"
     );
 }
+
+/// Two arms that meet: all limbs run from the base to the tool, so poses can be asked for.
+#[test]
+fn a_parallel_machine_answers_for_poses() {
+    let mut urdf = String::from("<robot name='five_bar'><link name='base'/>");
+    urdf += &link("left", [0.2, 0.0, 0.0], 8.0);
+    urdf += &link("right", [0.2, 0.0, 0.0], 8.0);
+    urdf += &link("rod", [0.3, 0.0, 0.0], 6.0);
+    urdf += &link("tool", [0.3, 0.0, 0.1], 6.0);
+    urdf += &joint(
+        "one",
+        "revolute",
+        ["base", "left"],
+        [-0.3, 0.0, 0.0],
+        "0 1 0",
+    );
+    urdf += &joint(
+        "two",
+        "revolute",
+        ["base", "right"],
+        [0.3, 0.0, 0.0],
+        "0 1 0",
+    );
+    urdf += &joint(
+        "left_elbow",
+        "revolute",
+        ["left", "tool"],
+        [0.4, 0.0, 0.0],
+        "0 1 0",
+    );
+    urdf += &joint(
+        "right_elbow",
+        "revolute",
+        ["right", "rod"],
+        [0.4, 0.0, 0.0],
+        "0 1 0",
+    );
+    urdf += "<constraint name='meeting' type='revolute'><parent link='rod'/><parent_origin xyz='0.6 0 0'/><parent_axis xyz='0 1 0'/>
+        <child link='tool'/><child_origin xyz='0.6 0 0'/></constraint></robot>";
+    let options = UrdfOptions {
+        base: Some("base".into()),
+        tip: Some("tool".into()),
+        loops: None,
+        passive: vec!["left_elbow".into(), "right_elbow".into()],
+        home: [("one".to_owned(), -1.9), ("two".to_owned(), -1.2)].into(),
+        stiffness: JointStiffness::All(1e6),
+        ..options()
+    };
+    let imported = import(&urdf, &options);
+    assert!(
+        !notices(&imported).contains("platforms"),
+        "{}",
+        notices(&imported)
+    );
+    let m = &imported.model.mechanism;
+    assert_eq!(m.limbs().len(), 2);
+    let home = m.platforms()[m.tool()].home;
+    let posture = m.posture(&home).unwrap();
+    assert_eq!(posture.stiffness().unwrap().rank(), 6);
+    // Inverse kinematics comes back to the commands at home.
+    let mut values = posture.commands();
+    values.sort_by(f64::total_cmp);
+    assert!((values[0] + 1.9).abs() < 1e-9 && (values[1] + 1.2).abs() < 1e-9);
+}

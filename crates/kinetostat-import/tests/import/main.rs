@@ -56,7 +56,7 @@ impl Random {
     }
 
     /// The next one.
-    pub fn next(&mut self) -> f64 {
+    pub fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -64,6 +64,17 @@ impl Random {
         z ^= z >> 31;
         2.0 * ((z >> 11) as f64 / (1_u64 << 53) as f64) - 1.0
     }
+}
+
+/// Prints a count for `cargo xtask figures` and holds it.
+pub fn figure_at_least(name: &str, measured: usize, least: usize) {
+    let holds = measured >= least;
+    let figure = serde_json::json!({
+        "name": name, "measured": measured, "asked": format!("at least {least}"),
+        "unit": "files", "holds": holds,
+    });
+    println!("figure {figure}");
+    assert!(holds, "{figure}");
 }
 
 /// Prints a number for `cargo xtask figures` and holds it.

@@ -1,0 +1,169 @@
+//! What there is to say about a robot that can be imported.
+
+use std::collections::HashSet;
+
+use kinetostat::{Pose, pose_residual};
+use nalgebra::{DMatrix, Vector3};
+
+use crate::log::{Log, some_names};
+use crate::urdf::chain::{Plan, Variable, Written};
+use crate::urdf::close::product;
+use crate::urdf::graph::Graph;
+use crate::urdf::robot::Robot;
+use crate::urdf::tree::{Step, Tree};
+
+/// A joint that moves parts of two limbs would be two drives.
+pub(crate) fn one_limb_each(
+    robot: &Robot,
+    variables: &[Variable],
+    chains: &[Written],
+    log: &mut Log,
+) {
+    let mut seen: HashSet<usize> = HashSet::new();
+    for v in chains.iter().flat_map(Written::variables) {
+        if !seen.insert(v) {
+            let follower = robot.joints.iter().find(|j| {
+                j.mimic
+                    .as_ref()
+                    .is_some_and(|m| m.joint == variables[v].name)
+            });
+            log.error(
+                follower.map_or(&variables[v].at, |j| &j.at),
+                format!(
+                    "'{}' moves joints of two limbs, which a model cannot say",
+                    variables[v].name
+                ),
+                "replace <mimic> by the loop that makes the joint follow (a <constraint> or the loop file)",
+            );
+        }
+    }
+}
+
+/// Length of the longest way from its second joint on, m: the first one only turns the arm about its
+/// foot.
+pub(crate) fn reach(graph: &Graph) -> f64 {
+    let length = |steps: &[Step]| {
+        let mut joints = 0;
+        let mut sum = 0.0;
+        for step in steps {
+            match step {
+                Step::Move { .. } => joints += 1,
+                Step::Offset { origin, .. } if joints >= 2 => {
+                    sum += Vector3::from(origin.xyz).norm();
+                }
+                _ => {}
+            }
+        }
+        sum
+    };
+    graph
+        .ways
+        .iter()
+        .map(|w| length(&w.steps))
+        .fold(0.0, f64::max)
+}
+
+/// Joints beside the way that carry mass and stand still.
+pub(crate) fn standing(
+    robot: &Robot,
+    tree: &Tree,
+    variables: &[Variable],
+    home: &[f64],
+    log: &mut Log,
+) {
+    for (i, joint) in robot.joints.iter().enumerate() {
+        let own = tree.follows[i].variable == Some(i);
+        if own && !variables[i].moves {
+            log.notice(
+                &joint.at,
+                format!(
+                    "the joint is not between the base and the tip: it stands at {}",
+                    home[i]
+                ),
+                "masses behind it are carried along in that position; choose another tip, or say how it is held by a loop file (--loops)",
+            );
+        }
+    }
+}
+
+/// Whether the arm at home has lost a direction.
+pub(crate) fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f64, log: &mut Log) {
+    let Some(way) = graph.ways.first() else {
+        return;
+    };
+    let mut moving: Vec<usize> = way.steps.iter().filter_map(Step::variable).collect();
+    moving.sort_unstable();
+    moving.dedup();
+    if moving.len() < 6 || reach < 1e-3 {
+        return;
+    }
+    let step = 1e-6;
+    let mut jacobian = DMatrix::zeros(6, moving.len());
+    for (column, &v) in moving.iter().enumerate() {
+        let mut values = plan.home.to_vec();
+        values[v] += step;
+        let ahead = product(&way.steps, frames[way.from], &values);
+        let change = pose_residual(&ahead, &frames[way.to]).0 / step;
+        for i in 0..6 {
+            let unit = if i < 3 { reach } else { 1.0 };
+            jacobian[(i, column)] = change[i] / unit;
+        }
+    }
+    let values = jacobian.singular_values();
+    if values.min() < 1e-4 * values.max() {
+        log.notice(
+            &plan.robot.at,
+            "the arm is singular at home: two of its axes do the same there",
+            "choose a home that is not, as in --home joint_5=30deg; `check` and the search for joint values start from it",
+        );
+    }
+}
+
+/// Masses that no chain could take.
+pub(crate) fn left_out(robot: &Robot, placed: &[bool], log: &mut Log) {
+    let left: Vec<&str> = (0..robot.links.len())
+        .filter(|l| !placed[*l] && robot.links[*l].has_inertial)
+        .map(|l| robot.links[l].name.as_str())
+        .collect();
+    if !left.is_empty() {
+        log.notice(
+            &robot.at,
+            format!(
+                "the weight of {} is left out: it moves with joints of several limbs",
+                some_names(&left)
+            ),
+            "describe it as a limb of its own, by a <constraint> or in the loop file",
+        );
+    }
+}
+
+/// Platforms between base and tip, which not every command can use.
+pub(crate) fn several_platforms(robot: &Robot, graph: &Graph, log: &mut Log) {
+    let names: Vec<&str> = graph
+        .platforms
+        .iter()
+        .map(|p| robot.links[*p].name.as_str())
+        .collect();
+    log.notice(
+        &robot.at,
+        format!(
+            "the loops make {} platforms: {}",
+            names.len(),
+            names.join(", ")
+        ),
+        "the model has them all; the search for joint values of a pose needs limbs that run from the base to the tool, so commands that ask for a pose may refuse this machine",
+    );
+}
+
+/// A base that the URDF's own joints move.
+pub(crate) fn moving_base(robot: &Robot, base: usize, log: &mut Log) {
+    let link = &robot.links[base];
+    log.notice(
+        &link.at,
+        format!(
+            "the base '{}' is above a moving joint in the URDF: it is taken as the ground, with gravity as it is when the robot is at home",
+            link.name
+        ),
+        "choose a base that stands, or correct gravity_m_per_s2",
+    );
+}
