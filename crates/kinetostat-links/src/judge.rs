@@ -40,7 +40,7 @@ pub struct Judgement {
     pub eigenvalues: [f64; 6],
     /// Number of eigenvalues that are not zero.
     pub rank: usize,
-    /// `sqrt(largest rotational / largest translational diagonal entry)`, m: of the order of the link.
+    /// `sqrt(largest rotational / smallest translational diagonal entry)`, m: for a beam `L / sqrt(3)`.
     pub natural_length: f64,
     /// What the matrix is not.
     pub findings: Vec<Finding>,
@@ -191,7 +191,8 @@ fn softest(balanced: &Matrix6<f64>, scale: &Vector6<f64>) -> String {
 fn plausible(k: &Matrix6<f64>, findings: &mut Vec<Finding>) -> f64 {
     let largest = |from: usize| (from..from + 3).map(|i| k[(i, i)]).fold(0.0, f64::max);
     let (moves, turns) = (largest(0), largest(3));
-    let length = (turns / moves).sqrt();
+    let softest = (0..3).map(|i| k[(i, i)]).filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+    let length = (turns / softest).sqrt();
     let mut doubt = |message: String| {
         findings.push(Finding {
             grade: Grade::Doubtful,

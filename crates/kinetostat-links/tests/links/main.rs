@@ -1,0 +1,50 @@
+//! Links from other programs, by what they come as. Every number that the issue asks for is printed as
+//! a `figure` line for `cargo xtask figures`.
+
+mod beams;
+mod broken;
+mod displacements;
+mod matrices;
+mod sections;
+mod superelements;
+
+use kinetostat_links::Text;
+use nalgebra::Matrix6;
+
+/// A text that is not on disk.
+fn text(name: &str, body: &str) -> Text {
+    Text::new(name, body).expect("text")
+}
+
+/// Largest difference of two stiffnesses, entries in units of the geometric mean of their diagonals.
+fn apart(found: &Matrix6<f64>, wanted: &Matrix6<f64>) -> f64 {
+    let mut worst = 0.0_f64;
+    for i in 0..6 {
+        for j in 0..6 {
+            let unit = (wanted[(i, i)] * wanted[(j, j)]).sqrt();
+            let d = (found[(i, j)] - wanted[(i, j)]).abs() / unit;
+            worst = if d.is_nan() { f64::INFINITY } else { worst.max(d) };
+        }
+    }
+    worst
+}
+
+/// Prints a figure and holds it.
+fn at_most(name: &str, measured: f64, most: f64, unit: &str) {
+    let figure = serde_json::json!({
+        "name": format!("links: {name}"), "measured": measured, "asked": format!("at most {most}"),
+        "unit": unit, "holds": measured <= most,
+    });
+    println!("figure {figure}");
+    assert!(measured <= most, "{name}: {measured} instead of at most {most}");
+}
+
+/// Prints a count and holds it.
+fn at_least(name: &str, measured: usize, least: usize, unit: &str) {
+    let figure = serde_json::json!({
+        "name": format!("links: {name}"), "measured": measured, "asked": format!("at least {least}"),
+        "unit": unit, "holds": measured >= least,
+    });
+    println!("figure {figure}");
+    assert!(measured >= least, "{name}: {measured} instead of at least {least}");
+}
