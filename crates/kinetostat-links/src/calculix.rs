@@ -53,7 +53,10 @@ pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
         if upper.starts_with("*USER ELEMENT") {
             if upper.contains("UNSYMM") {
                 return Err(text
-                    .fault("the element is declared unsymmetric", "a link's stiffness is symmetric: export it without UNSYMM")
+                    .fault(
+                        "the element is declared unsymmetric",
+                        "a link's stiffness is symmetric: export it without UNSYMM",
+                    )
                     .at(line));
             }
             part = Part::Directions;
@@ -61,9 +64,15 @@ pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
         }
         if upper.starts_with("*MATRIX") {
             let kind = upper.replace(' ', "");
-            part = if kind.contains("TYPE=STIFFNESS") { Part::Stiffness } else { Part::Other };
+            part = if kind.contains("TYPE=STIFFNESS") {
+                Part::Stiffness
+            } else {
+                Part::Other
+            };
             if part == Part::Stiffness && !values.is_empty() {
-                return Err(text.fault("there is a second stiffness matrix", "one file holds one").at(line));
+                return Err(text
+                    .fault("there is a second stiffness matrix", "one file holds one")
+                    .at(line));
             }
             continue;
         }
@@ -76,15 +85,25 @@ pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
                 part = Part::Directions;
                 let cells: Vec<&str> = parts(&upper).collect();
                 let (from, own) = match (directions.is_empty(), cells.split_first()) {
-                    (false, Some((from, own))) => {
-                        (text.whole(line, "the position of a node", from, 1, MOST_DOFS as u64)? as usize - 1, own)
-                    }
+                    (false, Some((from, own))) => (
+                        text.whole(line, "the position of a node", from, 1, MOST_DOFS as u64)?
+                            as usize
+                            - 1,
+                        own,
+                    ),
                     _ => (0, cells.as_slice()),
                 };
-                let own = own.iter().map(|f| direction(text, line, f)).collect::<Result<Vec<u8>>>()?;
-                if own.is_empty() || own.len() > 6 || directions.last().is_some_and(|d| d.0 >= from) {
+                let own = own
+                    .iter()
+                    .map(|f| direction(text, line, f))
+                    .collect::<Result<Vec<u8>>>()?;
+                if own.is_empty() || own.len() > 6 || directions.last().is_some_and(|d| d.0 >= from)
+                {
                     return Err(text
-                        .fault("the list of directions is out of order", "lines are: position, direction, ..., ascending")
+                        .fault(
+                            "the list of directions is out of order",
+                            "lines are: position, direction, ..., ascending",
+                        )
                         .at(line));
                 }
                 directions.push((from, own));
@@ -131,11 +150,23 @@ pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
                 && (value != 0.0 || row == column)
             {
                 #[allow(clippy::cast_possible_truncation)] // at most MOST_DOFS
-                raw.push(Raw { row: row as u32, column: column as u32, value, line });
+                raw.push(Raw {
+                    row: row as u32,
+                    column: column as u32,
+                    value,
+                    line,
+                });
             }
         }
     }
-    Superelement::collect(text, "stiffness", "CalculiX or Abaqus *MATRIX", dofs, raw, Halves::One)
+    Superelement::collect(
+        text,
+        "stiffness",
+        "CalculiX or Abaqus *MATRIX",
+        dofs,
+        raw,
+        Halves::One,
+    )
 }
 
 /// Lines `node, direction, node, direction, value`.
@@ -149,7 +180,10 @@ pub(crate) fn pairs(text: &Text) -> Result<Superelement> {
         let cells: Vec<&str> = fields(written);
         if cells.len() < 5 {
             return Err(text
-                .fault(format!("the line has {} fields", cells.len()), "five are needed: node, direction, node, direction, value")
+                .fault(
+                    format!("the line has {} fields", cells.len()),
+                    "five are needed: node, direction, node, direction, value",
+                )
                 .at(line));
         }
         let mut one = |from: usize| -> Result<u32> {
@@ -160,9 +194,21 @@ pub(crate) fn pairs(text: &Text) -> Result<Superelement> {
             numbers.of(text, line, dof)
         };
         let (row, column) = (one(0)?, one(2)?);
-        raw.push(Raw { row, column, value: text.number(line, "the entry", cells[4])?, line });
+        raw.push(Raw {
+            row,
+            column,
+            value: text.number(line, "the entry", cells[4])?,
+            line,
+        });
     }
-    Superelement::collect(text, "stiffness", "CalculiX or Abaqus matrix input", numbers.dofs, raw, Halves::Found)
+    Superelement::collect(
+        text,
+        "stiffness",
+        "CalculiX or Abaqus matrix input",
+        numbers.dofs,
+        raw,
+        Halves::Found,
+    )
 }
 
 /// `.sti` with `.dof`.
@@ -181,11 +227,17 @@ pub(crate) fn triplets(text: &Text, companion: Option<&Text>) -> Result<Superele
         }
         let Some((node, own)) = written.split_once('.') else {
             return Err(list
-                .fault(format!("'{}' is no degree of freedom", short(written)), "lines are: node.direction, as in 12.3")
+                .fault(
+                    format!("'{}' is no degree of freedom", short(written)),
+                    "lines are: node.direction, as in 12.3",
+                )
                 .at(line));
         };
         let node = list.whole(line, "the node", node, 1, u64::MAX)?;
-        dofs.push(Dof { node, direction: direction(list, line, own)? });
+        dofs.push(Dof {
+            node,
+            direction: direction(list, line, own)?,
+        });
         if dofs.len() > MOST_DOFS {
             return Err(too_many(list, dofs.len()).at(line));
         }
@@ -198,7 +250,10 @@ pub(crate) fn triplets(text: &Text, companion: Option<&Text>) -> Result<Superele
         let cells: Vec<&str> = fields(written);
         if cells.len() != 3 {
             return Err(text
-                .fault(format!("the line has {} fields", cells.len()), "three are needed: row, column, value")
+                .fault(
+                    format!("the line has {} fields", cells.len()),
+                    "three are needed: row, column, value",
+                )
                 .at(line));
         }
         let number = |what: &str, field: &str| -> Result<u32> {
@@ -208,8 +263,16 @@ pub(crate) fn triplets(text: &Text, companion: Option<&Text>) -> Result<Superele
             })?;
             Ok(u32::try_from(n - 1).unwrap_or(u32::MAX))
         };
-        let (row, column) = (number("the row", cells[0])?, number("the column", cells[1])?);
-        raw.push(Raw { row, column, value: text.number(line, "the entry", cells[2])?, line });
+        let (row, column) = (
+            number("the row", cells[0])?,
+            number("the column", cells[1])?,
+        );
+        raw.push(Raw {
+            row,
+            column,
+            value: text.number(line, "the entry", cells[2])?,
+            line,
+        });
     }
     Superelement::collect(text, "stiffness", "CalculiX .sti", dofs, raw, Halves::Found)
 }

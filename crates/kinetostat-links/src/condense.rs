@@ -57,10 +57,16 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
     let fixed: BTreeSet<u64> = question.fixed.iter().copied().collect();
     let known: BTreeSet<u64> = element.nodes().into_iter().collect();
     if interface.is_empty() {
-        return Err(fault("the interface has no nodes".into(), "name the nodes of the end that moves"));
+        return Err(fault(
+            "the interface has no nodes".into(),
+            "name the nodes of the end that moves",
+        ));
     }
     if let Some(node) = interface.intersection(&fixed).next() {
-        return Err(fault(format!("the node {node} is in both interfaces"), "one end moves, the other is fixed"));
+        return Err(fault(
+            format!("the node {node} is in both interfaces"),
+            "one end moves, the other is fixed",
+        ));
     }
     if let Some(node) = interface.iter().find(|n| !known.contains(n)) {
         return Err(fault(
@@ -69,7 +75,10 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
         ));
     }
     // What a boundary condition holds is in the mesh but not in the matrix.
-    if let Some(node) = fixed.iter().find(|n| !known.contains(n) && !nodes.places.contains_key(n)) {
+    if let Some(node) = fixed
+        .iter()
+        .find(|n| !known.contains(n) && !nodes.places.contains_key(n))
+    {
         return Err(fault(
             format!("the node {node} that shall be fixed is neither in the matrix nor in a mesh"),
             "check the number, or name the mesh with --nodes",
@@ -88,7 +97,10 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
             }
         }
     }
-    if interface.len() == 1 && question.end.is_some() && !interface.iter().all(|n| nodes.places.contains_key(n)) {
+    if interface.len() == 1
+        && question.end.is_some()
+        && !interface.iter().all(|n| nodes.places.contains_key(n))
+    {
         return Err(fault(
             "the link's end is given, but not where the interface's node lies".into(),
             "name the mesh with --nodes, or leave the end out: it is the node then",
@@ -99,11 +111,17 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
     let end = question.end.unwrap_or(middle);
     let index: Vec<u64> = interface.iter().copied().collect();
     // Translations only where the program has no rotations: then the places must span.
-    let turns = element.dofs.iter().any(|d| interface.contains(&d.node) && d.direction > 3);
+    let turns = element
+        .dofs
+        .iter()
+        .any(|d| interface.contains(&d.node) && d.direction > 3);
     let rank = rigid_rank(&places);
     if !turns && rank.rank < 6 {
         return Err(fault(
-            format!("the interface's nodes hold {} of 6 motions: {}", rank.rank, rank.words),
+            format!(
+                "the interface's nodes hold {} of 6 motions: {}",
+                rank.rank, rank.words
+            ),
             "take all nodes of a face, or a node with rotations",
         ));
     }
@@ -112,7 +130,11 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
         .iter()
         .map(|d| {
             let base = (question.units.force_n / question.units.length_m).sqrt();
-            if d.direction > 3 { base * question.units.length_m } else { base }
+            if d.direction > 3 {
+                base * question.units.length_m
+            } else {
+                base
+            }
         })
         .collect();
     // Row of the spider for each degree of freedom of the interface.
@@ -129,7 +151,8 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
                     row[d] = 1.0;
                     // u = phi x arm: component d of -hat(arm) phi.
                     let turned = -kinetostat::hat(&(places[at] - end));
-                    row.fixed_rows_mut::<3>(3).copy_from(&turned.row(d).transpose());
+                    row.fixed_rows_mut::<3>(3)
+                        .copy_from(&turned.row(d).transpose());
                 }
                 d => row[usize::from(d) - 1] = 1.0,
             }
@@ -200,13 +223,24 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
             let b: Vec<f64> = right.column(c).iter().copied().collect();
             let x = factor.solve(&b);
             for r in 0..6 {
-                own[(r, c)] -= right.column(r).iter().zip(&x).map(|(a, b)| a * b).sum::<f64>();
+                own[(r, c)] -= right
+                    .column(r)
+                    .iter()
+                    .zip(&x)
+                    .map(|(a, b)| a * b)
+                    .sum::<f64>();
             }
         }
     }
     let own = 0.5 * (own + own.transpose());
     let turn = kinetostat::turn_matrix(&question.axes);
-    Ok(Condensed { stiffness: turn.transpose() * own * turn, end, counts, rank, least_pivot })
+    Ok(Condensed {
+        stiffness: turn.transpose() * own * turn,
+        end,
+        counts,
+        rank,
+        least_pivot,
+    })
 }
 
 fn add(right: &mut DMatrix<f64>, row: usize, value: f64, spider: &Vector6<f64>) {
@@ -245,16 +279,25 @@ impl FreeTest {
             .filter(|&i| self.resistance[i].is_some_and(|r| r >= FREE_TO))
             .map(|i| crate::judge::DIRECTIONS[i])
             .collect();
-        let modes = self.zero_modes.map_or_else(String::new, |n| format!("; {n} zero modes"));
+        let modes = self
+            .zero_modes
+            .map_or_else(String::new, |n| format!("; {n} zero modes"));
         let negative = match self.negative_modes {
-            Some(n) if n > 0 => format!("; {n} negative modes, so this is no stiffness of a body without load"),
+            Some(n) if n > 0 => {
+                format!("; {n} negative modes, so this is no stiffness of a body without load")
+            }
             _ => String::new(),
         };
         let tried = self.resistance.iter().flatten().count();
         if held.is_empty() {
-            format!("the body is free: {tried} of 6 rigid motions tried, none meets resistance{modes}{negative}")
+            format!(
+                "the body is free: {tried} of 6 rigid motions tried, none meets resistance{modes}{negative}"
+            )
         } else {
-            format!("the body is held: the rigid motion along {} meets resistance{modes}{negative}", held.join(", "))
+            format!(
+                "the body is held: the rigid motion along {} meets resistance{modes}{negative}",
+                held.join(", ")
+            )
         }
     }
 }
@@ -263,10 +306,18 @@ impl FreeTest {
 #[must_use]
 pub fn free_test(element: &Superelement, nodes: &Nodes, units: Units) -> FreeTest {
     let n = element.dofs.len();
-    let placed = element.dofs.iter().all(|d| nodes.places.contains_key(&d.node));
+    let placed = element
+        .dofs
+        .iter()
+        .all(|d| nodes.places.contains_key(&d.node));
     #[allow(clippy::cast_precision_loss)]
     let centre = if placed {
-        element.dofs.iter().filter_map(|d| nodes.places.get(&d.node)).sum::<Vector3<f64>>() / n.max(1) as f64
+        element
+            .dofs
+            .iter()
+            .filter_map(|d| nodes.places.get(&d.node))
+            .sum::<Vector3<f64>>()
+            / n.max(1) as f64
     } else {
         Vector3::zeros()
     };
@@ -306,7 +357,11 @@ pub fn free_test(element: &Superelement, nodes: &Nodes, units: Units) -> FreeTes
         }
         let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let whole = norm(&size);
-        Some(if whole > 0.0 { norm(&force) / whole } else { 0.0 })
+        Some(if whole > 0.0 {
+            norm(&force) / whole
+        } else {
+            0.0
+        })
     });
     let (mut zero_modes, mut negative_modes) = (None, None);
     if n <= 600 {
@@ -318,7 +373,11 @@ pub fn free_test(element: &Superelement, nodes: &Nodes, units: Units) -> FreeTes
         let unit: Vec<f64> = (0..n)
             .map(|i| {
                 let d: f64 = dense[(i, i)];
-                if d > 0.0 { d.sqrt() } else { dense.row(i).amax().max(f64::MIN_POSITIVE).sqrt() }
+                if d > 0.0 {
+                    d.sqrt()
+                } else {
+                    dense.row(i).amax().max(f64::MIN_POSITIVE).sqrt()
+                }
             })
             .collect();
         let balanced = DMatrix::from_fn(n, n, |i, j| dense[(i, j)] / unit[i] / unit[j]);
@@ -327,5 +386,9 @@ pub fn free_test(element: &Superelement, nodes: &Nodes, units: Units) -> FreeTes
         zero_modes = Some(eigen.iter().filter(|e| e.abs() < 1e-7 * largest).count());
         negative_modes = Some(eigen.iter().filter(|e| **e < -1e-7 * largest).count());
     }
-    FreeTest { resistance, zero_modes, negative_modes }
+    FreeTest {
+        resistance,
+        zero_modes,
+        negative_modes,
+    }
 }

@@ -42,7 +42,12 @@ struct Columns {
 
 impl Columns {
     /// `wanted`: names without unit; `units`: suffixes and factors of each.
-    fn new(text: &Text, line: usize, header: &[&str], wanted: &[(&str, &[(&str, f64)])]) -> Result<Self> {
+    fn new(
+        text: &Text,
+        line: usize,
+        header: &[&str],
+        wanted: &[(&str, &[(&str, f64)])],
+    ) -> Result<Self> {
         let mut found: Vec<Option<(usize, f64)>> = vec![None; wanted.len()];
         for (at, cell) in header.iter().enumerate() {
             let cell = cell.to_lowercase();
@@ -50,20 +55,34 @@ impl Columns {
                 continue;
             }
             let hit = wanted.iter().enumerate().find_map(|(w, (name, units))| {
-                units.iter().find(|u| cell == format!("{name}{}", u.0)).map(|u| (w, u.1))
+                units
+                    .iter()
+                    .find(|u| cell == format!("{name}{}", u.0))
+                    .map(|u| (w, u.1))
             });
             let Some((w, factor)) = hit else {
                 let all: Vec<String> = wanted
                     .iter()
-                    .map(|(n, u)| u.iter().map(|u| format!("{n}{}", u.0)).collect::<Vec<_>>().join(" or "))
+                    .map(|(n, u)| {
+                        u.iter()
+                            .map(|u| format!("{n}{}", u.0))
+                            .collect::<Vec<_>>()
+                            .join(" or ")
+                    })
                     .collect();
                 return Err(text
-                    .fault(format!("the column '{}' is not known", short(&cell)), format!("there are: {}", all.join(", ")))
+                    .fault(
+                        format!("the column '{}' is not known", short(&cell)),
+                        format!("there are: {}", all.join(", ")),
+                    )
                     .at(line));
             };
             if found[w].replace((at, factor)).is_some() {
                 return Err(text
-                    .fault(format!("the column '{}' is given twice", wanted[w].0), "keep one of them")
+                    .fault(
+                        format!("the column '{}' is given twice", wanted[w].0),
+                        "keep one of them",
+                    )
                     .at(line));
             }
         }
@@ -72,11 +91,22 @@ impl Columns {
 
     fn need(&self, text: &Text, line: usize, which: usize, name: &str) -> Result<(usize, f64)> {
         self.found[which].ok_or_else(|| {
-            text.fault(format!("the column '{name}' is missing"), "write it with its unit, as in ux_mm").at(line)
+            text.fault(
+                format!("the column '{name}' is missing"),
+                "write it with its unit, as in ux_mm",
+            )
+            .at(line)
         })
     }
 
-    fn value(&self, text: &Text, line: usize, cells: &[&str], which: usize, name: &str) -> Result<f64> {
+    fn value(
+        &self,
+        text: &Text,
+        line: usize,
+        cells: &[&str],
+        which: usize,
+        name: &str,
+    ) -> Result<f64> {
         let (at, factor) = self.need(text, line, which, name)?;
         Ok(factor * text.number(line, name, cells.get(at).copied().unwrap_or(""))?)
     }
@@ -124,15 +154,28 @@ pub fn read_loads(text: &Text) -> Result<LoadTable> {
             }
         }
         if table.iter().any(|(n, _)| *n == name) {
-            return Err(text.fault(format!("the case '{}' is given twice", short(&name)), "keep one of them").at(line));
+            return Err(text
+                .fault(
+                    format!("the case '{}' is given twice", short(&name)),
+                    "keep one of them",
+                )
+                .at(line));
         }
         if table.len() >= MOST_CASES {
-            return Err(text.fault(format!("there are more than {MOST_CASES} load cases"), "take six or some more").at(line));
+            return Err(text
+                .fault(
+                    format!("there are more than {MOST_CASES} load cases"),
+                    "take six or some more",
+                )
+                .at(line));
         }
         table.push((name, wrench));
     }
     if table.is_empty() {
-        return Err(text.fault("the table has no load cases", "write case,fx_n,... and a line for each case"));
+        return Err(text.fault(
+            "the table has no load cases",
+            "write case,fx_n,... and a line for each case",
+        ));
     }
     Ok(table)
 }
@@ -149,8 +192,15 @@ pub fn read_displacements(
     mesh: Option<&Nodes>,
     units: Option<Units>,
 ) -> Result<Vec<LoadCase>> {
-    let is_dat = text.lines().take(50).any(|(_, l)| l.trim_start().starts_with("displacements (vx,vy,vz)"));
-    if is_dat { steps(text, loads, mesh, units) } else { table(text, loads) }
+    let is_dat = text
+        .lines()
+        .take(50)
+        .any(|(_, l)| l.trim_start().starts_with("displacements (vx,vy,vz)"));
+    if is_dat {
+        steps(text, loads, mesh, units)
+    } else {
+        table(text, loads)
+    }
 }
 
 fn table(text: &Text, loads: &LoadTable) -> Result<Vec<LoadCase>> {
@@ -199,11 +249,19 @@ fn table(text: &Text, loads: &LoadTable) -> Result<Vec<LoadCase>> {
                     return Err(text
                         .fault(
                             format!("the load of the case '{}' is unknown", short(&name)),
-                            format!("there are: {}; or give a table of loads with --loads", names.join(", ")),
+                            format!(
+                                "there are: {}; or give a table of loads with --loads",
+                                names.join(", ")
+                            ),
                         )
                         .at(line));
                 };
-                cases.push(LoadCase { name: name.clone(), wrench: *wrench, places: Vec::new(), displacements: Vec::new() });
+                cases.push(LoadCase {
+                    name: name.clone(),
+                    wrench: *wrench,
+                    places: Vec::new(),
+                    displacements: Vec::new(),
+                });
                 cases.len() - 1
             }
         };
@@ -212,7 +270,11 @@ fn table(text: &Text, loads: &LoadTable) -> Result<Vec<LoadCase>> {
             if let Some(before) = seen.insert((case, node.clone()), line) {
                 return Err(text
                     .fault(
-                        format!("the node {} occurs twice in the case '{}', also at line {before}", short(&node), short(&name)),
+                        format!(
+                            "the node {} occurs twice in the case '{}', also at line {before}",
+                            short(&node),
+                            short(&name)
+                        ),
                         "each node has one line in each case",
                     )
                     .at(line));
@@ -236,12 +298,20 @@ fn table(text: &Text, loads: &LoadTable) -> Result<Vec<LoadCase>> {
         cases[case].displacements.push(moved);
     }
     if cases.is_empty() {
-        return Err(text.fault("the table has no rows", "write a header and a line for each case and node"));
+        return Err(text.fault(
+            "the table has no rows",
+            "write a header and a line for each case and node",
+        ));
     }
     Ok(cases)
 }
 
-fn steps(text: &Text, loads: &LoadTable, mesh: Option<&Nodes>, units: Option<Units>) -> Result<Vec<LoadCase>> {
+fn steps(
+    text: &Text,
+    loads: &LoadTable,
+    mesh: Option<&Nodes>,
+    units: Option<Units>,
+) -> Result<Vec<LoadCase>> {
     let (Some(mesh), Some(units)) = (mesh, units) else {
         return Err(text.fault(
             "this is a .dat file of CalculiX, which has neither places nor units",
@@ -260,20 +330,37 @@ fn steps(text: &Text, loads: &LoadTable, mesh: Option<&Nodes>, units: Option<Uni
                     )
                     .at(line));
             };
-            cases.push(LoadCase { name: name.clone(), wrench: *wrench, places: Vec::new(), displacements: Vec::new() });
+            cases.push(LoadCase {
+                name: name.clone(),
+                wrench: *wrench,
+                places: Vec::new(),
+                displacements: Vec::new(),
+            });
             continue;
         }
         let cells: Vec<&str> = trimmed.split_whitespace().collect();
-        let Some(case) = cases.last_mut() else { continue };
+        let Some(case) = cases.last_mut() else {
+            continue;
+        };
         if cells.is_empty() || cells[0].parse::<u64>().is_err() {
             continue;
         }
         if cells.len() != 4 {
-            return Err(text.fault(format!("the line has {} fields", cells.len()), "four are needed: node, vx, vy, vz").at(line));
+            return Err(text
+                .fault(
+                    format!("the line has {} fields", cells.len()),
+                    "four are needed: node, vx, vy, vz",
+                )
+                .at(line));
         }
         let node = text.whole(line, "the node", cells[0], 1, u64::MAX)?;
         let Some(place) = mesh.places.get(&node) else {
-            return Err(text.fault(format!("the node {node} is not in the mesh"), "name the mesh of this run").at(line));
+            return Err(text
+                .fault(
+                    format!("the node {node} is not in the mesh"),
+                    "name the mesh of this run",
+                )
+                .at(line));
         };
         let mut moved = Vector3::zeros();
         for i in 0..3 {

@@ -29,7 +29,7 @@ fn split(text: &Text, line: usize, written: &str) -> Result<(String, Vec<String>
     for c in written.chars() {
         if c == '\t' {
             plain.push(' ');
-            while plain.len() % 8 != 0 {
+            while !plain.len().is_multiple_of(8) {
                 plain.push(' ');
             }
         } else {
@@ -38,13 +38,24 @@ fn split(text: &Text, line: usize, written: &str) -> Result<(String, Vec<String>
     }
     if !plain.is_ascii() {
         return Err(text
-            .fault("the line has characters that Nastran does not", "cards are plain ASCII")
+            .fault(
+                "the line has characters that Nastran does not",
+                "cards are plain ASCII",
+            )
             .at(line));
     }
-    let part = |from: usize, to: usize| plain.get(from..to.min(plain.len())).unwrap_or("").trim().to_owned();
+    let part = |from: usize, to: usize| {
+        plain
+            .get(from..to.min(plain.len()))
+            .unwrap_or("")
+            .trim()
+            .to_owned()
+    };
     let key = part(0, 8);
     let (width, count) = if key.contains('*') { (16, 4) } else { (8, 8) };
-    let data = (0..count).map(|i| part(8 + i * width, 8 + (i + 1) * width)).collect();
+    let data = (0..count)
+        .map(|i| part(8 + i * width, 8 + (i + 1) * width))
+        .collect();
     Ok((key, data))
 }
 
@@ -58,25 +69,40 @@ fn cards(text: &Text, key: &str) -> Result<Vec<Card>> {
             continue;
         }
         let first = written.chars().next().unwrap_or(' ');
-        let continues = matches!(first, '+' | '*' | ' ' | ',' | '\t') && !trimmed.to_uppercase().starts_with(key);
+        let continues = matches!(first, '+' | '*' | ' ' | ',' | '\t')
+            && !trimmed.to_uppercase().starts_with(key);
         if continues && !inside {
             continue;
         }
         if !continues {
-            let word: String = trimmed.chars().take_while(char::is_ascii_alphanumeric).collect();
+            let word: String = trimmed
+                .chars()
+                .take_while(char::is_ascii_alphanumeric)
+                .collect();
             inside = word.eq_ignore_ascii_case(key);
             if !inside {
                 continue;
             }
         }
-        let (_, data) = split(text, line, if continues { written } else { written.trim_start() })?;
+        let (_, data) = split(
+            text,
+            line,
+            if continues {
+                written
+            } else {
+                written.trim_start()
+            },
+        )?;
         let data = data.into_iter().map(|f| (line, f));
         if continues {
             if let Some(card) = found.last_mut() {
                 card.fields.extend(data);
             }
         } else {
-            found.push(Card { line, fields: data.collect() });
+            found.push(Card {
+                line,
+                fields: data.collect(),
+            });
         }
     }
     Ok(found)
@@ -87,11 +113,20 @@ pub(crate) fn grids(text: &Text) -> Result<Vec<(usize, u64, [f64; 3])>> {
     let mut found = Vec::new();
     for card in cards(text, "GRID")? {
         let field = |i: usize| card.fields.get(i).map_or("", |f| f.1.as_str());
-        let node = text.whole(card.line, "the number of the grid point", field(0), 1, u64::MAX)?;
+        let node = text.whole(
+            card.line,
+            "the number of the grid point",
+            field(0),
+            1,
+            u64::MAX,
+        )?;
         if !matches!(field(1), "" | "0") {
             return Err(text
                 .fault(
-                    format!("the grid point {node} is given in the coordinate system {}", short(field(1))),
+                    format!(
+                        "the grid point {node} is given in the coordinate system {}",
+                        short(field(1))
+                    ),
                     "only the basic system is read: write the places in it",
                 )
                 .at(card.line));
@@ -99,7 +134,11 @@ pub(crate) fn grids(text: &Text) -> Result<Vec<(usize, u64, [f64; 3])>> {
         let mut place = [0.0; 3];
         for (i, x) in place.iter_mut().enumerate() {
             let written = field(2 + i);
-            *x = if written.is_empty() { 0.0 } else { text.number(card.line, "a coordinate", written)? };
+            *x = if written.is_empty() {
+                0.0
+            } else {
+                text.number(card.line, "a coordinate", written)?
+            };
         }
         found.push((card.line, node, place));
     }
@@ -140,12 +179,20 @@ pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
     let is_header = |c: &Card| c.fields.get(1).is_some_and(|f| f.1 == "0");
     let mut names: Vec<String> = Vec::new();
     for card in &cards {
-        let name = card.fields.first().map_or_else(String::new, |f| f.1.to_uppercase());
+        let name = card
+            .fields
+            .first()
+            .map_or_else(String::new, |f| f.1.to_uppercase());
         if !names.contains(&name) {
             names.push(name);
         }
         if names.len() > 1000 {
-            return Err(text.fault("the file has more than 1000 matrices", "export the stiffness only").at(card.line));
+            return Err(text
+                .fault(
+                    "the file has more than 1000 matrices",
+                    "export the stiffness only",
+                )
+                .at(card.line));
         }
     }
     let chosen = match wanted {
@@ -168,7 +215,11 @@ pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
             format!("choose with --matrix; there are: {}", names.join(", ")),
         ));
     };
-    let of_it = |c: &&Card| c.fields.first().is_some_and(|f| f.1.eq_ignore_ascii_case(&chosen));
+    let of_it = |c: &&Card| {
+        c.fields
+            .first()
+            .is_some_and(|f| f.1.eq_ignore_ascii_case(&chosen))
+    };
     let mut headers = cards.iter().filter(of_it).filter(|c| is_header(c));
     let Some(head) = headers.next() else {
         return Err(text.fault(
@@ -178,7 +229,13 @@ pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
     };
     if let Some(second) = headers.next() {
         return Err(text
-            .fault(format!("the matrix {chosen} has a second header, the first at line {}", head.line), "keep one of them")
+            .fault(
+                format!(
+                    "the matrix {chosen} has a second header, the first at line {}",
+                    head.line
+                ),
+                "keep one of them",
+            )
             .at(second.line));
     }
     let header = header(text, head)?;
@@ -198,18 +255,39 @@ pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
             let row = numbers.of(text, line, row)?;
             let value = text.number(line, "the entry", cell(2))?;
             if !cell(3).is_empty() && crate::text::number(cell(3)) != Some(0.0) {
-                return Err(text.fault("the entry has an imaginary part", "a stiffness is real").at(line));
+                return Err(text
+                    .fault("the entry has an imaginary part", "a stiffness is real")
+                    .at(line));
             }
-            raw.push(Raw { row, column, value, line });
+            raw.push(Raw {
+                row,
+                column,
+                value,
+                line,
+            });
         }
     }
-    let halves = if header.symmetric { Halves::One } else { Halves::Both };
-    Superelement::collect(text, &header.name, "Nastran DMIG", numbers.dofs, raw, halves)
+    let halves = if header.symmetric {
+        Halves::One
+    } else {
+        Halves::Both
+    };
+    Superelement::collect(
+        text,
+        &header.name,
+        "Nastran DMIG",
+        numbers.dofs,
+        raw,
+        halves,
+    )
 }
 
 fn dof(text: &Text, line: usize, whose: &str, node: &str, direction: &str) -> Result<Dof> {
     let node = text.whole(line, &format!("{whose} grid point"), node, 1, u64::MAX)?;
     let direction = if direction.is_empty() { "0" } else { direction };
     let direction = text.whole(line, &format!("{whose} component"), direction, 0, 6)?;
-    Ok(Dof { node, direction: u8::try_from(direction).unwrap_or(0) })
+    Ok(Dof {
+        node,
+        direction: u8::try_from(direction).unwrap_or(0),
+    })
 }

@@ -61,7 +61,12 @@ impl Graph {
     }
 
     /// Breadth first from `root`: the rows met, and the last of smallest degree in the last level.
-    fn breadth_first(&self, root: usize, seen: &mut [u32], mark: u32) -> (Vec<usize>, usize, usize) {
+    fn breadth_first(
+        &self,
+        root: usize,
+        seen: &mut [u32],
+        mark: u32,
+    ) -> (Vec<usize>, usize, usize) {
         let mut order = vec![root];
         seen[root] = mark;
         let (mut level, mut depth) = (0, 0);
@@ -80,7 +85,10 @@ impl Graph {
                 order.extend(near);
             }
             if order.len() == end {
-                let far = order[level..end].iter().copied().min_by_key(|&j| self.of(j).len());
+                let far = order[level..end]
+                    .iter()
+                    .copied()
+                    .min_by_key(|&j| self.of(j).len());
                 return (order, far.unwrap_or(root), depth);
             }
             level = end;
@@ -165,13 +173,19 @@ impl Factor {
             let row = &values[start[i]..own];
             let left = whole - dot(row, row);
             let share = if whole > 0.0 { left / whole } else { 0.0 };
-            if !(share > PIVOT) {
+            if share.is_nan() || share <= PIVOT {
                 return Err(NoFactor::NotHeld(order[i], share));
             }
             least_pivot = least_pivot.min(share);
             values[own] = left.sqrt();
         }
-        Ok(Self { place, first, start, values, least_pivot })
+        Ok(Self {
+            place,
+            first,
+            start,
+            values,
+            least_pivot,
+        })
     }
 
     /// `A^-1 b`.
@@ -211,7 +225,10 @@ mod tests {
         for y in 0..h {
             for x in 0..w {
                 let i = y * w + x;
-                for j in [(x + 1 < w).then_some(i + 1), (y + 1 < h).then_some(i + w)].into_iter().flatten() {
+                for j in [(x + 1 < w).then_some(i + 1), (y + 1 < h).then_some(i + w)]
+                    .into_iter()
+                    .flatten()
+                {
                     entries.push((j, i, -1.0));
                     diagonal[i as usize] += 1.0;
                     diagonal[j as usize] += 1.0;
@@ -219,12 +236,21 @@ mod tests {
             }
         }
         let free = |d: &[f64]| -> Vec<(u32, u32, f64)> {
-            entries.iter().copied().chain((0..w * h).map(|i| (i, i, d[i as usize]))).collect()
+            entries
+                .iter()
+                .copied()
+                .chain((0..w * h).map(|i| (i, i, d[i as usize])))
+                .collect()
         };
-        assert!(matches!(Factor::new(35, &free(&diagonal)), Err(NoFactor::NotHeld(..))));
+        assert!(matches!(
+            Factor::new(35, &free(&diagonal)),
+            Err(NoFactor::NotHeld(..))
+        ));
         diagonal[3] += 0.5;
         let all = free(&diagonal);
-        let factor = Factor::new(35, &all).map_err(|e| format!("{e:?}")).expect("held");
+        let factor = Factor::new(35, &all)
+            .map_err(|e| format!("{e:?}"))
+            .expect("held");
         let wanted: Vec<f64> = (0..35).map(|i| f64::from(i * i % 11) - 4.0).collect();
         let mut b = vec![0.0; 35];
         for (i, j, v) in all {

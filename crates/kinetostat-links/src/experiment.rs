@@ -81,9 +81,16 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
     let mut rank: Option<RigidRank> = None;
     for case in cases {
         let fit = rigid_fit(&case.places, &case.displacements, end).map_err(|r| {
-            let words = if r.words.is_empty() { format!("it has {} nodes", case.places.len()) } else { r.words };
+            let words = if r.words.is_empty() {
+                format!("it has {} nodes", case.places.len())
+            } else {
+                r.words
+            };
             fault(
-                format!("load case '{}': the rank of the interface's motion is {} of 6: {words}", case.name, r.rank),
+                format!(
+                    "load case '{}': the rank of the interface's motion is {} of 6: {words}",
+                    case.name, r.rank
+                ),
                 "take at least three nodes that are not on a line, better a whole face",
             )
         })?;
@@ -105,7 +112,11 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
     };
     // C[:, b] = sum_m D[:, m] P[m, b]; load cases are independent of each other.
     let compliance_deviation = Matrix6::from_fn(|i, b| {
-        let variance: f64 = fits.iter().enumerate().map(|(m, f)| inverse[(m, b)].powi(2) * f.covariance[(i, i)]).sum();
+        let variance: f64 = fits
+            .iter()
+            .enumerate()
+            .map(|(m, f)| inverse[(m, b)].powi(2) * f.covariance[(i, i)])
+            .sum();
         variance.sqrt()
     });
     let symmetric = 0.5 * (compliance + compliance.transpose());
@@ -175,7 +186,11 @@ fn right_inverse(file: &str, wrenches: &DMatrix<f64>, size: f64) -> Result<DMatr
     let norms: Vec<f64> = scaled.column_iter().map(|c| c.norm()).collect();
     let unloaded = norms.iter().position(|n| !(n.is_finite() && *n > 0.0));
     if let Some(m) = unloaded {
-        return Err(Error::new(file, format!("load case {} has no load", m + 1), "give its force or moment"));
+        return Err(Error::new(
+            file,
+            format!("load case {} has no load", m + 1),
+            "give its force or moment",
+        ));
     }
     for (m, n) in norms.iter().enumerate() {
         scaled.column_mut(m).scale_mut(1.0 / n);
@@ -187,12 +202,19 @@ fn right_inverse(file: &str, wrenches: &DMatrix<f64>, size: f64) -> Result<DMatr
         let missing = eigen.eigenvectors.column(eigen.eigenvalues.imin()).iamax();
         return Err(Error::new(
             file,
-            format!("the loads do not span six directions: nothing loads {} on its own", DIRECTIONS[missing]),
+            format!(
+                "the loads do not span six directions: nothing loads {} on its own",
+                DIRECTIONS[missing]
+            ),
             "add a load case: forces along x, y, z and moments about them, about the link's end",
         ));
     }
     let inverse = gram.try_inverse().ok_or_else(|| {
-        Error::new(file, "the loads do not span six directions", "add load cases")
+        Error::new(
+            file,
+            "the loads do not span six directions",
+            "add load cases",
+        )
     })?;
     let mut right = scaled.transpose() * DMatrix::from_fn(6, 6, |i, j| inverse[(i, j)]);
     for (m, n) in norms.iter().enumerate() {

@@ -22,15 +22,24 @@ pub(crate) struct Header {
 /// Width of one number in a Fortran format such as `(8I10)` or `(1P,3D25.17)`.
 fn width(format: &str) -> Option<usize> {
     let bytes = format.as_bytes();
-    let at = bytes.iter().rposition(|b| matches!(b.to_ascii_uppercase(), b'I' | b'E' | b'D' | b'F' | b'G'))?;
-    let digits: String = format[at + 1..].chars().take_while(char::is_ascii_digit).collect();
+    let at = bytes
+        .iter()
+        .rposition(|b| matches!(b.to_ascii_uppercase(), b'I' | b'E' | b'D' | b'F' | b'G'))?;
+    let digits: String = format[at + 1..]
+        .chars()
+        .take_while(char::is_ascii_digit)
+        .collect();
     digits.parse().ok().filter(|w| (1..=64).contains(w))
 }
 
 /// The header, if the text looks like such a file.
 pub(crate) fn recognised(text: &Text) -> Option<Header> {
     let mut lines = text.body().lines().skip(1);
-    let counts: Vec<usize> = lines.next()?.split_whitespace().map_while(|f| f.parse().ok()).collect();
+    let counts: Vec<usize> = lines
+        .next()?
+        .split_whitespace()
+        .map_while(|f| f.parse().ok())
+        .collect();
     let third = lines.next()?;
     let formats = lines.next()?;
     let mut words = third.split_whitespace();
@@ -39,13 +48,21 @@ pub(crate) fn recognised(text: &Text) -> Option<Header> {
         return None;
     }
     let sizes: Vec<usize> = words.map_while(|f| f.parse().ok()).collect();
-    let mut widths = formats.split(')').filter_map(|f| f.split_once('(')).map(|f| width(f.1));
+    let mut widths = formats
+        .split(')')
+        .filter_map(|f| f.split_once('('))
+        .map(|f| width(f.1));
     Some(Header {
         kind,
         rows: *sizes.first()?,
         entries: *sizes.get(2)?,
         widths: [widths.next()??, widths.next()??, widths.next()??],
-        lines: [counts[1], counts[2], counts[3], counts.get(4).copied().unwrap_or(0)],
+        lines: [
+            counts[1],
+            counts[2],
+            counts[3],
+            counts.get(4).copied().unwrap_or(0),
+        ],
         with_right_hand_sides: counts.get(4).is_some_and(|n| *n > 0),
     })
 }
@@ -56,7 +73,10 @@ pub(crate) fn read(text: &Text, companion: Option<&Text>, header: Header) -> Res
         "RUA" => Halves::Both,
         other => {
             return Err(text
-                .fault(format!("the matrix is of the type {}", short(other)), "a stiffness is RSA or RUA: real and assembled")
+                .fault(
+                    format!("the matrix is of the type {}", short(other)),
+                    "a stiffness is RSA or RUA: real and assembled",
+                )
                 .at(3));
         }
     };
@@ -79,7 +99,9 @@ pub(crate) fn read(text: &Text, companion: Option<&Text>, header: Header) -> Res
             let line = lines.get(at).copied().unwrap_or("");
             at += 1;
             if !line.is_ascii() {
-                return Err(text.fault("the line is not ASCII", "export the file again").at(at));
+                return Err(text
+                    .fault("the line is not ASCII", "export the file again")
+                    .at(at));
             }
             let mut from = 0;
             while from < line.len() && found.len() < wanted {
@@ -93,7 +115,10 @@ pub(crate) fn read(text: &Text, companion: Option<&Text>, header: Header) -> Res
         }
         if found.len() < wanted {
             return Err(text.fault(
-                format!("the file has {} {what}s, its header promises {wanted}", found.len()),
+                format!(
+                    "the file has {} {what}s, its header promises {wanted}",
+                    found.len()
+                ),
                 "it may have been cut off: export it again",
             ));
         }
@@ -108,9 +133,16 @@ pub(crate) fn read(text: &Text, companion: Option<&Text>, header: Header) -> Res
         let ends = bounds.map(|p| p.0);
         #[allow(clippy::cast_precision_loss)]
         let most = header.entries as f64 + 1.0;
-        if ends.iter().any(|p| *p < 1.0 || *p > most || p.fract() != 0.0) || ends[0] > ends[1] {
+        if ends
+            .iter()
+            .any(|p| *p < 1.0 || *p > most || p.fract() != 0.0)
+            || ends[0] > ends[1]
+        {
             return Err(text
-                .fault(format!("the pointers of column {} are wrong", column + 1), "export the file again (Ansys before 11 wrote wrong ones)")
+                .fault(
+                    format!("the pointers of column {} are wrong", column + 1),
+                    "export the file again (Ansys before 11 wrote wrong ones)",
+                )
                 .at(bounds[0].1));
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -118,9 +150,16 @@ pub(crate) fn read(text: &Text, companion: Option<&Text>, header: Header) -> Res
             let (row, line) = rows[e];
             #[allow(clippy::cast_precision_loss)]
             if row < 1.0 || row > header.rows as f64 || row.fract() != 0.0 {
-                return Err(text.fault(format!("there is no row {row}"), "export the file again").at(line));
+                return Err(text
+                    .fault(format!("there is no row {row}"), "export the file again")
+                    .at(line));
             }
-            raw.push(Raw { row: row as u32 - 1, column: column as u32, value: values[e].0, line: values[e].1 });
+            raw.push(Raw {
+                row: row as u32 - 1,
+                column: column as u32,
+                value: values[e].0,
+                line: values[e].1,
+            });
         }
     }
     Superelement::collect(text, "stiffness", "Harwell-Boeing", dofs, raw, halves)
@@ -134,18 +173,29 @@ fn mapping(list: &Text, rows: usize) -> Result<Vec<Dof>> {
             continue;
         };
         let label = cells.get(2).map(|c| c.to_uppercase()).unwrap_or_default();
-        let direction = ["UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"].iter().position(|l| *l == label);
+        let direction = ["UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"]
+            .iter()
+            .position(|l| *l == label);
         let (Some(direction), true, 3) = (direction, (1..=rows).contains(&row), cells.len()) else {
             return Err(list
-                .fault(format!("'{}' maps no row", short(written)), format!("lines are: row (1 to {rows}), node, UX ... ROTZ"))
+                .fault(
+                    format!("'{}' maps no row", short(written)),
+                    format!("lines are: row (1 to {rows}), node, UX ... ROTZ"),
+                )
                 .at(line));
         };
         let node = list.whole(line, "the node", cells[1], 1, u64::MAX)?;
-        dofs[row - 1] = Some(Dof { node, direction: u8::try_from(direction + 1).unwrap_or(0) });
+        dofs[row - 1] = Some(Dof {
+            node,
+            direction: u8::try_from(direction + 1).unwrap_or(0),
+        });
     }
     let missing = dofs.iter().position(Option::is_none);
     match missing {
-        Some(row) => Err(list.fault(format!("row {} is not mapped", row + 1), "do both files come from one run?")),
+        Some(row) => Err(list.fault(
+            format!("row {} is not mapped", row + 1),
+            "do both files come from one run?",
+        )),
         None => Ok(dofs.into_iter().flatten().collect()),
     }
 }

@@ -52,7 +52,8 @@ pub fn spider(places: &[Vector3<f64>], about: &Vector3<f64>) -> DMatrix<f64> {
     let mut map = DMatrix::zeros(3 * places.len(), 6);
     for (n, p) in places.iter().enumerate() {
         map.fixed_view_mut::<3, 3>(3 * n, 0).fill_with_identity();
-        map.fixed_view_mut::<3, 3>(3 * n, 3).copy_from(&-hat(&(p - about)));
+        map.fixed_view_mut::<3, 3>(3 * n, 3)
+            .copy_from(&-hat(&(p - about)));
     }
     map
 }
@@ -64,13 +65,19 @@ pub fn rigid_rank(places: &[Vector3<f64>]) -> RigidRank {
     #[allow(clippy::cast_precision_loss)]
     let share = 1.0 / count as f64;
     let centre: Vector3<f64> = places.iter().sum::<Vector3<f64>>() * share;
-    let size = (places.iter().map(|p| (p - centre).norm_squared()).sum::<f64>() * share).sqrt();
+    let size = (places
+        .iter()
+        .map(|p| (p - centre).norm_squared())
+        .sum::<f64>()
+        * share)
+        .sqrt();
     // Nodes at one place have no size; any will do, for their rotations are unknown in all.
     let reach = places.iter().map(|p| p.norm()).fold(0.0, f64::max);
     let unit = if size > 1e-9 * reach { size } else { 0.0 };
     let mut map = spider(places, &centre);
     for j in 3..6 {
-        map.column_mut(j).scale_mut(if unit > 0.0 { 1.0 / unit } else { 0.0 });
+        map.column_mut(j)
+            .scale_mut(if unit > 0.0 { 1.0 / unit } else { 0.0 });
     }
     let gram: Matrix6<f64> = {
         let g = map.transpose() * &map * share;
@@ -100,12 +107,20 @@ pub fn rigid_rank(places: &[Vector3<f64>]) -> RigidRank {
         3 => "all nodes lie at one place, so no rotation is known".to_owned(),
         _ => {
             let v = eigen.eigenvectors.column(values[5].1);
-            format!("{} of 6 motions are unknown, first {}", 6 - rank, DIRECTIONS[v.iamax()])
+            format!(
+                "{} of 6 motions are unknown, first {}",
+                6 - rank,
+                DIRECTIONS[v.iamax()]
+            )
         }
     };
     RigidRank {
         rank,
-        condition: if rank == 6 { largest / values[5].0 } else { f64::INFINITY },
+        condition: if rank == 6 {
+            largest / values[5].0
+        } else {
+            f64::INFINITY
+        },
         singular_values: values.into_iter().map(|v| v.0).collect(),
         size,
         words,
@@ -165,6 +180,10 @@ pub fn rigid_fit(
         covariance: back * inverse * back.transpose() * variance,
         deviation: variance.sqrt(),
         largest,
-        not_rigid: if whole > 0.0 { left.norm() / whole } else { 0.0 },
+        not_rigid: if whole > 0.0 {
+            left.norm() / whole
+        } else {
+            0.0
+        },
     })
 }

@@ -80,7 +80,11 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
     };
     if let Some(at) = (0..36).find(|&at| !k[(at / 6, at % 6)].is_finite()) {
         refuse(
-            format!("row {} column {} is no finite number", at / 6 + 1, at % 6 + 1),
+            format!(
+                "row {} column {} is no finite number",
+                at / 6 + 1,
+                at % 6 + 1
+            ),
             "a stiffness that is infinite belongs to a rigid link: leave the link out",
         );
         return Judgement {
@@ -94,14 +98,25 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
     for i in 0..6 {
         if k[(i, i)] < 0.0 {
             refuse(
-                format!("the entry {0}, {0} is negative ({1:.6e})", DIRECTIONS[i], k[(i, i)]),
+                format!(
+                    "the entry {0}, {0} is negative ({1:.6e})",
+                    DIRECTIONS[i],
+                    k[(i, i)]
+                ),
                 "a motion would give energy back: check signs, and that this is not the stiffness under a load",
             );
         }
     }
     let (balanced, scale) = balance(k);
-    let (sum, difference) = (balanced + balanced.transpose(), balanced - balanced.transpose());
-    let share = if sum.norm() > 0.0 { difference.norm() / sum.norm() } else { 0.0 };
+    let (sum, difference) = (
+        balanced + balanced.transpose(),
+        balanced - balanced.transpose(),
+    );
+    let share = if sum.norm() > 0.0 {
+        difference.norm() / sum.norm()
+    } else {
+        0.0
+    };
     if share > symmetric_to {
         let (mut worst, mut at) = (0.0, (0, 0));
         for i in 0..6 {
@@ -115,12 +130,22 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         refuse(
             format!(
                 "the matrix is not symmetric: its anti-symmetric share is {:.2e}; row {} column {} is {:.6e}, row {} column {} is {:.6e}",
-                share, DIRECTIONS[i], DIRECTIONS[j], k[(i, j)], DIRECTIONS[j], DIRECTIONS[i], k[(j, i)]
+                share,
+                DIRECTIONS[i],
+                DIRECTIONS[j],
+                k[(i, j)],
+                DIRECTIONS[j],
+                DIRECTIONS[i],
+                k[(j, i)]
             ),
             "a spring stores energy: if this is noise, say so (symmetrise); if not, loads and displacements are in different axes or at different points",
         );
     }
-    let mut eigen: Vec<f64> = (0.5 * sum).symmetric_eigenvalues().iter().copied().collect();
+    let mut eigen: Vec<f64> = (0.5 * sum)
+        .symmetric_eigenvalues()
+        .iter()
+        .copied()
+        .collect();
     eigen.sort_by(f64::total_cmp);
     let rank = eigen.iter().filter(|e| e.abs() > ZERO).count();
     if eigen[0] < -ZERO {
@@ -134,8 +159,14 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         );
     } else if rank < 6 {
         let message = match (0..6).find(|&i| k[(i, i)] == 0.0) {
-            Some(i) => format!("the rank is {rank}, not 6: nothing holds the direction {}", DIRECTIONS[i]),
-            None => format!("the rank is {rank}, not 6: nothing holds the motion {}", softest(&(0.5 * sum), &scale)),
+            Some(i) => format!(
+                "the rank is {rank}, not 6: nothing holds the direction {}",
+                DIRECTIONS[i]
+            ),
+            None => format!(
+                "the rank is {rank}, not 6: nothing holds the motion {}",
+                softest(&(0.5 * sum), &scale)
+            ),
         };
         findings.push(Finding {
             grade: Grade::Doubtful,
@@ -164,7 +195,10 @@ fn balance(k: &Matrix6<f64>) -> (Matrix6<f64>, Vector6<f64>) {
             k.row(i).amax().max(f64::MIN_POSITIVE).sqrt()
         }
     });
-    (Matrix6::from_fn(|i, j| k[(i, j)] / scale[i] / scale[j]), scale)
+    (
+        Matrix6::from_fn(|i, j| k[(i, j)] / scale[i] / scale[j]),
+        scale,
+    )
 }
 
 /// The motion of the lowest eigenvalue, by its largest parts.
@@ -172,7 +206,10 @@ fn softest(balanced: &Matrix6<f64>, scale: &Vector6<f64>) -> String {
     let eigen = balanced.symmetric_eigen();
     let at = eigen.eigenvalues.imin();
     let motion: Vector6<f64> = eigen.eigenvectors.column(at).component_div(scale);
-    let (moves, turns) = (motion.fixed_rows::<3>(0).amax(), motion.fixed_rows::<3>(3).amax());
+    let (moves, turns) = (
+        motion.fixed_rows::<3>(0).amax(),
+        motion.fixed_rows::<3>(3).amax(),
+    );
     let mut parts: Vec<(f64, usize)> = (0..6)
         .map(|i| (eigen.eigenvectors[(i, at)].abs(), i))
         .filter(|p| p.0 > 0.2)
@@ -191,7 +228,10 @@ fn softest(balanced: &Matrix6<f64>, scale: &Vector6<f64>) -> String {
 fn plausible(k: &Matrix6<f64>, findings: &mut Vec<Finding>) -> f64 {
     let largest = |from: usize| (from..from + 3).map(|i| k[(i, i)]).fold(0.0, f64::max);
     let (moves, turns) = (largest(0), largest(3));
-    let softest = (0..3).map(|i| k[(i, i)]).filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+    let softest = (0..3)
+        .map(|i| k[(i, i)])
+        .filter(|d| *d > 0.0)
+        .fold(f64::INFINITY, f64::min);
     let length = (turns / softest).sqrt();
     let mut doubt = |message: String| {
         findings.push(Finding {
@@ -201,10 +241,16 @@ fn plausible(k: &Matrix6<f64>, findings: &mut Vec<Finding>) -> f64 {
         });
     };
     if moves > 0.0 && !(1e3..=1e12).contains(&moves) {
-        doubt(format!("the largest stiffness against a force is {:.3e} N/mm; links lie between 1 N/mm and 1e9 N/mm", moves * 1e-3));
+        doubt(format!(
+            "the largest stiffness against a force is {:.3e} N/mm; links lie between 1 N/mm and 1e9 N/mm",
+            moves * 1e-3
+        ));
     }
     if moves > 0.0 && turns > 0.0 && !(2e-3..=20.0).contains(&length) {
-        doubt(format!("rotational and translational entries belong to a link of the size {:.3e} m; links lie between 2 mm and 20 m", length));
+        doubt(format!(
+            "rotational and translational entries belong to a link of the size {:.3e} m; links lie between 2 mm and 20 m",
+            length
+        ));
     }
     length
 }

@@ -55,7 +55,9 @@ pub fn axes_from(x: &Vector3<f64>, y: &Vector3<f64>) -> Option<Rotation3<f64>> {
     let x = x.try_normalize(1e-9)?;
     let y = (y - x * x.dot(y)).try_normalize(1e-6 * y.norm().max(1e-3))?;
     let z = x.cross(&y);
-    Some(Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, z])))
+    Some(Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
+        x, y, z,
+    ])))
 }
 
 #[derive(Clone, Default)]
@@ -83,7 +85,10 @@ pub fn read_matrix(text: &Text, bare: Option<Units>) -> Result<LinkMatrix> {
     let Some((matrix, units, compliance)) = written.rows else {
         return Err(text.fault(
             "the file holds no matrix",
-            format!("a header stiffness_UNITS_rad,x,y,z,rx,ry,rz and six rows are needed; units are {}", Units::names()),
+            format!(
+                "a header stiffness_UNITS_rad,x,y,z,rx,ry,rz and six rows are needed; units are {}",
+                Units::names()
+            ),
         ));
     };
     let stiffness = if compliance {
@@ -145,20 +150,29 @@ pub(crate) fn fields(line: &str) -> Vec<&str> {
     let by = [';', '\t', ','].into_iter().find(|c| line.contains(*c));
     by.map_or_else(
         || line.split_whitespace().collect(),
-        |c| line.split(c).map(|f| f.trim().trim_matches('"').trim()).collect(),
+        |c| {
+            line.split(c)
+                .map(|f| f.trim().trim_matches('"').trim())
+                .collect()
+        },
     )
 }
 
 fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
     let mut written = Written::default();
-    let mut lines = text.lines().filter(|(_, l)| !fields(l).iter().all(|f| f.is_empty()));
+    let mut lines = text
+        .lines()
+        .filter(|(_, l)| !fields(l).iter().all(|f| f.is_empty()));
     while let Some((at, line)) = lines.next() {
         let cells = fields(line);
         let word = cells[0].to_lowercase();
         let vector = |what: &str, scale: f64| -> Result<Vector3<f64>> {
             if cells.len() < 4 || cells[4..].iter().any(|c| !c.is_empty()) {
                 return Err(text
-                    .fault(format!("'{what}' has {} values", cells.len() - 1), "three numbers are needed")
+                    .fault(
+                        format!("'{what}' has {} values", cells.len() - 1),
+                        "three numbers are needed",
+                    )
                     .at(at));
             }
             let mut v = Vector3::zeros();
@@ -168,7 +182,14 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
             Ok(v)
         };
         match word.as_str() {
-            "source" => written.source = Some(cells[1..].join(", ").trim_end_matches([',', ' ']).to_owned()),
+            "source" => {
+                written.source = Some(
+                    cells[1..]
+                        .join(", ")
+                        .trim_end_matches([',', ' '])
+                        .to_owned(),
+                )
+            }
             "reference_point_mm" => written.point = Some(vector(&word, 1e-3)?),
             "reference_point_m" => written.point = Some(vector(&word, 1.0)?),
             "x_axis" => written.x_axis = Some(vector(&word, 1.0)?),
@@ -186,7 +207,15 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
                 let mut row = Some((at, line));
                 for i in 0..6 {
                     let (at, line) = row.ok_or_else(|| rows_missing(text, i))?;
-                    set_row(text, at, &fields(line), 0, &mut matrix, i, &[0, 1, 2, 3, 4, 5])?;
+                    set_row(
+                        text,
+                        at,
+                        &fields(line),
+                        0,
+                        &mut matrix,
+                        i,
+                        &[0, 1, 2, 3, 4, 5],
+                    )?;
                     row = if i < 5 { lines.next() } else { None };
                 }
                 written.rows = Some((matrix, units, false));
@@ -201,7 +230,9 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
                         .at(at));
                 };
                 if written.rows.is_some() {
-                    return Err(text.fault("there is a second matrix", "one file holds one matrix").at(at));
+                    return Err(text
+                        .fault("there is a second matrix", "one file holds one matrix")
+                        .at(at));
                 }
                 let columns = order(text, at, &cells[1..])?;
                 let mut matrix = Matrix6::zeros();
@@ -213,7 +244,10 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
                     if seen[row] > 0 {
                         return Err(text
                             .fault(
-                                format!("the row {} is written twice, also at line {}", DIRECTIONS[row], seen[row]),
+                                format!(
+                                    "the row {} is written twice, also at line {}",
+                                    DIRECTIONS[row], seen[row]
+                                ),
                                 "there is one row for each of x, y, z, rx, ry, rz",
                             )
                             .at(at));
@@ -245,7 +279,10 @@ fn set_row(
     columns: &[usize; 6],
 ) -> Result<()> {
     let values = &cells[skip.min(cells.len())..];
-    let used = values.iter().rposition(|c| !c.is_empty()).map_or(0, |p| p + 1);
+    let used = values
+        .iter()
+        .rposition(|c| !c.is_empty())
+        .map_or(0, |p| p + 1);
     if used != 6 {
         return Err(text
             .fault(
@@ -278,14 +315,20 @@ fn order(text: &Text, at: usize, cells: &[&str]) -> Result<[usize; 6]> {
     let mut columns = [usize::MAX; 6];
     if cells.len() != 6 {
         return Err(text
-            .fault(format!("the header names {} directions", cells.len()), "it names six: x, y, z, rx, ry, rz")
+            .fault(
+                format!("the header names {} directions", cells.len()),
+                "it names six: x, y, z, rx, ry, rz",
+            )
             .at(at));
     }
     for (c, word) in cells.iter().enumerate() {
         let d = direction(text, at, word)?;
         if columns.contains(&d) {
             return Err(text
-                .fault(format!("the header names {} twice", DIRECTIONS[d]), "it names x, y, z, rx, ry, rz once each")
+                .fault(
+                    format!("the header names {} twice", DIRECTIONS[d]),
+                    "it names x, y, z, rx, ry, rz once each",
+                )
                 .at(at));
         }
         columns[c] = d;
@@ -337,7 +380,10 @@ fn json(text: &Text) -> Result<Written> {
     let mut given = given.into_iter().filter_map(|(k, m)| Some((k, m?)));
     let first = given.next();
     if let (Some((one, _)), Some((other, _))) = (&first, given.next()) {
-        return Err(text.fault(format!("the matrix is given twice: '{one}' and '{other}'"), "keep one of them"));
+        return Err(text.fault(
+            format!("the matrix is given twice: '{one}' and '{other}'"),
+            "keep one of them",
+        ));
     }
     if read.reference_point_mm.is_some() && read.reference_point_m.is_some() {
         return Err(text.fault("the reference point is given twice", "keep one of them"));

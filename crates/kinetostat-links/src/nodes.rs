@@ -42,13 +42,23 @@ impl Nodes {
                 Ok(list)
             }
             _ => Err(Error::new(
-                if self.file.is_empty() { "the nodes" } else { &self.file },
-                format!("'{}' is no set of nodes and no list of node numbers", short(words)),
+                if self.file.is_empty() {
+                    "the nodes"
+                } else {
+                    &self.file
+                },
+                format!(
+                    "'{}' is no set of nodes and no list of node numbers",
+                    short(words)
+                ),
                 if self.sets.is_empty() {
                     "write numbers as in 12,13,14; sets come with a mesh in .inp".to_owned()
                 } else {
                     let names: Vec<&str> = self.sets.keys().take(12).map(String::as_str).collect();
-                    format!("there are the sets {}; or write numbers as in 12,13,14", names.join(", "))
+                    format!(
+                        "there are the sets {}; or write numbers as in 12,13,14",
+                        names.join(", ")
+                    )
                 },
             )),
         }
@@ -62,7 +72,10 @@ impl Nodes {
 ///
 /// With file, line and what to do.
 pub fn read_nodes(text: &Text, units: Units) -> Result<Nodes> {
-    let mut nodes = Nodes { file: text.name().to_owned(), ..Nodes::default() };
+    let mut nodes = Nodes {
+        file: text.name().to_owned(),
+        ..Nodes::default()
+    };
     let mut kind = None;
     for (_, line) in text.lines() {
         let upper = line.trim_start().to_uppercase();
@@ -80,7 +93,13 @@ pub fn read_nodes(text: &Text, units: Units) -> Result<Nodes> {
         Some(Kind::Input) => input(text, units, &mut nodes)?,
         Some(Kind::Bulk) => {
             for (line, node, place) in crate::dmig::grids(text)? {
-                insert(text, line, &mut nodes, node, Vector3::from(place) * units.length_m)?;
+                insert(
+                    text,
+                    line,
+                    &mut nodes,
+                    node,
+                    Vector3::from(place) * units.length_m,
+                )?;
             }
         }
         Some(Kind::Table) => table(text, &mut nodes)?,
@@ -100,10 +119,19 @@ enum Kind {
     Table,
 }
 
-fn insert(text: &Text, line: usize, nodes: &mut Nodes, node: u64, place: Vector3<f64>) -> Result<()> {
+fn insert(
+    text: &Text,
+    line: usize,
+    nodes: &mut Nodes,
+    node: u64,
+    place: Vector3<f64>,
+) -> Result<()> {
     match nodes.places.insert(node, place) {
         Some(before) if before != place => Err(text
-            .fault(format!("the node {node} is given twice, at different places"), "keep one of them")
+            .fault(
+                format!("the node {node} is given twice, at different places"),
+                "keep one of them",
+            )
             .at(line)),
         _ => Ok(()),
     }
@@ -126,7 +154,10 @@ fn input(text: &Text, units: Units, nodes: &mut Nodes) -> Result<()> {
             let mut words = card.split(',');
             let key = words.next().unwrap_or_default().to_owned();
             let words: Vec<&str> = words.collect();
-            let set = words.iter().find_map(|w| w.strip_prefix("NSET=")).map(str::to_owned);
+            let set = words
+                .iter()
+                .find_map(|w| w.strip_prefix("NSET="))
+                .map(str::to_owned);
             part = match (key.as_str(), set) {
                 ("NODE", _) => Part::Nodes,
                 ("NSET", Some(name)) => {
@@ -137,10 +168,20 @@ fn input(text: &Text, units: Units, nodes: &mut Nodes) -> Result<()> {
             };
             continue;
         }
-        let cells: Vec<&str> = trimmed.split(',').map(str::trim).filter(|c| !c.is_empty()).collect();
+        let cells: Vec<&str> = trimmed
+            .split(',')
+            .map(str::trim)
+            .filter(|c| !c.is_empty())
+            .collect();
         match &part {
             Part::Nodes => {
-                let node = text.whole(line, "the number of the node", cells.first().copied().unwrap_or(""), 1, u64::MAX)?;
+                let node = text.whole(
+                    line,
+                    "the number of the node",
+                    cells.first().copied().unwrap_or(""),
+                    1,
+                    u64::MAX,
+                )?;
                 let mut place = Vector3::zeros();
                 for (i, cell) in cells.iter().skip(1).take(3).enumerate() {
                     place[i] = text.number(line, "a coordinate", cell)? * units.length_m;
@@ -156,20 +197,36 @@ fn input(text: &Text, units: Units, nodes: &mut Nodes) -> Result<()> {
                     }
                     let [from, to, step] = bounds;
                     if to < from || (to - from) / step > 10_000_000 {
-                        return Err(text.fault("the set has no nodes or far too many", "lines are: first, last, step").at(line));
+                        return Err(text
+                            .fault(
+                                "the set has no nodes or far too many",
+                                "lines are: first, last, step",
+                            )
+                            .at(line));
                     }
                     own.extend((from..=to).step_by(usize::try_from(step).unwrap_or(1)));
                 } else {
                     for cell in &cells {
                         match nodes.sets.get(&cell.to_uppercase()) {
                             Some(other) => own.extend(other.clone()),
-                            None => own.push(text.whole(line, "a node of the set", cell, 1, u64::MAX)?),
+                            None => own.push(text.whole(
+                                line,
+                                "a node of the set",
+                                cell,
+                                1,
+                                u64::MAX,
+                            )?),
                         }
                     }
                 }
                 let set = nodes.sets.entry(name.clone()).or_default();
                 if set.len() + own.len() > 10_000_000 {
-                    return Err(text.fault("the set has far too many nodes", "a set names each node once").at(line));
+                    return Err(text
+                        .fault(
+                            "the set has far too many nodes",
+                            "a set names each node once",
+                        )
+                        .at(line));
                 }
                 set.extend(own);
             }
@@ -192,15 +249,32 @@ fn table(text: &Text, nodes: &mut Nodes) -> Result<()> {
         }
         let Some(unit) = unit else {
             let header: Vec<String> = cells.iter().map(|c| c.to_lowercase()).collect();
-            unit = match header.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            unit = match header
+                .iter()
+                .map(String::as_str)
+                .collect::<Vec<_>>()
+                .as_slice()
+            {
                 ["node", "x_mm", "y_mm", "z_mm"] => Some(1e-3),
                 ["node", "x_m", "y_m", "z_m"] => Some(1.0),
-                _ => return Err(text.fault("the header is not known", "it is node,x_mm,y_mm,z_mm or node,x_m,y_m,z_m").at(line)),
+                _ => {
+                    return Err(text
+                        .fault(
+                            "the header is not known",
+                            "it is node,x_mm,y_mm,z_mm or node,x_m,y_m,z_m",
+                        )
+                        .at(line));
+                }
             };
             continue;
         };
         if cells.len() < 4 {
-            return Err(text.fault(format!("the line has {} fields", cells.len()), "four are needed: node, x, y, z").at(line));
+            return Err(text
+                .fault(
+                    format!("the line has {} fields", cells.len()),
+                    "four are needed: node, x, y, z",
+                )
+                .at(line));
         }
         let node = text.whole(line, "the node", cells[0], 1, u64::MAX)?;
         let mut place = Vector3::zeros();

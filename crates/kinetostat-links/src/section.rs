@@ -146,23 +146,39 @@ impl Shape {
                     shear_area_z: shear,
                 }
             }
-            Self::IBeam { width, height, flange, web } => {
+            Self::IBeam {
+                width,
+                height,
+                flange,
+                web,
+            } => {
                 let inside = height - 2.0 * flange;
                 let area = 2.0 * width * flange + inside * web;
                 let h = height - flange;
                 let (m, n) = (2.0 * width * flange / (h * web), width / h);
-                let kappa = thin_walled_kappa(nu, m, 30.0 * n * n * (m + m * m) + 5.0 * nu * n * n * (8.0 * m + 9.0 * m * m));
+                let kappa = thin_walled_kappa(
+                    nu,
+                    m,
+                    30.0 * n * n * (m + m * m) + 5.0 * nu * n * n * (8.0 * m + 9.0 * m * m),
+                );
                 Properties {
                     area,
-                    second_moment_y: (width * height.powi(3) - (width - web) * inside.powi(3)) / 12.0,
+                    second_moment_y: (width * height.powi(3) - (width - web) * inside.powi(3))
+                        / 12.0,
                     second_moment_z: (2.0 * flange * width.powi(3) + inside * web.powi(3)) / 12.0,
-                    torsion_constant: 2.0 * rectangle_torsion(width, flange) + inside * web.powi(3) / 3.0,
+                    torsion_constant: 2.0 * rectangle_torsion(width, flange)
+                        + inside * web.powi(3) / 3.0,
                     // Across the web the flanges carry the shear, each as a rectangle.
                     shear_area_y: rectangle_kappa(nu) * 2.0 * width * flange,
                     shear_area_z: kappa * area,
                 }
             }
-            Self::HollowBox { width, height, side_wall, top_wall } => {
+            Self::HollowBox {
+                width,
+                height,
+                side_wall,
+                top_wall,
+            } => {
                 let (iw, ih) = (width - 2.0 * side_wall, height - 2.0 * top_wall);
                 let area = width * height - iw * ih;
                 let (b, h) = (width - side_wall, height - top_wall);
@@ -183,37 +199,80 @@ impl Shape {
     }
 
     fn check(&self, nu: f64) -> Result<()> {
-        let fault = |message: String, help: &str| Err(Error::new(format!("section ({})", self.name()), message, help));
+        let fault = |message: String, help: &str| {
+            Err(Error::new(
+                format!("section ({})", self.name()),
+                message,
+                help,
+            ))
+        };
         if !(nu > -1.0 && nu <= 0.5) {
-            return fault(format!("Poisson's ratio is {nu}"), "it lies above -1 and not above 0.5; metals have about 0.3");
+            return fault(
+                format!("Poisson's ratio is {nu}"),
+                "it lies above -1 and not above 0.5; metals have about 0.3",
+            );
         }
         let sizes: &[(&str, f64)] = &match *self {
             Self::Tube { outer, inner } => {
                 if !(inner.is_finite() && (0.0..outer).contains(&inner)) {
                     return fault(
-                        format!("the inner diameter ({inner} m) is not between 0 and the outer one ({outer} m)"),
+                        format!(
+                            "the inner diameter ({inner} m) is not between 0 and the outer one ({outer} m)"
+                        ),
                         "exchange them, or write 0 for a solid bar",
                     );
                 }
                 [("outer diameter", outer); 6]
             }
             Self::Rectangle { width, height } => six(&[("width", width), ("height", height)]),
-            Self::IBeam { width, height, flange, web } => {
+            Self::IBeam {
+                width,
+                height,
+                flange,
+                web,
+            } => {
                 if 2.0 * flange >= height || web > width {
-                    return fault("flanges or web are thicker than the section".into(), "the flanges leave room for a web, and the web is not wider than they are");
+                    return fault(
+                        "flanges or web are thicker than the section".into(),
+                        "the flanges leave room for a web, and the web is not wider than they are",
+                    );
                 }
-                six(&[("width", width), ("height", height), ("flange", flange), ("web", web)])
+                six(&[
+                    ("width", width),
+                    ("height", height),
+                    ("flange", flange),
+                    ("web", web),
+                ])
             }
-            Self::HollowBox { width, height, side_wall, top_wall } => {
+            Self::HollowBox {
+                width,
+                height,
+                side_wall,
+                top_wall,
+            } => {
                 if 2.0 * side_wall >= width || 2.0 * top_wall >= height {
-                    return fault("the walls are thicker than the section".into(), "walls leave a hole; write a rectangle for a solid section");
+                    return fault(
+                        "the walls are thicker than the section".into(),
+                        "walls leave a hole; write a rectangle for a solid section",
+                    );
                 }
-                six(&[("width", width), ("height", height), ("side wall", side_wall), ("top wall", top_wall)])
+                six(&[
+                    ("width", width),
+                    ("height", height),
+                    ("side wall", side_wall),
+                    ("top wall", top_wall),
+                ])
             }
             Self::Custom(p) => {
-                for (name, shear) in [("shear area y", p.shear_area_y), ("shear area z", p.shear_area_z)] {
+                for (name, shear) in [
+                    ("shear area y", p.shear_area_y),
+                    ("shear area z", p.shear_area_z),
+                ] {
                     if shear.is_nan() || shear <= 0.0 {
-                        return fault(format!("the {name} is {shear}"), "a number above zero, or infinity for no shear deflection");
+                        return fault(
+                            format!("the {name} is {shear}"),
+                            "a number above zero, or infinity for no shear deflection",
+                        );
                     }
                 }
                 six(&[
@@ -225,7 +284,10 @@ impl Shape {
             }
         };
         match sizes.iter().find(|s| !(s.1.is_finite() && s.1 > 0.0)) {
-            Some((name, size)) => fault(format!("the {name} is {size}"), "a number above zero is needed"),
+            Some((name, size)) => fault(
+                format!("the {name} is {size}"),
+                "a number above zero is needed",
+            ),
             None => Ok(()),
         }
     }
@@ -236,18 +298,52 @@ impl Shape {
     pub fn towards(&self, other: &Self, share: f64) -> Option<Self> {
         let mix = |a: f64, b: f64| if a == b { a } else { a + share * (b - a) };
         Some(match (*self, *other) {
-            (Self::Tube { outer: a, inner: b }, Self::Tube { outer, inner }) => {
-                Self::Tube { outer: mix(a, outer), inner: mix(b, inner) }
-            }
-            (Self::Rectangle { width: a, height: b }, Self::Rectangle { width, height }) => {
-                Self::Rectangle { width: mix(a, width), height: mix(b, height) }
-            }
-            (Self::IBeam { width: a, height: b, flange: c, web: d }, Self::IBeam { width, height, flange, web }) => {
-                Self::IBeam { width: mix(a, width), height: mix(b, height), flange: mix(c, flange), web: mix(d, web) }
-            }
+            (Self::Tube { outer: a, inner: b }, Self::Tube { outer, inner }) => Self::Tube {
+                outer: mix(a, outer),
+                inner: mix(b, inner),
+            },
             (
-                Self::HollowBox { width: a, height: b, side_wall: c, top_wall: d },
-                Self::HollowBox { width, height, side_wall, top_wall },
+                Self::Rectangle {
+                    width: a,
+                    height: b,
+                },
+                Self::Rectangle { width, height },
+            ) => Self::Rectangle {
+                width: mix(a, width),
+                height: mix(b, height),
+            },
+            (
+                Self::IBeam {
+                    width: a,
+                    height: b,
+                    flange: c,
+                    web: d,
+                },
+                Self::IBeam {
+                    width,
+                    height,
+                    flange,
+                    web,
+                },
+            ) => Self::IBeam {
+                width: mix(a, width),
+                height: mix(b, height),
+                flange: mix(c, flange),
+                web: mix(d, web),
+            },
+            (
+                Self::HollowBox {
+                    width: a,
+                    height: b,
+                    side_wall: c,
+                    top_wall: d,
+                },
+                Self::HollowBox {
+                    width,
+                    height,
+                    side_wall,
+                    top_wall,
+                },
             ) => Self::HollowBox {
                 width: mix(a, width),
                 height: mix(b, height),
@@ -279,7 +375,8 @@ fn rectangle_kappa(nu: f64) -> f64 {
 /// [Cowper1966], thin-walled I and box: `m` flanges over web(s), `flanges` the terms with `n`.
 fn thin_walled_kappa(nu: f64, m: f64, flanges: f64) -> f64 {
     let (m2, m3) = (m * m, m * m * m);
-    let web = 12.0 + 72.0 * m + 150.0 * m2 + 90.0 * m3 + nu * (11.0 + 66.0 * m + 135.0 * m2 + 90.0 * m3);
+    let web =
+        12.0 + 72.0 * m + 150.0 * m2 + 90.0 * m3 + nu * (11.0 + 66.0 * m + 135.0 * m2 + 90.0 * m3);
     10.0 * (1.0 + nu) * (1.0 + 3.0 * m).powi(2) / (web + flanges)
 }
 

@@ -114,12 +114,16 @@ impl Superelement {
             ));
         }
         raw.sort_unstable_by_key(|e| (e.row, e.column));
-        if let Some(pair) = raw.windows(2).find(|p| p[0].row == p[1].row && p[0].column == p[1].column) {
+        if let Some(pair) = raw
+            .windows(2)
+            .find(|p| p[0].row == p[1].row && p[0].column == p[1].column)
+        {
             return Err(text
                 .fault(
                     format!(
                         "the entry {} / {} is written twice, also at line {}",
-                        dofs[pair[0].row as usize], dofs[pair[0].column as usize],
+                        dofs[pair[0].row as usize],
+                        dofs[pair[0].column as usize],
                         pair[0].line.min(pair[1].line)
                     ),
                     "each entry is written once; remove one of them",
@@ -132,7 +136,9 @@ impl Superelement {
                 .ok()
                 .map(|at| (raw[at].value, raw[at].line))
         };
-        let twin = raw.iter().find(|e| e.row != e.column && value(e.column, e.row).is_some());
+        let twin = raw
+            .iter()
+            .find(|e| e.row != e.column && value(e.column, e.row).is_some());
         let both = match halves {
             Halves::Both => true,
             Halves::Found => twin.is_some(),
@@ -165,7 +171,9 @@ impl Superelement {
                     continue;
                 }
                 let other = other.map_or(0.0, |o| o.0);
-                let unit = (diagonal[e.row as usize] * diagonal[e.column as usize]).abs().max(f64::MIN_POSITIVE);
+                let unit = (diagonal[e.row as usize] * diagonal[e.column as usize])
+                    .abs()
+                    .max(f64::MIN_POSITIVE);
                 odd += 2.0 * (e.value - other).powi(2) / unit;
                 even += 2.0 * (e.value + other).powi(2) / unit;
                 0.5 * (e.value + other)
@@ -184,7 +192,11 @@ impl Superelement {
             format,
             dofs,
             entries,
-            antisymmetric_share: if even > 0.0 { f64::sqrt(odd / even) } else { 0.0 },
+            antisymmetric_share: if even > 0.0 {
+                f64::sqrt(odd / even)
+            } else {
+                0.0
+            },
         })
     }
 
@@ -211,7 +223,11 @@ impl Superelement {
 /// # Errors
 ///
 /// With file, line and what to do.
-pub fn read_superelement(text: &Text, companion: Option<&Text>, matrix: Option<&str>) -> Result<Superelement> {
+pub fn read_superelement(
+    text: &Text,
+    companion: Option<&Text>,
+    matrix: Option<&str>,
+) -> Result<Superelement> {
     let mut dmig = false;
     let mut first = "";
     for (_, line) in text.lines() {
@@ -223,7 +239,11 @@ pub fn read_superelement(text: &Text, companion: Option<&Text>, matrix: Option<&
         if upper.starts_with("*USER ELEMENT") || upper.starts_with("*MATRIX") {
             return crate::calculix::user_element(text);
         }
-        if first.is_empty() && !upper.is_empty() && !upper.starts_with("**") && !upper.starts_with('$') {
+        if first.is_empty()
+            && !upper.is_empty()
+            && !upper.starts_with("**")
+            && !upper.starts_with('$')
+        {
             first = line;
         }
     }
@@ -233,7 +253,10 @@ pub fn read_superelement(text: &Text, companion: Option<&Text>, matrix: Option<&
     if let Some(found) = crate::harwell_boeing::recognised(text) {
         return crate::harwell_boeing::read(text, companion, found);
     }
-    let cells = crate::matrix_file::fields(first).into_iter().filter(|c| !c.is_empty()).count();
+    let cells = crate::matrix_file::fields(first)
+        .into_iter()
+        .filter(|c| !c.is_empty())
+        .count();
     match cells {
         5 => crate::calculix::pairs(text),
         3 => crate::calculix::triplets(text, companion),

@@ -16,7 +16,11 @@ pub fn in_n_mm(k: &Matrix6<f64>) -> Matrix6<f64> {
 /// Twelve digits, as TOML reads them.
 fn digits(x: f64) -> String {
     let rounded: f64 = format!("{x:.11e}").parse().unwrap_or(x);
-    if rounded == 0.0 { "0.0".into() } else { format!("{rounded:?}") }
+    if rounded == 0.0 {
+        "0.0".into()
+    } else {
+        format!("{rounded:?}")
+    }
 }
 
 /// A basic string of TOML: quotes, backslashes and control characters escaped.
@@ -36,9 +40,18 @@ fn quoted(text: &str) -> String {
 
 /// The table for a model file: `k` in SI, symmetric; entries below `1e-12` of their diagonals become 0.
 #[must_use]
-pub fn stiffness_table(name: &str, k: &Matrix6<f64>, source: &str, assumption: Option<&str>) -> String {
+pub fn stiffness_table(
+    name: &str,
+    k: &Matrix6<f64>,
+    source: &str,
+    assumption: Option<&str>,
+) -> String {
     let k = in_n_mm(k);
-    let name = if !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-') {
+    let name = if !name.is_empty()
+        && name
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-')
+    {
         name.to_owned()
     } else {
         quoted(name)

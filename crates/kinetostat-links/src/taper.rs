@@ -23,9 +23,9 @@ pub enum Shear {
 
 /// Nodes and weights of eight-point Gauss-Legendre quadrature on -1..1 (the positive half).
 const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_361_98),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_29),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_27),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
     (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
 ];
 
@@ -58,19 +58,36 @@ pub fn cantilever(
         shape.properties(poissons_ratio)?;
     }
     if !(youngs_modulus.is_finite() && youngs_modulus > 0.0) {
-        return Err(Error::new("link", format!("Young's modulus is {youngs_modulus} Pa"), "a number above zero is needed"));
+        return Err(Error::new(
+            "link",
+            format!("Young's modulus is {youngs_modulus} Pa"),
+            "a number above zero is needed",
+        ));
     }
     if root.towards(tip, 0.5).is_none() {
         return Err(Error::new(
             "link",
-            format!("it goes from the section '{}' to '{}'", root.name(), tip.name()),
+            format!(
+                "it goes from the section '{}' to '{}'",
+                root.name(),
+                tip.name()
+            ),
             "both ends have the same kind of section; divide the link where it changes",
         ));
     }
     let g = youngs_modulus / (2.0 + 2.0 * poissons_ratio);
     cantilever_by(length, |x| {
-        let p = root.towards(tip, x / length).unwrap_or(*root).properties(poissons_ratio)?;
-        let slide = |area: f64| if shear == Shear::None { 0.0 } else { 1.0 / (g * area) };
+        let p = root
+            .towards(tip, x / length)
+            .unwrap_or(*root)
+            .properties(poissons_ratio)?;
+        let slide = |area: f64| {
+            if shear == Shear::None {
+                0.0
+            } else {
+                1.0 / (g * area)
+            }
+        };
         Ok(Vector6::new(
             1.0 / (youngs_modulus * p.area),
             slide(p.shear_area_y),
@@ -88,10 +105,16 @@ pub fn cantilever(
 /// # Errors
 ///
 /// Those of `slice`; a length that is none; compliances that are negative or leave the link rigid.
-pub fn cantilever_by(length: f64, slice: impl Fn(f64) -> Result<Vector6<f64>>) -> Result<Matrix6<f64>> {
+pub fn cantilever_by(
+    length: f64,
+    slice: impl Fn(f64) -> Result<Vector6<f64>>,
+) -> Result<Matrix6<f64>> {
     let fault = |message: String, help: &str| Error::new("link", message, help);
     if !(length.is_finite() && length > 0.0) {
-        return Err(fault(format!("its length is {length} m"), "a number above zero is needed"));
+        return Err(fault(
+            format!("its length is {length} m"),
+            "a number above zero is needed",
+        ));
     }
     let mut panels = 1_u32;
     let mut before: Option<Matrix6<f64>> = None;
@@ -104,10 +127,14 @@ pub fn cantilever_by(length: f64, slice: impl Fn(f64) -> Result<Vector6<f64>>) -
                 for at in [middle - half * node, middle + half * node] {
                     let c = slice(at)?;
                     if c.iter().any(|x| !(x.is_finite() && *x >= 0.0)) {
-                        return Err(fault(format!("the compliance at {at} m is not finite or negative"), "check the section there"));
+                        return Err(fault(
+                            format!("the compliance at {at} m is not finite or negative"),
+                            "check the section there",
+                        ));
                     }
                     let shift = shift_matrix(&Vector3::new(length - at, 0.0, 0.0));
-                    compliance += shift * Matrix6::from_diagonal(&c) * shift.transpose() * (weight * half);
+                    compliance +=
+                        shift * Matrix6::from_diagonal(&c) * shift.transpose() * (weight * half);
                 }
             }
         }
@@ -120,7 +147,10 @@ pub fn cantilever_by(length: f64, slice: impl Fn(f64) -> Result<Vector6<f64>>) -
         });
         if converged || panels >= 4096 {
             let k = invert(&compliance).ok_or_else(|| {
-                fault("its compliance cannot be inverted".into(), "each direction needs some compliance")
+                fault(
+                    "its compliance cannot be inverted".into(),
+                    "each direction needs some compliance",
+                )
             })?;
             return Ok(0.5 * (k + k.transpose()));
         }

@@ -25,7 +25,11 @@ impl Text {
     pub fn read(path: &Path) -> Result<Self> {
         let name = path.display().to_string();
         if path.is_dir() {
-            return Err(Error::new(&name, "this is a directory", "name a file in it"));
+            return Err(Error::new(
+                &name,
+                "this is a directory",
+                "name a file in it",
+            ));
         }
         let unread = |error: &std::io::Error| match error.kind() {
             ErrorKind::NotFound => Error::new(&name, "the file does not exist", "check the path"),
@@ -79,10 +83,15 @@ impl Text {
         }
         let body = String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
-            let line = 1 + error.as_bytes()[..at].iter().filter(|b| **b == b'\n').count();
+            let line = 1 + error.as_bytes()[..at]
+                .iter()
+                .filter(|b| **b == b'\n')
+                .count();
             Error::new(&name, "this is not UTF-8 text", "save the file as UTF-8").at(line)
         })?;
-        let body = body.strip_prefix('\u{feff}').map_or(body.clone(), str::to_owned);
+        let body = body
+            .strip_prefix('\u{feff}')
+            .map_or(body.clone(), str::to_owned);
         if body.trim().is_empty() {
             return Err(Error::new(name, "the file is empty", "export it again"));
         }
@@ -210,7 +219,9 @@ mod tests {
         ] {
             assert_eq!(number(text), Some(value), "{text}");
         }
-        for text in ["", "nan", "inf", "1e999", "1,5", "1e5e5", "0x10", "--1", "1+2+3", "e5"] {
+        for text in [
+            "", "nan", "inf", "1e999", "1,5", "1e5e5", "0x10", "--1", "1+2+3", "e5",
+        ] {
             assert_eq!(number(text), None, "{text}");
         }
     }

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use kinetostat_links::{
-    Nodes, Question, Result, Text, Units, condense, identify, read_displacements, read_loads, read_matrix, read_nodes,
-    read_superelement, unit_loads,
+    Nodes, Question, Result, Text, Units, condense, identify, read_displacements, read_loads,
+    read_matrix, read_nodes, read_superelement, unit_loads,
 };
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
@@ -24,7 +24,12 @@ fn element(body: &[u8]) -> Result<()> {
 }
 
 fn sti(body: &str, dofs: &str) -> Result<()> {
-    read_superelement(&Text::new("broken", body)?, Some(&Text::new("broken.dof", dofs)?), None).map(|_| ())
+    read_superelement(
+        &Text::new("broken", body)?,
+        Some(&Text::new("broken.dof", dofs)?),
+        None,
+    )
+    .map(|_| ())
 }
 
 fn table(body: &str) -> Result<()> {
@@ -58,7 +63,12 @@ fn displacement_table(change: impl Fn(usize, usize) -> Option<&'static str>) -> 
             match change(c, n) {
                 Some(line) => out += line,
                 None => {
-                    let _ = write!(out, "{case},{n},{},{},0,1e-3,2e-3,{c}e-3", 10 * (n % 2), 10 * (n / 2));
+                    let _ = write!(
+                        out,
+                        "{case},{n},{},{},0,1e-3,2e-3,{c}e-3",
+                        10 * (n % 2),
+                        10 * (n / 2)
+                    );
                 }
             }
             out += "\n";
@@ -148,12 +158,25 @@ fn broken_files_are_refused_in_words() {
     ];
     let count = cases.len();
     for (name, found, word) in cases {
-        let error = found.err().unwrap_or_else(|| panic!("'{name}' was accepted"));
+        let error = found
+            .err()
+            .unwrap_or_else(|| panic!("'{name}' was accepted"));
         let words = error.to_string();
-        assert!(words.contains(word), "'{name}': '{word}' is not in: {words}");
-        assert!(words.starts_with("broken") && !error.help.is_empty() && words.len() < 900, "{name}: {words}");
+        assert!(
+            words.contains(word),
+            "'{name}': '{word}' is not in: {words}"
+        );
+        assert!(
+            words.starts_with("broken") && !error.help.is_empty() && words.len() < 900,
+            "{name}: {words}"
+        );
     }
-    at_least("broken matrix and displacement files refused in words", count, 12, "files");
+    at_least(
+        "broken matrix and displacement files refused in words",
+        count,
+        12,
+        "files",
+    );
 }
 
 #[test]
@@ -161,8 +184,16 @@ fn questions_that_the_matrix_cannot_answer() {
     let body = "1,1,1,1,5.0\n1,2,1,2,5.0\n1,3,1,3,5.0\n2,1,2,1,5.0\n2,2,2,2,5.0\n2,3,2,3,5.0\n3,1,3,1,-1.0\n";
     let k = read_superelement(&Text::new("k", body).expect("text"), None, None).expect("matrix");
     let ask = |interface: &[u64], fixed: &[u64]| {
-        let question = Question { units: n_mm(), interface: interface.to_vec(), fixed: fixed.to_vec(), end: None, axes: Rotation3::identity() };
-        condense(&k, &Nodes::default(), &question).expect_err("refused").to_string()
+        let question = Question {
+            units: n_mm(),
+            interface: interface.to_vec(),
+            fixed: fixed.to_vec(),
+            end: None,
+            axes: Rotation3::identity(),
+        };
+        condense(&k, &Nodes::default(), &question)
+            .expect_err("refused")
+            .to_string()
     };
     for (words, wanted) in [
         (ask(&[], &[2]), "no nodes"),
@@ -176,10 +207,29 @@ fn questions_that_the_matrix_cannot_answer() {
     }
     // Inside: negative, and loose.
     let six: String = (1..=6).map(|d| format!("1,{d},1,{d},5.0\n")).collect();
-    for (extra, wanted) in [("2,1,2,1,-1.0\n", "nothing holds"), ("2,1,2,1,4.0\n2,2,2,1,8.0\n2,2,2,2,4.0\n", "not positive definite")] {
-        let k = read_superelement(&Text::new("k", six.clone() + extra).expect("text"), None, None).expect("matrix");
-        let question = Question { units: n_mm(), interface: vec![1], fixed: vec![], end: None, axes: Rotation3::identity() };
-        let words = condense(&k, &Nodes::default(), &question).expect_err("refused").to_string();
+    for (extra, wanted) in [
+        ("2,1,2,1,-1.0\n", "nothing holds"),
+        (
+            "2,1,2,1,4.0\n2,2,2,1,8.0\n2,2,2,2,4.0\n",
+            "not positive definite",
+        ),
+    ] {
+        let k = read_superelement(
+            &Text::new("k", six.clone() + extra).expect("text"),
+            None,
+            None,
+        )
+        .expect("matrix");
+        let question = Question {
+            units: n_mm(),
+            interface: vec![1],
+            fixed: vec![],
+            end: None,
+            axes: Rotation3::identity(),
+        };
+        let words = condense(&k, &Nodes::default(), &question)
+            .expect_err("refused")
+            .to_string();
         assert!(words.contains(wanted), "'{wanted}' is not in: {words}");
     }
 }
@@ -187,13 +237,30 @@ fn questions_that_the_matrix_cannot_answer() {
 #[test]
 fn files_that_are_not_there_or_too_large() {
     let here = std::env::temp_dir().join(format!("kinetostat-links-{}", std::process::id()));
-    assert!(Text::read(&here).expect_err("none").message.contains("does not exist"));
+    assert!(
+        Text::read(&here)
+            .expect_err("none")
+            .message
+            .contains("does not exist")
+    );
     std::fs::create_dir_all(&here).expect("folder");
-    assert!(Text::read(&here).expect_err("folder").message.contains("directory"));
+    assert!(
+        Text::read(&here)
+            .expect_err("folder")
+            .message
+            .contains("directory")
+    );
     // 200 MB on paper; nothing of it is read.
     let large = here.join("large.sti");
-    std::fs::File::create(&large).and_then(|f| f.set_len(200 << 20)).expect("file");
-    assert!(Text::read(&large).expect_err("large").message.contains("64 MB"));
+    std::fs::File::create(&large)
+        .and_then(|f| f.set_len(200 << 20))
+        .expect("file");
+    assert!(
+        Text::read(&large)
+            .expect_err("large")
+            .message
+            .contains("64 MB")
+    );
     std::fs::remove_dir_all(&here).expect("removed");
 }
 

@@ -1,8 +1,11 @@
 //! Links from other programs, by what they come as. Every number that the issue asks for is printed as
 //! a `figure` line for `cargo xtask figures`.
 
+#![allow(clippy::print_stdout)] // figures
+
 mod beams;
 mod broken;
+mod calculix;
 mod displacements;
 mod matrices;
 mod sections;
@@ -23,7 +26,11 @@ fn apart(found: &Matrix6<f64>, wanted: &Matrix6<f64>) -> f64 {
         for j in 0..6 {
             let unit = (wanted[(i, i)] * wanted[(j, j)]).sqrt();
             let d = (found[(i, j)] - wanted[(i, j)]).abs() / unit;
-            worst = if d.is_nan() { f64::INFINITY } else { worst.max(d) };
+            worst = if d.is_nan() {
+                f64::INFINITY
+            } else {
+                worst.max(d)
+            };
         }
     }
     worst
@@ -36,7 +43,10 @@ fn at_most(name: &str, measured: f64, most: f64, unit: &str) {
         "unit": unit, "holds": measured <= most,
     });
     println!("figure {figure}");
-    assert!(measured <= most, "{name}: {measured} instead of at most {most}");
+    assert!(
+        measured <= most,
+        "{name}: {measured} instead of at most {most}"
+    );
 }
 
 /// Prints a count and holds it.
@@ -46,5 +56,8 @@ fn at_least(name: &str, measured: usize, least: usize, unit: &str) {
         "unit": unit, "holds": measured >= least,
     });
     println!("figure {figure}");
-    assert!(measured >= least, "{name}: {measured} instead of at least {least}");
+    assert!(
+        measured >= least,
+        "{name}: {measured} instead of at least {least}"
+    );
 }

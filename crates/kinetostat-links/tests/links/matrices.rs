@@ -1,7 +1,9 @@
 //! 6 x 6 matrices from CSV and JSON, the table that comes out, and what is said of them.
 
 use kinetostat::BeamSection;
-use kinetostat_links::{Grade, SYMMETRIC_TO, Units, in_n_mm, judge, read_matrix, stiffness_table, symmetrised};
+use kinetostat_links::{
+    Grade, SYMMETRIC_TO, Units, in_n_mm, judge, read_matrix, stiffness_table, symmetrised,
+};
 use nalgebra::Matrix6;
 
 use crate::{apart, text};
@@ -34,7 +36,9 @@ fn csv_in_any_order_and_json_say_the_same() {
         assert!(apart(&read.at_link_end(), &bar()) < 1e-14);
         assert_eq!(read.source.as_deref(), Some("FEA 2024"));
     }
-    let rows: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| bar()[(i, j)]).collect()).collect();
+    let rows: Vec<Vec<f64>> = (0..6)
+        .map(|i| (0..6).map(|j| bar()[(i, j)]).collect())
+        .collect();
     let json = serde_json::json!({ "stiffness_n_m_rad": rows }).to_string();
     let read = read_matrix(&text("m.json", &json), None).expect("reads");
     assert!(apart(&read.at_link_end(), &bar()) < 1e-14);
@@ -73,7 +77,9 @@ fn point_and_axes_of_the_file_are_taken_into_account() {
         r[(b + 2, b + 2)] = 1.0;
     }
     let own = (r * there * r.transpose()).try_inverse().expect("regular");
-    let rows: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| own[(i, j)]).collect()).collect();
+    let rows: Vec<Vec<f64>> = (0..6)
+        .map(|i| (0..6).map(|j| own[(i, j)]).collect())
+        .collect();
     let json = serde_json::json!({
         "stiffness_n_m_rad": rows, "reference_point_mm": [30.0, -20.0, 50.0],
         "x_axis": [0, 1, 0], "y_axis": [-1, 0, 0],
@@ -87,7 +93,11 @@ fn judgement_names_what_a_matrix_is_not() {
     let refused = |k: &Matrix6<f64>, word: &str| {
         let judged = judge(k, SYMMETRIC_TO);
         assert!(!judged.is_stiffness(), "{word}");
-        let all: Vec<String> = judged.findings.iter().map(|f| format!("{}; {}", f.message, f.help)).collect();
+        let all: Vec<String> = judged
+            .findings
+            .iter()
+            .map(|f| format!("{}; {}", f.message, f.help))
+            .collect();
         assert!(all.iter().any(|m| m.contains(word)), "{word}: {all:?}");
     };
     let mut k = bar();
@@ -110,10 +120,18 @@ fn judgement_names_what_a_matrix_is_not() {
     let hinged = k - column * column.transpose() / k[(5, 5)];
     let judged = judge(&hinged, SYMMETRIC_TO);
     assert!(judged.is_stiffness() && judged.rank == 5 && !judged.is_definite());
-    assert!(judged.findings[0].message.contains("rank is 5") && judged.findings[0].message.contains("rz"));
+    assert!(
+        judged.findings[0].message.contains("rank is 5")
+            && judged.findings[0].message.contains("rz")
+    );
     // N and mm read as N and m.
     let judged = judge(&in_n_mm(&bar()), SYMMETRIC_TO);
-    assert!(judged.findings.iter().any(|f| f.grade == Grade::Doubtful && f.help.contains("units")));
+    assert!(
+        judged
+            .findings
+            .iter()
+            .any(|f| f.grade == Grade::Doubtful && f.help.contains("units"))
+    );
     let judged = judge(&bar(), SYMMETRIC_TO);
     assert!(judged.findings.is_empty() && (0.05..0.4).contains(&judged.natural_length));
 }
@@ -124,7 +142,9 @@ fn the_table_is_symmetric_toml_with_escaped_words() {
     k[(1, 5)] *= 1.0 + 1e-13;
     let table = stiffness_table("upper arm", &k, "FEA \"v2\"\n\\share", Some("rigid flange"));
     assert!(table.starts_with("[stiffness.\"upper arm\"]\nmatrix_n_mm_rad = [\n"));
-    assert!(table.contains("source = \"FEA \\\"v2\\\" \\\\share\"\nassumption = \"rigid flange\"\n"));
+    assert!(
+        table.contains("source = \"FEA \\\"v2\\\" \\\\share\"\nassumption = \"rigid flange\"\n")
+    );
     let rows: Vec<Vec<f64>> = table
         .lines()
         .filter_map(|l| l.trim().strip_prefix('[')?.strip_suffix("],"))

@@ -2,7 +2,8 @@
 
 use kinetostat::BeamSection;
 use kinetostat_links::{
-    Nodes, Question, SYMMETRIC_TO, Superelement, Text, Units, condense, free_test, judge, read_nodes, read_superelement,
+    Nodes, Question, SYMMETRIC_TO, Superelement, Text, Units, condense, free_test, judge,
+    read_nodes, read_superelement,
 };
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, Vector3};
 use serde_json::Value;
@@ -14,7 +15,13 @@ fn n_mm() -> Units {
 }
 
 fn question(interface: &[u64], fixed: &[u64]) -> Question {
-    Question { units: n_mm(), interface: interface.to_vec(), fixed: fixed.to_vec(), end: None, axes: Rotation3::identity() }
+    Question {
+        units: n_mm(),
+        interface: interface.to_vec(),
+        fixed: fixed.to_vec(),
+        end: None,
+        axes: Rotation3::identity(),
+    }
 }
 
 fn frame() -> (Text, Nodes, Superelement) {
@@ -29,21 +36,36 @@ fn free_beam() -> (DMatrix<f64>, Matrix6<f64>) {
     let si = BeamSection::tube(2.1e11, 8.0e10, 0.06, 0.04).cantilever(0.4);
     let k = kinetostat_links::in_n_mm(&si);
     let mut shift = Matrix6::identity();
-    shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&-Vector3::new(400.0, 0.0, 0.0).cross_matrix());
+    shift
+        .fixed_view_mut::<3, 3>(0, 3)
+        .copy_from(&-Vector3::new(400.0, 0.0, 0.0).cross_matrix());
     let mut whole = DMatrix::zeros(12, 12);
     whole.view_mut((6, 6), (6, 6)).copy_from(&k);
     whole.view_mut((6, 0), (6, 6)).copy_from(&(-k * shift));
-    whole.view_mut((0, 6), (6, 6)).copy_from(&(-shift.transpose() * k));
-    whole.view_mut((0, 0), (6, 6)).copy_from(&(shift.transpose() * k * shift));
+    whole
+        .view_mut((0, 6), (6, 6))
+        .copy_from(&(-shift.transpose() * k));
+    whole
+        .view_mut((0, 0), (6, 6))
+        .copy_from(&(shift.transpose() * k * shift));
     (whole, si)
 }
 
 #[test]
 fn a_space_frame_from_dmig_agrees_with_numpy() {
     let (_, nodes, element) = frame();
-    assert_eq!((element.dofs.len(), nodes.places.len(), element.name.as_str()), (42, 7, "KAAX"));
+    assert_eq!(
+        (
+            element.dofs.len(),
+            nodes.places.len(),
+            element.name.as_str()
+        ),
+        (42, 7, "KAAX")
+    );
     let golden: Value = serde_json::from_str(include_str!("../data/frame.json")).expect("golden");
-    let rows = |name: &str| -> Vec<Vec<f64>> { serde_json::from_value(golden[name].clone()).expect("rows") };
+    let rows = |name: &str| -> Vec<Vec<f64>> {
+        serde_json::from_value(golden[name].clone()).expect("rows")
+    };
     let matrix = |name: &str| n_mm().stiffness_to_si(&Matrix6::from_fn(|i, j| rows(name)[i][j]));
     let axes = rows("axes");
     let axes = Rotation3::from_matrix_unchecked(Matrix3::from_fn(|i, j| axes[i][j]));
@@ -53,7 +75,12 @@ fn a_space_frame_from_dmig_agrees_with_numpy() {
     asked.end = Some(Vector3::from_column_slice(&end) * 1e-3);
     let found = condense(&element, &nodes, &asked).expect("condensed");
     assert_eq!(found.counts, [18, 12, 12]);
-    at_most("space frame of 7 nodes by DMIG, rigid spider, against numpy", apart(&found.stiffness, &matrix("rigid_5_6_7_n_mm_rad")), 1e-9, "of the diagonal");
+    at_most(
+        "space frame of 7 nodes by DMIG, rigid spider, against numpy",
+        apart(&found.stiffness, &matrix("rigid_5_6_7_n_mm_rad")),
+        1e-9,
+        "of the diagonal",
+    );
     let mut asked = question(&[5], &[1, 2]);
     asked.axes = axes;
     let found = condense(&element, &nodes, &asked).expect("condensed");
@@ -69,22 +96,39 @@ fn the_rigid_body_test_finds_six_zero_modes_and_supports() {
     assert_eq!((free.zero_modes, free.negative_modes), (Some(6), Some(0)));
     // 12 x 12 of a beam.
     let (whole, _) = free_beam();
-    let beam = read_superelement(&text("beam.mtx", &user_element(&whole, &[(1, 6), (2, 6)])), None, None).expect("beam");
+    let beam = read_superelement(
+        &text("beam.mtx", &user_element(&whole, &[(1, 6), (2, 6)])),
+        None,
+        None,
+    )
+    .expect("beam");
     let free = free_test(&beam, &Nodes::default(), n_mm());
     assert_eq!(free.zero_modes, Some(6));
     assert_eq!(free.resistance[3], None, "places are unknown");
     // A spring to the ground at node 2 along y.
     let mut held = whole;
     held[(7, 7)] *= 1.01;
-    let held = read_superelement(&text("held.mtx", &user_element(&held, &[(1, 6), (2, 6)])), None, None).expect("beam");
+    let held = read_superelement(
+        &text("held.mtx", &user_element(&held, &[(1, 6), (2, 6)])),
+        None,
+        None,
+    )
+    .expect("beam");
     let free = free_test(&held, &Nodes::default(), n_mm());
-    assert!(!free.is_free() && free.zero_modes == Some(5), "{}", free.words());
+    assert!(
+        !free.is_free() && free.zero_modes == Some(5),
+        "{}",
+        free.words()
+    );
     assert!(free.words().contains("along y"));
 }
 
 /// As CalculiX and Abaqus write it: nodes with their number of directions, lower half.
 fn user_element(k: &DMatrix<f64>, nodes: &[(u64, usize)]) -> String {
-    let mut out = format!("**\n** GENERATION OF SUBSTRUCTURE\n*USER ELEMENT,NODES={:10},LINEAR\n** ELEMENT NODES\n**", nodes.len());
+    let mut out = format!(
+        "**\n** GENERATION OF SUBSTRUCTURE\n*USER ELEMENT,NODES={:10},LINEAR\n** ELEMENT NODES\n**",
+        nodes.len()
+    );
     for (n, _) in nodes {
         out += &format!("{n:10},");
     }
@@ -99,7 +143,11 @@ fn user_element(k: &DMatrix<f64>, nodes: &[(u64, usize)]) -> String {
     out += "*MATRIX,TYPE=STIFFNESS\n";
     for i in 0..k.nrows() {
         for j in 0..=i {
-            out += &format!("{:20.13e},{}", k[(i, j)], if j % 4 == 3 || j == i { "\n" } else { "" });
+            out += &format!(
+                "{:20.13e},{}",
+                k[(i, j)],
+                if j % 4 == 3 || j == i { "\n" } else { "" }
+            );
         }
     }
     out
@@ -110,15 +158,25 @@ fn user_element(k: &DMatrix<f64>, nodes: &[(u64, usize)]) -> String {
 fn every_format_says_the_same_of_a_beam() {
     let (k, si) = free_beam();
     let at = |i: usize| (i as u64 / 6 + 1, i % 6 + 1);
-    let mut small = String::from("$ small fields\nDMIG    KAAX           0       6       2       0\n");
+    let mut small =
+        String::from("$ small fields\nDMIG    KAAX           0       6       2       0\n");
     let mut free = String::from("DMIG, KSQ, 0, 1, 2, 0\n");
     let mut pairs = String::from("** node, dof, node, dof, value\n");
     let (mut sti, mut dof) = (String::new(), String::new());
-    let (mut pointers, mut rows, mut values, mut map) = (vec![1], Vec::new(), Vec::new(), String::from(" Matrix Eqn  Node  DOF\n"));
+    let (mut pointers, mut rows, mut values, mut map) = (
+        vec![1],
+        Vec::new(),
+        Vec::new(),
+        String::from(" Matrix Eqn  Node  DOF\n"),
+    );
     for j in 0..12 {
         let (n, d) = at(j);
         dof += &format!("{n}.{d}\n");
-        map += &format!("{:10}{n:10}    {}\n", j + 1, ["UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"][d - 1]);
+        map += &format!(
+            "{:10}{n:10}    {}\n",
+            j + 1,
+            ["UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"][d - 1]
+        );
         small += &format!("DMIG    KAAX    {n:8}{d:8}        ");
         free += &format!("DMIG, KSQ, {n}, {d}, ");
         let mut first = true;
@@ -131,8 +189,12 @@ fn every_format_says_the_same_of_a_beam() {
                 continue;
             }
             // Small fields have eight columns: the test's beam is rounded to what fits.
-            let short = format!("{v:.2e}").replace("e", if v.abs() >= 1.0 || v == 0.0 { "+" } else { "" });
-            small += &format!("{}{m:8}{e:8}{short:>8}        ", if i == j { "" } else { "\n+       " });
+            let short =
+                format!("{v:.2e}").replace("e", if v.abs() >= 1.0 || v == 0.0 { "+" } else { "" });
+            small += &format!(
+                "{}{m:8}{e:8}{short:>8}        ",
+                if i == j { "" } else { "\n+       " }
+            );
             pairs += &format!("{m:10},{e:5},{n:10},{d:5},{v:20.13e}\n");
             sti += &format!("{} {} {v:20.13e}\n", j + 1, i + 1);
             rows.push(i + 1);
@@ -142,13 +204,26 @@ fn every_format_says_the_same_of_a_beam() {
         small += "\n";
         free += "\n";
     }
-    let lines = |cells: Vec<String>, per: usize| -> Vec<String> { cells.chunks(per).map(<[String]>::concat).collect() };
+    let lines = |cells: Vec<String>, per: usize| -> Vec<String> {
+        cells.chunks(per).map(<[String]>::concat).collect()
+    };
     let p = lines(pointers.iter().map(|x| format!("{x:10}")).collect(), 8);
     let r = lines(rows.iter().map(|x| format!("{x:10}")).collect(), 8);
     let v = lines(values.iter().map(|x| format!("{x:25.16e}")).collect(), 3);
     let hb = format!(
         "beam\n{:14}{:14}{:14}{:14}{:14}\nRSA           {:14}{:14}{:14}{:14}\n(8I10)          (8I10)          (1P,3D25.16)        \n{}\n{}\n{}\n",
-        p.len() + r.len() + v.len(), p.len(), r.len(), v.len(), 0, 12, 12, values.len(), 0, p.join("\n"), r.join("\n"), v.join("\n")
+        p.len() + r.len() + v.len(),
+        p.len(),
+        r.len(),
+        v.len(),
+        0,
+        12,
+        12,
+        values.len(),
+        0,
+        p.join("\n"),
+        r.join("\n"),
+        v.join("\n")
     );
     let dofs = text("beam.dof", &dof);
     let mapping = text("beam.mapping", &map);
@@ -157,27 +232,57 @@ fn every_format_says_the_same_of_a_beam() {
         ("pairs.mtx", &pairs, None, 1e-12),
         ("beam.sti", &sti, Some(&dofs), 1e-12),
         ("beam.matrix", &hb, Some(&mapping), 1e-12),
-        ("user.mtx", &user_element(&k, &[(1, 6), (2, 6)]), None, 1e-12),
+        (
+            "user.mtx",
+            &user_element(&k, &[(1, 6), (2, 6)]),
+            None,
+            1e-12,
+        ),
     ];
     let mut worst = 0.0_f64;
     for (name, body, companion, tolerance) in cases {
-        let element = read_superelement(&text(name, body), companion, None).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let element = read_superelement(&text(name, body), companion, None)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(element.dofs.len(), 12);
-        let found = condense(&element, &Nodes::default(), &question(&[2], &[1])).unwrap_or_else(|e| panic!("{name}: {e}"));
-        assert!(apart(&found.stiffness, &si) < tolerance, "{name}: {}", apart(&found.stiffness, &si));
+        let found = condense(&element, &Nodes::default(), &question(&[2], &[1]))
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(
+            apart(&found.stiffness, &si) < tolerance,
+            "{name}: {}",
+            apart(&found.stiffness, &si)
+        );
         worst = worst.max(apart(&found.stiffness, &si));
     }
-    at_most("12 x 12 of a beam in five formats", worst, 1e-12, "of the diagonal");
+    at_most(
+        "12 x 12 of a beam in five formats",
+        worst,
+        1e-12,
+        "of the diagonal",
+    );
     let element = read_superelement(&text("small DMIG", &small), None, None).expect("small fields");
     let found = condense(&element, &Nodes::default(), &question(&[2], &[1])).expect("condensed");
-    assert!(apart(&found.stiffness, &si) < 6e-3, "three digits: {}", apart(&found.stiffness, &si));
+    assert!(
+        apart(&found.stiffness, &si) < 6e-3,
+        "three digits: {}",
+        apart(&found.stiffness, &si)
+    );
 }
 
 /// The spider about an end away from the nodes, translations only: a plate of springs by hand.
 #[test]
 fn a_spider_over_translations_is_the_sum_of_its_springs() {
-    let places = [[0.0, 10.0, 0.0], [0.0, -10.0, 5.0], [0.0, 0.0, -20.0], [3.0, 12.0, 12.0]];
-    let springs = [[1e3, 2e3, 3e3], [4e3, 5e3, 6e3], [7e3, 1e3, 2e3], [3e3, 3e3, 1e3]];
+    let places = [
+        [0.0, 10.0, 0.0],
+        [0.0, -10.0, 5.0],
+        [0.0, 0.0, -20.0],
+        [3.0, 12.0, 12.0],
+    ];
+    let springs = [
+        [1e3, 2e3, 3e3],
+        [4e3, 5e3, 6e3],
+        [7e3, 1e3, 2e3],
+        [3e3, 3e3, 1e3],
+    ];
     let mut mesh = String::from("node,x_mm,y_mm,z_mm\n");
     let mut pairs = String::new();
     let end = Vector3::new(25.0, -4.0, 7.0);
@@ -200,8 +305,13 @@ fn a_spider_over_translations_is_the_sum_of_its_springs() {
     let found = condense(&element, &nodes, &asked).expect("condensed");
     assert!(apart(&found.stiffness, &n_mm().stiffness_to_si(&wanted)) < 1e-13);
     // Two nodes hold five motions: named.
-    let error = condense(&element, &nodes, &question(&[1, 2], &[3])).expect_err("a line").to_string();
-    assert!(error.contains("5 of 6") && error.contains("one line"), "{error}");
+    let error = condense(&element, &nodes, &question(&[1, 2], &[3]))
+        .expect_err("a line")
+        .to_string();
+    assert!(
+        error.contains("5 of 6") && error.contains("one line"),
+        "{error}"
+    );
 }
 
 #[test]
