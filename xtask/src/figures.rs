@@ -442,6 +442,8 @@ fn golden(figures: &mut Vec<Figure>) -> Result<()> {
             "kinetostat-reproduce",
             "-p",
             "kinetostat-import",
+            "-p",
+            "kinetostat-links",
             "--",
             "--nocapture",
             "--test-threads=2",

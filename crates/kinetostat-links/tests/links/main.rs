@@ -3,13 +3,8 @@
 
 #![allow(clippy::print_stdout)] // figures
 
-mod beams;
-mod broken;
-mod calculix;
-mod displacements;
+mod figures;
 mod matrices;
-mod sections;
-mod superelements;
 
 use kinetostat_links::Text;
 use nalgebra::Matrix6;

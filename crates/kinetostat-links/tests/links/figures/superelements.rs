@@ -25,7 +25,7 @@ fn question(interface: &[u64], fixed: &[u64]) -> Question {
 }
 
 fn frame() -> (Text, Nodes, Superelement) {
-    let bulk = text("frame.bdf", include_str!("../data/frame.bdf"));
+    let bulk = text("frame.bdf", include_str!("../../data/frame.bdf"));
     let nodes = read_nodes(&bulk, n_mm()).expect("nodes");
     let element = read_superelement(&bulk, None, None).expect("matrix");
     (bulk, nodes, element)
@@ -62,7 +62,8 @@ fn a_space_frame_from_dmig_agrees_with_numpy() {
         ),
         (42, 7, "KAAX")
     );
-    let golden: Value = serde_json::from_str(include_str!("../data/frame.json")).expect("golden");
+    let golden: Value =
+        serde_json::from_str(include_str!("../../data/frame.json")).expect("golden");
     let rows = |name: &str| -> Vec<Vec<f64>> {
         serde_json::from_value(golden[name].clone()).expect("rows")
     };

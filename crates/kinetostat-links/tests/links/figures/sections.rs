@@ -89,7 +89,7 @@ fn areas_and_second_moments_are_those_of_the_shape() {
 #[test]
 fn torsion_and_shear_against_series_and_shear_flow() {
     let golden: Value =
-        serde_json::from_str(include_str!("../data/sections.json")).expect("golden");
+        serde_json::from_str(include_str!("../../data/sections.json")).expect("golden");
     let number = |name: &str| golden[name].as_f64().expect("number");
     let rectangle = Shape::Rectangle {
         width: 0.03,

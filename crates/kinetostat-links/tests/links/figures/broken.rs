@@ -270,7 +270,7 @@ proptest! {
     /// Whatever is cut out of or put into a good file, the readers answer or refuse.
     #[test]
     fn readers_never_panic(at in 0.0..1.0_f64, length in 0..60_usize, put in "[-+0-9eED.,;* \n\"a-zA-Z$é]{0,24}") {
-        let bulk: String = include_str!("../data/frame.bdf").lines().take(60).collect::<Vec<_>>().join("\n");
+        let bulk: String = include_str!("../../data/frame.bdf").lines().take(60).collect::<Vec<_>>().join("\n");
         let good = [
             rows(|_, _| None),
             displacement_table(|_, _| None),

@@ -11,7 +11,7 @@ const NU: f64 = 0.3;
 const L: f64 = 0.45;
 
 fn golden() -> Value {
-    serde_json::from_str(include_str!("../data/sections.json")).expect("golden")
+    serde_json::from_str(include_str!("../../data/sections.json")).expect("golden")
 }
 
 #[test]
