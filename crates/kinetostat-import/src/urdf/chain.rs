@@ -357,26 +357,24 @@ impl Plan<'_> {
     /// Masses that can be written now: fixed to the frame reached, or moved by joints that are known.
     fn masses(&self, here: usize, out: &mut Written, placed: &mut [bool]) {
         for link in 0..self.robot.links.len() {
-            if placed[link] {
+            let known = |f: &Follow| {
+                self.still(f).is_some() || f.variable.is_some_and(|v| out.defined.contains_key(&v))
+            };
+            if placed[link] || !self.tree.between(here, link, known) {
                 continue;
             }
+            placed[link] = true;
             let steps = self.tree.steps(self.robot, here, link);
             let moving = |s: &Step| match s {
                 Step::Move { follow, .. } => self.still(follow).is_none(),
                 _ => false,
             };
-            let known = |s: &Step| s.variable().is_none_or(|v| out.defined.contains_key(&v));
             match steps.iter().rposition(moving) {
                 None => {
-                    placed[link] = true;
                     let pose = product(&steps, Pose::identity(), self.home);
                     self.body(out, link, &pose);
                 }
-                Some(last) if steps.iter().filter(|s| moving(s)).all(known) => {
-                    placed[link] = true;
-                    self.excursion(out, link, &steps, last);
-                }
-                Some(_) => {}
+                Some(last) => self.excursion(out, link, &steps, last),
             }
         }
     }

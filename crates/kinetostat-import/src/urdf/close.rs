@@ -62,8 +62,9 @@ pub(crate) struct Free {
 
 /// Starts besides the given one, from which other assemblies are looked for.
 const STARTS: u64 = 40;
-/// Larger robots are closed from the given start only.
-const MOST_LINKS: usize = 100;
+/// Robots with more links or free joints are closed from the given start only.
+const MOST_LINKS: usize = 60;
+const MOST_FREE: usize = 24;
 
 /// Moves the `free` variables until all loops are closed; returns the distance (m) and the angle
 /// (rad) that stay open in the worst of them. Most loops close in several ways: joints stay within
@@ -98,7 +99,7 @@ pub(crate) fn close(
     let mut gap = search(robot, tree, base, closings, &variables, values);
     wrap(free, values);
     let mut best = (cost(values, gap), values.to_vec());
-    let starts = if robot.links.len() <= MOST_LINKS {
+    let starts = if robot.links.len() <= MOST_LINKS && free.len() <= MOST_FREE {
         STARTS
     } else {
         0

@@ -150,6 +150,26 @@ impl Tree {
         steps
     }
 
+    /// Whether `good` holds for what every joint between two links follows.
+    pub(crate) fn between(&self, from: usize, to: usize, good: impl Fn(&Follow) -> bool) -> bool {
+        let (mut a, mut b) = (from, to);
+        while a != b {
+            let lower = if self.depth[a] >= self.depth[b] {
+                &mut a
+            } else {
+                &mut b
+            };
+            let Some(joint) = self.above[*lower] else {
+                return true;
+            };
+            if !good(&self.follows[joint]) {
+                return false;
+            }
+            *lower = self.ends[joint].0;
+        }
+        true
+    }
+
     /// Offset and motion of a joint, parent to child.
     pub(crate) fn joint_steps(&self, robot: &Robot, index: usize) -> Vec<Step> {
         let joint = &robot.joints[index];

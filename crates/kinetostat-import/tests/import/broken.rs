@@ -585,3 +585,83 @@ fn loop_files_that_are_wrong() {
         assert!(said.contains(needle), "{needle}: {said}");
     }
 }
+
+#[test]
+fn a_long_chain_is_imported_in_reasonable_time() {
+    let mut text = String::from("<robot name='snake'><link name='l0'/>");
+    for i in 1..400 {
+        let before = i - 1;
+        text.push_str(&format!(
+            "<link name='l{i}'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>
+             <joint name='j{i}' type='continuous'><origin xyz='0.1 0 0'/><parent link='l{before}'/><child link='l{i}'/><axis xyz='0 1 0'/></joint>
+             <link name='s{i}'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>
+             <joint name='k{i}' type='fixed'><origin xyz='0 0.1 0'/><parent link='l{i}'/><child link='s{i}'/></joint>"
+        ));
+    }
+    text.push_str("</robot>");
+    let clock = Instant::now();
+    let imported = import_urdf(&text, "snake.urdf", &between("l0", "l399")).unwrap();
+    assert_eq!(
+        (imported.actuators.len(), imported.bodies.len()),
+        (399, 798)
+    );
+    println!("399 joints: {:.1} s", clock.elapsed().as_secs_f64());
+}
+
+#[test]
+fn damaged_files_never_panic() {
+    let mut random = crate::Random::new(3);
+    let mut below = |n: usize| (0.5 * (random.number() + 1.0) * n as f64) as usize;
+    let (mut imported, mut refused) = (0, 0);
+    let snippets = [
+        "",
+        "\"",
+        "<",
+        ">",
+        "/",
+        "nan",
+        "-1",
+        "1e300",
+        "0",
+        "tool",
+        "base",
+        "fixed",
+        "floating",
+        "<mimic joint=\"lift\"/>",
+        "<limit lower=\"1\" upper=\"1\"/>",
+        "&amp;",
+        "\u{fffd}",
+        "prismatic",
+    ];
+    for round in 0..4000 {
+        let original = if round % 2 == 0 {
+            GOOD
+        } else {
+            crate::agreement::TREE
+        };
+        let tip = if round % 2 == 0 { "tool" } else { "hand" };
+        let mut text: Vec<char> = original.chars().collect();
+        for _ in 0..=below(2) {
+            let start = below(text.len());
+            let end = (start + below(12)).min(text.len());
+            let piece = snippets[below(snippets.len())];
+            text.splice(start..end, piece.chars());
+        }
+        let text: String = text.into_iter().collect();
+        let options = UrdfOptions {
+            tip: Some(tip.into()),
+            ..UrdfOptions::default()
+        };
+        match import_urdf(&text, "damaged.urdf", &options) {
+            Ok(_) => imported += 1,
+            Err(e) => {
+                refused += 1;
+                let said = e.to_string();
+                assert!(!said.contains("please report"), "{text}\n{said}");
+                assert!(!said.contains("the imported model"), "{text}\n{said}");
+            }
+        }
+    }
+    println!("{imported} imported, {refused} refused");
+    assert!(imported > 100 && refused > 100);
+}
