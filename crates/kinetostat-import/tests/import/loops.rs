@@ -6,6 +6,8 @@ use kinetostat::{LimbPosture, MechanismEquilibrium, Wrench};
 use kinetostat_import::{Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf};
 use kinetostat_model::schema::{Section, Tube};
 
+use nalgebra::Vector3;
+
 use crate::{figure_at_most, import, notices};
 
 fn link(name: &str, centre: [f64; 3], mass: f64) -> String {
@@ -221,8 +223,9 @@ fn the_constraint_element_says_the_same_as_the_loop_file() {
     assert!(said.contains("passive = [...]"), "{said}");
 }
 
-/// Torques and forces of the drives that hold the weights, by virtual work in the plane of the arm.
-fn held_by_hand(imported: &Imported) -> [f64; 2] {
+/// Torques and forces of the drives that hold the weights, by virtual work in the plane of the arm; and
+/// how far the flange rises per motion of crank and screw (m/rad, 1).
+fn held_by_hand(imported: &Imported) -> ([f64; 2], [f64; 2]) {
     let g = 9.81;
     // At home the parallelogram is exact: lower arm and bar upright, crank and upper arm level up to
     // the angle of the shoulder that the screw sets. All of it from the home values of the model.
@@ -271,7 +274,8 @@ fn held_by_hand(imported: &Imported) -> [f64; 2] {
     let rod_turn = 30.0 * rise(foot, [0.4 + screw + 0.2, 0.0]);
     let rod_slide = 30.0 * ez;
     let work_screw = (work_lower + (cylinder + rod_turn) * turn_rate + rod_slide * along) / along;
-    [-g * work_crank, -g * work_screw]
+    let flange = [rise(upper, [1.65, 0.2]), rise(lower, [0.0, 1.3]) / along];
+    ([-g * work_crank, -g * work_screw], flange)
 }
 
 #[test]
@@ -290,7 +294,7 @@ fn figure_drives_of_the_heavy_arm_hold_its_weight() {
     let forces = found.actuator_forces();
     let names = imported.model.mechanism.actuator_names();
     let force = |name: &str| forces[names.iter().position(|n| n.contains(name)).unwrap()];
-    let [crank, screw] = held_by_hand(&imported);
+    let ([crank, screw], _) = held_by_hand(&imported);
     println!("{names:?} {forces:?}; by hand: crank {crank}, screw {screw}");
     let worst = ((force("crank") - crank) / crank)
         .abs()
@@ -376,4 +380,29 @@ fn a_parallel_machine_answers_for_poses() {
     let mut values = posture.commands();
     values.sort_by(f64::total_cmp);
     assert!((values[0] + 1.9).abs() < 1e-9 && (values[1] + 1.2).abs() < 1e-9);
+}
+
+#[test]
+fn figure_the_heavy_arm_gives_way_through_its_loops() {
+    // Links a million times as stiff as steel: what the flange sinks under a force is what crank, screw and wrist give way.
+    let mut soft = options();
+    if let Some(section) = &mut soft.section {
+        section.youngs_modulus_gpa = Some(2.1e8);
+    }
+    // Hardly any weight, so that none of it turns with the arm.
+    let light = heavy().replace("<mass value='", "<mass value='0.000000");
+    let imported = import(&light, &soft);
+    let sunk = |force: f64| {
+        let wrench = Wrench::new(Vector3::z() * force, Vector3::zeros());
+        at_home(&imported, &wrench).displacement.linear().z
+    };
+    let compliance = (sunk(1.0) - sunk(-1.0)) / 2.0;
+    let (_, [crank, screw]) = held_by_hand(&imported);
+    let by_hand = crank.powi(2) / 4e6 + screw.powi(2) / 2e8 + 0.25_f64.powi(2) / 1e6;
+    figure_at_most(
+        "URDF with loops: compliance of the flange against springs by hand",
+        (compliance / by_hand - 1.0).abs(),
+        1e-6,
+        "relative",
+    );
 }
