@@ -35,11 +35,16 @@ fn chains(c: &mut Criterion) {
             group.bench_function(BenchmarkId::new("stiffness", count), |b| {
                 b.iter(|| unloaded_stiffness(black_box(&chain), &Pose::identity(), &x, &[]));
             });
-            for (label, asked) in [
-                ("equilibrium under a force", long::Asked::Force),
-                ("equilibrium of a held end", long::Asked::Pose),
+            let bent = long::soft_cantilever(count);
+            for (label, chain, asked) in [
+                ("equilibrium under a force", &chain, long::Asked::Force),
+                ("equilibrium of a held end", &chain, long::Asked::Pose),
+                ("equilibrium bent far", &bent, long::Asked::BentFar),
             ] {
-                let problem = long::problem(&chain, asked);
+                if asked == long::Asked::BentFar && name != "cantilever" {
+                    continue;
+                }
+                let problem = long::problem(chain, asked);
                 group.bench_function(BenchmarkId::new(label, count), |b| {
                     b.iter(|| solve_chain(black_box(&problem), &settings));
                 });

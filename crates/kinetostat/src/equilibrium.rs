@@ -28,7 +28,7 @@ use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, pose_residual};
 use crate::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
-use crate::sweep::{Form, Path, turned_rows};
+use crate::sweep::{Form, Path, Sweep, turned_rows};
 use crate::sweep_solve::{Bordered, END_SPRINGS, EndRows};
 pub(crate) use crate::system::{System, balance};
 
@@ -188,6 +188,12 @@ pub(crate) struct Balance {
     pub loads: f64,
 }
 
+/// A factored linearisation of one state.
+enum Tangent<'s> {
+    Swept(Box<Bordered<'s>>),
+    Dense(Saddle),
+}
+
 /// State of the chain iteration.
 struct Attempt<'p, 'a> {
     problem: &'p ChainProblem<'a>,
@@ -285,9 +291,8 @@ impl Attempt<'_, '_> {
         (some && near).then(|| turned_rows(&rotation_rate(&self.turned)))
     }
 
-    /// Correction of wrench (6) and coordinates (n); `None` if a sweep loses a pivot.
-    fn swept_step(&self, rows: &Vector6<f64>, with_hessian: bool) -> Option<Vec<f64>> {
-        let sweep = self.system.sweep.as_ref()?;
+    /// Rows of the end condition over motion and wrench of the end, base axes.
+    fn end_matrices(&self) -> EndRows {
         let end = &self.problem.end;
         let turn = crate::spatial::turn_matrix(&end.axes).transpose();
         let motion = turn * self.closure_rate().unwrap_or_else(Matrix6::identity);
@@ -295,55 +300,87 @@ impl Attempt<'_, '_> {
             motion: Matrix6::zeros(),
             wrench: Matrix6::zeros(),
         };
-        let mut right = Vector6::zeros();
         // Three directions of one kind have one unit, so that turned axes stay balanced.
         for k in 0..6 {
             if end.prescribed[k] == Prescribed::Pose {
                 held.motion.set_row(k, &motion.row(k));
-                right[k] = rows[k] * self.factors[k];
             } else {
                 held.wrench.set_row(k, &turn.row(k));
-                right[k] = rows[k] / self.factors[k];
             }
         }
-        let form = if with_hessian {
-            Form::Exact
-        } else {
-            Form::Lagged
-        };
-        let n = self.system.spring_torque.len();
-        let torque: Vec<f64> = (0..n)
-            .map(|i| -self.system.unbalanced(i) * self.factors[6 + i])
-            .collect();
-        // A pivot may be lost by accident far from equilibrium: not with every spring at the end.
-        let (wrench, x) = END_SPRINGS
-            .into_iter()
-            .find_map(|share| Bordered::new(sweep, form, held, share)?.solve(&torque, &right))?;
-        let balanced = wrench.iter().chain(&x);
-        let step = balanced.zip(&self.factors).map(|(v, f)| v * f).collect();
-        Some(step)
+        held
     }
 
-    /// Correction of wrench (6) and coordinates (n) at `(x, wrench)`, where the system was evaluated.
-    fn step(
+    /// Correction by one linearisation for what lacks at the state evaluated last: wrench (6) and
+    /// coordinates (n). `None` if a sweep lost a pivot.
+    fn correction(&self, tangent: &Tangent<'_>, rows: &Vector6<f64>) -> Option<Vec<f64>> {
+        let n = self.system.spring_torque.len();
+        match tangent {
+            Tangent::Swept(bordered) => {
+                let right = Vector6::from_fn(|k, _| match self.problem.end.prescribed[k] {
+                    Prescribed::Pose => rows[k] * self.factors[k],
+                    Prescribed::Wrench => rows[k] / self.factors[k],
+                });
+                let torque: Vec<f64> = (0..n)
+                    .map(|i| -self.system.unbalanced(i) * self.factors[6 + i])
+                    .collect();
+                let (wrench, x) = bordered.solve(&torque, &right)?;
+                let balanced = wrench.iter().chain(&x);
+                Some(balanced.zip(&self.factors).map(|(v, f)| v * f).collect())
+            }
+            Tangent::Dense(saddle) => Some(self.dense_correction(saddle, rows)),
+        }
+    }
+
+    fn dense_correction(&self, saddle: &Saddle, rows: &Vector6<f64>) -> Vec<f64> {
+        let n = self.system.spring_torque.len();
+        let mut b = DMatrix::zeros(6 + n, 1);
+        for k in 0..6 {
+            b[(k, 0)] = rows[k];
+        }
+        for i in 0..n {
+            b[(6 + i, 0)] = -self.system.unbalanced(i);
+        }
+        saddle.solve(&mut b);
+        b.as_slice().to_vec()
+    }
+
+    /// The linearisation at `(x, wrench)`, where the system was evaluated, and its correction.
+    /// `held` keeps the stages while others are tried.
+    fn linearised<'s>(
         &mut self,
+        held: Option<&'s Sweep>,
         rows: &Vector6<f64>,
         with_hessian: bool,
         x: &[f64],
         wrench: &Wrench,
         share: f64,
-    ) -> Vec<f64> {
-        if self.system.sweep.is_some() {
-            if let Some(step) = self.swept_step(rows, with_hessian) {
-                return step;
+    ) -> (Tangent<'s>, Vec<f64>) {
+        if let Some(sweep) = held {
+            let form = if with_hessian {
+                Form::Exact
+            } else {
+                Form::Lagged
+            };
+            let ends = self.end_matrices();
+            // A pivot may be lost by accident far from equilibrium: not with every spring at the end.
+            let found = END_SPRINGS.into_iter().find_map(|spring| {
+                let tangent = Tangent::Swept(Box::new(Bordered::new(sweep, form, ends, spring)?));
+                let step = self.correction(&tangent, rows)?;
+                Some((tangent, step))
+            });
+            if let Some(found) = found {
+                return found;
             }
             self.system.make_dense();
             self.evaluate_system(x, wrench, share);
         }
-        self.dense_step(rows, with_hessian)
+        let saddle = self.dense_tangent(with_hessian);
+        let step = self.dense_correction(&saddle, rows);
+        (Tangent::Dense(saddle), step)
     }
 
-    fn dense_step(&self, rows: &Vector6<f64>, with_hessian: bool) -> Vec<f64> {
+    fn dense_tangent(&self, with_hessian: bool) -> Saddle {
         let n = self.system.spring_torque.len();
         let end = &self.problem.end;
         let mut a = self.system.bordered(with_hessian);
@@ -353,9 +390,7 @@ impl Attempt<'_, '_> {
             None => turn.transpose() * &self.system.jacobian,
         };
         let mut row_scale = self.factors.clone();
-        let mut b = DMatrix::zeros(6 + n, 1);
         for k in 0..6 {
-            b[(k, 0)] = rows[k];
             match end.prescribed[k] {
                 Prescribed::Pose => {
                     for j in 0..n {
@@ -373,21 +408,37 @@ impl Attempt<'_, '_> {
                 }
             }
         }
-        for i in 0..n {
-            b[(6 + i, 0)] = -self.system.unbalanced(i);
-        }
-        Saddle::new(a, &row_scale, &self.factors).solve(&mut b);
-        b.as_slice().to_vec()
+        Saddle::new(a, &row_scale, &self.factors)
+    }
+
+    /// Size of the motion in a correction: root of the sum of squares of turns (rad) and slides (in
+    /// natural lengths). Forces do not count: they are as stiff as the stiffest spring.
+    fn extent(&self, step: impl Iterator<Item = f64>) -> f64 {
+        let length = self.problem.chain.scale().length;
+        let own = self.problem.chain.coordinates().iter().zip(step.skip(6));
+        own.map(|(c, dx)| match c.kind {
+            MotionKind::Revolute => dx * dx,
+            MotionKind::Prismatic => (dx / length).powi(2),
+        })
+        .sum::<f64>()
+        .sqrt()
     }
 
     /// Newton from `(x, wrench)` at one share of the load; updates them. Returns iterations and the
     /// last residual, `Err` if it did not converge.
+    ///
+    /// Steps are judged by motion, not by residual: after a share `l` of the step `d`, the same
+    /// linearisation wants `(1 - l) d` more if it still holds. What it wants otherwise may be at
+    /// most `l / 2` of `d` (Deuflhard, Newton Methods for Nonlinear Problems, 3.3: restricted natural
+    /// monotonicity). Residuals would mislead: in a beam of many segments, a bend and the stretch
+    /// that goes with it to second order are a small motion and a huge force, so the more segments,
+    /// the shorter the steps.
     fn newton(
         &mut self,
         x: &mut [f64],
         wrench: &mut Wrench,
         share: f64,
-        picard: usize,
+        mut picard: usize,
     ) -> std::result::Result<(usize, Balance), (usize, Balance)> {
         let (mut closure, mut lack) = self.evaluate(x, wrench, share);
         let mut rows = self.end_rows(&closure, &lack);
@@ -397,10 +448,13 @@ impl Attempt<'_, '_> {
             if self.converged(&now) && iteration > 0 {
                 return Ok((iteration, now));
             }
-            let step = self.step(&rows, iteration >= picard, x, wrench, share);
+            let held = self.system.sweep.clone();
+            let exact = iteration >= picard;
+            let (tangent, step) = self.linearised(held.as_deref(), &rows, exact, x, wrench, share);
             if step.iter().any(|v| !v.is_finite()) {
                 return Err((iteration, now));
             }
+            let extent = self.extent(step.iter().copied());
             let own = step.iter().zip(&self.factors).skip(6);
             let size = own.map(|(v, f)| (v / f).powi(2)).sum::<f64>().sqrt();
             self.corrections = [size, self.corrections[0]];
@@ -418,15 +472,40 @@ impl Attempt<'_, '_> {
                 (closure, lack) = self.evaluate(x, wrench, share);
                 rows = self.end_rows(&closure, &lack);
                 now = self.measure(&rows, wrench);
-                let better =
-                    now.closure.powi(2) + now.torque.powi(2) <= merit * (1.0 - 0.1 * length);
-                // The report's step is allowed to trade closure for torque.
-                if better || iteration < picard || self.converged(&now) {
+                // The report's own steps are taken as they are, but for the last one, which leads
+                // over to Newton.
+                if self.converged(&now) || iteration + 1 < picard {
                     break;
                 }
-                length *= 0.5;
+                // Near the end both corrections are rounding.
+                let better =
+                    now.closure.powi(2) + now.torque.powi(2) <= merit * (1.0 - 0.1 * length);
+                if better && extent < 1e-6 {
+                    break;
+                }
+                let bent = self
+                    .correction(&tangent, &rows)
+                    .map_or(f64::INFINITY, |again| {
+                        let off = again.iter().zip(&step);
+                        self.extent(off.map(|(a, s)| a - (1.0 - length) * s))
+                    });
+                if bent <= 0.5 * length * extent {
+                    break;
+                }
+                let wanted = 0.5 * length * length * extent / bent;
+                length = wanted.max(0.1 * length).min(0.5 * length);
                 if length < 1e-3 {
-                    return Err((iteration, now));
+                    if iteration >= picard {
+                        return Err((iteration, now));
+                    }
+                    // Loads lagged lead nowhere from here: Newton at once.
+                    picard = 0;
+                    x.copy_from_slice(&x0);
+                    *wrench = w0;
+                    (closure, lack) = self.evaluate(x, wrench, share);
+                    rows = self.end_rows(&closure, &lack);
+                    now = self.measure(&rows, wrench);
+                    break;
                 }
             }
         }

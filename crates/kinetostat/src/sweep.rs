@@ -121,6 +121,7 @@ impl Form {
 }
 
 /// A chain at one state, stage by stage.
+#[derive(Clone)]
 pub(crate) struct Sweep {
     pub stages: Vec<Stage>,
     /// Per node: number of stages nearer the base.

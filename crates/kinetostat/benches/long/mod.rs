@@ -15,6 +15,23 @@ pub fn cantilever(coordinates: usize) -> Chain {
         .expect("a cantilever can be built")
 }
 
+/// The same of a rod so slender that it bends by the size of its length: `EI = 1`, `EA L^2 / EI = 1e6`.
+pub fn soft_cantilever(coordinates: usize) -> Chain {
+    let rod = BeamSection {
+        youngs_modulus: 1.0,
+        shear_modulus: 0.4,
+        area: 1e6,
+        second_moment_y: 1.0,
+        second_moment_z: 1.0,
+        torsion_constant: 0.8,
+    };
+    let link = LinkSpec::beam(rod, 1.0).segments(coordinates.div_ceil(6));
+    Chain::builder("soft cantilever")
+        .link_with("rod", &link)
+        .build()
+        .expect("a cantilever can be built")
+}
+
 /// Serial arm of 1 m along a helix: elastic joints one after the other, axes in all directions.
 #[allow(clippy::cast_precision_loss)]
 pub fn arm(coordinates: usize) -> Chain {
@@ -45,6 +62,8 @@ pub enum Asked {
     Pose,
     /// Two directions held, four under a force.
     Mixed,
+    /// A dead force of 10 N across: ten times `EI / L^2` of the soft cantilever.
+    BentFar,
 }
 
 /// The chain with a load or motion of its end by some hundredths of its length.
@@ -55,11 +74,17 @@ pub fn problem(chain: &Chain, asked: Asked) -> ChainProblem<'_> {
         &chain.home_coordinates(),
         &chain.home_commands(),
     );
-    let force = Wrench::new(vector![-400.0, 900.0, 300.0], vector![0.0, 0.0, 0.0]);
+    let force = if asked == Asked::BentFar {
+        vector![0.0, 10.0, 0.0]
+    } else {
+        vector![-400.0, 900.0, 300.0]
+    };
+    let force = Wrench::new(force, Vector3::zeros());
     let mut end = EndCondition::pose(Pose::translation(-0.0012, 0.04, 0.02) * start);
     end.wrench = force;
     for k in 0..6 {
-        let free = asked == Asked::Force || (asked == Asked::Mixed && k != 1 && k != 2);
+        let free = matches!(asked, Asked::Force | Asked::BentFar)
+            || (asked == Asked::Mixed && k != 1 && k != 2);
         if free {
             end.prescribed[k] = Prescribed::Wrench;
         }

@@ -384,3 +384,62 @@ fn absurd_questions_to_long_chains_end_in_words() {
     }
     println!("{answered} answered, {refused} refused");
 }
+
+/// Cantilever of unit bending stiffness and length, `EA L^2 / EI = 1e6`.
+fn slender(segments: usize) -> Chain {
+    let rod = BeamSection {
+        youngs_modulus: 1.0,
+        shear_modulus: 0.4,
+        area: 1e6,
+        second_moment_y: 1.0,
+        second_moment_z: 1.0,
+        torsion_constant: 0.8,
+    };
+    Chain::builder("rod")
+        .link_with("rod", &LinkSpec::beam(rod, 1.0).segments(segments))
+        .build()
+        .unwrap()
+}
+
+#[test]
+fn iterations_do_not_grow_with_the_number_of_segments() {
+    // Loads on the tip from moderate to far beyond anything linear, in a plane and in space.
+    let across = |p: f64| Wrench::new(vector![0.0, p, 0.0], Vector3::zeros());
+    let askew = |p: f64| {
+        Wrench::new(
+            vector![0.1, 0.8, 0.6] * p,
+            vector![0.3, -0.1, 0.2] * p.sqrt(),
+        )
+    };
+    let turn = std::f64::consts::TAU;
+    let rolled = |share: f64| Wrench::new(Vector3::zeros(), vector![0.0, 0.0, share * turn]);
+    for (wrench, most) in [
+        (across(1.0), 4),
+        (across(10.0), 6),
+        (across(100.0), 11),
+        (askew(1.0), 4),
+        (askew(10.0), 8),
+        (askew(100.0), 14),
+        (rolled(0.5), 2),
+        (rolled(0.99), 2),
+    ] {
+        let solved = [8, 32, 128, 256].map(|segments| {
+            let chain = slender(segments);
+            let problem = ChainProblem::new(&chain, EndCondition::wrench(wrench));
+            let e = solve_chain(&problem, &Settings::default()).unwrap();
+            assert!(e.residual.torque < 1e-9, "{segments}: {:?}", e.residual);
+            assert!(e.stability.stable, "{segments}");
+            (e.residual.iterations, e.tip.translation.vector)
+        });
+        println!("{:?}: {:?}", wrench.0, solved.map(|s| s.0));
+        assert!(solved.iter().all(|s| s.0 <= most), "{wrench:?}: {solved:?}");
+        // All on one branch.
+        let end = solved[3].1;
+        assert!(solved[1..].iter().all(|s| (s.1 - end).norm() < 5e-4));
+    }
+    // Published elastica, P L^2 / EI = 10.
+    let chain = slender(256);
+    let problem = ChainProblem::new(&chain, EndCondition::wrench(across(10.0)));
+    let e = solve_chain(&problem, &Settings::default()).unwrap();
+    assert!((e.tip.translation.vector.y - 0.810_609_024_880).abs() < 1e-4);
+}
