@@ -200,6 +200,8 @@ struct Attempt<'p, 'a> {
     settings: &'p Settings,
     factors: Vec<f64>,
     system: System,
+    /// Stages that are not needed at the moment.
+    spare: Option<Box<Sweep>>,
     /// Closure at the start, kept while the load grows.
     offset: Twist,
     /// Rotation (vector, rad) that the end lacks.
@@ -448,7 +450,9 @@ impl Attempt<'_, '_> {
             if self.converged(&now) && iteration > 0 {
                 return Ok((iteration, now));
             }
-            let held = self.system.sweep.clone();
+            // Trials are evaluated elsewhere, for the linearisation refers to this state's stages.
+            let other = self.spare.take().or_else(|| self.system.sweep.clone());
+            let held = std::mem::replace(&mut self.system.sweep, other);
             let exact = iteration >= picard;
             let (tangent, step) = self.linearised(held.as_deref(), &rows, exact, x, wrench, share);
             if step.iter().any(|v| !v.is_finite()) {
@@ -508,6 +512,7 @@ impl Attempt<'_, '_> {
                     break;
                 }
             }
+            self.spare = held;
         }
         if self.converged(&now) {
             Ok((self.settings.iterations, now))
@@ -567,6 +572,7 @@ pub(crate) fn solve_along(
             path,
         ),
         factors,
+        spare: None,
         offset: Twist::zero(),
         turned: Vector3::zeros(),
         corrections: [0.0; 2],
