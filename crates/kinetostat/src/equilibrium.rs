@@ -432,9 +432,9 @@ impl Attempt<'_, '_> {
     /// Steps are judged by motion, not by residual: after a share `l` of the step `d`, the same
     /// linearisation wants `(1 - l) d` more if it still holds. What it wants otherwise may be at
     /// most `l / 2` of `d` (Deuflhard, Newton Methods for Nonlinear Problems, 3.3: restricted natural
-    /// monotonicity). Residuals would mislead: in a beam of many segments, a bend and the stretch
-    /// that goes with it to second order are a small motion and a huge force, so the more segments,
-    /// the shorter the steps.
+    /// monotonicity). Residuals mislead: a load that lacks is weighed against the chain's natural
+    /// stiffness, which grows with the number of segments, what bending changes to second order is
+    /// not. So the more segments, the shorter the steps would be.
     fn newton(
         &mut self,
         x: &mut [f64],
