@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgAction, Args, Parser, Subcommand};
 
 use crate::curve_args::{CurveArgs, EquilibriaArgs};
+use crate::import_link_args::{DisplacementsArgs, MatrixArgs};
 use crate::job::{Axes, BlockDeleteWord, UnitsWord};
 
 pub(crate) const EXIT_CODES: &str = "\
@@ -185,7 +186,7 @@ pub(crate) struct CheckArgs {
     pub(crate) json: bool,
 }
 
-/// A model file from another program's description of a robot
+/// A model file from another program's description of a robot, or a link's stiffness for one
 #[derive(Debug, Args)]
 pub(crate) struct ImportArgs {
     #[command(subcommand)]
@@ -195,6 +196,8 @@ pub(crate) struct ImportArgs {
 #[derive(Debug, Subcommand)]
 pub(crate) enum ImportAction {
     Urdf(UrdfArgs),
+    Matrix(MatrixArgs),
+    LinkDisplacements(DisplacementsArgs),
 }
 
 /// A model file from a URDF

@@ -11,6 +11,7 @@ use serde::Serialize;
 use crate::along;
 use crate::args::{ImportAction, ImportArgs, UrdfArgs};
 use crate::failure::{Answer, Failure};
+use crate::import_link;
 use crate::output::{Existing, Outputs};
 use crate::screen::{self, Stream, item, listed, wrapped};
 
@@ -55,6 +56,8 @@ struct Notice<'a> {
 pub(crate) fn run(args: &ImportArgs) -> Answer<()> {
     match &args.action {
         ImportAction::Urdf(args) => urdf(args),
+        ImportAction::Matrix(args) => import_link::matrix(args),
+        ImportAction::LinkDisplacements(args) => import_link::displacements(args),
     }
 }
 

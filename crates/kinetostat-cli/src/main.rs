@@ -27,6 +27,8 @@ mod equilibria_answer;
 mod equilibria_table;
 mod failure;
 mod import;
+mod import_link;
+mod import_link_args;
 mod input;
 mod job;
 mod machine;
