@@ -184,10 +184,6 @@ fn what_is_no_stiffness_is_refused_with_the_way_out() {
     );
     let pairs: String = (1..=6).map(|d| format!("1,{d},1,{d},5.0\n")).collect();
     write("k.mtx", &pairs);
-    write(
-        "soft.csv",
-        &good.replace("\nx,", "\n x,").replace("n_mm", "n_mm"),
-    );
     let lines = [
         ("import matrix absent.csv", "does not exist"),
         ("import matrix k.mtx", "--interface"),
