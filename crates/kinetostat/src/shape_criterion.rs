@@ -11,10 +11,10 @@
 use nalgebra::DMatrix;
 
 use crate::chain::MotionKind;
-use crate::equilibrium::{ChainProblem, Equilibrium, Prescribed, System, balance};
+use crate::equilibrium::{ChainProblem, Equilibrium, Prescribed, System};
 use crate::error::{Error, Result};
 use crate::saddle::{column_space, complement};
-use crate::stiffness::{balanced_jacobian, passive_null_space};
+use crate::stability::neutral_motions;
 
 /// `S_c` with the basis it is written in.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,24 +135,22 @@ pub fn shape_criterion(
             rows[(row, j)] = value * unit[j];
         }
     }
-    let mut taken_out = rows.transpose() * column_space(&rows);
-    let mut neutral = 0;
-    if !equilibrium.stability.neutral.is_empty() {
-        let factors = balance(chain, &problem.posture);
-        let mut spin = passive_null_space(chain, &balanced_jacobian(&system, &factors));
-        for j in 0..n {
-            let to_unit = factors[6 + j] / unit[j];
-            spin.row_mut(j).iter_mut().for_each(|x| *x *= to_unit);
-        }
-        neutral = spin.ncols();
-        let first = taken_out.ncols();
-        taken_out = taken_out.resize_horizontally(first + neutral, 0.0);
-        taken_out.columns_mut(first, neutral).copy_from(&spin);
-    }
+    let hessian = DMatrix::from_fn(n, n, |i, j| {
+        0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * unit[i] * unit[j]
+    });
+    let rows = column_space(&rows).transpose() * rows;
+    let spin = neutral_motions(chain, &rows, &rows, &hessian);
+    let neutral = spin.ncols();
+    let mut taken_out = DMatrix::zeros(n, rows.nrows() + neutral);
+    taken_out
+        .columns_mut(0, rows.nrows())
+        .copy_from(&rows.transpose());
+    taken_out
+        .columns_mut(rows.nrows(), neutral)
+        .copy_from(&spin);
     let basis = complement(&taken_out);
     let tangent = DMatrix::from_fn(n, n, |i, j| {
-        let h = 0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]);
-        (h - system.spring_tangent[(i, j)]) * unit[i] * unit[j]
+        hessian[(i, j)] - system.spring_tangent[(i, j)] * unit[i] * unit[j]
     });
     let matrix = basis.transpose() * tangent * &basis;
     // No inner freedom, no eigenvalue; the iteration for them takes no empty matrix.

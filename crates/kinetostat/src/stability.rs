@@ -159,17 +159,13 @@ pub(crate) fn stability_within(
         .copy_from(&(&hessian - &springs));
     let inertia = inertia(bordered);
 
-    // Neutral passive motions leave the verdict unless a load pushes them.
-    let passive = passive_null_space(chain, jacobian);
-    let pushed = (passive.transpose() * &hessian * &passive).amax();
-    let neutral = passive.ncols() > 0 && pushed <= 1e-9 * hessian.amax().max(f64::MIN_POSITIVE);
-    let mut taken_out = DMatrix::zeros(n, rank + if neutral { passive.ncols() } else { 0 });
+    // Neutral passive motions leave the verdict.
+    let neutral = neutral_motions(chain, jacobian, &rows, &hessian);
+    let mut taken_out = DMatrix::zeros(n, rank + neutral.ncols());
     taken_out.columns_mut(0, rank).copy_from(&rows.transpose());
-    if neutral {
-        taken_out
-            .columns_mut(rank, passive.ncols())
-            .copy_from(&passive);
-    }
+    taken_out
+        .columns_mut(rank, neutral.ncols())
+        .copy_from(&neutral);
     let null = complement(&taken_out);
     let a = null.transpose() * &hessian * &null;
     let b = null.transpose() * &springs * &null;
@@ -183,13 +179,36 @@ pub(crate) fn stability_within(
         inertia,
         margin,
         mode,
-        neutral: if neutral {
-            names_in(chain, &passive)
-        } else {
-            Vec::new()
-        },
+        neutral: names_in(chain, &neutral),
     }
 }
+
+/// Orthonormal motions of passive joints alone that move nothing that is held and that the loads
+/// neither hold nor push (the spin of a strut, a hinge at a loaded tip), n x k, balanced: those
+/// passive null motions `v` for which `N^T H v = 0` with all null motions `N`. Others of the same
+/// joints may be held or pushed and stay in the verdict. `rows` are independent rows of `jacobian`.
+pub(crate) fn neutral_motions(
+    chain: &Chain,
+    jacobian: &DMatrix<f64>,
+    rows: &DMatrix<f64>,
+    hessian: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let passive = passive_null_space(chain, jacobian);
+    if passive.ncols() == 0 {
+        return passive;
+    }
+    let null = complement(&rows.transpose());
+    let pushed = null.transpose() * hessian * &passive;
+    let gram = (pushed.transpose() * &pushed).symmetric_eigen();
+    let most = NEUTRAL * hessian.amax();
+    let free: Vec<usize> = (0..passive.ncols())
+        .filter(|&k| gram.eigenvalues[k] <= most * most)
+        .collect();
+    passive * gram.eigenvectors.select_columns(&free)
+}
+
+/// Share of the largest entry of the loads' Hessian that counts as nothing.
+const NEUTRAL: f64 = 1e-7;
 
 /// Largest eigenvalue of the pencil `a v = mu b v`, `b` positive semi-definite, and its vector.
 pub(crate) fn margin(a: &DMatrix<f64>, b: &DMatrix<f64>) -> (Option<f64>, Option<DVector<f64>>) {

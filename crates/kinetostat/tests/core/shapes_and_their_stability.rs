@@ -114,6 +114,71 @@ fn pressed(chain: &Chain, x: f64, p: f64) -> ChainProblem<'_> {
     ChainProblem::new(chain, end)
 }
 
+/// A passive motion that nothing pushes is taken out although others of the same joints are held by
+/// the load: spin of a hanging ball, a hinge at a pulled tip, spin of a strut between two balls.
+#[test]
+fn what_is_neutral_is_taken_out_beside_what_the_load_holds() {
+    let z = Vector3::z();
+    let pendulum = Chain::builder("pendulum")
+        .passive_spherical("ball")
+        .spring("stretch", MotionKind::Prismatic, z, 1e5, 0.0)
+        .translation(vector![0.0, 0.0, -1.0])
+        .build()
+        .unwrap();
+    let pulled = Chain::builder("pulled")
+        .passive("q", MotionKind::Revolute, z, 0.0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .spring("t", MotionKind::Revolute, z, 10.0, 0.0)
+        .translation(vector![1.0, 0.0, 0.0])
+        .passive("e", MotionKind::Revolute, z, 0.0)
+        .build()
+        .unwrap();
+    let rod = kinetostat::LinkSpec::beam(BeamSection::tube(2.1e11, 8.1e10, 0.02, 0.0), 1.0);
+    let strut = Chain::builder("strut")
+        .passive_spherical("a")
+        .link_with("rod", &rod.segments(4))
+        .passive_spherical("b")
+        .build()
+        .unwrap();
+    // Everything free: all of it hangs on the load.
+    for (chain, force) in [
+        (&pendulum, vector![0.0, 0.0, -100.0]),
+        (&pulled, vector![5.0, 0.0, 0.0]),
+        (&strut, vector![8000.0, 0.0, 0.0]),
+    ] {
+        let end = EndCondition::wrench(Wrench::new(force, Vector3::zeros()));
+        let problem = ChainProblem::new(chain, end);
+        let search = kinetostat::SearchSettings {
+            fruitless: 30,
+            starts: 60,
+            ..Default::default()
+        };
+        let bounds = kinetostat::Bounds::of(chain);
+        let all = kinetostat::equilibria(&problem, &bounds, &search).unwrap();
+        let lowest = &all.found[0];
+        assert!(lowest.stable, "{}: the lowest must be stable", chain.name());
+        let criterion = kinetostat::shape_criterion(&problem, &lowest.equilibrium, 1.0).unwrap();
+        let own = &criterion.eigenvalues;
+        assert!(criterion.neutral > 0, "{}: {own:?}", chain.name());
+        assert!(criterion.holds(), "{}: {own:?}", chain.name());
+    }
+    // Held in place, free to turn, pressed below and above Euler's load.
+    let section = BeamSection::tube(2.1e11, 8.1e10, 0.02, 0.0);
+    let euler = std::f64::consts::PI.powi(2) * 2.1e11 * section.second_moment_y;
+    for (share, stable) in [(-3.0, true), (0.5, true), (0.99, true), (1.01, false)] {
+        let force = vector![-share * euler, 0.0, 0.0];
+        let mut end = EndCondition::wrench(Wrench::new(force, Vector3::zeros()));
+        for k in [1, 2, 3, 4, 5] {
+            end.prescribed[k] = Prescribed::Pose;
+        }
+        end.pose = Pose::translation(1.0, 0.0, 0.0);
+        let e = solve_chain(&ChainProblem::new(&strut, end), &Settings::default()).unwrap();
+        let s = &e.stability;
+        assert_eq!(s.stable, stable, "{share}: {s:?}");
+        assert!(!s.neutral.is_empty(), "{share}");
+    }
+}
+
 /// One word and one sentence for every state of a pressed column, up to its critical load and beyond.
 #[test]
 fn a_verdict_in_words_for_every_shape() {
