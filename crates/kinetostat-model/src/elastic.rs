@@ -10,11 +10,11 @@ use crate::placement::{direction, frame_along};
 use crate::problem::{Finding, Place};
 use crate::quantity::{Found, MM, choice, forbid, positive};
 use crate::schema::{Document, Spring6, Stiffness};
-use crate::section::section;
+use crate::shape::{Beam, elasticity};
 
 /// Sections and stiffnesses by name. `None`: described wrongly, and reported already.
 pub(crate) struct Elastic {
-    sections: BTreeMap<String, Option<BeamSection>>,
+    sections: BTreeMap<String, Option<Elasticity>>,
     stiffnesses: BTreeMap<String, Option<Matrix6<f64>>>,
 }
 
@@ -23,8 +23,22 @@ pub(crate) struct Elastic {
 pub(crate) enum Elasticity {
     /// A section: the stiffness follows from the length.
     Section(BeamSection),
+    /// A tapered beam, or one that bends by shear too.
+    Beam(Box<Beam>),
     /// The stiffness of the far end, SI.
     Matrix(Box<Matrix6<f64>>),
+}
+
+impl Elasticity {
+    /// The stiffness of the far end of a link of this length, m: in its own axes for sections, as it
+    /// is for a matrix.
+    pub(crate) fn cantilever(&self, place: &Place, length: f64) -> Found<Matrix6<f64>> {
+        match self {
+            Self::Section(section) => Ok(section.cantilever(length)),
+            Self::Beam(beam) => beam.cantilever(place, length),
+            Self::Matrix(matrix) => Ok(**matrix),
+        }
+    }
 }
 
 impl Elastic {
@@ -40,7 +54,7 @@ impl Elastic {
         };
         let sections = Place::root().key("section");
         for (name, written) in &document.section {
-            let converted = section(&sections.key(name), written, warnings);
+            let converted = elasticity(&sections.key(name), written, warnings);
             let entry = converted.map_err(|f| errors.push(f)).ok();
             this.sections.insert(name.clone(), entry);
         }
@@ -64,7 +78,7 @@ impl Elastic {
     /// The section or stiffness of that name; `Err(None)` where it is known but was wrong.
     pub(crate) fn named(&self, place: &Place, name: &str) -> Result<Elasticity, Option<Finding>> {
         if let Some(section) = self.sections.get(name) {
-            return section.map(Elasticity::Section).ok_or(None);
+            return section.clone().ok_or(None);
         }
         if let Some(matrix) = self.stiffnesses.get(name) {
             return matrix.map(|m| Elasticity::Matrix(Box::new(m))).ok_or(None);
@@ -188,7 +202,8 @@ impl Elastic {
         };
         let length = positive(place, "length", &lengths)?.value;
         match self.sections.get(name) {
-            Some(section) => section.map(|s| s.cantilever(length)).ok_or(None),
+            Some(Some(section)) => Ok(section.cantilever(place, length)?),
+            Some(None) => Err(None),
             None => {
                 let known: Vec<&str> = self.sections.keys().map(String::as_str).collect();
                 Err(Some(unknown(

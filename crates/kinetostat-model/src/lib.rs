@@ -85,6 +85,7 @@ mod schema_elastic;
 mod schema_element;
 mod schema_load;
 mod section;
+mod shape;
 mod source;
 mod template;
 

@@ -218,9 +218,9 @@ fn link(
     if convention == LinkConvention::TranslationsFirst && segments == 1 {
         // In the axes of the frame, which does not turn.
         let matrix = match elasticity {
-            Elasticity::Section(section) if slanted => along(&section.cantilever(length), &axis),
-            Elasticity::Section(section) => section.cantilever(length),
             Elasticity::Matrix(matrix) => *matrix,
+            section if slanted => along(&section.cantilever(place, length)?, &axis),
+            section => section.cantilever(place, length)?,
         };
         return Ok(vec![
             Part::Rigid(
@@ -237,6 +237,10 @@ fn link(
     };
     let spec = match elasticity {
         Elasticity::Section(section) => LinkSpec::beam(section, length),
+        Elasticity::Beam(beam) => {
+            beam.divided(place, segments)?;
+            LinkSpec::matrix(beam.cantilever(place, length)?, length)
+        }
         Elasticity::Matrix(matrix) => {
             let own = turn_matrix(&turn.to_rotation_matrix());
             LinkSpec::matrix(own.transpose() * *matrix * own, length)
@@ -297,10 +301,9 @@ fn parallelogram(
         ],
     )?
     .map_or(0.0, |g| g.value);
-    let bar = match elastic.named(&place.key("parallelogram"), &e.parallelogram)? {
-        Elasticity::Section(section) => section.cantilever(length),
-        Elasticity::Matrix(matrix) => *matrix,
-    };
+    let bar = elastic
+        .named(&place.key("parallelogram"), &e.parallelogram)?
+        .cantilever(place, length)?;
     Ok(Part::Parallelogram(
         name,
         length,

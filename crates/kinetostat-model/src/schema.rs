@@ -10,7 +10,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use crate::schema_elastic::{
-    Rectangle, Rigidities, Round, Section, Spring6, Stiffness, Tube, Values,
+    HollowBox, IBeam, Rectangle, Rigidities, Round, Section, ShearWord, Spring6, Stiffness, Tip,
+    Tube, Values,
 };
 pub use crate::schema_element::{
     ActuatorElement, BodyElement, Convention, CoupledElement, Element, LinkElement, NodeElement,

@@ -16,10 +16,21 @@ pub struct Section {
     pub round: Option<Round>,
     /// Solid rectangle.
     pub rectangle: Option<Rectangle>,
+    /// I with its web along z and its flanges along y.
+    pub i_beam: Option<IBeam>,
+    /// Rectangular tube.
+    pub hollow_box: Option<HollowBox>,
     /// Area and second moments as numbers.
     pub values: Option<Values>,
     /// Modulus times area or second moment, as an identification gives them; no moduli then.
     pub rigidities: Option<Rigidities>,
+    /// Shape at the far end, of the same kind: sizes change linearly along the link.
+    pub tip: Option<Tip>,
+    /// Deflection by shear; none if not given.
+    pub shear: Option<ShearWord>,
+    /// A material by name instead of moduli: steel, stainless_steel, aluminium, grey_cast_iron,
+    /// ductile_cast_iron, titanium, magnesium.
+    pub material: Option<String>,
     /// Young's modulus, GPa.
     pub youngs_modulus_gpa: Option<f64>,
     /// Young's modulus, MPa.
@@ -76,6 +87,63 @@ pub struct Rectangle {
     pub height_mm: Option<f64>,
     /// Size along z, m.
     pub height_m: Option<f64>,
+}
+
+/// I with its web along the link's z axis and its flanges along y.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct IBeam {
+    /// Of the flanges, along y, mm.
+    pub width_mm: Option<f64>,
+    /// Over the flanges, along z, mm.
+    pub height_mm: Option<f64>,
+    /// Thickness of a flange, mm.
+    pub flange_mm: Option<f64>,
+    /// Thickness of the web, mm.
+    pub web_mm: Option<f64>,
+}
+
+/// Rectangular tube: width along the link's y axis, height along its z axis.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HollowBox {
+    /// Outer size along y, mm.
+    pub width_mm: Option<f64>,
+    /// Outer size along z, mm.
+    pub height_mm: Option<f64>,
+    /// Thickness of all walls, mm.
+    pub wall_mm: Option<f64>,
+    /// Thickness of the two walls at the sides (along y), mm, where they differ.
+    pub side_wall_mm: Option<f64>,
+    /// Thickness of the two walls above and below (along z), mm, where they differ.
+    pub top_wall_mm: Option<f64>,
+}
+
+/// Shape at the far end of a tapered link: exactly one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Tip {
+    /// Round tube.
+    pub tube: Option<Tube>,
+    /// Solid round bar.
+    pub round: Option<Round>,
+    /// Solid rectangle.
+    pub rectangle: Option<Rectangle>,
+    /// I.
+    pub i_beam: Option<IBeam>,
+    /// Rectangular tube.
+    pub hollow_box: Option<HollowBox>,
+}
+
+/// How shear bends a link.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ShearWord {
+    /// Not at all (Euler-Bernoulli).
+    #[default]
+    None,
+    /// By the section's shear areas (Timoshenko).
+    Timoshenko,
 }
 
 /// Area and second moments as numbers.

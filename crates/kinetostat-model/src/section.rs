@@ -32,6 +32,8 @@ pub(crate) fn section(
         s.tube.as_ref().map(|_| "tube"),
         s.round.as_ref().map(|_| "round"),
         s.rectangle.as_ref().map(|_| "rectangle"),
+        s.i_beam.as_ref().map(|_| "i_beam"),
+        s.hollow_box.as_ref().map(|_| "hollow_box"),
         s.values.as_ref().map(|_| "values"),
         s.rigidities.as_ref().map(|_| "rigidities"),
     ]
@@ -41,7 +43,7 @@ pub(crate) fn section(
         return Err(Finding::new(
             place,
             "the section has no shape",
-            "write tube, round, rectangle, values or rigidities",
+            "write tube, round, rectangle, i_beam, hollow_box, values or rigidities",
         ));
     };
     if let Some(other) = shapes.next() {
@@ -97,6 +99,17 @@ pub(crate) fn section(
             second_moment_z: positive(&place, "bending rigidity about z", &bending_z)?.value,
             torsion_constant: positive(&place, "torsional rigidity", &torsion)?.value,
         });
+    }
+    if let Some(material) = crate::shape::material_of(place, s)? {
+        for moduli in [&young[..], &shear[..], &poisson[..]] {
+            forbid(
+                place,
+                moduli,
+                "the material gives the moduli already",
+                "leave the moduli out, or the material",
+            )?;
+        }
+        return shape_of(place, s, material.youngs_modulus, material.shear_modulus());
     }
     let e = modulus(place, "Young's modulus", &young, warnings)?;
     let g = match pick(place, "Poisson's ratio", &poisson)? {
@@ -168,28 +181,17 @@ fn shape_of(place: &Place, s: &Section, e: f64, g: f64) -> Found<BeamSection> {
         second_moment_z,
         torsion_constant,
     };
-    if let Some(r) = &s.rectangle {
-        let place = place.key("rectangle");
-        let width = [
-            choice("width_mm", r.width_mm, MM),
-            choice("width_m", r.width_m, 1.0),
-        ];
-        let height = [
-            choice("height_mm", r.height_mm, MM),
-            choice("height_m", r.height_m, 1.0),
-        ];
-        let w = positive(&place, "width", &width)?.value;
-        let h = positive(&place, "height", &height)?.value;
-        let (a, b) = (0.5 * w.max(h), 0.5 * w.min(h));
-        // Saint-Venant torsion of a rectangle, closed-form fit good to 0.5 %.
-        let torsion =
-            a * b.powi(3) * (16.0 / 3.0 - 3.36 * b / a * (1.0 - b.powi(4) / (12.0 * a.powi(4))));
-        return Ok(numbers(
-            w * h,
-            w * h.powi(3) / 12.0,
-            h * w.powi(3) / 12.0,
-            torsion,
-        ));
+    if s.rectangle.is_some() || s.i_beam.is_some() || s.hollow_box.is_some() {
+        let shape = crate::shape::root(place, s)?;
+        // Poisson's ratio enters shear areas only, which this section does not have.
+        return match shape.and_then(|shape| shape.properties(0.3).ok()) {
+            Some(p) => Ok(p.section(e, g)),
+            None => Err(Finding::new(
+                place,
+                "the section has no shape",
+                "write its sizes",
+            )),
+        };
     }
     let empty = Values::default();
     let v = s.values.as_ref().unwrap_or(&empty);
