@@ -1,18 +1,21 @@
 //! Limbs with errors of manufacture and assembly, to first order [R 6.15-6.20]. The exact answer is
 //! an equilibrium of the actual geometry without a load.
 
-use nalgebra::{DMatrix, Matrix6, Vector6};
+use nalgebra::DMatrix;
 
 use crate::error::{Error, Result};
+use crate::network::Network;
 use crate::posture::Posture;
-use crate::spatial::{Twist, Wrench, pose_residual, shift_matrix};
+use crate::spatial::{Twist, Wrench, pose_residual};
 
 /// First-order assembly of limbs with errors, no external load [R 6.15-6.20].
 #[derive(Clone, Debug)]
 pub struct LinearAssembly {
     /// Motion of the tool from its nominal target.
     pub shift: Twist,
-    /// Wrench on every limb's tip, base axes; their sum about the tool is zero.
+    /// Motion of every platform from its nominal place, the base (zero) first.
+    pub platforms: Vec<Twist>,
+    /// Wrench on every limb's tip, base axes; on every platform they add up to zero.
     pub wrenches: Vec<Wrench>,
     /// Change of the passive joints of every limb, m or rad.
     pub passive: Vec<Vec<f64>>,
@@ -21,7 +24,8 @@ pub struct LinearAssembly {
 }
 
 impl Posture<'_> {
-    /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes.
+    /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes,
+    /// its base where it is nominally.
     #[must_use]
     pub fn assembly_errors(&self) -> Vec<Twist> {
         let m = self.mechanism;
@@ -29,7 +33,7 @@ impl Posture<'_> {
             .iter()
             .zip(&self.limbs)
             .map(|(limb, joints)| {
-                let base = m.platforms[limb.from].home;
+                let base = self.platforms[limb.from];
                 let tip = |chain| {
                     crate::equilibrium::unloaded_tip(
                         chain,
@@ -45,7 +49,10 @@ impl Posture<'_> {
 
     /// First-order platform shift and internal wrenches for given limb errors `eps_i` (base axes,
     /// at each limb's tip), no external load:
-    /// `Dt = (sum T^T K T)^-1 sum T^T K eps`, `F_i = K_i (T_i Dt - eps_i)`.
+    /// `Dt = (sum A^T K A)^-1 sum A^T K eps`, `F_i = K_i (A_i Dt - eps_i)`, with `A_i` the motion of
+    /// the tip by those of the limb's platforms. Where a limb cannot move, `N_i^T (A_i Dt - eps_i) =
+    /// 0` and it carries what is needed; errors that such limbs cannot follow are met as nearly as
+    /// can be (least squares), as an infinite wrench is nobody's answer.
     ///
     /// # Errors
     /// Wrong sizes only.
@@ -59,38 +66,53 @@ impl Posture<'_> {
                 found: errors.len(),
             });
         }
-        let own = self.stiffness()?;
-        let shifts: Vec<Matrix6<f64>> = m
-            .limbs
-            .iter()
-            .map(|l| shift_matrix(&(self.target.rotation * l.platform_from_tip.translation.vector)))
-            .collect();
-        let mut pull = Vector6::zeros();
-        for ((k, t), e) in own.limbs.iter().zip(&shifts).zip(errors) {
-            pull += t.transpose() * k.cartesian.matrix * e.0;
+        let network = Network::new(self)?;
+        let (moving, rows) = (network.moving(), network.rows());
+        let (size, count) = (6 * moving, rows.nrows());
+        let mut a = DMatrix::zeros(size + count, size + count);
+        a.view_mut((0, 0), (size, size))
+            .copy_from(&network.stiffness());
+        a.view_mut((size, 0), (count, size)).copy_from(&rows);
+        a.view_mut((0, size), (size, count))
+            .copy_from(&rows.transpose());
+        let mut b = DMatrix::zeros(size + count, 1);
+        let mut at = size;
+        for (i, error) in errors.iter().enumerate() {
+            let pull = network.motions[i].matrix(moving).transpose()
+                * (network.limbs[i].cartesian.matrix * error.0);
+            let mut view = b.rows_mut(0, size);
+            view += pull;
+            let k = network.rigid[i].ncols();
+            b.view_mut((at, 0), (k, 1))
+                .copy_from(&(network.rigid[i].transpose() * error.0));
+            at += k;
         }
-        let length = self.mechanism.scale().length;
-        let scale = [1.0, 1.0, 1.0, 1.0 / length, 1.0 / length, 1.0 / length];
-        let total = own.cartesian.matrix;
-        let mut b = DMatrix::from_column_slice(6, 1, pull.as_slice());
-        crate::saddle::Saddle::new(DMatrix::from_fn(6, 6, |i, j| total[(i, j)]), &scale, &scale)
-            .solve(&mut b);
-        let shift = Twist(b.fixed_view::<6, 1>(0, 0).into_owned());
+        let scale = m.scale();
+        let root = scale.stiffness.sqrt();
+        let mut units: Vec<f64> = (0..size)
+            .map(|i| match i % 6 {
+                0..3 => 1.0 / root,
+                _ => 1.0 / (root * scale.length),
+            })
+            .collect();
+        // A wrench of size one, against the energies of the springs.
+        units.resize(size + count, root);
+        crate::saddle::Saddle::new(a, &units, &units).solve(&mut b);
+        let mut platforms = vec![Twist::zero()];
+        platforms.extend((0..moving).map(|p| Twist(b.fixed_view::<6, 1>(6 * p, 0).into_owned())));
+        let carried: Vec<f64> = b.rows(size, count).iter().copied().collect();
         let mut result = LinearAssembly {
-            shift,
-            wrenches: Vec::new(),
+            shift: platforms[m.tool],
+            wrenches: network.wrenches(&platforms, errors, &carried),
             passive: Vec::new(),
             springs: Vec::new(),
+            platforms,
         };
-        for ((k, t), e) in own.limbs.iter().zip(&shifts).zip(errors) {
-            let motion = t * shift.0 - e.0;
-            result.wrenches.push(Wrench(k.cartesian.matrix * motion));
-            result
-                .passive
-                .push((&k.passive * motion).iter().copied().collect());
-            result
-                .springs
-                .push((&k.springs * motion).iter().copied().collect());
+        for (i, k) in network.limbs.iter().enumerate() {
+            let motion = network.motions[i].of(&result.platforms).0 - errors[i].0;
+            let list = |m: &DMatrix<f64>| (m * motion).iter().copied().collect();
+            result.passive.push(list(&k.passive));
+            result.springs.push(list(&k.springs));
         }
         Ok(result)
     }

@@ -62,7 +62,7 @@ pub fn compensate_from<'m>(
     Ok(Compensation {
         correction: pose_residual(&solver.target, desired),
         left_over: pose_residual(&equilibrium.tool, desired),
-        posture: commanded(near, &solver)?,
+        posture: commanded(near, &solver),
         equilibrium,
     })
 }
@@ -80,14 +80,16 @@ pub fn target_under_load<'m>(
     start: MechanismState,
 ) -> Result<(Posture<'m>, MechanismState)> {
     let (solver, _) = solve_target(near, desired, wrench, directions, start)?;
-    Ok((commanded(near, &solver)?, solver.state))
+    Ok((commanded(near, &solver), solver.state))
 }
 
-fn commanded<'m>(near: &Posture<'m>, solver: &PlatformSolver<'m>) -> Result<Posture<'m>> {
-    Ok(near
-        .mechanism()
-        .posture_from_joints(&solver.target, solver.posture.clone())?
-        .with_settings(*near.settings()))
+fn commanded<'m>(near: &Posture<'m>, solver: &PlatformSolver<'m>) -> Posture<'m> {
+    let mut posture = near.clone();
+    posture.target = solver.target;
+    posture.platforms.clone_from(&solver.nominal);
+    posture.platforms[solver.mechanism.tool()] = solver.target;
+    posture.limbs.clone_from(&solver.posture);
+    posture
 }
 
 fn solve_target<'m>(
@@ -128,6 +130,7 @@ fn solve_target<'m>(
     );
     solver.wrench = *wrench;
     solver.target = target;
+    solver.nominal.clone_from(&near.platforms);
     let solved = if solver.retarget() {
         solver.solve(1.0, 0).ok()
     } else {
@@ -167,6 +170,7 @@ fn undo_drift(
             break;
         }
         let kept = (solver.state.clone(), solver.posture.clone(), solver.target);
+        let nominal = solver.nominal.clone();
         solver.state.platforms[tool] = crate::spatial::moved(&solver.state.platforms[tool], &drift);
         match solver.solve(1.0, 0) {
             Ok((iterations, balance)) => {
@@ -175,6 +179,7 @@ fn undo_drift(
             Err(_) => {
                 // The answer before is an equilibrium; a failed refinement is not.
                 (solver.state, solver.posture, solver.target) = kept;
+                solver.nominal = nominal;
                 break;
             }
         }
@@ -201,6 +206,7 @@ fn fixed_point(
         let posture = mechanism.posture(&target)?;
         solver.target = target;
         solver.posture = posture.limbs().to_vec();
+        solver.nominal = posture.platforms().to_vec();
         solver.state = posture.rest_state();
         let residual = solver.solve_robustly()?;
         spent += residual.iterations;

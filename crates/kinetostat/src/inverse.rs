@@ -273,24 +273,28 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Passive rotations in (-pi, pi]; actuators with limits in the turn nearest to their range.
     fn wrapped(&self, mut at: LimbPosture) -> LimbPosture {
-        let turn = std::f64::consts::TAU;
-        for (i, c) in self.chain.coordinates().iter().enumerate() {
-            if c.role == Role::Passive
-                && c.kind == crate::chain::MotionKind::Revolute
-                && at.coordinates[i].abs() > std::f64::consts::PI
-            {
-                at.coordinates[i] -= turn * (at.coordinates[i] / turn).round();
-            }
-        }
-        for (command, a) in at.commands.iter_mut().zip(self.chain.actuators()) {
-            if let (crate::chain::MotionKind::Revolute, Some((low, high))) = (a.kind, a.limits)
-                && (*command < low || *command > high)
-            {
-                *command -= turn * ((*command - 0.5 * (low + high)) / turn).round();
-            }
-        }
+        wrap(self.chain, &mut at);
         at
+    }
+}
+
+/// Passive rotations in (-pi, pi]; actuators with limits in the turn nearest to their range.
+pub(crate) fn wrap(chain: &Chain, at: &mut LimbPosture) {
+    let turn = std::f64::consts::TAU;
+    for (i, c) in chain.coordinates().iter().enumerate() {
+        if c.role == Role::Passive
+            && c.kind == crate::chain::MotionKind::Revolute
+            && at.coordinates[i].abs() > std::f64::consts::PI
+        {
+            at.coordinates[i] -= turn * (at.coordinates[i] / turn).round();
+        }
+    }
+    for (command, a) in at.commands.iter_mut().zip(chain.actuators()) {
+        if let (crate::chain::MotionKind::Revolute, Some((low, high))) = (a.kind, a.limits)
+            && (*command < low || *command > high)
+        {
+            *command -= turn * ((*command - 0.5 * (low + high)) / turn).round();
+        }
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
 use crate::chain::Scale;
 use crate::directions::scaled_twist;
-use crate::saddle::{column_space, complement};
+use crate::saddle::{Saddle, column_space, complement};
 use crate::spatial::shift_matrix;
 use crate::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 
@@ -80,53 +80,172 @@ fn along_axes(list: &mut [Direction], kind: DirectionKind, scale: Scale) {
     }
 }
 
-/// Whether the platforms' tangent has no negative direction; with `held`, while the tool is held.
+/// Units of the platforms' motions, balanced: square root of energy.
+fn motion_units(count: usize, scale: Scale) -> Vec<f64> {
+    let root = scale.stiffness.sqrt();
+    let unit = |i: usize| {
+        if i % 6 < 3 {
+            1.0 / root
+        } else {
+            1.0 / (root * scale.length)
+        }
+    };
+    (0..count).map(unit).collect()
+}
+
+/// Motions of the platforms that limbs which cannot move that way allow: an orthonormal basis of
+/// the null space of `rigid`, balanced. `None`: all of them.
+fn possible_motions(rigid: &DMatrix<f64>, units: &[f64]) -> Option<DMatrix<f64>> {
+    if rigid.nrows() == 0 {
+        return None;
+    }
+    let mut rows = DMatrix::from_fn(units.len(), rigid.nrows(), |i, k| rigid[(k, i)] * units[i]);
+    for mut column in rows.column_iter_mut() {
+        let size = column.norm();
+        if size > 0.0 {
+            column /= size;
+        }
+    }
+    Some(complement(&independent_columns(&rows)))
+}
+
+/// Whether the platforms' tangent has no negative direction among the motions that no row of
+/// `rigid` forbids; with `held`, while the tool is held.
 pub(crate) fn others_hold(
     tangent: &DMatrix<f64>,
+    rigid: &DMatrix<f64>,
     platform: usize,
     scale: Scale,
     held: bool,
 ) -> bool {
-    let unit = |i: usize| {
-        let root = scale.stiffness.sqrt();
-        if i % 6 < 3 { root } else { root * scale.length }
-    };
-    let kept: Vec<usize> = (0..tangent.nrows())
-        .filter(|i| !held || i / 6 != platform)
-        .collect();
-    if tangent.nrows() == 6 || kept.is_empty() {
+    let size = tangent.nrows();
+    let kept: Vec<usize> = (0..size).filter(|i| !held || i / 6 != platform).collect();
+    if size == 6 || kept.is_empty() {
         return true;
     }
-    let balanced = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
+    let units = motion_units(size, scale);
+    let units: Vec<f64> = kept.iter().map(|&i| units[i]).collect();
+    let mut balanced = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
         let (i, j) = (kept[a], kept[b]);
-        0.5 * (tangent[(i, j)] + tangent[(j, i)]) / (unit(i) * unit(j))
+        0.5 * (tangent[(i, j)] + tangent[(j, i)]) * (units[a] * units[b])
     });
+    if let Some(possible) = possible_motions(&rigid.select_columns(&kept), &units) {
+        balanced = possible.transpose() * balanced * possible;
+    }
+    if balanced.is_empty() {
+        return true;
+    }
     let eigenvalues = balanced.symmetric_eigenvalues();
     eigenvalues.min() >= -1e-9 * eigenvalues.amax()
 }
 
-/// Stiffness of one platform with all others free: Schur complement.
-pub(crate) fn condensed(tangent: &DMatrix<f64>, platform: usize, scale: Scale) -> Matrix6<f64> {
+/// Stiffness of one platform with all others free.
+pub(crate) struct Condensed {
+    /// What it cannot move along contributes nothing.
+    pub matrix: Matrix6<f64>,
+    /// Motions that it can make: orthonormal basis, 6 x r, balanced.
+    pub range: DMatrix<f64>,
+}
+
+/// Principal directions of a platform with others behind it.
+pub(crate) fn condensed_directions(found: &Condensed, scale: Scale) -> Vec<Direction> {
+    let root = scale.stiffness.sqrt();
+    let factor = |i: usize| if i < 3 { root } else { root * scale.length };
+    let balanced = Matrix6::from_fn(|i, j| found.matrix[(i, j)] / (factor(i) * factor(j)));
+    let mut list = directions(scale, &balanced, &found.range);
+    for kind in [DirectionKind::Rigid, DirectionKind::Free] {
+        along_axes(&mut list, kind, scale);
+    }
+    list
+}
+
+/// Stiffness of one platform with all others free; rows of `rigid` are motions of the platforms
+/// that limbs forbid.
+pub(crate) fn condensed(
+    tangent: &DMatrix<f64>,
+    rigid: &DMatrix<f64>,
+    platform: usize,
+    scale: Scale,
+) -> Condensed {
     let own: Vec<usize> = (6 * platform..6 * platform + 6).collect();
+    let units = motion_units(tangent.nrows(), scale);
+    if let Some(possible) = possible_motions(rigid, &units) {
+        return among(tangent, &possible, &own, &units);
+    }
     let pick =
         |rows: &[usize], columns: &[usize]| tangent.select_rows(rows).select_columns(columns);
     let mut k = pick(&own, &own);
     let others: Vec<usize> = (0..tangent.nrows()).filter(|i| !own.contains(i)).collect();
     if !others.is_empty() {
         let mut b = pick(&others, &own);
-        let root = scale.stiffness.sqrt();
-        let units: Vec<f64> = others
-            .iter()
-            .map(|i| {
-                if i % 6 < 3 {
-                    1.0 / root
-                } else {
-                    1.0 / (root * scale.length)
-                }
-            })
-            .collect();
-        crate::saddle::Saddle::new(pick(&others, &others), &units, &units).solve(&mut b);
+        let units: Vec<f64> = others.iter().map(|&i| units[i]).collect();
+        Saddle::new(pick(&others, &others), &units, &units).solve(&mut b);
         k -= pick(&own, &others) * b;
     }
-    k.fixed_view::<6, 6>(0, 0).into_owned()
+    Condensed {
+        matrix: k.fixed_view::<6, 6>(0, 0).into_owned(),
+        range: DMatrix::identity(6, 6),
+    }
+}
+
+/// Within the possible motions `Z`, balanced: `[Z^T K Z, -S^T; S, 0] [z; f] = [0; 1]` with `S` the
+/// part of `Z` that is the platform's own, in a basis of what it can do.
+fn among(
+    tangent: &DMatrix<f64>,
+    possible: &DMatrix<f64>,
+    own: &[usize],
+    units: &[f64],
+) -> Condensed {
+    let balanced = DMatrix::from_fn(tangent.nrows(), tangent.ncols(), |i, j| {
+        tangent[(i, j)] * units[i] * units[j]
+    });
+    let part = possible.select_rows(own);
+    let range = if possible.ncols() == 0 {
+        DMatrix::zeros(6, 0)
+    } else {
+        independent_columns(&part)
+    };
+    let (z, r) = (possible.ncols(), range.ncols());
+    if r == 0 {
+        return Condensed {
+            matrix: Matrix6::zeros(),
+            range,
+        };
+    }
+    let reduced = range.transpose() * part;
+    let mut a = DMatrix::zeros(z + r, z + r);
+    a.view_mut((0, 0), (z, z))
+        .copy_from(&(possible.transpose() * balanced * possible));
+    a.view_mut((0, z), (z, r)).copy_from(&-reduced.transpose());
+    a.view_mut((z, 0), (r, z)).copy_from(&reduced);
+    let mut b = DMatrix::zeros(z + r, r);
+    b.view_mut((z, 0), (r, r)).fill_with_identity();
+    let ones = vec![1.0; z + r];
+    Saddle::new(a, &ones, &ones).solve(&mut b);
+    let k = &range * b.rows(z, r) * range.transpose();
+    Condensed {
+        matrix: Matrix6::from_fn(|i, j| k[(i, j)] / (units[own[i]] * units[own[j]])),
+        range,
+    }
+}
+
+/// Orthonormal basis of the span of the columns, by singular values. Columns may be fewer or more
+/// than rows.
+pub(crate) fn independent_columns(a: &DMatrix<f64>) -> DMatrix<f64> {
+    if a.is_empty() || a.iter().any(|x| !x.is_finite()) {
+        return DMatrix::zeros(a.nrows(), 0);
+    }
+    let svd = a.clone().svd(true, false);
+    let most = svd.singular_values.amax();
+    let Some(u) = &svd.u else {
+        return DMatrix::zeros(a.nrows(), 0);
+    };
+    let kept: Vec<_> = (0..svd.singular_values.len())
+        .filter(|&k| svd.singular_values[k] > 1e-10 * most && most > 0.0)
+        .map(|k| u.column(k).into_owned())
+        .collect();
+    if kept.is_empty() {
+        return DMatrix::zeros(a.nrows(), 0);
+    }
+    DMatrix::from_columns(&kept)
 }

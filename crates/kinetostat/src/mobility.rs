@@ -2,10 +2,12 @@
 
 use nalgebra::DMatrix;
 
-use crate::inverse::{blocked_motions, command_rates};
+use crate::inverse::blocked_motions;
+use crate::machine_directions::independent_columns;
+use crate::network::ends;
+use crate::platform::rates_of;
 use crate::posture::Posture;
 use crate::saddle::column_space;
-use crate::spatial::shift_matrix;
 
 impl Posture<'_> {
     /// Motions that the nominal machine can command or make freely, as an orthonormal basis, 6 x k
@@ -13,31 +15,41 @@ impl Posture<'_> {
     #[must_use]
     pub fn mobility(&self) -> DMatrix<f64> {
         let m = self.mechanism;
-        let length = self.mechanism.scale().length;
-        let mut blocked = DMatrix::zeros(6, 6);
-        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
-            let base = m.platforms[limb.from].home;
+        let moving = m.platforms.len() - 1;
+        let length = m.scale().length;
+        let mut blocked = DMatrix::zeros(6 * moving, 6 * moving);
+        for (i, (limb, joints)) in m.limbs.iter().zip(&self.limbs).enumerate() {
             let own = limb.nominal.scale().length;
-            let t =
-                shift_matrix(&(self.target.rotation * limb.platform_from_tip.translation.vector));
             // From the mechanism's units to SI, to the tip, to the limb's units.
-            let mut to_limb = DMatrix::from_fn(6, 6, |i, j| t[(i, j)]);
-            for k in 0..3 {
-                to_limb.row_mut(3 + k).scale_mut(own);
-                to_limb.column_mut(3 + k).unscale_mut(length);
+            let mut to_limb = ends(self, i).matrix(moving);
+            to_limb.rows_mut(3, 3).scale_mut(own);
+            for (j, mut column) in to_limb.column_iter_mut().enumerate() {
+                if j % 6 >= 3 {
+                    column.unscale_mut(length);
+                }
             }
-            let p = blocked_motions(&limb.nominal, &base, joints) * to_limb;
+            let base = &self.platforms[limb.from];
+            let p = blocked_motions(&limb.nominal, base, joints) * to_limb;
             blocked += p.transpose() * p;
         }
         let eigen = blocked.symmetric_eigen();
-        let kept: Vec<_> = (0..6)
+        let kept: Vec<_> = (0..6 * moving)
             .filter(|&i| eigen.eigenvalues[i].abs() < 1e-9)
             .map(|i| eigen.eigenvectors.column(i).into_owned())
             .collect();
         if kept.is_empty() {
             return DMatrix::zeros(6, 0);
         }
-        DMatrix::from_columns(&kept)
+        let all = DMatrix::from_columns(&kept);
+        if moving == 1 {
+            return all;
+        }
+        let tool = all.rows(6 * (m.tool - 1), 6).into_owned();
+        // What moves other platforms only leaves nothing here; its rounding is no motion.
+        if tool.amax() < 1e-6 {
+            return DMatrix::zeros(6, 0);
+        }
+        independent_columns(&tool)
     }
 
     /// Motions that the actuators drive, as an orthonormal basis, 6 x k (rotations in units of the
@@ -46,15 +58,11 @@ impl Posture<'_> {
     pub fn commanded_motions(&self) -> DMatrix<f64> {
         let m = self.mechanism;
         let basis = self.mobility();
-        let length = self.mechanism.scale().length;
+        let mut motions = basis.clone();
+        motions.rows_mut(3, 3).unscale_mut(m.scale().length);
         let mut driven = DMatrix::zeros(basis.ncols(), basis.ncols());
-        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
-            let t =
-                shift_matrix(&(self.target.rotation * limb.platform_from_tip.translation.vector));
-            let mut motions = basis.clone();
-            motions.rows_mut(3, 3).unscale_mut(length);
-            let rates =
-                command_rates(&limb.nominal, &m.platforms[limb.from].home, joints) * t * motions;
+        for rates in rates_of(m, &self.platforms, &self.limbs) {
+            let rates = rates * &motions;
             driven += rates.transpose() * rates;
         }
         basis * column_space(&driven)

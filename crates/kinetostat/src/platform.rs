@@ -17,6 +17,7 @@ use nalgebra::{DMatrix, Vector3, Vector6};
 use crate::chain::Scale;
 use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, step_limit};
 use crate::error::{Error, Result};
+use crate::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
 use crate::loading::Load;
 use crate::mechanism::Mechanism;
@@ -58,7 +59,9 @@ pub(crate) struct PlatformSolver<'m> {
     pub unknowns: Unknowns,
     /// Pose of the tool for which the limbs are commanded, t0.
     pub target: Pose,
-    /// Motion of the commands per motion of the nominal target, per limb, r x 6.
+    /// Poses of all platforms for which the limbs are commanded.
+    pub nominal: Vec<Pose>,
+    /// Motion of the commands per motion of the nominal target at its origin, per limb, r x 6.
     pub rates: Vec<DMatrix<f64>>,
     pub state: MechanismState,
     pub factors: Vec<Vec<f64>>,
@@ -134,6 +137,7 @@ impl<'m> PlatformSolver<'m> {
             settings,
             wrench: Wrench::zero(),
             target: state.platforms[mechanism.tool],
+            nominal: mechanism.platforms.iter().map(|p| p.home).collect(),
             posture,
             unknowns,
             rates: Vec::new(),
@@ -249,26 +253,34 @@ impl<'m> PlatformSolver<'m> {
 
     /// Commands every limb for the present nominal target; false where it cannot be reached.
     pub fn retarget(&mut self) -> bool {
-        for (i, limb) in self.mechanism.limbs.iter().enumerate() {
+        let m = self.mechanism;
+        if m.platforms.len() > 2 {
+            let start = GraphPosture {
+                platforms: self.nominal.clone(),
+                limbs: self.posture.clone(),
+            };
+            let Ok(found) = graph_inverse(m, &self.target, Some(&start)) else {
+                return false;
+            };
+            (self.nominal, self.posture) = (found.platforms, found.limbs);
+            return true;
+        }
+        for (i, limb) in m.limbs.iter().enumerate() {
             let tip = self.target * limb.platform_from_tip;
-            let base = self.mechanism.platforms[limb.from].home;
+            let base = m.platforms[limb.from].home;
             match inverse_kinematics(&limb.nominal, &base, &tip, Some(&self.posture[i])) {
                 Ok(found) => self.posture[i] = found,
                 Err(_) => return false,
             }
         }
+        self.nominal[m.tool] = self.target;
         true
     }
 
     /// Rates of the commands at the present posture.
     pub fn refresh_rates(&mut self) {
-        self.rates = self
-            .mechanism
-            .limbs
-            .iter()
-            .zip(&self.posture)
-            .map(|(l, p)| command_rates(&l.nominal, &self.mechanism.platforms[l.from].home, p))
-            .collect();
+        self.nominal[self.mechanism.tool] = self.target;
+        self.rates = rates_of(self.mechanism, &self.nominal, &self.posture);
     }
 
     /// Newton at one share of the load.
@@ -316,6 +328,7 @@ impl<'m> PlatformSolver<'m> {
                 .map(|(change, unit)| (change / unit).powi(2))
                 .sum();
             let start = (self.state.clone(), self.posture.clone(), self.target);
+            let nominal = self.nominal.clone();
             let retargets = target.0 != Vector6::zeros();
             loop {
                 for (k, motion) in motions.iter().enumerate() {
@@ -358,10 +371,12 @@ impl<'m> PlatformSolver<'m> {
                 length *= 0.5;
                 if length < 1e-3 {
                     (self.state, self.posture, self.target) = start;
+                    self.nominal = nominal;
                     return Err((iteration, now));
                 }
                 if retargets {
                     self.posture.clone_from(&start.1);
+                    self.nominal.clone_from(&nominal);
                 }
             }
         }
@@ -469,6 +484,28 @@ impl<'m> PlatformSolver<'m> {
     pub fn unit_motions(&self, limb: usize) -> DMatrix<f64> {
         self.linear[limb].solution.columns(1, 6).into_owned()
     }
+}
+
+/// Motion of every limb's commands per motion of the nominal tool (base axes, at its origin), r x 6.
+pub(crate) fn rates_of(
+    mechanism: &Mechanism,
+    platforms: &[Pose],
+    limbs: &[LimbPosture],
+) -> Vec<DMatrix<f64>> {
+    if mechanism.platforms.len() > 2 {
+        let at = GraphPosture {
+            platforms: platforms.to_vec(),
+            limbs: limbs.to_vec(),
+        };
+        return graph_rates(mechanism, &at);
+    }
+    // The tip of a limb moves like the tool that it is fixed to.
+    let rates = mechanism.limbs.iter().zip(limbs).map(|(l, p)| {
+        let arm = platforms[l.to].rotation * l.platform_from_tip.translation.vector;
+        let rates = command_rates(&l.nominal, &platforms[l.from], p) * shift_matrix(&arm);
+        DMatrix::from_fn(rates.nrows(), 6, |i, j| rates[(i, j)])
+    });
+    rates.collect()
 }
 
 fn measure(system: &System, closure: &Twist, wrench: &Wrench, factors: &[f64]) -> Balance {

@@ -133,8 +133,7 @@ impl PlatformSolver<'_> {
             let solution = &self.linear[i].solution;
             let r = limb.actual.actuators().len();
             if !self.rates.is_empty() {
-                // Commands follow the nominal target, whose tip moves like the platform's.
-                let sensitivity = solution.view((0, 7), (6, r)) * &self.rates[i] * t;
+                let sensitivity = solution.view((0, 7), (6, r)) * &self.rates[i];
                 let block = t.transpose() * sensitivity;
                 add(
                     &mut by_target,
@@ -161,6 +160,17 @@ impl PlatformSolver<'_> {
                 let through = |columns: nalgebra::DMatrixView<'_, f64>| {
                     by_f.clone() * columns.rows(0, 6) + by_x * columns.rows(6, n)
                 };
+                if !self.rates.is_empty() && r > 0 {
+                    let by_commands = through(solution.view((0, 7), (6 + n, r)).as_view())
+                        + system.hessian.view((rows, n), (6, r));
+                    let block = -(by_commands * &self.rates[i]);
+                    add(
+                        &mut by_target,
+                        limb.from,
+                        0,
+                        &block.fixed_view::<6, 6>(0, 0).into_owned(),
+                    );
+                }
                 let by_base = through(base_columns.as_view()) + direct;
                 let by_end = through(solution.view((0, 1), (6 + n, 6)).as_view()) * t;
                 add(
@@ -189,7 +199,7 @@ impl PlatformSolver<'_> {
 
     /// Motions that no limb can follow: rows `N^T (motion of the tip)` over the platforms' motions,
     /// k x 6P, and what they must be, k.
-    fn rigid_rows(&self) -> (DMatrix<f64>, DVector<f64>) {
+    pub fn rigid_rows(&self) -> (DMatrix<f64>, DVector<f64>) {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
         let count = self.linear.iter().map(|l| l.rigid.ncols()).sum();
@@ -355,7 +365,7 @@ impl PlatformSolver<'_> {
                 wrench += carried[i].0;
                 let r = limb.actual.actuators().len();
                 if !self.rates.is_empty() && r > 0 {
-                    let commands = &self.rates[i] * t * target.0;
+                    let commands = &self.rates[i] * target.0;
                     step += solution.view((0, 7), (rows, r)) * commands;
                 }
                 if limb.from != 0 {

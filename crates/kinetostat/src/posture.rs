@@ -8,21 +8,23 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::MotionKind;
 use crate::compliance::CartesianCompliance;
-use crate::equilibrium::{ChainProblem, EndCondition, Residual};
+use crate::equilibrium::{ChainProblem, EndCondition, Residual, unloaded_tip};
 use crate::error::{Error, Result};
+use crate::graph::{GraphPosture, graph_inverse};
 use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::link_load::{LinkLoad, link_loads};
 use crate::load_energy::load_energy;
-use crate::machine_directions::{balanced_directions, condensed, others_hold};
+use crate::machine_directions::{
+    balanced_directions, condensed, condensed_directions, others_hold,
+};
 use crate::mechanism::Mechanism;
+use crate::network::Network;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::saddle::pseudo_inverse;
 use crate::settings::Settings;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 use crate::stability::{ShapeStability, shape_stability};
-use crate::stiffness::{
-    ChainStiffness, Direction, DirectionKind, chain_stiffness, unloaded_stiffness,
-};
+use crate::stiffness::{ChainStiffness, Direction, DirectionKind, chain_stiffness};
 
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
 #[derive(Clone, Debug)]
@@ -30,6 +32,8 @@ pub struct Posture<'m> {
     pub(crate) mechanism: &'m Mechanism,
     settings: Settings,
     pub(crate) target: Pose,
+    /// Nominal poses of all platforms, the base first.
+    pub(crate) platforms: Vec<Pose>,
     pub(crate) limbs: Vec<LimbPosture>,
 }
 
@@ -172,12 +176,13 @@ impl MechanismEquilibrium {
 }
 
 impl Mechanism {
-    /// Commands the actuators for a target of the tool (base from tool), from nominal geometry.
+    /// Commands the actuators for a target of the tool (base from tool), from nominal geometry with
+    /// springs at rest. Platforms between base and tool find their places with the joints. Where
+    /// actuators are redundant, see [`Posture::redundancy`].
     ///
     /// # Errors
-    /// [`Error::Unreachable`] with the nearest pose, naming the limb; [`Error::Model`] for a graph
-    /// in which a limb does not run from the base to the tool, unless the target is the tool's home,
-    /// where all platforms are known.
+    /// [`Error::Unreachable`] with the nearest pose, naming the limb; for a graph of several moving
+    /// platforms the nearest pose is the last one reached on the straight way from home.
     pub fn posture(&self, target: &Pose) -> Result<Posture<'_>> {
         self.posture_from(target, None)
     }
@@ -187,51 +192,54 @@ impl Mechanism {
     /// # Errors
     /// As [`Self::posture`].
     pub fn posture_near(&self, target: &Pose, near: &Posture<'_>) -> Result<Posture<'_>> {
-        self.posture_from(target, Some(&near.limbs))
+        self.posture_from(target, Some(near))
     }
 
-    fn posture_from(&self, target: &Pose, near: Option<&[LimbPosture]>) -> Result<Posture<'_>> {
-        if let Some(value) = target
-            .to_homogeneous()
-            .iter()
-            .copied()
-            .find(|x| !x.is_finite())
-        {
+    fn posture_from(&self, target: &Pose, near: Option<&Posture<'_>>) -> Result<Posture<'_>> {
+        let numbers = target.to_homogeneous();
+        if let Some(value) = numbers.iter().copied().find(|x| !x.is_finite()) {
             return Err(Error::NotFinite {
                 place: format!("mechanism '{}'", self.name),
                 what: "the target pose".into(),
                 value,
             });
         }
-        let off = pose_residual(target, &self.platforms[self.tool].home).0;
-        let at_home = off.amax() <= 1e-9 * self.scale().length.max(1.0);
-        let mut limbs = Vec::with_capacity(self.limbs.len());
-        for (i, limb) in self.limbs.iter().enumerate() {
-            if (limb.from != 0 || limb.to != self.tool) && !at_home {
-                return Err(Error::model(
-                    format!("mechanism '{}', limb '{}'", self.name, limb.name),
-                    "inverse kinematics needs limbs that run from the base to the tool; with platforms in between a machine can be commanded at home, elsewhere by its joints (`posture_from_joints`)",
-                ));
+        let mut platforms: Vec<Pose> = self.platforms.iter().map(|p| p.home).collect();
+        platforms[self.tool] = *target;
+        let limbs = if self.platforms.len() > 2 {
+            let start = near.map(|near| GraphPosture {
+                platforms: near.platforms.clone(),
+                limbs: near.limbs.clone(),
+            });
+            let found = graph_inverse(self, target, start.as_ref())?;
+            platforms = found.platforms;
+            found.limbs
+        } else {
+            let mut limbs = Vec::with_capacity(self.limbs.len());
+            for (i, limb) in self.limbs.iter().enumerate() {
+                let tip = target * limb.platform_from_tip;
+                let start = near.map(|near| &near.limbs[i]);
+                limbs.push(inverse_kinematics(
+                    &limb.nominal,
+                    &platforms[limb.from],
+                    &tip,
+                    start,
+                )?);
             }
-            let end = match limb.to == self.tool {
-                true => target,
-                false => &self.platforms[limb.to].home,
-            };
-            let tip = end * limb.platform_from_tip;
-            let start = near.map(|n| &n[i]);
-            let base = &self.platforms[limb.from].home;
-            limbs.push(inverse_kinematics(&limb.nominal, base, &tip, start)?);
-        }
+            limbs
+        };
         Ok(Posture {
             mechanism: self,
             settings: Settings::default(),
             target: *target,
+            platforms,
             limbs,
         })
     }
 
     /// A posture from known joints: commands and passive coordinates of every limb, with the tool
-    /// nominally at `target`. For graphs with platforms between base and tool.
+    /// nominally at `target`. Platforms between base and tool are put where the limbs lead, along
+    /// the fewest of them.
     ///
     /// # Errors
     /// Lists of the wrong length.
@@ -251,12 +259,49 @@ impl Mechanism {
         for (limb, joints) in self.limbs.iter().zip(&limbs) {
             limb.nominal.check(&joints.coordinates, &joints.commands)?;
         }
+        let platforms = self.platforms_from_joints(target, &limbs);
         Ok(Posture {
             mechanism: self,
             settings: Settings::default(),
             target: *target,
+            platforms,
             limbs,
         })
+    }
+
+    /// Nominal poses of the platforms: those of the base and the tool are known, the others follow
+    /// along the limbs from what is known, nearest first.
+    fn platforms_from_joints(&self, target: &Pose, limbs: &[LimbPosture]) -> Vec<Pose> {
+        let mut platforms: Vec<Pose> = self.platforms.iter().map(|p| p.home).collect();
+        platforms[self.tool] = *target;
+        let mut known: Vec<bool> = (0..platforms.len())
+            .map(|p| p == 0 || p == self.tool)
+            .collect();
+        loop {
+            let before = known.clone();
+            for (limb, joints) in self.limbs.iter().zip(limbs) {
+                if before[limb.from] == before[limb.to] || (known[limb.from] && known[limb.to]) {
+                    continue;
+                }
+                // Of the limb from its own base.
+                let own = unloaded_tip(
+                    &limb.nominal,
+                    &Pose::identity(),
+                    &joints.coordinates,
+                    &joints.commands,
+                ) * limb.platform_from_tip.inverse();
+                if before[limb.from] {
+                    platforms[limb.to] = platforms[limb.from] * own;
+                    known[limb.to] = true;
+                } else {
+                    platforms[limb.from] = platforms[limb.to] * own.inverse();
+                    known[limb.from] = true;
+                }
+            }
+            if known == before {
+                return platforms;
+            }
+        }
     }
 
     /// The same mechanism with its tool platform's reference point and axes moved to `tool`
@@ -372,13 +417,17 @@ impl<'m> Posture<'m> {
         })
     }
 
+    /// Nominal poses of all platforms, base from platform, in the mechanism's order.
+    #[must_use]
+    pub fn platforms(&self) -> &[Pose] {
+        &self.platforms
+    }
+
     /// State with all springs at rest and the platforms where they are meant to be.
     #[must_use]
     pub fn rest_state(&self) -> MechanismState {
-        let mut platforms: Vec<Pose> = self.mechanism.platforms.iter().map(|p| p.home).collect();
-        platforms[self.mechanism.tool] = self.target;
         MechanismState {
-            platforms,
+            platforms: self.platforms.clone(),
             coordinates: self.limbs.iter().map(|l| l.coordinates.clone()).collect(),
             wrenches: vec![Wrench::zero(); self.limbs.len()],
         }
@@ -393,49 +442,43 @@ impl<'m> Posture<'m> {
             unknowns,
         );
         solver.target = self.target;
+        solver.nominal.clone_from(&self.platforms);
         solver
     }
 
-    /// Unloaded stiffness of the nominal mechanism, at the tool's origin, base axes [R 3.10, 3.13].
-    /// For a mechanism with one moving platform; others are condensed in an equilibrium.
+    /// Unloaded stiffness of the nominal mechanism, at the tool's origin, base axes [R 3.10, 3.13],
+    /// all other platforms free.
     ///
     /// # Errors
     /// Wrong sizes only; a singular stiffness is a result.
     pub fn stiffness(&self) -> Result<UnloadedStiffness> {
         let m = self.mechanism;
-        if m.platforms.len() > 2 {
-            return Err(Error::model(
-                format!("mechanism '{}'", m.name),
-                "its unloaded stiffness needs platforms between base and tool condensed: ask an equilibrium without load",
-            ));
-        }
-        let mut total = Matrix6::zeros();
-        let mut limbs = Vec::new();
-        for (limb, joints) in m.limbs.iter().zip(&self.limbs) {
-            let base = m.platforms[limb.from].home;
-            let k =
-                unloaded_stiffness(&limb.nominal, &base, &joints.coordinates, &joints.commands)?;
-            let arm = self.target.rotation * limb.platform_from_tip.translation.vector;
-            total += k.cartesian.shifted(&arm, &Wrench::zero()).matrix;
-            limbs.push(k);
-        }
-        let scale = self.mechanism.scale();
-        let arms = m
-            .limbs
-            .iter()
-            .map(|limb| self.target.rotation * limb.platform_from_tip.translation.vector);
-        let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
-        let own = limbs
-            .iter()
-            .zip(arms)
-            .zip(scales)
-            .map(|((k, arm), scale)| (k, arm, scale));
-        let directions = balanced_directions(&total, scale, own);
+        let network = Network::new(self)?;
+        let scale = m.scale();
+        let (matrix, directions) = if m.platforms.len() > 2 {
+            let found = condensed(&network.stiffness(), &network.rows(), m.tool - 1, scale);
+            let directions = condensed_directions(&found, scale);
+            (found.matrix, directions)
+        } else {
+            let mut total = Matrix6::zeros();
+            for (k, ends) in network.limbs.iter().zip(&network.motions) {
+                total += ends.to.1.transpose() * k.cartesian.matrix * ends.to.1;
+            }
+            let arms = m
+                .limbs
+                .iter()
+                .map(|limb| self.target.rotation * limb.platform_from_tip.translation.vector);
+            let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
+            let own = network.limbs.iter().zip(arms).zip(scales);
+            let own = own.map(|((k, arm), scale)| (k, arm, scale));
+            let directions = balanced_directions(&total, scale, own);
+            (total, directions)
+        };
         let answer = UnloadedStiffness {
             length: scale.length,
-            cartesian: CartesianStiffness { matrix: total },
+            cartesian: CartesianStiffness { matrix },
             directions,
-            limbs,
+            limbs: network.limbs,
         };
         Ok(answer.named(self))
     }
@@ -577,7 +620,12 @@ pub(crate) fn conclude(
         Unknowns::Held => Wrench(-lack[tool].0),
         _ => solver.wrench,
     };
-    let stiffness = condensed(&tangent, tool - 1, scale);
+    let rigid = match m.platforms.len() {
+        2 => DMatrix::zeros(0, 6),
+        _ => solver.rigid_rows().0,
+    };
+    let found = condensed(&tangent, &rigid, tool - 1, scale);
+    let stiffness = found.matrix;
     if let Some(&value) = stiffness.iter().find(|x| !x.is_finite()) {
         return Err(Error::NotFinite {
             place: format!("mechanism '{}'", m.name),
@@ -639,17 +687,17 @@ pub(crate) fn conclude(
         Some(sum + limb.energy + limb.load_energy?)
     });
     // With platforms in between, what blocks the tool is not one limb's affair.
-    let own =
-        limbs
-            .iter()
-            .zip(&m.limbs)
-            .filter_map(|(limb, description): (&LimbEquilibrium, _)| {
-                let arm = solver.state.platforms[tool].rotation
-                    * description.platform_from_tip.translation.vector;
-                (description.from == 0 && description.to == tool)
-                    .then(|| (&limb.stiffness, arm, description.actual.scale()))
-            });
-    let directions = balanced_directions(&stiffness, scale, own);
+    let directions = if m.platforms.len() > 2 {
+        condensed_directions(&found, scale)
+    } else {
+        let own = limbs.iter().zip(&m.limbs);
+        let own = own.map(|(limb, description): (&LimbEquilibrium, _)| {
+            let arm = solver.state.platforms[tool].rotation
+                * description.platform_from_tip.translation.vector;
+            (&limb.stiffness, arm, description.actual.scale())
+        });
+        balanced_directions(&stiffness, scale, own)
+    };
     let least = directions
         .iter()
         .map(|d| d.stiffness_n_per_m)
@@ -668,7 +716,13 @@ pub(crate) fn conclude(
         stiffness: CartesianStiffness { matrix: stiffness },
         platform: PlatformStability {
             stable: least >= 0.0
-                && others_hold(&tangent, tool - 1, scale, solver.unknowns == Unknowns::Held),
+                && others_hold(
+                    &tangent,
+                    &rigid,
+                    tool - 1,
+                    scale,
+                    solver.unknowns == Unknowns::Held,
+                ),
             smallest_stiffness_n_per_m: least,
             free,
         },

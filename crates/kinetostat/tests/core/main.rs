@@ -27,6 +27,7 @@ mod figures;
 mod frames_that_snap;
 mod free_rigid_and_redundant_directions;
 mod fuzz_short;
+mod graphs;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
 mod joints_that_follow;
