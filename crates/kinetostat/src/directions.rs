@@ -76,7 +76,7 @@ impl Direction {
 }
 
 /// `moves along x`, `turns about z`, with place and advance where they are not zero.
-fn motion_in_words(twist: &Twist) -> String {
+pub(crate) fn motion_in_words(twist: &Twist) -> String {
     let (linear, angular) = (twist.linear(), twist.angular());
     let turning = angular.norm();
     if turning <= 1e-9 * linear.norm() {
@@ -100,7 +100,7 @@ fn motion_in_words(twist: &Twist) -> String {
     words
 }
 
-fn axis_in_words(axis: &Vector3<f64>) -> String {
+pub(crate) fn axis_in_words(axis: &Vector3<f64>) -> String {
     let unit = axis.normalize();
     for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
         if unit[k].abs() > 1.0 - 1e-6 {

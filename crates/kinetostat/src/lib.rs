@@ -90,6 +90,7 @@ mod chain;
 mod chain_blocks;
 mod compensation;
 mod compliance;
+mod constraints;
 mod critical;
 mod directions;
 mod elimination;
@@ -113,10 +114,12 @@ mod logarithm;
 mod machine_directions;
 mod mechanism;
 mod mobility;
+mod near_singular;
 mod network;
 mod parallelogram;
 mod passive_rules;
 mod platform;
+mod platform_curve;
 mod platform_step;
 mod posture;
 mod reduced;
@@ -152,6 +155,7 @@ pub use chain::{
 pub use chain_blocks::ChainBlocks;
 pub use compensation::{Compensation, compensate, compensate_from, target_under_load};
 pub use compliance::CartesianCompliance;
+pub use constraints::{Overconstraint, SelfStress};
 pub use critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
 pub use directions::{Direction, DirectionKind, Share};
 pub use elimination::{Applied, Inapplicable, LoadedClosedForm, Recursion};
@@ -173,6 +177,7 @@ pub use load_energy::{is_conservative, load_energy};
 pub use loading::{Load, NodeLoad, NodeTangent};
 pub use logarithm::LogarithmLaw;
 pub use mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
+pub use near_singular::{NearSingularity, SingularityKind};
 pub use parallelogram::ParallelogramLaw;
 pub use passive_rules::{
     Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,
@@ -180,6 +185,7 @@ pub use passive_rules::{
     with_hinge_at_root, with_slide, with_spherical_joint_at_end, with_universal_joint_at_end,
 };
 pub use platform::MechanismState;
+pub use platform_curve::{HeldCurve, HeldPoint};
 pub use posture::{
     LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
 };

@@ -433,7 +433,7 @@ impl<'m> Posture<'m> {
         }
     }
 
-    fn solver(&self, state: MechanismState, unknowns: Unknowns) -> PlatformSolver<'m> {
+    pub(crate) fn solver(&self, state: MechanismState, unknowns: Unknowns) -> PlatformSolver<'m> {
         let mut solver = PlatformSolver::new(
             self.mechanism,
             self.settings,
@@ -515,7 +515,7 @@ impl<'m> Posture<'m> {
         Ok(self.settled(wrench, start)?.0.state)
     }
 
-    fn finite<'a>(&self, what: &str, mut values: impl Iterator<Item = &'a f64>) -> Result<()> {
+    pub(crate) fn finite<'a>(&self, what: &str, mut values: impl Iterator<Item = &'a f64>) -> Result<()> {
         match values.find(|x| !x.is_finite()) {
             None => Ok(()),
             Some(&value) => Err(Error::NotFinite {

@@ -4,9 +4,9 @@ use crate::common::{Rng, assert_equilibrium, balanced_error};
 use crate::oracle::{Flat, Frames, balanced_solve, springs};
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
-    Posture, Twist, Wrench, moved, pose_residual, unloaded_tip,
+    Posture, Settings, Twist, Wrench, compensate, moved, pose_residual, unloaded_tip,
 };
-use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6, vector};
+use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 
 /// `K_C` of the unloaded nominal machine as one dense system over all coordinates, wrenches and
 /// platforms: nothing is condensed. `[0 J A; J^T -K 0; A^T 0 0]`, with the tool held.
@@ -107,7 +107,6 @@ pub fn legs(
     name: &str,
     from: usize,
     to: usize,
-    height: f64,
     below: f64,
     above: f64,
     home: &Pose,
@@ -130,7 +129,6 @@ pub fn legs(
             .passive_spherical("s")
             .build()
             .unwrap();
-        let _ = height;
         builder = builder.limb(limb(
             &format!("{name} leg {i}"),
             from,
@@ -168,7 +166,7 @@ pub fn arm_with_parallel_wrist(gravity: f64) -> Mechanism {
     tool.mass = 5.0;
     let tool = builder.platform(tool);
     let builder = builder.limb(limb("arm", 0, wrist, Pose::identity(), arm));
-    legs(builder, "wrist", wrist, tool, 0.25, 0.15, 0.1, &offset)
+    legs(builder, "wrist", wrist, tool, 0.15, 0.1, &offset)
         .build()
         .unwrap()
 }
@@ -189,7 +187,7 @@ pub fn arm_on_a_parallel_base(gravity: f64) -> Mechanism {
     table.mass = 60.0;
     let table = builder.platform(table);
     let tool = builder.platform(Platform::new("tool", tip));
-    let builder = legs(builder, "base", 0, table, 0.6, 0.6, 0.4, &lift);
+    let builder = legs(builder, "base", 0, table, 0.6, 0.4, &lift);
     builder
         .limb(limb("arm", table, tool, Pose::identity(), arm))
         .build()
@@ -245,7 +243,7 @@ fn hybrids_equal_the_flattened_system() {
     let mut worst = [0.0_f64; 3];
     for machine in hybrids() {
         let home = machine.platforms()[machine.tool()].home;
-        for k in 0..3 {
+        for _ in 0..3 {
             let target = moved(&home, &Twist::new(rng.vector(0.2), rng.vector(0.2)));
             let posture = machine.posture(&target).unwrap();
             let unloaded = posture.stiffness().unwrap();
@@ -262,11 +260,411 @@ fn hybrids_equal_the_flattened_system() {
             for (limb, w) in e.limbs.iter().zip(&flat.wrenches) {
                 worst[2] = worst[2].max((limb.wrench.0 - w).norm() / w.norm());
             }
-            let _ = k;
         }
     }
     println!("stiffness {:e}, displacement {:e}, wrenches {:e}", worst[0], worst[1], worst[2]);
     assert!(worst[0] < 1e-12, "unloaded stiffness {:e}", worst[0]);
     assert!(worst[1] < 1e-10, "displacement {:e}", worst[1]);
     assert!(worst[2] < 1e-8, "wrenches {:e}", worst[2]);
+}
+
+/// Two platforms on springs with a limb without any spring between them: `bar` is what joins them.
+fn joined_by(bar: Chain, home_b: Pose) -> Mechanism {
+    let mut rng = Rng(31);
+    let home_a = Pose::translation(0.4, 0.0, 0.1);
+    let mut builder = Mechanism::builder("joined").gravity(vector![0.0, 0.0, -9.81]);
+    let mut a = Platform::new("a", home_a);
+    a.mass = 6.0;
+    let a = builder.platform(a);
+    let b = builder.platform(Platform::new("b", home_b));
+    let hold = |rng: &mut Rng, name: &str, home: &Pose| {
+        let k = rng.spring_matrix(2e5, 4e3);
+        Chain::builder(name)
+            .rigid(*home)
+            .spring6("s", &k, [0.0; 6])
+            .build()
+            .unwrap()
+    };
+    let (ka, kb) = (hold(&mut rng, "ka", &home_a), hold(&mut rng, "kb", &home_b));
+    builder
+        .limb(limb("ka", 0, a, Pose::identity(), ka))
+        .limb(limb("bar", a, b, Pose::identity(), bar))
+        .limb(limb("kb", 0, b, Pose::identity(), kb))
+        .build()
+        .unwrap()
+}
+
+fn rigid_bars() -> Vec<(&'static str, Mechanism)> {
+    let way = Pose::from_parts(
+        vector![0.35, 0.1, 0.05].into(),
+        nalgebra::UnitQuaternion::from_euler_angles(0.2, -0.3, 0.4),
+    );
+    let home_b = Pose::translation(0.4, 0.0, 0.1) * way;
+    let weld = Chain::builder("weld").rigid(way).build().unwrap();
+    let rod = Chain::builder("rod")
+        .passive_universal("u", Vector3::y(), Vector3::z())
+        .rigid(way)
+        .passive_spherical("s")
+        .build()
+        .unwrap();
+    let hinge = Chain::builder("hinge")
+        .translation(vector![0.1, 0.0, 0.0])
+        .passive("h", MotionKind::Revolute, Vector3::y(), 0.0)
+        .translation(vector![-0.1, 0.0, 0.0])
+        .rigid(way)
+        .build()
+        .unwrap();
+    vec![
+        ("weld", joined_by(weld, home_b)),
+        ("rod", joined_by(rod, home_b)),
+        ("hinge", joined_by(hinge, home_b)),
+    ]
+}
+
+#[test]
+fn a_limb_without_a_spring_between_platforms_is_a_constraint() {
+    let mut rng = Rng(8);
+    let (mut worst, mut loaded) = (0.0_f64, 0.0_f64);
+    for (name, machine) in rigid_bars() {
+        let home = machine.platforms()[machine.tool()].home;
+        let posture = machine.posture(&home).unwrap();
+        let k = posture.stiffness().unwrap().cartesian.matrix;
+        worst = worst.max(balanced_error(&k, &flat_stiffness(&posture)));
+        let target = moved(&home, &Twist::new(rng.vector(2e-3), rng.vector(5e-3)));
+        let e = posture.wrench_at(&target).unwrap();
+        assert_equilibrium(&posture, &e);
+        assert!(e.stable(), "{name}");
+        assert!(e.directions.iter().all(|d| d.kind == DirectionKind::Finite));
+        let mut flat = Flat::at_state(&posture, &posture.rest_state(), &Wrench::zero());
+        flat.platforms[machine.tool()] = target;
+        flat.solve(true);
+        let off = (e.wrench.0 - flat.load).norm() / flat.load.norm();
+        assert!(off < 1e-8, "{name}: {off:e}");
+        let off = balanced_error(&e.stiffness.matrix, &flat.stiffness());
+        loaded = loaded.max(off);
+        assert!(off < 1e-8, "{name}: {off:e}");
+        let d = posture.deflected_by(&rng.wrench(100.0, 20.0)).unwrap();
+        assert_equilibrium(&posture, &d);
+        assert!(d.stable(), "{name}");
+    }
+    println!("rigid limbs: unloaded {worst:e}, loaded {loaded:e}");
+    assert!(worst < 1e-12, "{worst:e}");
+}
+
+#[test]
+fn hybrids_are_compensated() {
+    let mut rng = Rng(6);
+    for machine in hybrids() {
+        let home = machine.platforms()[machine.tool()].home;
+        let wrench = rng.wrench(200.0, 20.0);
+        let all = [true; 6];
+        let found = compensate(&machine, &home, &wrench, all, &Settings::default()).unwrap();
+        let again = found.posture.deflected_by(&wrench).unwrap();
+        let miss = pose_residual(&again.tool, &home).0.norm();
+        assert!(miss < 1e-10, "{}: {miss:e}", machine.name());
+    }
+}
+
+/// A gantry (two slides) that carries six legs: two actuators too many.
+fn gantry_with_legs() -> Mechanism {
+    let slide = |axis: Vector3<f64>| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7);
+    let gantry = Chain::builder("gantry")
+        .actuator("x", slide(Vector3::x()))
+        .actuator("y", slide(Vector3::y()))
+        .build()
+        .unwrap();
+    let offset = Pose::translation(0.0, 0.0, 0.5);
+    let mut builder = Mechanism::builder("gantry with legs");
+    let carriage = builder.platform(Platform::new("carriage", Pose::identity()));
+    let tool = builder.platform(Platform::new("tool", offset));
+    let builder = builder.limb(limb("gantry", 0, carriage, Pose::identity(), gantry));
+    legs(builder, "legs", carriage, tool, 0.3, 0.2, &offset)
+        .build()
+        .unwrap()
+}
+
+#[test]
+fn redundant_actuators_take_the_commands_nearest_to_home() {
+    let machine = gantry_with_legs();
+    let home = machine.platforms()[machine.tool()].home;
+    let target = moved(
+        &home,
+        &Twist::new(vector![0.12, -0.07, 0.05], vector![0.1, 0.05, 0.15]),
+    );
+    let posture = machine.posture(&target).unwrap();
+    assert_closes(&posture);
+    assert_eq!(posture.redundancy(), 2);
+    let first = machine.posture(&home).unwrap().commands();
+    // Leg lengths in closed form for any place of the carriage.
+    let cost = |x: f64, y: f64| {
+        let carriage = Pose::translation(x, y, 0.0);
+        let mut sum = x * x + y * y;
+        for (k, limb) in machine.limbs()[1..].iter().enumerate() {
+            let below = match limb.nominal.elements()[0] {
+                kinetostat::Element::Rigid(pose) => pose.translation.vector,
+                _ => panic!("a leg starts with its foot"),
+            };
+            let above = (target * limb.platform_from_tip).translation.vector;
+            let length = (above - (carriage * nalgebra::Point3::from(below)).coords).norm();
+            sum += (length - first[2 + k]).powi(2);
+        }
+        sum
+    };
+    let own = posture.commands();
+    let own_cost: f64 = own.iter().zip(&first).map(|(a, b)| (a - b).powi(2)).sum();
+    assert!((own_cost - cost(own[0], own[1])).abs() < 1e-10);
+    let mut least = f64::INFINITY;
+    for i in -100..=100 {
+        for j in -100..=100 {
+            least = least.min(cost(f64::from(i) * 2e-3, f64::from(j) * 2e-3));
+        }
+    }
+    println!("redundant: cost {own_cost:e}, least by a grid {least:e}");
+    assert!(own_cost < 1.02 * least, "{own_cost:e} {least:e}");
+    for other in hybrids() {
+        let at = other.posture(&other.platforms()[other.tool()].home).unwrap();
+        assert_eq!(at.redundancy(), 6, "six drives in the arm and six in the legs");
+    }
+}
+
+/// Two pantographs that enlarge twice, the second driven by the first, all of pinned bars in a
+/// plane. `bar` is put between pins; the tool turns freely on the last pin.
+fn double_pantograph() -> Mechanism {
+    let section = BeamSection::tube(2.1e11, 8.1e10, 0.03, 0.02);
+    let slide = |axis: Vector3<f64>| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7);
+    let mut builder = Mechanism::builder("double pantograph");
+    let mut limbs = Vec::new();
+    // Everything in the plane x, z; pins turn about y. A bar of angle u points along (cos u, -sin u).
+    let a = 0.2;
+    let at = |x: f64, z: f64, angle: f64| {
+        Pose::translation(x, 0.0, z) * Pose::rotation(Vector3::y() * angle)
+    };
+    let mut drive = at(0.12, 0.05, 0.0);
+    let chain = Chain::builder("carriage")
+        .rigid(drive)
+        .actuator("x", slide(Vector3::x()))
+        .actuator("z", slide(Vector3::z()))
+        .build()
+        .unwrap();
+    let mut driven = builder.platform(Platform::new("pen 0", drive));
+    limbs.push(limb("carriage", 0, driven, Pose::identity(), chain));
+    let mut pivot = vector![0.0, 0.0];
+    let mut turned = 0.0;
+    for stage in 1..=2 {
+        let size = a * f64::from(stage);
+        let p = vector![drive.translation.x, drive.translation.z] - pivot;
+        // Bars of length `size` from the pivot to A and from A to the pen.
+        let (r, way) = (p.norm(), (-p.y).atan2(p.x));
+        let open = (r / (2.0 * size)).acos();
+        let (u, v) = (way + open, way - open);
+        let along = |angle: f64| vector![angle.cos(), -angle.sin()] * size;
+        let point = pivot + along(u);
+        let end = pivot + 2.0 * p;
+        let far = pivot + along(u) * 2.0;
+        let mid = far + along(v);
+        let name = |what: &str| format!("{what} {stage}");
+        let first = builder.platform(Platform::new(name("A"), at(point.x, point.y, u)));
+        let second = builder.platform(Platform::new(name("C"), at(mid.x, mid.y, v)));
+        let pen_turned = if stage == 2 { 0.0 } else { v };
+        let pen = builder.platform(Platform::new(name("pen"), at(end.x, end.y, pen_turned)));
+        let bar = |what: &str, start: Option<f64>, angle_end: Option<f64>| {
+            let mut chain = Chain::builder(name(what));
+            if let Some(home) = start {
+                chain = chain.passive("near", MotionKind::Revolute, Vector3::y(), home);
+            }
+            chain = chain.link("bar", &section, size);
+            if let Some(home) = angle_end {
+                chain = chain.passive("far", MotionKind::Revolute, Vector3::y(), home);
+            }
+            chain
+        };
+        let foot = Chain::builder(name("root"))
+            .translation(vector![pivot.x, 0.0, pivot.y])
+            .passive("near", MotionKind::Revolute, Vector3::y(), u)
+            .link("bar", &section, size)
+            .build()
+            .unwrap();
+        limbs.push(limb(&name("root"), 0, first, Pose::identity(), foot));
+        // A to B and round the corner to C.
+        let corner = Chain::builder(name("corner"))
+            .link("upper", &section, size)
+            .passive("B", MotionKind::Revolute, Vector3::y(), v - u)
+            .link("outer", &section, size)
+            .build()
+            .unwrap();
+        limbs.push(limb(&name("corner"), first, second, Pose::identity(), corner));
+        let inner = bar("inner", Some(v - u), Some(turned - v)).build().unwrap();
+        limbs.push(limb(&name("inner"), first, driven, Pose::identity(), inner));
+        // C to the driven pen: back along the direction of the long arm.
+        let back = bar("back", Some(u - v + std::f64::consts::PI), Some(turned - u - std::f64::consts::PI));
+        limbs.push(limb(
+            &name("back"),
+            second,
+            driven,
+            Pose::identity(),
+            back.build().unwrap(),
+        ));
+        // The tool turns on the last pin; the pen between is fixed to its bar.
+        let pin = (stage == 2).then_some(-v);
+        let last = bar("last", None, pin).build().unwrap();
+        limbs.push(limb(&name("last"), second, pen, Pose::identity(), last));
+        driven = pen;
+        drive = at(end.x, end.y, 0.0);
+        turned = pen_turned;
+        pivot = vector![0.1, -0.1];
+    }
+    for own in limbs {
+        builder = builder.limb(own);
+    }
+    builder.build().unwrap()
+}
+
+#[test]
+fn a_double_pantograph_enlarges_four_times() {
+    let machine = double_pantograph();
+    let home = machine.platforms()[machine.tool()].home;
+    let at_home = machine.posture(&home).unwrap();
+    assert_closes(&at_home);
+    let first = at_home.commands();
+    for (x, z) in [(0.06, 0.02), (-0.04, 0.05), (0.03, -0.08)] {
+        let target = Pose::translation(x, 0.0, z) * home;
+        let posture = machine.posture(&target).unwrap();
+        assert_closes(&posture);
+        let found = posture.commands();
+        assert!((found[0] - first[0] - x / 4.0).abs() < 1e-11, "{found:?}");
+        assert!((found[1] - first[1] - z / 4.0).abs() < 1e-11, "{found:?}");
+        let k = posture.stiffness().unwrap();
+        let flat = flat_stiffness(&posture);
+        let off = balanced_error(&k.cartesian.matrix, &flat);
+        println!("double pantograph: stiffness {off:e}");
+        assert!(off < 1e-9, "{off:e}");
+        let e = posture
+            .deflected_by(&Wrench::new(vector![20.0, 5.0, -30.0], Vector3::zeros()))
+            .unwrap();
+        assert_equilibrium(&posture, &e);
+    }
+}
+
+/// A parallelogram of two bars between two beams against one link with a coupled coordinate.
+#[test]
+fn two_bars_are_the_coupled_parallelogram() {
+    let mut bar = Matrix6::zeros();
+    for (i, j, value) in [
+        (0, 0, 3.25e7),
+        (1, 1, 18.03e3),
+        (1, 5, -2878.5),
+        (5, 5, 598.8),
+        (3, 3, 34.76),
+        (2, 2, 18.03e3),
+        (2, 4, 2878.5),
+        (4, 4, 598.8),
+    ] {
+        bar[(i, j)] = value;
+        bar[(j, i)] = value;
+    }
+    let (length, width) = (0.31, 0.08);
+    let (mut worst, mut apart) = (0.0_f64, 0.0_f64);
+    for q in [0.0, 0.3, -0.7, 1.1] {
+        let far = Pose::rotation(Vector3::y() * q)
+            * Pose::translation(length, 0.0, 0.0)
+            * Pose::rotation(Vector3::y() * -q);
+        let lumped = Chain::builder("lumped")
+            .parallelogram("q", length, width, &bar, q)
+            .build()
+            .unwrap();
+        let lumped = Mechanism::serial(lumped, far, Vector3::zeros()).unwrap();
+        let mut builder = Mechanism::builder("two bars");
+        let beam = builder.platform(Platform::new("beam", Pose::identity()));
+        let tool = builder.platform(Platform::new("tool", far));
+        let root = Chain::builder("root").build().unwrap();
+        let mut builder = builder.limb(limb("root", 0, beam, Pose::identity(), root));
+        for (name, side) in [("left", -0.5), ("right", 0.5)] {
+            let offset = vector![0.0, 0.0, side * width];
+            let chain = Chain::builder(name)
+                .translation(offset)
+                .passive("near", MotionKind::Revolute, Vector3::y(), q)
+                .translation(vector![length, 0.0, 0.0])
+                .spring6("bar", &bar, [0.0; 6])
+                .passive("far", MotionKind::Revolute, Vector3::y(), -q)
+                .translation(-offset)
+                .build()
+                .unwrap();
+            builder = builder.limb(limb(name, beam, tool, Pose::identity(), chain));
+        }
+        let bars = builder.build().unwrap();
+        let (a, b) = (lumped.posture(&far).unwrap(), bars.posture(&far).unwrap());
+        let (ka, kb) = (a.stiffness().unwrap(), b.stiffness().unwrap());
+        assert_eq!(ka.rank(), 5);
+        assert_eq!(kb.rank(), 5);
+        worst = worst.max(balanced_error(&kb.cartesian.matrix, &ka.cartesian.matrix));
+        let wrench = Wrench::new(vector![0.0, 3.0, 0.0], vector![0.2, 0.1, 0.3]);
+        if let (Ok(x), Ok(y)) = (a.deflected_by(&wrench), b.deflected_by(&wrench)) {
+            let d = pose_residual(&x.tool, &y.tool).0.norm();
+            apart = apart.max(d / x.displacement.0.norm());
+        }
+    }
+    println!("parallelogram: unloaded {worst:e}, loaded apart {apart:e}");
+    assert!(worst < 1e-12, "{worst:e}");
+}
+
+/// A tower: every platform stands on six legs on the one below.
+pub fn tower(floors: usize) -> Mechanism {
+    let lift = Pose::translation(0.01, 0.0, 0.3);
+    let mut builder = Mechanism::builder("tower").gravity(vector![0.0, 0.0, -9.81]);
+    let mut home = Pose::identity();
+    let mut all = vec![0];
+    for k in 0..floors {
+        home *= lift;
+        let mut platform = Platform::new(format!("floor {k}"), home);
+        platform.mass = 2.0;
+        all.push(builder.platform(platform));
+    }
+    for pair in all.windows(2) {
+        builder = legs(builder, &format!("{}", pair[1]), pair[0], pair[1], 0.25, 0.2, &lift);
+    }
+    builder.build().unwrap()
+}
+
+#[test]
+fn a_tower_of_thirty_platforms() {
+    for floors in [4, 15, 30] {
+        let machine = tower(floors);
+        let home = machine.platforms()[machine.tool()].home;
+        let start = std::time::Instant::now();
+        let posture = machine.posture(&home).unwrap();
+        let commanded = start.elapsed();
+        let start = std::time::Instant::now();
+        let k = posture.stiffness().unwrap();
+        let unloaded = start.elapsed();
+        let start = std::time::Instant::now();
+        let pull = Wrench::new(vector![10.0, 4.0, -20.0], vector![1.0, 0.0, 2.0]);
+        let e = posture.deflected_by(&pull).unwrap();
+        let loaded = start.elapsed();
+        assert_equilibrium(&posture, &e);
+        assert!(e.stable());
+        let start = std::time::Instant::now();
+        let target = moved(&home, &Twist::new(vector![0.1, 0.0, 0.05], vector![0.0, 0.1, 0.1]));
+        let elsewhere = machine.posture(&target).unwrap();
+        let searched = start.elapsed();
+        assert_closes(&elsewhere);
+        println!(
+            "tower {floors}: home {commanded:?}, stiffness {unloaded:?}, equilibrium {loaded:?} in {} steps, elsewhere {searched:?}",
+            e.residual.iterations
+        );
+        // Floors in series: the compliance by hand, one flat system per floor, shifted to the tool.
+        let one = tower(1);
+        let lift = one.platforms()[1].home;
+        let single = flat_stiffness(&one.posture(&lift).unwrap()).try_inverse().unwrap();
+        let mut compliance = Matrix6::zeros();
+        for floor in 1..=floors {
+            let arm = home.translation.vector - machine.platforms()[floor].home.translation.vector;
+            let mut t = Matrix6::identity();
+            t.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm.cross_matrix());
+            compliance += t * single * t.transpose();
+        }
+        let found = k.cartesian.matrix.try_inverse().unwrap();
+        let off = balanced_error(&found, &compliance);
+        println!("tower {floors}: compliance {off:e}");
+        assert!(off < 1e-9, "{off:e}");
+    }
 }

@@ -37,6 +37,7 @@ mod loads_of_every_kind;
 mod long_chains;
 mod machines_with_rigid_directions;
 mod orthoglide_reference;
+mod parallel_machines;
 mod report_iteration;
 mod shapes_and_their_stability;
 mod stewart_gough_3_34_and_3_35;

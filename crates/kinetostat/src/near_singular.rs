@@ -1,0 +1,282 @@
+//! How far a posture is from a singular one [R 5.5.3], and in which direction.
+//!
+//! Two kinds: the locked actuators and the limbs do not hold the machine any more (a motion is
+//! gained, the stiffness has a free direction), or a limb cannot make a motion that it can make
+//! elsewhere (a motion is lost, commands grow without bound). The measure of both is a singular
+//! value of a matrix of joint axes, rotations at the natural length; springs play no part.
+
+use nalgebra::{DVector, Vector6};
+
+use crate::constraints::{Constraints, limb_motions};
+use crate::directions::motion_in_words;
+use crate::error::Result;
+use crate::posture::Posture;
+use crate::spatial::{Pose, Twist, moved};
+
+/// What happens at a singular posture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SingularityKind {
+    /// A motion that neither actuators nor limbs hold.
+    Gained,
+    /// A motion that a limb cannot make.
+    Lost,
+}
+
+/// A singular posture near a posture.
+#[derive(Clone, Debug)]
+pub struct NearSingularity {
+    /// Gained or lost.
+    pub kind: SingularityKind,
+    /// The limb that loses the motion.
+    pub limb: Option<String>,
+    /// Smallest singular value that is not always zero, as a share of the largest: 0 is singular.
+    pub share: f64,
+    /// Motion of the tool towards the singular posture, base axes, its longest part 1 m (rotations
+    /// at the natural length): steepest descent of the singular value. Zero at a singular posture.
+    pub way: Twist,
+    /// How far the singular posture is on that way, m (rotations at the natural length).
+    pub distance_m: f64,
+    /// The way was followed until the singular value vanished; if not, the distance is a first-order
+    /// estimate, singular value by its slope.
+    pub followed: bool,
+    /// The motion gained (of the tool; zero if only platforms in between move) or lost (of the
+    /// limb's tip), base axes, longest part 1 m.
+    pub motion: Twist,
+}
+
+impl NearSingularity {
+    /// One sentence.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let motion = if self.motion.0.norm() == 0.0 {
+            "moves platforms between base and tool".to_owned()
+        } else {
+            motion_in_words(&self.motion)
+        };
+        let what = match (&self.kind, &self.limb) {
+            (SingularityKind::Lost, Some(limb)) => {
+                format!("limb '{limb}' loses a motion: nothing {motion}")
+            }
+            _ => format!("a motion is gained that no actuator holds: {motion}"),
+        };
+        if self.distance_m == 0.0 {
+            return format!("singular posture: {what}");
+        }
+        let way = motion_in_words(&self.way);
+        let how = if self.followed {
+            "found by following that way"
+        } else {
+            "a first-order estimate"
+        };
+        format!(
+            "a singular posture is {:.3} mm away ({how}) if the tool {way}; there {what}",
+            self.distance_m * 1e3
+        )
+    }
+}
+
+/// Singular values of one matrix of a posture, falling, and the motion of the last ones.
+struct Measure {
+    values: Vec<f64>,
+    motions: Vec<Vector6<f64>>,
+}
+
+impl Posture<'_> {
+    /// Singular postures at most `within_m` (m; rotations at the natural length) away, to first
+    /// order, the nearest first. Only ways that the nominal machine can go are looked at.
+    ///
+    /// # Errors
+    /// None but those of the inverse kinematics where the posture itself does not close.
+    pub fn near_singularities(&self, within_m: f64) -> Result<Vec<NearSingularity>> {
+        let length = self.mechanism.scale().length;
+        // Not only what actuators drive: at a singular posture they drive less.
+        let basis = self.mobility();
+        let ways: Vec<Vector6<f64>> = basis
+            .column_iter()
+            .map(|c| Vector6::from_fn(|i, _| if i < 3 { c[i] } else { c[i] / length }))
+            .collect();
+        let at = |twist: &Vector6<f64>| -> Option<Vec<Measure>> {
+            let target: Pose = moved(&self.target, &Twist(*twist));
+            let there = self.mechanism.posture_near(&target, self).ok()?;
+            Some(there.measures())
+        };
+        let here = self.measures();
+        // What is never zero elsewhere counts here: ranks of postures around this one.
+        let mut ranks: Vec<usize> = here.iter().map(Measure::rank).collect();
+        for k in 0..3_usize {
+            let mut twist = Vector6::zeros();
+            for (j, way) in ways.iter().enumerate() {
+                let share = ((k * 5 + j + 1) as f64 * 0.618_034).fract() - 0.5;
+                twist += way * (0.06 * length * share);
+            }
+            for (rank, other) in ranks.iter_mut().zip(at(&twist).unwrap_or_default()) {
+                *rank = (*rank).max(other.rank());
+            }
+        }
+        let step = 1e-4 * length;
+        let around: Vec<[Option<Vec<Measure>>; 2]> = ways
+            .iter()
+            .map(|way| [at(&(way * step)), at(&(way * -step))])
+            .collect();
+        let mut list = Vec::new();
+        for (index, measure) in here.iter().enumerate() {
+            let Some(last) = ranks[index].checked_sub(1) else {
+                continue;
+            };
+            let most = measure.values[0];
+            let value = measure.values[last];
+            let mut slope = DVector::zeros(ways.len());
+            for (k, pair) in around.iter().enumerate() {
+                let one = |m: &Option<Vec<Measure>>| m.as_ref().map(|m| m[index].values[last]);
+                slope[k] = match (one(&pair[0]), one(&pair[1])) {
+                    (Some(a), Some(b)) => (a - b) / (2.0 * step),
+                    (Some(a), None) => (a - value) / step,
+                    (None, Some(b)) => (value - b) / step,
+                    (None, None) => 0.0,
+                };
+            }
+            let singular = value <= 1e-8 * most;
+            let first = if singular { 0.0 } else { value / slope.norm() };
+            if first > within_m || first.is_nan() {
+                continue;
+            }
+            let mut way = Vector6::zeros();
+            if !singular {
+                for (k, w) in ways.iter().enumerate() {
+                    way -= w * (slope[k] / slope.norm());
+                }
+            }
+            let found = (!singular)
+                .then(|| {
+                    let along = |s: f64| Some(at(&(way * s))?[index].values[last].powi(2));
+                    follow(value * value, first, &along)
+                })
+                .flatten();
+            let longest = longest_part(&way, length);
+            // At a singular posture what is gained is not told from what is always free; nearby it is.
+            let near = around.iter().flatten().flatten().map(|m| &m[index]);
+            let near = near.max_by(|a, b| a.values[last].total_cmp(&b.values[last]));
+            let motion = match near {
+                Some(near) if singular => &near.motions[last],
+                _ => &measure.motions[last],
+            };
+            list.push(NearSingularity {
+                kind: match index {
+                    0 => SingularityKind::Gained,
+                    _ => SingularityKind::Lost,
+                },
+                limb: index
+                    .checked_sub(1)
+                    .map(|limb| self.mechanism.limbs[limb].name.clone()),
+                share: if singular { 0.0 } else { value / most },
+                distance_m: found.unwrap_or(first) * longest,
+                followed: singular || found.is_some(),
+                way: Twist(normal(&way, length)),
+                motion: Twist(normal(motion, length)),
+            });
+        }
+        list.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+        Ok(list)
+    }
+
+    /// The machine with its actuators locked, then every limb by all its joints.
+    fn measures(&self) -> Vec<Measure> {
+        let m = self.mechanism;
+        let length = m.scale().length;
+        let unit = |i: usize| if i < 3 { 1.0 } else { length };
+        let mut list = Vec::with_capacity(1 + m.limbs.len());
+        let rows = Constraints::new(self, false).rows;
+        let tool = 6 * (m.tool - 1);
+        list.push(Measure::of(rows.transpose(), |v| {
+            Vector6::from_fn(|i, _| v[tool + i] / unit(i))
+        }));
+        for limb in 0..m.limbs.len() {
+            let motions = limb_motions(self, limb, true, length);
+            list.push(Measure::of(motions, |v| {
+                Vector6::from_fn(|i, _| v[i] / unit(i))
+            }));
+        }
+        list
+    }
+}
+
+impl Measure {
+    /// By the left singular vectors.
+    fn of(matrix: nalgebra::DMatrix<f64>, motion: impl Fn(&DVector<f64>) -> Vector6<f64>) -> Self {
+        let mut own = Self {
+            values: Vec::new(),
+            motions: Vec::new(),
+        };
+        if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
+            return own;
+        }
+        let svd = matrix.svd(true, false);
+        if let Some(u) = &svd.u {
+            let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
+            order.sort_by(|&i, &j| svd.singular_values[j].total_cmp(&svd.singular_values[i]));
+            for i in order {
+                own.values.push(svd.singular_values[i]);
+                own.motions.push(motion(&u.column(i).into_owned()));
+            }
+        }
+        own
+    }
+
+    fn rank(&self) -> usize {
+        let most = self.values.first().copied().unwrap_or(0.0);
+        self.values.iter().filter(|v| **v > 1e-8 * most).count()
+    }
+}
+
+fn longest_part(twist: &Vector6<f64>, length: f64) -> f64 {
+    let (v, w) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
+    v.norm().max(w.norm() * length)
+}
+
+/// Longest part 1 m, rounding left out.
+fn normal(twist: &Vector6<f64>, length: f64) -> Vector6<f64> {
+    let size = longest_part(twist, length);
+    if size < 1e-9 {
+        return Vector6::zeros();
+    }
+    let unit = |i: usize| if i < 3 { 1.0 } else { length };
+    Vector6::from_fn(|i, _| {
+        let x = twist[i] / size;
+        if x.abs() * unit(i) < 1e-6 { 0.0 } else { x }
+    })
+}
+
+/// Where the square of the singular value has its zero near `first`: parabolas through three
+/// points. `None` if it has none there.
+fn follow(start: f64, first: f64, square: &dyn Fn(f64) -> Option<f64>) -> Option<f64> {
+    let mut points = vec![(0.0, start)];
+    for s in [0.5 * first, first] {
+        points.push((s, square(s)?));
+    }
+    for _ in 0..12 {
+        let [(a, fa), (b, fb), (c, fc)] = points[..] else {
+            return None;
+        };
+        let (d1, d2) = ((fb - fa) / (b - a), (fc - fb) / (c - b));
+        let curvature = (d2 - d1) / (c - a);
+        if curvature <= 0.0 {
+            return None;
+        }
+        let next = 0.5 * (a + b) - 0.5 * d1 / curvature;
+        if !(0.0..=4.0 * first).contains(&next) {
+            return None;
+        }
+        let value = square(next)?;
+        if value <= 1e-14 * start {
+            return Some(next);
+        }
+        if points.iter().any(|(s, _)| (s - next).abs() <= 1e-9 * first) {
+            return (value <= 1e-8 * start).then_some(next);
+        }
+        // The worst of the three goes.
+        let worst = (0..3).max_by(|&i, &j| points[i].1.total_cmp(&points[j].1))?;
+        points[worst] = (next, value);
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    None
+}
