@@ -131,6 +131,7 @@ fn solve_target<'m>(
     solver.wrench = *wrench;
     solver.target = target;
     solver.nominal.clone_from(&near.platforms);
+    solver.others.clone_from(&near.others);
     let solved = if solver.retarget() {
         solver.solve(1.0, 0).ok()
     } else {

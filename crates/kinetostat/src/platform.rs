@@ -21,7 +21,7 @@ use crate::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
 use crate::loading::Load;
 use crate::mechanism::Mechanism;
-use crate::platform_step::Linear;
+use crate::platform_step::{Linear, PlatformStep};
 use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, shift_matrix};
 
@@ -46,6 +46,9 @@ pub(crate) enum Unknowns {
     /// The tool is held in the directions that are `true` and the nominal target moves there
     /// instead: compensation.
     Target([bool; 6]),
+    /// The tool's origin is held along a direction (base axes, of size one) and the force in it
+    /// follows: a part of [`PlatformSolver::wrench`]. Everything else moves.
+    Along(Vector3<f64>),
 }
 
 /// A mechanism's equilibrium being solved.
@@ -54,6 +57,8 @@ pub(crate) struct PlatformSolver<'m> {
     pub settings: Settings,
     /// Wrench on the tool, about its origin, base axes.
     pub wrench: Wrench,
+    /// Dead wrenches on other platforms, about their origins, base axes.
+    pub others: Vec<(usize, Wrench)>,
     /// Joints of the commanded, unloaded posture.
     pub posture: Vec<LimbPosture>,
     pub unknowns: Unknowns,
@@ -136,6 +141,7 @@ impl<'m> PlatformSolver<'m> {
             mechanism,
             settings,
             wrench: Wrench::zero(),
+            others: Vec::new(),
             target: state.platforms[mechanism.tool],
             nominal: mechanism.platforms.iter().map(|p| p.home).collect(),
             posture,
@@ -175,6 +181,9 @@ impl<'m> PlatformSolver<'m> {
             })
             .collect();
         lack[m.tool] = lack[m.tool] + self.wrench * self.share;
+        for (platform, wrench) in &self.others {
+            lack[*platform] = lack[*platform] + *wrench * self.share;
+        }
         let root = self.stiffness.sqrt();
         let unit = [
             root,
@@ -308,9 +317,15 @@ impl<'m> PlatformSolver<'m> {
             } else {
                 self.renew_residuals();
             }
-            let Some((motions, target, carried)) = self.platform_step(&lack) else {
+            let Some(step) = self.platform_step(&lack) else {
                 return Err((iteration, now));
             };
+            let PlatformStep {
+                motions,
+                target,
+                carried,
+                push,
+            } = step;
             let steps = self.limb_steps(&motions, &target, &carried);
             let mut length = 1.0_f64;
             for (limb, step) in self.mechanism.limbs.iter().zip(&steps) {
@@ -329,8 +344,10 @@ impl<'m> PlatformSolver<'m> {
                 .sum();
             let start = (self.state.clone(), self.posture.clone(), self.target);
             let nominal = self.nominal.clone();
+            let wrench = self.wrench;
             let retargets = target.0 != Vector6::zeros();
             loop {
+                self.wrench = wrench + push * length;
                 for (k, motion) in motions.iter().enumerate() {
                     self.state.platforms[k + 1] =
                         moved(&start.0.platforms[k + 1], &Twist(motion.0 * length));
@@ -371,7 +388,7 @@ impl<'m> PlatformSolver<'m> {
                 length *= 0.5;
                 if length < 1e-3 {
                     (self.state, self.posture, self.target) = start;
-                    self.nominal = nominal;
+                    (self.nominal, self.wrench) = (nominal, wrench);
                     return Err((iteration, now));
                 }
                 if retargets {

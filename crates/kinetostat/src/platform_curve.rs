@@ -1,20 +1,23 @@
 //! The wrench that holds the tool, followed along a way of the tool: branches, limit points and
 //! snap-through of a machine [R 5.5.3, Table 5.3].
 
+use nalgebra::{Vector3, Vector6};
+
 use crate::error::Result;
 use crate::platform::{MechanismState, Unknowns};
 use crate::posture::{MechanismEquilibrium, Posture, conclude};
-use crate::spatial::{Pose, Twist, moved, pose_residual};
+use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
 
 /// One point of a curve.
 #[derive(Clone, Debug)]
 pub struct HeldPoint {
     /// Along the direction from the nominal target, in units of the direction.
     pub along: f64,
-    /// Component of the holding wrench in the direction: `direction . wrench`, N (if the direction
-    /// moves by 1 m).
+    /// Component of the holding wrench in the direction, N (if the direction moves by 1 m), without
+    /// the dead wrench.
     pub force: f64,
-    /// Its derivative along the way, `direction^T K direction`, N/m.
+    /// Its derivative along the way, N/m: `direction^T K direction` for a tool held in all
+    /// directions, `1 / (direction^T C direction)` for one pushed in one.
     pub slope: f64,
     /// The equilibrium.
     pub equilibrium: MechanismEquilibrium,
@@ -81,8 +84,8 @@ impl<'m> Posture<'m> {
     }
 
     /// The holding wrench along `moved(target, direction * s)` for the given `s` in their order,
-    /// each point from the one before, the first from `start` or from rest. Limit points are found
-    /// between points of opposite slope.
+    /// each point from the one before, the first from `start` or from rest. The tool is held in all
+    /// directions. Limit points are found between points of opposite slope.
     ///
     /// # Errors
     /// Those of the first point; a curve that ends later says so in [`HeldCurve::ended`].
@@ -92,20 +95,52 @@ impl<'m> Posture<'m> {
         way: &[f64],
         start: Option<MechanismState>,
     ) -> Result<HeldCurve> {
+        self.curve(&Way::Held(*direction), way, start)
+    }
+
+    /// The force that holds the tool's origin at the distances `way` (m, from the nominal target)
+    /// along a direction, while the tool is free in all others under the dead wrench `dead`: what a
+    /// press measures that pushes by a pin. Limit points are those of the machine: under a dead
+    /// force along the direction the tool snaps there.
+    ///
+    /// # Errors
+    /// [`crate::Error::Model`] for a direction without length; else as [`Self::held_along`].
+    pub fn pushed_along(
+        &self,
+        direction: &Vector3<f64>,
+        way: &[f64],
+        dead: &Wrench,
+        start: Option<MechanismState>,
+    ) -> Result<HeldCurve> {
+        self.finite("the wrench", dead.0.iter())?;
+        self.finite("the direction", direction.iter())?;
+        let Some(direction) = direction.try_normalize(1e-12) else {
+            return Err(crate::Error::model(
+                format!("mechanism '{}'", self.mechanism.name),
+                "the direction of a push has no length",
+            ));
+        };
+        self.curve(&Way::Pushed(direction, *dead), way, start)
+    }
+
+    fn curve(&self, kind: &Way, way: &[f64], start: Option<MechanismState>) -> Result<HeldCurve> {
         let mut curve = HeldCurve {
             points: Vec::with_capacity(way.len()),
             limits: Vec::new(),
             ended: None,
         };
         for &along in way {
-            let point = match (curve.points.last(), &start) {
-                (Some(last), _) => self.held(direction, along, &last.equilibrium.state),
-                (None, Some(state)) => self.held(direction, along, state),
-                (None, None) => {
+            let point = match (curve.points.last(), &start, kind) {
+                (Some(last), ..) => self.next(kind, along, Some(last), &last.equilibrium.state),
+                (None, Some(state), _) => self.next(kind, along, None, state),
+                (None, None, Way::Held(direction)) => {
                     let pose = moved(&self.target, &Twist(direction.0 * along));
-                    let equilibrium = self.wrench_at(&pose)?;
-                    Ok(point(direction, along, equilibrium))
+                    self.wrench_at(&pose).map(|e| kind.point(along, e))
                 }
+                // Under the dead wrench first, then pushed.
+                (None, None, Way::Pushed(_, dead)) => self
+                    .deflected_by(dead)
+                    .and_then(|e| self.next(kind, along, None, &e.state)),
             };
             match point {
                 Ok(point) => curve.points.push(point),
@@ -118,7 +153,7 @@ impl<'m> Posture<'m> {
         }
         for pair in curve.points.windows(2) {
             if pair[0].slope * pair[1].slope < 0.0
-                && let Some(limit) = self.limit_between(direction, &pair[0], &pair[1])
+                && let Some(limit) = self.limit_between(kind, &pair[0], &pair[1])
             {
                 curve.limits.push(limit);
             }
@@ -126,23 +161,84 @@ impl<'m> Posture<'m> {
         Ok(curve)
     }
 
-    fn held(&self, direction: &Twist, along: f64, state: &MechanismState) -> Result<HeldPoint> {
-        let pose = moved(&self.target, &Twist(direction.0 * along));
-        let equilibrium = self.wrench_at_from(&pose, state.clone())?;
-        Ok(point(direction, along, equilibrium))
+    fn next(
+        &self,
+        kind: &Way,
+        along: f64,
+        last: Option<&HeldPoint>,
+        state: &MechanismState,
+    ) -> Result<HeldPoint> {
+        let equilibrium = match kind {
+            Way::Held(direction) => {
+                let pose = moved(&self.target, &Twist(direction.0 * along));
+                self.wrench_at_from(&pose, state.clone())?
+            }
+            Way::Pushed(direction, dead) => {
+                let force = last.map_or(0.0, |l| l.force);
+                self.pushed(direction, dead, along, force, state)?
+            }
+        };
+        Ok(kind.point(along, equilibrium))
+    }
+
+    fn pushed(
+        &self,
+        direction: &Vector3<f64>,
+        dead: &Wrench,
+        along: f64,
+        force: f64,
+        start: &MechanismState,
+    ) -> Result<MechanismEquilibrium> {
+        let tool = self.mechanism.tool;
+        let mut solver = self.solver(start.clone(), Unknowns::Along(*direction));
+        solver.wrench = *dead + Wrench::new(direction * force, Vector3::zeros());
+        let place = |pose: &Pose| {
+            direction.dot(&(pose.translation.vector - self.target.translation.vector))
+        };
+        let mut step = along - place(&start.platforms[tool]);
+        let least = step.abs() / 1024.0;
+        let mut spent = 0;
+        loop {
+            let kept = (solver.state.clone(), solver.wrench);
+            let left = along - place(&solver.state.platforms[tool]);
+            let last = step.abs() >= left.abs();
+            let go = if last { left } else { step };
+            solver.state.platforms[tool].translation.vector += direction * go;
+            match solver.solve(1.0, 0) {
+                Ok((iterations, balance)) => {
+                    spent += iterations;
+                    if last {
+                        let residual = balance.residual(spent);
+                        return conclude(&mut solver, residual);
+                    }
+                }
+                Err((iterations, balance)) => {
+                    spent += iterations;
+                    (solver.state, solver.wrench) = kept;
+                    step = 0.5 * go;
+                    if step.abs() <= least {
+                        let share = 1.0 - left.abs() / (1024.0 * least).max(1e-300);
+                        return Err(solver.not_converged(spent, share, &balance));
+                    }
+                }
+            }
+        }
     }
 
     /// Zero of the slope, by false position with halving (Illinois).
-    fn limit_between(&self, direction: &Twist, a: &HeldPoint, b: &HeldPoint) -> Option<HeldPoint> {
+    fn limit_between(&self, kind: &Way, a: &HeldPoint, b: &HeldPoint) -> Option<HeldPoint> {
         let (mut a, mut b) = (a.clone(), b.clone());
         let (mut fa, mut fb) = (a.slope, b.slope);
         let range = (b.along - a.along).abs();
         let size = fa.abs().max(fb.abs());
         for _ in 0..60 {
             let along = (fa * b.along - fb * a.along) / (fa - fb);
-            let next = self.held(direction, along, &a.equilibrium.state).ok()?;
+            let next = self
+                .next(kind, along, Some(&a), &a.equilibrium.state)
+                .ok()?;
             if next.slope.abs() <= 1e-10 * size || (b.along - a.along).abs() <= 1e-12 * range {
-                return Some(next);
+                // A pole of the slope changes its sign too; there is no limit point at one.
+                return (next.slope.abs() <= 1e-3 * size).then_some(next);
             }
             if next.slope * b.slope < 0.0 {
                 (a, fa) = (b, fb);
@@ -152,15 +248,37 @@ impl<'m> Posture<'m> {
             fb = next.slope;
             b = next;
         }
-        Some(b)
+        None
     }
 }
 
-fn point(direction: &Twist, along: f64, equilibrium: MechanismEquilibrium) -> HeldPoint {
-    HeldPoint {
-        along,
-        force: direction.dot(&equilibrium.wrench),
-        slope: direction.0.dot(&(equilibrium.stiffness.matrix * direction.0)),
-        equilibrium,
+/// How the tool is taken along.
+enum Way {
+    Held(Twist),
+    Pushed(Vector3<f64>, Wrench),
+}
+
+impl Way {
+    fn point(&self, along: f64, equilibrium: MechanismEquilibrium) -> HeldPoint {
+        let k = &equilibrium.stiffness.matrix;
+        let (force, slope) = match self {
+            Self::Held(direction) => (
+                direction.dot(&equilibrium.wrench),
+                direction.0.dot(&(k * direction.0)),
+            ),
+            Self::Pushed(direction, dead) => {
+                let own = Wrench(equilibrium.wrench.0 - dead.0);
+                let d = Vector6::new(direction.x, direction.y, direction.z, 0.0, 0.0, 0.0);
+                // The others follow: what remains of the stiffness is one by the compliance.
+                let yields = d.dot(&(equilibrium.compliance().springs * d));
+                (direction.dot(&own.force()), 1.0 / yields)
+            }
+        };
+        HeldPoint {
+            along,
+            force,
+            slope,
+            equilibrium,
+        }
     }
 }

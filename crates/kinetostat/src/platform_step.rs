@@ -49,6 +49,18 @@ impl Linear {
     }
 }
 
+/// One Newton step of the platforms.
+pub(crate) struct PlatformStep {
+    /// Motions of the moving platforms.
+    pub motions: Vec<Twist>,
+    /// Motion of the nominal target.
+    pub target: Twist,
+    /// Wrenches that limbs carry rigidly.
+    pub carried: Vec<Wrench>,
+    /// Change of the force that holds the tool in one direction.
+    pub push: Wrench,
+}
+
 /// See [`Linear::rigid`].
 fn rigid_wrenches(system: &System, factors: &[f64]) -> DMatrix<f64> {
     let jacobian = balanced_jacobian(system, factors);
@@ -229,17 +241,37 @@ impl PlatformSolver<'_> {
         (rows, needed)
     }
 
-    /// One Newton step: motions of the platforms (6P), of the nominal target (6), and the wrenches
-    /// that limbs carry rigidly.
-    pub fn platform_step(&self, lack: &[Wrench]) -> Option<(Vec<Twist>, Twist, Vec<Wrench>)> {
+    /// How far the nominal target's motion brings the tips along what they cannot strain: rows as
+    /// those of [`Self::rigid_rows`], k x 6.
+    fn rigid_rows_by_target(&self) -> DMatrix<f64> {
+        let count = self.linear.iter().map(|l| l.rigid.ncols()).sum();
+        let mut rows = DMatrix::zeros(count, 6);
+        if self.rates.is_empty() {
+            return rows;
+        }
+        let mut at = 0;
+        for (linear, rates) in self.linear.iter().zip(&self.rates) {
+            let k = linear.rigid.ncols();
+            let n = linear.system.spring_torque.len();
+            let by_commands = linear.system.jacobian.columns(n, rates.nrows());
+            rows.rows_mut(at, k)
+                .copy_from(&-(linear.rigid.transpose() * by_commands * rates));
+            at += k;
+        }
+        rows
+    }
+
+    /// One Newton step.
+    pub fn platform_step(&self, lack: &[Wrench]) -> Option<PlatformStep> {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
         if self.unknowns == Unknowns::Held && p == 1 {
-            return Some((
-                vec![Twist::zero()],
-                Twist::zero(),
-                vec![Wrench::zero(); m.limbs.len()],
-            ));
+            return Some(PlatformStep {
+                motions: vec![Twist::zero()],
+                target: Twist::zero(),
+                carried: vec![Wrench::zero(); m.limbs.len()],
+                push: Wrench::zero(),
+            });
         }
         let (mut a, by_target) = self.tangents();
         let mut b = DMatrix::zeros(6 * p, 1);
@@ -295,18 +327,32 @@ impl PlatformSolver<'_> {
                 }
             })
             .collect();
-        let (mut rigid, needed) = self.rigid_rows();
+        let (mut rigid, mut needed) = self.rigid_rows();
+        if let Unknowns::Along(direction) = self.unknowns {
+            let row = rigid.nrows();
+            rigid = rigid.insert_row(row, 0.0);
+            for k in 0..3 {
+                rigid[(row, tool + k)] = direction[k] * root;
+            }
+            needed = needed.push(0.0);
+        }
         let count = rigid.nrows();
         if count > 0 {
-            // What is held does not move; its rows ask nothing of it.
-            let still = |k: usize| held[k] || self.unknowns == Unknowns::Held;
-            for k in (0..6).filter(|&k| still(k)) {
-                rigid.column_mut(tool + k).fill(0.0);
+            let mut reactions = rigid.transpose();
+            let by_target = self.rigid_rows_by_target();
+            for k in 0..6 {
+                // What is held does not move: its unknown is another, or it asks for nothing.
+                if held[k] {
+                    let mut column = rigid.column_mut(tool + k);
+                    column.rows_mut(0, by_target.nrows()).copy_from(&by_target.column(k));
+                } else if self.unknowns == Unknowns::Held {
+                    rigid.column_mut(tool + k).fill(0.0);
+                    reactions.row_mut(tool + k).fill(0.0);
+                }
             }
             a = a.resize(6 * p + count, 6 * p + count, 0.0);
             a.view_mut((6 * p, 0), (count, 6 * p)).copy_from(&rigid);
-            a.view_mut((0, 6 * p), (6 * p, count))
-                .copy_from(&rigid.transpose());
+            a.view_mut((0, 6 * p), (6 * p, count)).copy_from(&reactions);
             b = b.resize(6 * p + count, 1, 0.0);
             b.view_mut((6 * p, 0), (count, 1)).copy_from(&needed);
             scale.resize(6 * p + count, 1.0);
@@ -334,7 +380,19 @@ impl PlatformSolver<'_> {
                 Wrench(wrench.fixed_view::<6, 1>(0, 0).into_owned())
             })
             .collect();
-        Some((motions, target, carried))
+        let push = match self.unknowns {
+            // The reaction of the row, on the right-hand side.
+            Unknowns::Along(direction) => {
+                Wrench::new(direction * (-b[(at, 0)] * root), nalgebra::Vector3::zeros())
+            }
+            _ => Wrench::zero(),
+        };
+        Some(PlatformStep {
+            motions,
+            target,
+            carried,
+            push,
+        })
     }
 
     /// Changes of wrench and coordinates of every limb that follow from a platform step.

@@ -35,6 +35,8 @@ pub struct Posture<'m> {
     /// Nominal poses of all platforms, the base first.
     pub(crate) platforms: Vec<Pose>,
     pub(crate) limbs: Vec<LimbPosture>,
+    /// Dead wrenches on platforms other than the tool.
+    pub(crate) others: Vec<(usize, Wrench)>,
 }
 
 /// Whether the platform stays where it is.
@@ -234,6 +236,7 @@ impl Mechanism {
             target: *target,
             platforms,
             limbs,
+            others: Vec::new(),
         })
     }
 
@@ -266,6 +269,7 @@ impl Mechanism {
             target: *target,
             platforms,
             limbs,
+            others: Vec::new(),
         })
     }
 
@@ -367,6 +371,24 @@ impl<'m> Posture<'m> {
         self
     }
 
+    /// The same posture with a dead wrench on a platform (its index), about the platform's origin,
+    /// base axes, besides what acts already. It is there in every equilibrium of this posture.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for the base or a platform that does not exist; [`Error::NotFinite`].
+    pub fn with_wrench_on(mut self, platform: usize, wrench: Wrench) -> Result<Self> {
+        self.finite("the wrench on a platform", wrench.0.iter())?;
+        let count = self.mechanism.platforms.len();
+        if platform == 0 || platform >= count {
+            return Err(Error::model(
+                format!("mechanism '{}'", self.mechanism.name),
+                format!("a wrench acts on platform {platform}; those that move are 1 to {}", count - 1),
+            ));
+        }
+        self.others.push((platform, wrench));
+        Ok(self)
+    }
+
     /// Tolerances in force.
     #[must_use]
     pub fn settings(&self) -> &Settings {
@@ -443,6 +465,7 @@ impl<'m> Posture<'m> {
         );
         solver.target = self.target;
         solver.nominal.clone_from(&self.platforms);
+        solver.others.clone_from(&self.others);
         solver
     }
 
@@ -683,8 +706,14 @@ pub(crate) fn conclude(
             -p.mass * m.gravity.dot(&centre.coords)
         })
         .sum();
-    let energy = limbs.iter().try_fold(weights, |sum, limb| {
-        Some(sum + limb.energy + limb.load_energy?)
+    // A dead force has a potential; a dead moment is not asked for one here.
+    let dead = solver.others.iter().map(|(platform, wrench)| {
+        let place = solver.state.platforms[*platform].translation.vector;
+        (wrench.moment() == nalgebra::Vector3::zeros()).then(|| -wrench.force().dot(&place))
+    });
+    let outside = dead.sum::<Option<f64>>().map(|dead| dead + weights);
+    let energy = limbs.iter().fold(outside, |sum, limb| {
+        Some(sum? + limb.energy + limb.load_energy?)
     });
     // With platforms in between, what blocks the tool is not one limb's affair.
     let directions = if m.platforms.len() > 2 {
@@ -709,7 +738,8 @@ pub(crate) fn conclude(
     let answer = MechanismEquilibrium {
         tool: solver.state.platforms[tool],
         displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
-        conservative: limbs.iter().all(|l| l.conservative)
+        conservative: outside.is_some()
+            && limbs.iter().all(|l| l.conservative)
             && (solver.unknowns == Unknowns::Held || m.tool_moment_has_potential(&wrench.moment())),
         energy,
         wrench,

@@ -69,6 +69,7 @@ fn linear(posture: &Posture<'_>, own: &Posture<'_>) -> Result<Row, Cause> {
         wrenches,
         passive,
         springs: deflections,
+        ..
     } = posture.linear_assembly(&posture.assembly_errors())?;
     let mut row = Row {
         shift: (shift.linear() * 1e3).into(),

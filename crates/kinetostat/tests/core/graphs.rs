@@ -593,6 +593,9 @@ fn two_bars_are_the_coupled_parallelogram() {
         }
         let bars = builder.build().unwrap();
         let (a, b) = (lumped.posture(&far).unwrap(), bars.posture(&far).unwrap());
+        assert_eq!(b.overconstraint().degree, 3, "a planar loop of four pins");
+        assert_eq!(a.mobility().ncols(), 1);
+        assert_eq!(b.mobility().ncols(), 1);
         let (ka, kb) = (a.stiffness().unwrap(), b.stiffness().unwrap());
         assert_eq!(ka.rank(), 5);
         assert_eq!(kb.rank(), 5);
@@ -605,6 +608,155 @@ fn two_bars_are_the_coupled_parallelogram() {
     }
     println!("parallelogram: unloaded {worst:e}, loaded apart {apart:e}");
     assert!(worst < 1e-12, "{worst:e}");
+}
+
+/// Errors of the limbs of a graph, loads on any platform, springs between its limbs.
+#[test]
+fn a_graph_with_errors_strains_itself_to_first_order() {
+    let mut rng = Rng(77);
+    let mut worst = [0.0_f64; 2];
+    for size in [1e-6, 1e-7] {
+        let mut builder = Mechanism::builder("ring");
+        let homes = [
+            Pose::identity(),
+            Pose::translation(0.3, 0.0, 0.2) * Pose::rotation(vector![0.2, 0.1, -0.3]),
+            Pose::translation(0.6, 0.1, 0.3) * Pose::rotation(vector![-0.2, 0.4, 0.1]),
+        ];
+        let a = builder.platform(Platform::new("a", homes[1]));
+        let tool = builder.platform(Platform::new("tool", homes[2]));
+        for (name, from, to) in [("1", 0, a), ("2", a, tool), ("3", 0, tool), ("4", a, tool)] {
+            let arm = rng.pose(0.1, 0.5);
+            let way = homes[from].inverse() * homes[to] * arm;
+            let k = rng.spring_matrix(1e6, 1e4);
+            let error = Pose::translation(size, -2.0 * size, size * f64::from(from as u8 + 1))
+                * Pose::rotation(vector![3.0 * size, size, -size]);
+            let build = |error: Pose| {
+                let mut chain = Chain::builder(name).rigid(way).rigid(error);
+                if name != "4" {
+                    chain = chain.spring6("s", &k, [0.0; 6]);
+                }
+                if name == "2" {
+                    chain = chain.passive("q", MotionKind::Revolute, Vector3::z(), 0.0);
+                }
+                if name == "4" {
+                    // Rigid but for a ball joint.
+                    chain = chain.passive_spherical("q");
+                }
+                chain.build().unwrap()
+            };
+            builder = builder.limb(Limb {
+                name: name.into(),
+                from,
+                to,
+                platform_from_tip: arm,
+                nominal: build(Pose::identity()),
+                actual: build(error),
+            });
+        }
+        let machine = builder.build().unwrap();
+        let posture = machine.posture(&homes[2]).unwrap();
+        let linear = posture.linear_assembly(&posture.assembly_errors()).unwrap();
+        let e = posture.deflected_by(&Wrench::zero()).unwrap();
+        assert_equilibrium(&posture, &e);
+        let apart = (e.displacement.0 - linear.shift.0).norm() / linear.shift.0.norm();
+        worst[0] = worst[0].max(apart / size);
+        for (limb, wrench) in e.limbs.iter().zip(&linear.wrenches) {
+            assert!(wrench.0.norm() > 0.0);
+            let apart = (limb.wrench.0 - wrench.0).norm() / limb.wrench.0.norm();
+            worst[1] = worst[1].max(apart / size);
+        }
+    }
+    println!("first order: {worst:?} per unit of error");
+    assert!(worst.iter().all(|w| *w < 1e3), "{worst:?}");
+}
+
+#[test]
+fn wrenches_act_on_any_platform_and_springs_between_limbs_are_limbs() {
+    for machine in hybrids() {
+        let home = machine.platforms()[machine.tool()].home;
+        let posture = machine.posture(&home).unwrap();
+        let push = Wrench::new(vector![150.0, -80.0, 60.0], vector![5.0, 3.0, -4.0]);
+        assert!(posture.clone().with_wrench_on(0, push).is_err());
+        assert!(posture.clone().with_wrench_on(9, push).is_err());
+        let tool = machine.tool();
+        // On the tool it is the wrench on the tool.
+        let by_argument = posture.deflected_by(&push).unwrap();
+        let on_tool = posture.clone().with_wrench_on(tool, push).unwrap();
+        let found = on_tool.deflected_by(&Wrench::zero()).unwrap();
+        let apart = pose_residual(&by_argument.tool, &found.tool).0.norm();
+        assert!(apart < 1e-12, "{apart:e}");
+        // Work: what moves the other platform is the other's motion under the first (Betti).
+        let small = |w: &Wrench| Wrench(w.0 * 1e-3);
+        let pull = Wrench::new(vector![-20.0, 90.0, 40.0], vector![-2.0, 6.0, 1.0]);
+        let rest = posture.deflected_by(&Wrench::zero()).unwrap();
+        let with = |platform: usize, wrench: &Wrench| {
+            let p = posture.clone().with_wrench_on(platform, *wrench).unwrap();
+            p.deflected_from(&Wrench::zero(), rest.state.clone()).unwrap()
+        };
+        let motion = |platform: usize, e: &kinetostat::MechanismEquilibrium| {
+            pose_residual(&e.state.platforms[platform], &rest.state.platforms[platform])
+        };
+        let (a, b) = (with(1, &small(&push)), with(tool, &small(&pull)));
+        let first = motion(tool, &a).dot(&small(&pull));
+        let second = motion(1, &b).dot(&small(&push));
+        let off = (first - second).abs() / first.abs();
+        assert!(off < 1e-3, "{first:e} {second:e}");
+    }
+    // A spring between two moving platforms: a limb of ball joint, slide with a spring, ball joint.
+    let (k, rest) = (3e4, 0.25);
+    let mut machines = Vec::new();
+    for sprung in [false, true] {
+        let machine = arm_with_parallel_wrist(9.81);
+        let (flange, tool) = (1, machine.tool());
+        let mut builder = Mechanism::builder("sprung").gravity(machine.gravity());
+        for platform in &machine.platforms()[1..] {
+            builder.platform(platform.clone());
+        }
+        for own in machine.limbs() {
+            builder = builder.limb(own.clone());
+        }
+        let (below, above) = (vector![0.05, 0.02, 0.03], vector![-0.02, 0.01, 0.0]);
+        if sprung {
+            let offset = Pose::translation(0.01, -0.02, 0.25);
+            let way = (offset * nalgebra::Point3::from(above)).coords - below;
+            let (first, second) = turns(&way);
+            let chain = Chain::builder("spring")
+                .translation(below)
+                .passive("u1", MotionKind::Revolute, Vector3::x(), first)
+                .passive("u2", MotionKind::Revolute, Vector3::y(), second)
+                .spring("slide", MotionKind::Prismatic, Vector3::z(), k, rest)
+                .home("slide", way.norm())
+                .passive_spherical("s")
+                .build()
+                .unwrap();
+            let tip = Pose::translation(above.x, above.y, above.z);
+            builder = builder.limb(limb("spring", flange, tool, tip, chain));
+        }
+        machines.push((builder.build().unwrap(), below, above));
+    }
+    let (machine, below, above) = &machines[1];
+    let (flange, tool) = (1, machine.tool());
+    let home = machine.platforms()[tool].home;
+    let sprung = machine.posture(&home).unwrap();
+    let e = sprung.deflected_by(&Wrench::zero()).unwrap();
+    assert_equilibrium(&sprung, &e);
+    // Statics by hand: the force of the spring as dead forces on both platforms of the machine
+    // without it gives the same rest.
+    let (p, q) = (&e.state.platforms[flange], &e.state.platforms[tool]);
+    let (foot, head) = (p.rotation * below, q.rotation * above);
+    let way = q.translation.vector + head - p.translation.vector - foot;
+    let force = way.normalize() * (k * (way.norm() - rest));
+    let bare = machines[0].0.posture(&home).unwrap();
+    let bare = bare
+        .with_wrench_on(flange, Wrench::new(force, foot.cross(&force)))
+        .unwrap()
+        .with_wrench_on(tool, Wrench::new(-force, -head.cross(&force)))
+        .unwrap();
+    let same = bare.deflected_by(&Wrench::zero()).unwrap();
+    let apart = pose_residual(&same.tool, &e.tool).0.norm();
+    println!("spring between platforms: force {}, apart {apart:e}", force.norm());
+    assert!(force.norm() > 10.0);
+    assert!(apart < 1e-11, "{apart:e}");
 }
 
 /// A tower: every platform stands on six legs on the one below.

@@ -541,6 +541,79 @@ fn a_truss_snaps_where_statics_by_hand_says() {
     assert!(worst < 1e-11, "{worst:e}");
 }
 
+/// The same truss pushed down while its tool is free to swerve, with a soft spring across so that
+/// it cannot run away, and with a heavy one.
+#[test]
+fn a_pushed_truss_swerves_before_it_snaps_where_that_costs_less() {
+    let (b, h, k) = (0.5, 0.3, 1e5);
+    let machine = truss(b, h, k);
+    let home = machine.platforms()[machine.tool()].home;
+    let posture = machine.posture(&home).unwrap();
+    let way: Vec<f64> = (0..=90).map(|i| -0.002 * f64::from(i)).collect();
+    let curve = posture
+        .pushed_along(&Vector3::z(), &way, &Wrench::zero(), None)
+        .unwrap();
+    // By symmetry it goes straight down until it snaps; the force by hand.
+    let free = (b * b + h * h).sqrt();
+    for point in &curve.points {
+        let z = h + point.along;
+        let l = (b * b + z * z).sqrt();
+        let force = 2.0 * k * (l - free) * z / l;
+        assert!((point.force - force).abs() < 1e-10 * k, "{} {force}", point.force);
+        assert!(point.equilibrium.tool.translation.x.abs() < 1e-12);
+    }
+    let limit = ((free * b * b).powf(2.0 / 3.0) - b * b).sqrt();
+    let found: Vec<f64> = curve.limits.iter().map(|p| h + p.along).collect();
+    println!("pushed truss: limits {found:?}, by hand {limit}");
+    assert!(found.iter().any(|z| (z - limit).abs() < 1e-9));
+    // Beyond the limit a dead force would let it fall.
+    let (first, last) = (&curve.points[1], curve.points.last().unwrap());
+    assert!(first.equilibrium.platform.stable);
+    assert!(!last.equilibrium.platform.stable);
+    // And a weight across moves it aside while the pin goes down.
+    let aside = Wrench::new(vector![500.0, 0.0, 0.0], Vector3::zeros());
+    let curve = posture
+        .pushed_along(&Vector3::z(), &way[..20], &aside, None)
+        .unwrap();
+    for point in &curve.points {
+        assert_equilibrium(&posture, &point.equilibrium);
+        let e = &point.equilibrium;
+        assert!((e.wrench.force().x - 500.0).abs() < 1e-9);
+        assert!((e.tool.translation.z - h - point.along).abs() < 1e-12);
+        assert!(e.tool.translation.x > 1e-4);
+    }
+    // The slope is the derivative of the force.
+    let p = &curve.points;
+    for i in 2..p.len() - 2 {
+        let d = 8.0 * (p[i + 1].force - p[i - 1].force) - (p[i + 2].force - p[i - 2].force);
+        let slope = d / (12.0 * -0.002);
+        assert!((slope - p[i].slope).abs() < 1e-4 * k, "{slope} {}", p[i].slope);
+    }
+}
+
+#[test]
+fn a_delta_is_compensated_in_its_three_directions() {
+    let (machine, _) = delta(4000.0);
+    let home = machine.platforms()[machine.tool()].home;
+    let posture = machine.posture(&home).unwrap();
+    assert_eq!(posture.correctable(), [true, true, true, false, false, false]);
+    let pull = Wrench::new(vector![20.0, -10.0, -30.0], vector![0.5, 0.2, -0.1]);
+    let found = kinetostat::compensate(
+        &machine,
+        &home,
+        &pull,
+        posture.correctable(),
+        &kinetostat::Settings::default(),
+    )
+    .unwrap();
+    println!("delta: compensated in {:?}", found.equilibrium.residual);
+    assert!(found.left_over.linear().norm() < 1e-12);
+    assert!(found.equilibrium.residual.iterations <= 8);
+    let again = found.posture.deflected_by(&pull).unwrap();
+    let miss = (again.tool.translation.vector - home.translation.vector).norm();
+    assert!(miss < 1e-11, "{miss:e}");
+}
+
 #[test]
 fn a_posture_near_a_singular_one_says_how_far_and_where() {
     // The truss at height z is singular when flat.
