@@ -55,7 +55,9 @@ pub(crate) fn graph_inverse(
     if off.amax() <= 1e-9 * search.length.max(1.0) {
         let mut found = home;
         found.platforms[mechanism.tool] = *target;
-        let found = search.close(found).map_err(|_| search.unreachable(target, target))?;
+        let found = search
+            .close(found)
+            .map_err(|_| search.unreachable(target, target))?;
         return search.settled(found, false);
     }
     match search.walk(home, target) {
@@ -112,6 +114,9 @@ struct Linked {
     weights: Vec<f64>,
     kinds: Vec<MotionKind>,
 }
+
+/// Motions of all platforms and of the joints of all limbs.
+type Moves = (Vec<Vector6<f64>>, Vec<DVector<f64>>);
 
 struct GraphSearch<'m> {
     mechanism: &'m Mechanism,
@@ -267,10 +272,10 @@ impl<'m> GraphSearch<'m> {
                 let matrix = (gram + Matrix6::identity() * (damping * size))
                     .cholesky()
                     .map_or_else(Matrix6::identity, |c| c.inverse());
-                let balanced = |t: Matrix6<f64>| {
-                    Matrix6::from_fn(|a, b| t[(a, b)] * units[a] / units[b])
-                };
-                let arm = at.platforms[limb.to].rotation * limb.platform_from_tip.translation.vector;
+                let balanced =
+                    |t: Matrix6<f64>| Matrix6::from_fn(|a, b| t[(a, b)] * units[a] / units[b]);
+                let arm =
+                    at.platforms[limb.to].rotation * limb.platform_from_tip.translation.vector;
                 let by_from = if limb.from == 0 {
                     Matrix6::zeros()
                 } else {
@@ -292,11 +297,7 @@ impl<'m> GraphSearch<'m> {
 
     /// Motions of all platforms (balanced; base and tool do not move, or the tool by `tool_motion`
     /// while nothing lacks) and of all weighted joints.
-    fn solve(
-        &self,
-        network: &[Linked],
-        tool_motion: Option<&Vector6<f64>>,
-    ) -> Option<(Vec<Vector6<f64>>, Vec<DVector<f64>>)> {
+    fn solve(&self, network: &[Linked], tool_motion: Option<&Vector6<f64>>) -> Option<Moves> {
         let m = self.mechanism;
         let count = m.platforms.len();
         // Platforms that are sought: neither base nor tool.
@@ -325,7 +326,10 @@ impl<'m> GraphSearch<'m> {
             }
         };
         for (i, (limb, own)) in m.limbs.iter().zip(network).enumerate() {
-            let ends = [(place[limb.to], &own.by_to), (place[limb.from], &own.by_from)];
+            let ends = [
+                (place[limb.to], &own.by_to),
+                (place[limb.from], &own.by_from),
+            ];
             let pull = own.matrix * lack(i);
             for (row, by_row) in ends {
                 let Some(row) = row else { continue };
@@ -338,7 +342,11 @@ impl<'m> GraphSearch<'m> {
                 }
             }
         }
-        let found = if size == 0 { b } else { a.cholesky()?.solve(&b) };
+        let found = if size == 0 {
+            b
+        } else {
+            a.cholesky()?.solve(&b)
+        };
         let mut motions = vec![Vector6::zeros(); count];
         for (motion, place) in motions.iter_mut().zip(&place) {
             if let Some(at) = place {
@@ -461,7 +469,11 @@ impl<'m> GraphSearch<'m> {
     /// Distance from home in weighted joints.
     fn away(&self, at: &GraphPosture, home: &GraphPosture) -> f64 {
         let network = self.network(at, LEAST_DAMPING, Some(home));
-        network.iter().map(|l| l.pull.norm_squared()).sum::<f64>().sqrt()
+        network
+            .iter()
+            .map(|l| l.pull.norm_squared())
+            .sum::<f64>()
+            .sqrt()
     }
 
     /// The joints nearest to home among those that close, in the turn that the limits ask for.

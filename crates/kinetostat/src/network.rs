@@ -82,7 +82,8 @@ impl Network {
                     let t = d.twist.0;
                     let w = |j: usize| if j < 3 { t[j] } else { t[j] * length * length };
                     let wrench = DVector::from_fn(6, |j, _| w(j));
-                    let size = (0..6).map(|j| (wrench[j] / if j < 3 { 1.0 } else { length }).powi(2));
+                    let size =
+                        (0..6).map(|j| (wrench[j] / if j < 3 { 1.0 } else { length }).powi(2));
                     let size = size.sum::<f64>().sqrt();
                     wrench / size
                 })

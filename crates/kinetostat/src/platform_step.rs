@@ -344,7 +344,9 @@ impl PlatformSolver<'_> {
                 // What is held does not move: its unknown is another, or it asks for nothing.
                 if held[k] {
                     let mut column = rigid.column_mut(tool + k);
-                    column.rows_mut(0, by_target.nrows()).copy_from(&by_target.column(k));
+                    column
+                        .rows_mut(0, by_target.nrows())
+                        .copy_from(&by_target.column(k));
                 } else if self.unknowns == Unknowns::Held {
                     rigid.column_mut(tool + k).fill(0.0);
                     reactions.row_mut(tool + k).fill(0.0);

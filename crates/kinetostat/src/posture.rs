@@ -382,7 +382,10 @@ impl<'m> Posture<'m> {
         if platform == 0 || platform >= count {
             return Err(Error::model(
                 format!("mechanism '{}'", self.mechanism.name),
-                format!("a wrench acts on platform {platform}; those that move are 1 to {}", count - 1),
+                format!(
+                    "a wrench acts on platform {platform}; those that move are 1 to {}",
+                    count - 1
+                ),
             ));
         }
         self.others.push((platform, wrench));
@@ -538,7 +541,11 @@ impl<'m> Posture<'m> {
         Ok(self.settled(wrench, start)?.0.state)
     }
 
-    pub(crate) fn finite<'a>(&self, what: &str, mut values: impl Iterator<Item = &'a f64>) -> Result<()> {
+    pub(crate) fn finite<'a>(
+        &self,
+        what: &str,
+        mut values: impl Iterator<Item = &'a f64>,
+    ) -> Result<()> {
         match values.find(|x| !x.is_finite()) {
             None => Ok(()),
             Some(&value) => Err(Error::NotFinite {

@@ -4,6 +4,7 @@
 //! Where an issue names no tolerance, the tolerance is that of the test of the same claim, and the
 //! unit says so.
 
+mod graphs;
 mod orthoglide;
 mod properties;
 mod report;

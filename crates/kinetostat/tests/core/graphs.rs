@@ -157,8 +157,8 @@ pub fn arm_with_parallel_wrist(gravity: f64) -> Mechanism {
         &arm.home_commands(),
     );
     let offset = Pose::translation(0.01, -0.02, 0.25);
-    let mut builder = Mechanism::builder("arm with a parallel wrist")
-        .gravity(Vector3::new(0.0, 0.0, -gravity));
+    let mut builder =
+        Mechanism::builder("arm with a parallel wrist").gravity(Vector3::new(0.0, 0.0, -gravity));
     let mut wrist = Platform::new("flange", flange);
     wrist.mass = 8.0;
     let wrist = builder.platform(wrist);
@@ -175,14 +175,9 @@ pub fn arm_with_parallel_wrist(gravity: f64) -> Mechanism {
 pub fn arm_on_a_parallel_base(gravity: f64) -> Mechanism {
     let arm = serial("arm", 1.0);
     let lift = Pose::translation(0.05, 0.02, 0.6);
-    let tip = unloaded_tip(
-        &arm,
-        &lift,
-        &arm.home_coordinates(),
-        &arm.home_commands(),
-    );
-    let mut builder = Mechanism::builder("arm on a parallel base")
-        .gravity(Vector3::new(0.0, 0.0, -gravity));
+    let tip = unloaded_tip(&arm, &lift, &arm.home_coordinates(), &arm.home_commands());
+    let mut builder =
+        Mechanism::builder("arm on a parallel base").gravity(Vector3::new(0.0, 0.0, -gravity));
     let mut table = Platform::new("table", lift);
     table.mass = 60.0;
     let table = builder.platform(table);
@@ -229,7 +224,9 @@ fn hybrids_are_commanded_anywhere() {
         let mut near = at_home.clone();
         for k in 0..6 {
             let target = moved(&home, &Twist::new(rng.vector(0.3), rng.vector(0.4)));
-            let posture = machine.posture(&target).unwrap_or_else(|e| panic!("{k}: {e}"));
+            let posture = machine
+                .posture(&target)
+                .unwrap_or_else(|e| panic!("{k}: {e}"));
             assert_closes(&posture);
             near = machine.posture_near(&target, &near).unwrap();
             assert_closes(&near);
@@ -237,8 +234,9 @@ fn hybrids_are_commanded_anywhere() {
     }
 }
 
-#[test]
-fn hybrids_equal_the_flattened_system() {
+/// Hybrids against the flattened system: unloaded stiffness, displacement under load, wrenches of
+/// limbs, relative.
+pub fn hybrids_apart() -> [f64; 3] {
     let mut rng = Rng(12);
     let mut worst = [0.0_f64; 3];
     for machine in hybrids() {
@@ -262,10 +260,7 @@ fn hybrids_equal_the_flattened_system() {
             }
         }
     }
-    println!("stiffness {:e}, displacement {:e}, wrenches {:e}", worst[0], worst[1], worst[2]);
-    assert!(worst[0] < 1e-12, "unloaded stiffness {:e}", worst[0]);
-    assert!(worst[1] < 1e-10, "displacement {:e}", worst[1]);
-    assert!(worst[2] < 1e-8, "wrenches {:e}", worst[2]);
+    worst
 }
 
 /// Two platforms on springs with a limb without any spring between them: `bar` is what joins them.
@@ -321,8 +316,9 @@ fn rigid_bars() -> Vec<(&'static str, Mechanism)> {
     ]
 }
 
-#[test]
-fn a_limb_without_a_spring_between_platforms_is_a_constraint() {
+/// Limbs without a spring between platforms against the flattened system: stiffness unloaded and
+/// loaded, relative.
+pub fn rigid_limbs_apart() -> [f64; 2] {
     let mut rng = Rng(8);
     let (mut worst, mut loaded) = (0.0_f64, 0.0_f64);
     for (name, machine) in rigid_bars() {
@@ -347,8 +343,7 @@ fn a_limb_without_a_spring_between_platforms_is_a_constraint() {
         assert_equilibrium(&posture, &d);
         assert!(d.stable(), "{name}");
     }
-    println!("rigid limbs: unloaded {worst:e}, loaded {loaded:e}");
-    assert!(worst < 1e-12, "{worst:e}");
+    [worst, loaded]
 }
 
 #[test]
@@ -419,11 +414,16 @@ fn redundant_actuators_take_the_commands_nearest_to_home() {
             least = least.min(cost(f64::from(i) * 2e-3, f64::from(j) * 2e-3));
         }
     }
-    println!("redundant: cost {own_cost:e}, least by a grid {least:e}");
     assert!(own_cost < 1.02 * least, "{own_cost:e} {least:e}");
     for other in hybrids() {
-        let at = other.posture(&other.platforms()[other.tool()].home).unwrap();
-        assert_eq!(at.redundancy(), 6, "six drives in the arm and six in the legs");
+        let at = other
+            .posture(&other.platforms()[other.tool()].home)
+            .unwrap();
+        assert_eq!(
+            at.redundancy(),
+            6,
+            "six drives in the arm and six in the legs"
+        );
     }
 }
 
@@ -492,11 +492,21 @@ fn double_pantograph() -> Mechanism {
             .link("outer", &section, size)
             .build()
             .unwrap();
-        limbs.push(limb(&name("corner"), first, second, Pose::identity(), corner));
+        limbs.push(limb(
+            &name("corner"),
+            first,
+            second,
+            Pose::identity(),
+            corner,
+        ));
         let inner = bar("inner", Some(v - u), Some(turned - v)).build().unwrap();
         limbs.push(limb(&name("inner"), first, driven, Pose::identity(), inner));
         // C to the driven pen: back along the direction of the long arm.
-        let back = bar("back", Some(u - v + std::f64::consts::PI), Some(turned - u - std::f64::consts::PI));
+        let back = bar(
+            "back",
+            Some(u - v + std::f64::consts::PI),
+            Some(turned - u - std::f64::consts::PI),
+        );
         limbs.push(limb(
             &name("back"),
             second,
@@ -536,7 +546,6 @@ fn a_double_pantograph_enlarges_four_times() {
         let k = posture.stiffness().unwrap();
         let flat = flat_stiffness(&posture);
         let off = balanced_error(&k.cartesian.matrix, &flat);
-        println!("double pantograph: stiffness {off:e}");
         assert!(off < 1e-9, "{off:e}");
         let e = posture
             .deflected_by(&Wrench::new(vector![20.0, 5.0, -30.0], Vector3::zeros()))
@@ -545,9 +554,9 @@ fn a_double_pantograph_enlarges_four_times() {
     }
 }
 
-/// A parallelogram of two bars between two beams against one link with a coupled coordinate.
-#[test]
-fn two_bars_are_the_coupled_parallelogram() {
+/// A parallelogram of two bars between two beams against one link with a coupled coordinate:
+/// stiffness unloaded, and the motions under a load that turns it as a share of the motion.
+pub fn parallelogram_apart() -> [f64; 2] {
     let mut bar = Matrix6::zeros();
     for (i, j, value) in [
         (0, 0, 3.25e7),
@@ -600,14 +609,27 @@ fn two_bars_are_the_coupled_parallelogram() {
         assert_eq!(ka.rank(), 5);
         assert_eq!(kb.rank(), 5);
         worst = worst.max(balanced_error(&kb.cartesian.matrix, &ka.cartesian.matrix));
-        let wrench = Wrench::new(vector![0.0, 3.0, 0.0], vector![0.2, 0.1, 0.3]);
-        if let (Ok(x), Ok(y)) = (a.deflected_by(&wrench), b.deflected_by(&wrench)) {
-            let d = pose_residual(&x.tool, &y.tool).0.norm();
-            apart = apart.max(d / x.displacement.0.norm());
-        }
+        // Held a little off in all directions but its own.
+        let along = Pose::rotation(Vector3::y() * q);
+        let aside = Twist::new(
+            along * vector![2e-5, 1e-3, 0.0],
+            along * vector![4e-3, 1e-3, -2e-3],
+        );
+        let pose = moved(&far, &aside);
+        let (x, y) = (a.wrench_at(&pose).unwrap(), b.wrench_at(&pose).unwrap());
+        let d = (x.wrench.0 - y.wrench.0).norm() / x.wrench.0.norm();
+        apart = apart.max(d);
     }
-    println!("parallelogram: unloaded {worst:e}, loaded apart {apart:e}");
-    assert!(worst < 1e-12, "{worst:e}");
+    [worst, apart]
+}
+
+/// Unloaded they are one machine; loaded the lumped one keeps the matrix of its commanded
+/// inclination, while bars turn with their ends: a difference of second order.
+#[test]
+fn a_loaded_parallelogram_differs_by_what_its_lumped_matrix_leaves_out() {
+    let [unloaded, loaded] = parallelogram_apart();
+    assert!(unloaded < 1e-12, "{unloaded:e}");
+    assert!((1e-6..0.1).contains(&loaded), "{loaded:e}");
 }
 
 /// Errors of the limbs of a graph, loads on any platform, springs between its limbs.
@@ -666,7 +688,6 @@ fn a_graph_with_errors_strains_itself_to_first_order() {
             worst[1] = worst[1].max(apart / size);
         }
     }
-    println!("first order: {worst:?} per unit of error");
     assert!(worst.iter().all(|w| *w < 1e3), "{worst:?}");
 }
 
@@ -691,10 +712,14 @@ fn wrenches_act_on_any_platform_and_springs_between_limbs_are_limbs() {
         let rest = posture.deflected_by(&Wrench::zero()).unwrap();
         let with = |platform: usize, wrench: &Wrench| {
             let p = posture.clone().with_wrench_on(platform, *wrench).unwrap();
-            p.deflected_from(&Wrench::zero(), rest.state.clone()).unwrap()
+            p.deflected_from(&Wrench::zero(), rest.state.clone())
+                .unwrap()
         };
         let motion = |platform: usize, e: &kinetostat::MechanismEquilibrium| {
-            pose_residual(&e.state.platforms[platform], &rest.state.platforms[platform])
+            pose_residual(
+                &e.state.platforms[platform],
+                &rest.state.platforms[platform],
+            )
         };
         let (a, b) = (with(1, &small(&push)), with(tool, &small(&pull)));
         let first = motion(tool, &a).dot(&small(&pull));
@@ -754,7 +779,6 @@ fn wrenches_act_on_any_platform_and_springs_between_limbs_are_limbs() {
         .unwrap();
     let same = bare.deflected_by(&Wrench::zero()).unwrap();
     let apart = pose_residual(&same.tool, &e.tool).0.norm();
-    println!("spring between platforms: force {}, apart {apart:e}", force.norm());
     assert!(force.norm() > 10.0);
     assert!(apart < 1e-11, "{apart:e}");
 }
@@ -772,20 +796,27 @@ pub fn tower(floors: usize) -> Mechanism {
         all.push(builder.platform(platform));
     }
     for pair in all.windows(2) {
-        builder = legs(builder, &format!("{}", pair[1]), pair[0], pair[1], 0.25, 0.2, &lift);
+        builder = legs(
+            builder,
+            &format!("{}", pair[1]),
+            pair[0],
+            pair[1],
+            0.25,
+            0.2,
+            &lift,
+        );
     }
     builder.build().unwrap()
 }
 
-#[test]
-fn a_tower_of_thirty_platforms() {
-    for floors in [4, 15, 30] {
+/// Seconds for the unloaded stiffness, an equilibrium and a target elsewhere, and how far the
+/// compliance is from that of floors in series, relative.
+pub fn tower_of(floors: usize) -> [f64; 4] {
+    {
         let machine = tower(floors);
         let home = machine.platforms()[machine.tool()].home;
         let start = std::time::Instant::now();
         let posture = machine.posture(&home).unwrap();
-        let commanded = start.elapsed();
-        let start = std::time::Instant::now();
         let k = posture.stiffness().unwrap();
         let unloaded = start.elapsed();
         let start = std::time::Instant::now();
@@ -795,28 +826,30 @@ fn a_tower_of_thirty_platforms() {
         assert_equilibrium(&posture, &e);
         assert!(e.stable());
         let start = std::time::Instant::now();
-        let target = moved(&home, &Twist::new(vector![0.1, 0.0, 0.05], vector![0.0, 0.1, 0.1]));
+        let target = moved(
+            &home,
+            &Twist::new(vector![0.1, 0.0, 0.05], vector![0.0, 0.1, 0.1]),
+        );
         let elsewhere = machine.posture(&target).unwrap();
         let searched = start.elapsed();
         assert_closes(&elsewhere);
-        println!(
-            "tower {floors}: home {commanded:?}, stiffness {unloaded:?}, equilibrium {loaded:?} in {} steps, elsewhere {searched:?}",
-            e.residual.iterations
-        );
         // Floors in series: the compliance by hand, one flat system per floor, shifted to the tool.
         let one = tower(1);
         let lift = one.platforms()[1].home;
-        let single = flat_stiffness(&one.posture(&lift).unwrap()).try_inverse().unwrap();
+        let single = flat_stiffness(&one.posture(&lift).unwrap())
+            .try_inverse()
+            .unwrap();
         let mut compliance = Matrix6::zeros();
         for floor in 1..=floors {
             let arm = home.translation.vector - machine.platforms()[floor].home.translation.vector;
             let mut t = Matrix6::identity();
-            t.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm.cross_matrix());
+            t.fixed_view_mut::<3, 3>(0, 3)
+                .copy_from(&-arm.cross_matrix());
             compliance += t * single * t.transpose();
         }
         let found = k.cartesian.matrix.try_inverse().unwrap();
         let off = balanced_error(&found, &compliance);
-        println!("tower {floors}: compliance {off:e}");
-        assert!(off < 1e-9, "{off:e}");
+        let [a, b, c] = [unloaded, loaded, searched].map(|t| t.as_secs_f64());
+        [a, b, c, off]
     }
 }
