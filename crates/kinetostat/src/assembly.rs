@@ -95,8 +95,11 @@ impl Posture<'_> {
                 _ => 1.0 / (root * scale.length),
             })
             .collect();
-        // A wrench of size one, against the energies of the springs.
-        units.resize(size + count, root);
+        // Constraints of the size of the stiffest direction, so that none is lost in rounding.
+        let stiffest = (0..size)
+            .map(|i| a[(i, i)].abs() * units[i] * units[i])
+            .fold(1.0, f64::max);
+        units.resize(size + count, root * stiffest);
         crate::saddle::Saddle::new(a, &units, &units).solve(&mut b);
         let mut platforms = vec![Twist::zero()];
         platforms.extend((0..moving).map(|p| Twist(b.fixed_view::<6, 1>(6 * p, 0).into_owned())));

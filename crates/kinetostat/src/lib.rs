@@ -76,7 +76,8 @@
 //!
 //! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <- system
 //! with sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse
-//! <- platform, platform_step <- posture <- assembly, mobility, compensation`; and `equilibrium, stability <- reduced, singular_point <-
+//! with graph <- platform, platform_step <- posture with network <- assembly, constraints, mobility,
+//! near_singular, platform_curve, compensation`; and `equilibrium, stability <- reduced, singular_point <-
 //! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
 mod assembly;

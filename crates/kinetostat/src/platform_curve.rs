@@ -1,11 +1,12 @@
 //! The wrench that holds the tool, followed along a way of the tool: branches, limit points and
 //! snap-through of a machine [R 5.5.3, Table 5.3].
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector3};
 
 use crate::error::Result;
 use crate::platform::{MechanismState, Unknowns};
 use crate::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::saddle::{complement, pseudo_inverse};
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
 
 /// One point of a curve.
@@ -17,7 +18,7 @@ pub struct HeldPoint {
     /// the dead wrench.
     pub force: f64,
     /// Its derivative along the way, N/m: `direction^T K direction` for a tool held in all
-    /// directions, `1 / (direction^T C direction)` for one pushed in one.
+    /// directions; for one pushed in one what remains of it with the others free.
     pub slope: f64,
     /// The equilibrium.
     pub equilibrium: MechanismEquilibrium,
@@ -268,10 +269,10 @@ impl Way {
             ),
             Self::Pushed(direction, dead) => {
                 let own = Wrench(equilibrium.wrench.0 - dead.0);
-                let d = Vector6::new(direction.x, direction.y, direction.z, 0.0, 0.0, 0.0);
-                // The others follow: what remains of the stiffness is one by the compliance.
-                let yields = d.dot(&(equilibrium.compliance().springs * d));
-                (direction.dot(&own.force()), 1.0 / yields)
+                (
+                    direction.dot(&own.force()),
+                    alone(k, direction, equilibrium.length),
+                )
             }
         };
         HeldPoint {
@@ -281,4 +282,17 @@ impl Way {
             equilibrium,
         }
     }
+}
+
+/// Stiffness against a force in one direction with the others free, N/m: Schur complement. What is
+/// rigid or free among the others has no share in it.
+fn alone(k: &Matrix6<f64>, direction: &Vector3<f64>, length: f64) -> f64 {
+    let unit = |i: usize| if i < 3 { 1.0 } else { length };
+    let balanced = DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (unit(i) * unit(j)));
+    let d = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });
+    let others = complement(&d);
+    let (inverse, _) = pseudo_inverse(&(others.transpose() * &balanced * &others));
+    let coupling = d.transpose() * &balanced * &others;
+    let back = others.transpose() * &balanced * &d;
+    (d.transpose() * &balanced * &d - coupling * inverse * back)[(0, 0)]
 }

@@ -338,6 +338,16 @@ impl PlatformSolver<'_> {
         }
         let count = rigid.nrows();
         if count > 0 {
+            // Constraints of the size of the stiffest direction, so that none is lost in rounding.
+            let stiffest = (0..6 * p)
+                .map(|i| a[(i, i)].abs() * scale[i] * scale[i])
+                .fold(1.0, f64::max);
+            let units = scale.clone();
+            for row in rigid.row_iter() {
+                let size = row.iter().zip(&units).map(|(x, s)| (x * s).powi(2));
+                let size = size.sum::<f64>().sqrt();
+                scale.push(if size > 0.0 { stiffest / size } else { 1.0 });
+            }
             let mut reactions = rigid.transpose();
             let by_target = self.rigid_rows_by_target();
             for k in 0..6 {
@@ -357,7 +367,6 @@ impl PlatformSolver<'_> {
             a.view_mut((0, 6 * p), (6 * p, count)).copy_from(&reactions);
             b = b.resize(6 * p + count, 1, 0.0);
             b.view_mut((6 * p, 0), (count, 1)).copy_from(&needed);
-            scale.resize(6 * p + count, 1.0);
         }
         Saddle::new(a, &scale, &scale).solve(&mut b);
         if b.iter().any(|x| !x.is_finite()) {
