@@ -238,8 +238,16 @@ impl ChainBuilder {
             self.fault(format!("a motion is coupled to '{coordinate}' by {ratio}"));
         }
         let drive = |index| Drive { index, ratio };
-        let follows = self.chain.coordinates.iter().position(|c| c.name == coordinate);
-        let commanded = self.chain.actuators.iter().position(|a| a.name == coordinate);
+        let follows = self
+            .chain
+            .coordinates
+            .iter()
+            .position(|c| c.name == coordinate);
+        let commanded = self
+            .chain
+            .actuators
+            .iter()
+            .position(|a| a.name == coordinate);
         if follows.is_none() && commanded.is_none() {
             self.fault(format!(
                 "a motion is coupled to '{coordinate}', but no coordinate of that name comes before it"
