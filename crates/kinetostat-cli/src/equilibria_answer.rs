@@ -196,10 +196,16 @@ pub(crate) fn degenerate(
     let Ok(criterion) = shape_criterion(problem, e, length) else {
         return true;
     };
-    let sizes = || criterion.eigenvalues.iter().map(|x| x.abs());
-    let least = sizes().fold(f64::INFINITY, f64::min);
-    if criterion.neutral > 0 || least < 1e-7 * sizes().fold(0.0, f64::max) {
-        return true;
+    if !criterion.matrix.is_empty() {
+        let modes = criterion.matrix.symmetric_eigen();
+        let most = modes.eigenvalues.amax();
+        let free = (0..modes.eigenvalues.len())
+            .filter(|&k| modes.eigenvalues[k].abs() < 1e-7 * most)
+            // A hinge at a free end turns alone and for nothing: that is no limit.
+            .any(|k| (&criterion.basis * modes.eigenvectors.column(k)).amax() < 1.0 - 1e-6);
+        if free {
+            return true;
+        }
     }
     // Motions of the end in the held directions: those that the chain can make somewhere, and here.
     let end = &problem.end;
