@@ -127,7 +127,7 @@ fn reach(a: &CurveAnswer) -> String {
     let own = a.branches.first();
     if own.is_some_and(|b| b.ends.contains(&BranchEnd::Points)) {
         return format!(
-            " Branch 1, the start's own, was followed only from {low} to {high} {unit}: as many points as --points allows, it goes on."
+            " Branch 1, the start's own, was followed only from {low} to {high} {unit}: as many points as --points allows, and it may go on."
         );
     }
     format!(" Branch 1, the start's own, reaches only from {low} to {high} {unit}.")
