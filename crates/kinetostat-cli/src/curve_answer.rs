@@ -179,7 +179,7 @@ pub(crate) struct BranchAnswer {
     pub(crate) number: usize,
     /// Name of the point from which it was found; null for the start's and those of --all.
     pub(crate) from: Option<String>,
-    /// Why it ends at its first and at its last point: range, angle, points, closed, lost.
+    /// Why it ends at its first and at its last point: range, angle, points, closed, lost, stalled.
     pub(crate) ends: [BranchEnd; 2],
     pub(crate) points: Vec<PointAnswer>,
 }
@@ -344,6 +344,10 @@ pub(crate) fn solve(
             match end {
                 BranchEnd::Lost => warnings.push(format!(
                     "branch {} was lost: beyond its end no further point was found",
+                    b.number
+                )),
+                BranchEnd::Stalled => warnings.push(format!(
+                    "branch {} was given up: ever shorter steps made no progress at its end",
                     b.number
                 )),
                 BranchEnd::Points => warnings.push(format!(
@@ -664,6 +668,7 @@ impl View<'_> {
                     BranchEnd::Angle => "a joint has turned by 180 deg",
                     BranchEnd::Points => "as many points as allowed",
                     BranchEnd::Lost => "no further point was found",
+                    BranchEnd::Stalled => "ever shorter steps made no progress",
                     BranchEnd::Closed | BranchEnd::Found => continue,
                 };
                 // The start has a name already.

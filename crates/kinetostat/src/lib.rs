@@ -96,6 +96,7 @@ mod elimination;
 mod equilibria;
 mod equilibrium;
 mod error;
+mod family;
 mod follower;
 mod function_load;
 mod inverse;
