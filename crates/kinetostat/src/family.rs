@@ -77,10 +77,9 @@ impl Family {
         let motions = a.clone().lu().solve(&unit)?.rows(0, m + 1).into_owned();
         let lefts = a.transpose().lu().solve(&unit)?.rows(0, m).into_owned();
         let motions = neutral_part(motions, t)?;
-        Some(Self {
-            motions,
-            lefts: orthonormal(lefts)?,
-        })
+        let near = (self.motions.transpose() * &motions).determinant() > 0.5;
+        let lefts = orthonormal(lefts)?;
+        near.then_some(Self { motions, lefts })
     }
 
     /// True if the family's motions turn one of two directions of a null space into the other.

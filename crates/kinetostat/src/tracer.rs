@@ -223,8 +223,22 @@ impl Tracer<'_, '_, '_> {
         tangent(matrix, guide, self.reduced.family.as_deref())
     }
 
-    /// A point from a corrected state; the system is evaluated there.
+    /// A point from a corrected state, with the family as it is there; the system is evaluated
+    /// there.
     pub fn describe(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
+        let before = self.reduced.family.clone();
+        if let Some(carried) = before
+            .as_ref()
+            .and_then(|f| f.carried(&c.matrix, &direction))
+        {
+            self.reduced.family = Some(Arc::new(carried));
+        }
+        let point = self.described(c, direction);
+        self.reduced.family = before;
+        point
+    }
+
+    fn described(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
         self.reduced.evaluate(&c.z);
         let (held, u_held) = self.reduced.stability(&c.matrix, true);
         let (dead, u_dead) = self.reduced.stability(&c.matrix, false);
@@ -420,11 +434,7 @@ impl Tracer<'_, '_, '_> {
             return None;
         }
         let iterations = c.iterations;
-        let mut point = self.describe(&c, next.direction.clone());
-        if let Some(family) = &here.family {
-            let carried = family.carried(&c.matrix, &next.direction)?;
-            point.family = Some(Arc::new(carried));
-        }
+        let point = self.describe(&c, next.direction.clone());
         Some((point, next, iterations))
     }
 
