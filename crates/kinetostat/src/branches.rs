@@ -4,6 +4,9 @@
 //! A curve starts at an equilibrium, is followed both ways, and every further branch that crosses
 //! it can be followed as well. Steps adapt to the curve; limit points and bifurcation points
 //! between two steps are located by themselves ([`Special`]).
+//!
+//! Shapes that a motion turns into each other at no cost (a round rod that buckles in any direction)
+//! are one family and one branch, followed at rest along that motion ([`CurvePoint::in_family`]).
 
 use std::sync::Arc;
 

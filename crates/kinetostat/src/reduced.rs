@@ -698,14 +698,10 @@ impl<'p, 'a> Reduced<'p, 'a> {
             return judge(rows);
         };
         let (r, n) = (self.reactions(), self.coordinates_count());
-        let motions = family.motions.rows(r, n).transpose();
-        let held = DMatrix::from_rows(
-            &rows
-                .row_iter()
-                .map(|row| row.into_owned())
-                .chain(motions.row_iter().map(|row| row.into_owned()))
-                .collect::<Vec<_>>(),
-        );
+        let (first, n_held) = (rows.nrows(), family.motions.ncols());
+        let mut held = rows.clone().resize_vertically(first + n_held, 0.0);
+        held.rows_mut(first, n_held)
+            .copy_from(&family.motions.rows(r, n).transpose());
         let taken = column_space(&held).ncols().saturating_sub(rank);
         let mut stability = judge(&held);
         // Every motion held adds a positive and a negative eigenvalue in place of its zero.

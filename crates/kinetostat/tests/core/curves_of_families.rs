@@ -34,27 +34,6 @@ fn points(c: &Curves<'_>) -> usize {
     c.branches.iter().map(|b| b.points.len()).sum()
 }
 
-fn show(c: &Curves<'_>) {
-    for s in &c.specials {
-        println!(
-            "special {:?} at {} / {}, branches {:?}",
-            s.kind, s.point.parameter, s.point.conjugate, s.branches
-        );
-    }
-    for b in &c.branches {
-        let neutral = b.points.iter().filter(|p| p.in_family()).count();
-        let (p, q) = (&b.points[0], &b.points[b.points.len() - 1]);
-        println!(
-            "branch from {:?}: {} points ({neutral} in a family), {} to {}, ends {:?}",
-            b.origin,
-            b.points.len(),
-            p.parameter,
-            q.parameter,
-            b.ends
-        );
-    }
-}
-
 #[test]
 fn a_round_clamped_rod_buckles_into_one_family() {
     let chain = clamped_rod();
@@ -66,7 +45,6 @@ fn a_round_clamped_rod_buckles_into_one_family() {
     settings.largest_change = Some(EULER / 40.0);
     let pushed = Parameter::end_wrench(press());
     let c = follow(&problem, &pushed, &solved(&problem), 0.0, &settings).unwrap();
-    show(&c);
     assert_eq!(c.specials.len(), 1, "the fork alone");
     let fork = &c.specials[0];
     assert_eq!(fork.kind, SpecialKind::Multiple { modes: 2 });
@@ -120,7 +98,6 @@ fn a_round_rod_pushed_along_its_axis_stays_on_few_branches() {
     let along = Twist::new(vector![-1.0, 0.0, 0.0], Vector3::zeros());
     let parameter = Parameter::Displacement(along);
     let c = follow(&problem, &parameter, &solved(&problem), 0.0, &settings).unwrap();
-    show(&c);
     let forks: Vec<_> = c
         .specials
         .iter()
@@ -165,7 +142,6 @@ fn a_hinge_that_nothing_holds_does_not_keep_a_curve_from_ending() {
     for pull in [-1.0, 1.0] {
         let parameter = Parameter::end_wrench(press() * pull);
         let c = follow(&problem, &parameter, &solved(&problem), 0.0, &settings).unwrap();
-        show(&c);
         assert!(points(&c) < 1000);
         if pull < 0.0 {
             assert_eq!(
