@@ -6,13 +6,16 @@ use kinetostat::{
     Parameter, Role, SearchSettings, Settings, Special, SpecialKind, Twist, critical_load_factor,
     equilibria, follow, moved, solve_chain,
 };
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::curve_chain::{CoordinateName, SerialChain, mode_in_words};
 use crate::curve_question::{Holding, Measure, Question};
+use crate::curve_turns::Turns;
 use crate::curve_work::Stage;
 use crate::deflect::PlaceAsked;
-use crate::failure::Answer;
+use crate::equilibria_answer::degenerate;
+use crate::failure::{Answer, Failure};
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -176,7 +179,7 @@ pub(crate) struct BranchAnswer {
     pub(crate) number: usize,
     /// Name of the point from which it was found; null for the start's and those of --all.
     pub(crate) from: Option<String>,
-    /// Why it ends at its first and at its last point: range, angle, points, closed, lost.
+    /// Why it ends at its first and at its last point: range, angle, points, closed, lost, stalled.
     pub(crate) ends: [BranchEnd; 2],
     pub(crate) points: Vec<PointAnswer>,
 }
@@ -258,7 +261,9 @@ pub(crate) fn solve(
     }
     let value = q.start();
     stage.is("looking for the equilibrium at the start");
-    let start = solve_chain(&at(&problem, &q.parameter, value), &Settings::default())?;
+    let there = at(&problem, &q.parameter, value);
+    let start =
+        solve_chain(&there, &Settings::default()).map_err(|error| not_there(q, &there, error))?;
     stage.is("following the curve");
     let mut curves = follow(&problem, &q.parameter, &start, value, &settings)?;
     let mut warnings = Vec::new();
@@ -303,7 +308,7 @@ pub(crate) fn solve(
             }
             for found in &all.found {
                 stage.is("following the curve through another shape");
-                if found.singular {
+                if degenerate(&q.chain, &there, found) {
                     continue;
                 }
                 if let Err(error) = curves.add(&found.equilibrium, v) {
@@ -321,7 +326,15 @@ pub(crate) fn solve(
     };
     stage.is("looking where the jumps land");
     let jumps = curves.jumps()?;
-    let view = View { q, curves: &curves };
+    let turns = match q.measure {
+        Measure::Moment(_) if q.by_load() => Turns::of(&curves, &start.tip, value),
+        _ => Turns::none(),
+    };
+    let view = View {
+        q,
+        curves: &curves,
+        turns,
+    };
     let (named, jumps) = view.named((value, conjugate), &jumps);
     stage.is("looking for the critical load");
     let critical = critical_loads(q, &problem, &settings)?;
@@ -331,6 +344,10 @@ pub(crate) fn solve(
             match end {
                 BranchEnd::Lost => warnings.push(format!(
                     "branch {} was lost: beyond its end no further point was found",
+                    b.number
+                )),
+                BranchEnd::Stalled => warnings.push(format!(
+                    "branch {} was given up: ever shorter steps made no progress at its end",
                     b.number
                 )),
                 BranchEnd::Points => warnings.push(format!(
@@ -382,6 +399,22 @@ pub(crate) fn solve(
                 (low.min(x), high.max(x))
             }),
     })
+}
+
+/// Why there is no equilibrium at the start.
+fn not_there(q: &Question, there: &ChainProblem<'_>, error: kinetostat::Error) -> Failure {
+    let loaded = !there.loads.is_empty() || there.end.wrench.0.amax() > 0.0;
+    if q.by_load() || loaded || !matches!(error, kinetostat::Error::NotConverged { .. }) {
+        return error.into();
+    }
+    let unit = match q.measure {
+        Measure::Moment(_) => "deg",
+        _ => "mm",
+    };
+    Failure::unanswered(format!(
+        "{error}; nothing loads the chain: its tool may be out of reach where the curve starts, {} {unit} from the commanded place. Start nearer to that place",
+        crate::screen::number(q.shown(q.start()), 6)
+    ))
 }
 
 /// The displacement stands still at the start.
@@ -441,10 +474,13 @@ fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -
 struct View<'v> {
     q: &'v Question,
     curves: &'v Curves<'v>,
+    turns: Turns,
 }
 
 impl View<'_> {
-    fn point(&self, p: &CurvePoint) -> PointAnswer {
+    /// `more`: what a continuous rotation has more than the one within half a turn, about the moment
+    /// that grows, rad.
+    fn point(&self, p: &CurvePoint, more: &Vector3<f64>) -> PointAnswer {
         let by_load = self.q.by_load();
         let [displacement, load, slope] = match (self.q.measure, by_load) {
             (Measure::Force(_), false) => [1e3 * p.parameter, p.conjugate, 1e-3 * p.slope],
@@ -457,7 +493,7 @@ impl View<'_> {
                 [p.parameter.to_degrees(), p.conjugate, p.slope.to_radians()]
             }
             (Measure::Moment(m), true) => [
-                (p.conjugate / m).to_degrees(),
+                (p.conjugate / m + self.about(more)).to_degrees(),
                 m * p.parameter,
                 (m * m * p.slope).to_radians(),
             ],
@@ -488,6 +524,17 @@ impl View<'_> {
             rotation_vector_deg: e.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
             coordinates: self.q.chain.values(&e.coordinates),
             shown: [displacement, load, slope],
+        }
+    }
+
+    /// The part of a rotation vector about the growing moment.
+    fn about(&self, rotation: &Vector3<f64>) -> f64 {
+        match &self.q.parameter {
+            Parameter::Load(pattern) => {
+                let axis = pattern.end.moment().try_normalize(0.0);
+                axis.map_or(0.0, |axis| rotation.dot(&axis))
+            }
+            Parameter::Displacement(_) => 0.0,
         }
     }
 
@@ -561,7 +608,7 @@ impl View<'_> {
                     mode_in_words(&self.q.chain, mode)
                 },
                 limits,
-                point: self.point(p),
+                point: self.point(p, &self.turns.at(self.curves, p)),
             });
             name
         };
@@ -621,6 +668,7 @@ impl View<'_> {
                     BranchEnd::Angle => "a joint has turned by 180 deg",
                     BranchEnd::Points => "as many points as allowed",
                     BranchEnd::Lost => "no further point was found",
+                    BranchEnd::Stalled => "ever shorter steps made no progress",
                     BranchEnd::Closed | BranchEnd::Found => continue,
                 };
                 // The start has a name already.
@@ -646,7 +694,12 @@ impl View<'_> {
                     .and_then(|s| named.get(s + 1))
                     .map(|n| n.name.clone()),
                 ends: b.ends,
-                points: b.points.iter().map(|p| self.point(p)).collect(),
+                points: b
+                    .points
+                    .iter()
+                    .enumerate()
+                    .map(|(i, p)| self.point(p, &self.turns.of_point(self.curves, k, i)))
+                    .collect(),
             })
             .collect()
     }

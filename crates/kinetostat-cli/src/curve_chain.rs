@@ -104,7 +104,7 @@ impl SerialChain {
         let Some(node) = known.iter().position(|n| n == name) else {
             let names: Vec<&str> = known.iter().map(String::as_str).collect();
             let near = crate::orientation::nearest(name, &names)
-                .map_or_else(String::new, |n| format!("; did you mean '{n}'?"));
+                .map_or_else(|| ".".to_owned(), |n| format!("; did you mean '{n}'?"));
             return Err(refuse(format!(
                 "the chain has no node '{name}'{near} It has: {}. A model file names one with {{ node = \"NAME\" }}",
                 known.join(", ")

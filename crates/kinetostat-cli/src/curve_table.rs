@@ -1,5 +1,7 @@
 //! The answer of `curve` for a person.
 
+use kinetostat::BranchEnd;
+
 use crate::curve_answer::{CriticalAnswer, CurveAnswer, NamedPoint, PointAnswer, kind_in_words};
 use crate::screen::{columns, fixed, item, number, wrapped};
 use crate::summary;
@@ -119,12 +121,16 @@ fn reach(a: &CurveAnswer) -> String {
     } else {
         a.units.displacement_unit.to_owned()
     };
-    let clean = |x: f64| if x.abs() < slack { 0.0 } else { x };
-    format!(
-        " From the start its shapes reach only from {} to {} {unit}.",
-        short(clean(low)),
-        short(clean(high))
-    )
+    // A locked chain stays at its place but for rounding.
+    let clean = |x: f64| if x.abs() < slack.min(1e-3) { 0.0 } else { x };
+    let (low, high) = (short(clean(low)), short(clean(high)));
+    let own = a.branches.first();
+    if own.is_some_and(|b| b.ends.contains(&BranchEnd::Points)) {
+        return format!(
+            " Branch 1, the start's own, was followed only from {low} to {high} {unit}: as many points as --points allows, and it may go on."
+        );
+    }
+    format!(" Branch 1, the start's own, reaches only from {low} to {high} {unit}.")
 }
 
 fn table(a: &CurveAnswer) -> String {

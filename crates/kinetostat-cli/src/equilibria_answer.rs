@@ -2,9 +2,10 @@
 //! the list is.
 
 use kinetostat::{
-    Bounds, Direction, DirectionKind, EndCondition, FoundEquilibrium, SearchSettings, equilibria,
+    Bounds, ChainProblem, Direction, DirectionKind, EndCondition, FoundEquilibrium, Kinematics,
+    Prescribed, SearchSettings, equilibria, shape_criterion, turn_matrix,
 };
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, Vector3};
 use serde::Serialize;
 
 use crate::curve_chain::{CoordinateName, SerialChain, mode_in_words};
@@ -124,7 +125,7 @@ pub(crate) fn solve(
             .found
             .iter()
             .enumerate()
-            .map(|(i, f)| shape(q, i + 1, f))
+            .map(|(i, f)| shape(q, &problem, i + 1, f))
             .collect(),
         coverage: Coverage {
             starts: found.starts,
@@ -141,7 +142,12 @@ pub(crate) fn solve(
     })
 }
 
-fn shape(q: &Question, number: usize, f: &FoundEquilibrium) -> ShapeAnswer {
+fn shape(
+    q: &Question,
+    problem: &ChainProblem<'_>,
+    number: usize,
+    f: &FoundEquilibrium,
+) -> ShapeAnswer {
     let e = &f.equilibrium;
     let k = &e.stiffness.cartesian.matrix;
     let stiffness = match q.along {
@@ -159,7 +165,7 @@ fn shape(q: &Question, number: usize, f: &FoundEquilibrium) -> ShapeAnswer {
         } else {
             mode_in_words(&q.chain, &e.stability.mode)
         },
-        singular: f.singular,
+        singular: degenerate(&q.chain, problem, f),
         found_by_spread_starts: f.hits,
         stiffness_n_per_mm: stiffness,
         stiffness_n_m_rad: std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)])),
@@ -169,6 +175,76 @@ fn shape(q: &Question, number: usize, f: &FoundEquilibrium) -> ShapeAnswer {
         rotation_vector_deg: e.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
         coordinates: q.chain.values(&e.coordinates),
     }
+}
+
+/// Whether an equilibrium is at a limit, locked, or one of a family that moves for nothing.
+///
+/// The search calls an equilibrium singular by the condition of its equations, which is bad already
+/// where a chain is nearly stretched out and its forces are large. Here the two causes are looked at
+/// apart: a held direction in which the chain is locked (its joints move the tool there 1e-4 times
+/// less than elsewhere: within 0.006 degrees of the straight line), or a motion that needs no force.
+pub(crate) fn degenerate(
+    chain: &SerialChain,
+    problem: &ChainProblem<'_>,
+    f: &FoundEquilibrium,
+) -> bool {
+    if !f.singular {
+        return false;
+    }
+    let e = &f.equilibrium;
+    let length = chain.chain.scale().length;
+    let Ok(criterion) = shape_criterion(problem, e, length) else {
+        return true;
+    };
+    if !criterion.matrix.is_empty() {
+        let modes = criterion.matrix.symmetric_eigen();
+        let most = modes.eigenvalues.amax();
+        let free = (0..modes.eigenvalues.len())
+            .filter(|&k| modes.eigenvalues[k].abs() < 1e-7 * most)
+            // A hinge at a free end turns alone and for nothing: that is no limit.
+            .any(|k| (&criterion.basis * modes.eigenvectors.column(k)).amax() < 1.0 - 1e-6);
+        if free {
+            return true;
+        }
+    }
+    // Motions of the end in the held directions: those that the chain can make somewhere, and here.
+    let end = &problem.end;
+    let held: Vec<usize> = (0..6)
+        .filter(|&k| end.prescribed[k] == Prescribed::Pose)
+        .collect();
+    let turn = turn_matrix(&end.axes).transpose();
+    let turn = DMatrix::from_fn(held.len(), 6, |i, j| turn[(held[i], j)]);
+    let sizes = |motions: DMatrix<f64>| {
+        let mut list: Vec<f64> = (&turn * motions)
+            .singular_values()
+            .iter()
+            .copied()
+            .collect();
+        list.sort_by(|a, b| b.total_cmp(a));
+        list
+    };
+    if held.is_empty() {
+        return false;
+    }
+    let anywhere = sizes(chain.movable());
+    let rank = anywhere.iter().filter(|s| **s > 1e-6 * anywhere[0]).count();
+    let kinematics = Kinematics::new(
+        problem.chain,
+        &problem.base,
+        &e.coordinates,
+        &problem.commands,
+        false,
+    );
+    let mut here = kinematics.jacobian(problem.chain.tip());
+    for mut column in here.column_iter_mut() {
+        column.rows_mut(0, 3).unscale_mut(length);
+        let size = column.norm();
+        if size > 0.0 {
+            column.unscale_mut(size);
+        }
+    }
+    let here = sizes(DMatrix::from_fn(6, here.ncols(), |i, j| here[(i, j)]));
+    rank > 0 && here.get(rank - 1).is_none_or(|s| *s < 1e-4 * here[0])
 }
 
 /// Smallest principal stiffness that is not free, N/mm.

@@ -39,7 +39,7 @@ pub(crate) fn in_words(heading: &str, a: &EquilibriaAnswer) -> String {
 fn verdict(a: &EquilibriaAnswer) -> String {
     let stable = a.equilibria.iter().filter(|e| e.stable).count();
     match a.equilibria.len() {
-        0 => "No equilibrium was found: the chain cannot be so.".into(),
+        0 => "No equilibrium was found. This does not say that there is none: the tool may be out of reach, and near a posture in which the chain is stretched out and locked the search may miss some (`kinetostat curve` follows them there from a nearer place).".into(),
         1 if stable == 1 => "One equilibrium, and it is stable.".into(),
         1 => "One equilibrium, and it is NOT stable.".into(),
         n => {

@@ -18,6 +18,7 @@ mod curve_csv;
 mod curve_plot;
 mod curve_question;
 mod curve_table;
+mod curve_turns;
 mod curve_work;
 mod deflect;
 mod demo;

@@ -714,7 +714,7 @@ fn wrong_questions_are_refused_with_what_to_do() {
     )
     .answered();
     let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("reach only from -50"), "{text}");
+    assert!(text.contains("followed only from -50.0000 to 90.68"), "{text}");
     // Out of reach: the question is right and has no answer.
     let said = run(
         here.path(),
@@ -731,6 +731,169 @@ fn wrong_questions_are_refused_with_what_to_do() {
         ],
     );
     assert_eq!(said.code, 2, "{said:?}");
+}
+
+/// A round rod, 1 m long and 20 mm thick, clamped at the base.
+const ROD: &str = r#"schema = 1
+[mechanism]
+name = "rod"
+[[platform]]
+name = "tool"
+home = { position_mm = [1000, 0, 0] }
+[section.rod]
+round = { diameter_mm = 20 }
+youngs_modulus_gpa = 210
+poissons_ratio = 0.3
+[chain.arm]
+elements = [
+  { link = "rod", name = "rod", length_mm = 1000, segments = 8 },
+]
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#;
+
+#[test]
+fn figure_a_rod_bends_to_a_circle_and_beyond() {
+    let here = workplace();
+    std::fs::write(here.path().join("rod.toml"), ROD).expect("a file");
+    // 2 pi EI / L bends it to a full circle: the rotation is the moment times L / EI.
+    let moment = std::f64::consts::TAU * 210e9 * std::f64::consts::PI * 0.01_f64.powi(4) / 4.0;
+    let text = moment.to_string();
+    let arguments = [
+        "curve", "rod.toml", "--moment", "0", "0", &text, "--factor", "0", "1.25", "--csv",
+        "rod.csv", "--plot", "rod.svg",
+    ];
+    let answer = json(here.path(), &arguments);
+    let points = answer["branches"][0]["points"].as_array().expect("points");
+    let mut worst = 0.0_f64;
+    for p in points {
+        let (factor, turn) = (number(&p["factor"]), number(&p["rotation_deg"]));
+        worst = worst.max((turn - 360.0 * factor).abs());
+    }
+    assert!(figure(
+        "curve: rotation of a rod bent to 1 1/4 circles, against M L / EI",
+        worst / 450.0,
+        1e-6,
+        "of 450 deg",
+    ));
+    let named_end = answer["named_points"].as_array().expect("named");
+    let last = named_end.last().expect("an end");
+    assert!(
+        (number(&last["rotation_deg"]) - 450.0).abs() < 1e-3,
+        "{last}"
+    );
+    // Table and drawing go on as well.
+    let table = std::fs::read_to_string(here.path().join("rod.csv")).expect("a table");
+    let mut lines = csv::Reader::from_reader(table.as_bytes());
+    let column = lines
+        .headers()
+        .expect("a header")
+        .iter()
+        .position(|h| h == "rotation_deg")
+        .expect("a column");
+    let turns: Vec<f64> = lines
+        .records()
+        .map(|r| r.expect("a row"))
+        .filter(|r| !r[1].is_empty())
+        .map(|r| r[column].parse().expect("a number"))
+        .collect();
+    assert_eq!(turns.len(), points.len());
+    assert!(turns.windows(2).all(|w| w[1] > w[0] && w[1] < w[0] + 15.0));
+    let said = run(
+        here.path(),
+        &[
+            "curve", "rod.toml", "--moment", "0", "0", &text, "--factor", "0", "1.25",
+        ],
+    )
+    .answered();
+    assert!(said.out.contains("450.000"), "{}", said.out);
+}
+
+#[test]
+fn only_what_is_at_a_limit_is_called_so() {
+    let here = workplace();
+    let held = |model: &str, x: &str| {
+        run(
+            here.path(),
+            &["equilibria", model, "--displaced-mm", x, "0", "0"],
+        )
+        .answered()
+        .out
+    };
+    // Nearly straight (0.9 degrees): regular, with large forces.
+    for x in ["80", "90.0", "90.6"] {
+        let said = held("z.toml", x);
+        assert!(
+            said.contains("2 equilibria; one of them is stable"),
+            "{said}"
+        );
+        assert!(!said.contains("at a limit"), "{x}: {said}");
+    }
+    // Straight: locked, the force is not determined.
+    let said = held("s.toml", "0");
+    assert!(said.contains("at a limit"), "{said}");
+    // Beyond reach, or just not found: that none was found is all that is known.
+    for x in ["90.687", "500"] {
+        let said = held("z.toml", x);
+        let words: Vec<&str> = said.split_whitespace().collect();
+        let words = words.join(" ");
+        assert!(
+            words.contains("No equilibrium was found. This does not say that there is none")
+                || words.contains("2 equilibria"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn the_words_say_how_far_a_branch_was_followed() {
+    let here = workplace();
+    let pushed = |to: &'static str, more: &[&'static str]| {
+        let mut list = vec![
+            "curve",
+            "z.toml",
+            "--direction",
+            "-1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "0",
+            to,
+        ];
+        list.extend(more);
+        let said = run(here.path(), &list).answered().out;
+        said.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    // A tiny part of what was asked is still told in numbers.
+    let said = pushed("1e12", &["--points", "40", "--branches", "1"]);
+    assert!(said.contains("was followed only from 0 to "), "{said}");
+    assert!(said.contains("as many points as --points allows"), "{said}");
+    assert!(!said.contains("from 0 to 0 mm"), "{said}");
+    // Out of reach without any load: nothing is said of one that is too large.
+    let said = run(
+        here.path(),
+        &[
+            "curve",
+            "z.toml",
+            "--direction",
+            "1",
+            "0",
+            "0",
+            "--displacement-mm",
+            "200",
+            "300",
+        ],
+    );
+    assert_eq!(said.code, 2, "{}", said.err);
+    assert!(
+        said.err.contains("200.000 mm from the commanded place"),
+        "{}",
+        said.err
+    );
+    assert!(!said.err.contains("can carry"), "{}", said.err);
 }
 
 #[test]

@@ -17,7 +17,7 @@ const TABLE_2_3: [(Material, f64, f64, [&str; 3]); 8] = [
     (AL_MG_4_5_MN, 1.0, 16.0, ["15.40", "14.96", "14.66"]),
 ];
 
-const DOUBLED: &str = "The rows of b = 16 mm are twice the rounded ones of b = 8 mm (below: 2 x rounded). Named by thickness h x width b and cutting speed.";
+const DOUBLED: &str = "erratum Table 2.3, b=16: the rows of b = 16 mm are twice the rounded ones of b = 8 mm (below: 2 x rounded). Named by thickness h x width b and cutting speed.";
 
 const SPEEDS: [f64; 3] = [1000.0, 1500.0, 2000.0];
 
@@ -50,7 +50,7 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
         "6.97",
         literal,
         "kN",
-        "Equation 2.4 leaves out the speed: the table follows from 2 k_c b h v^-0.07, v in m/min.",
+        "erratum 2.4 and Table 2.3: equation 2.4 leaves out the speed; the table follows from 2 k_c b h v^-0.07, v in m/min.",
     ));
     Ok(Contents {
         items,
@@ -61,7 +61,7 @@ pub(crate) fn table_2_3() -> Result<Contents, Cause> {
 pub(crate) fn text_2_2() -> Result<Contents, Cause> {
     let soft = largest_force(&AL_MG_4_5_MN, 0.2, 8.0, 1000.0);
     let hard = largest_force(&MONEL_400, 0.2, 8.0, 1000.0);
-    let arm = "The force of 2 to 7 kN times the offset of 0.1 m; the print is a tenth of it.";
+    let arm = "erratum 2.2 text: the force of 2 to 7 kN times the offset of 0.1 m; the print is a tenth of it.";
     let items = vec![
         Item::compared("force for Al Mg 4.5 Mn, about", "2", 1e-3 * soft, "kN", ""),
         Item::compared("force for Monel 400, close to", "7", 1e-3 * hard, "kN", ""),

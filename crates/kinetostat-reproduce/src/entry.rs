@@ -74,7 +74,7 @@ impl Item {
     }
 
     /// A printed number that is known to be wrong: an erratum, unless the computed number rounds to it
-    /// after all.
+    /// after all. The note names the entry of the errata first, as in `erratum 3.26: ...`.
     #[must_use]
     pub fn erratum(
         name: impl Into<String>,
@@ -131,7 +131,8 @@ impl Item {
         }
     }
 
-    /// A printed formula that is known to be wrong: an erratum, unless it holds after all.
+    /// A printed formula that is known to be wrong: an erratum, unless it holds after all. The note
+    /// begins as that of [`Item::erratum`].
     #[must_use]
     pub fn wrong_formula(
         name: impl Into<String>,

@@ -73,7 +73,7 @@ pub(crate) fn eq_3_26() -> Result<Contents, Cause> {
     let (e, l) = (SECTION.youngs_modulus, LENGTH);
     let (y, z) = (SECTION.second_moment_y, SECTION.second_moment_z);
     let at = |i: usize, j: usize| k[(i - 1, j - 1)];
-    let swapped = "K55 belongs to bending in the x-z plane, hence I_y, and K66 to I_z: the print has them exchanged (energy of the beam; as printed the matrix can be indefinite).";
+    let swapped = "erratum 3.26: K55 belongs to bending in the x-z plane, hence I_y, and K66 to I_z: the print has them exchanged (energy of the beam; as printed the matrix can be indefinite).";
     let right = |name: &str, text: &str, value: f64, computed: f64, unit: &str| {
         Item::formula(name, text, value, computed, unit, "")
     };

@@ -146,7 +146,7 @@ pub(crate) fn eq_3_34() -> Result<Contents, Cause> {
         "1",
         free.count() as f64,
         "",
-        "The text names the rotation about the vertical axis only. All legs meet in one apex: x with R_y and y with R_x are free as well, the rank is 3 at home and wherever the platform is only shifted (5 once it is turned).",
+        "erratum 3.34 text: the text names the rotation about the vertical axis only. All legs meet in one apex: x with R_y and y with R_x are free as well, the rank is 3 at home and wherever the platform is only shifted (5 once it is turned).",
     ));
     items.push(Item::unprinted("rank", k.rank() as f64, "", ""));
     Ok(Contents {

@@ -93,7 +93,7 @@ fn straight_items(items: &mut Vec<Item>) -> Result<(), Cause> {
             printed,
             force,
             "K/l",
-            "Compression is negative: +0.5 and +2 would give S_c = -1.20 and -2.10.",
+            "erratum Table 5.1 S, Delta=0 (F): compression is negative; +0.5 and +2 would give S_c = -1.20 and -2.10.",
         ));
         items.push(Item {
             name: format!("{name}, Delta = 0: K_C"),
@@ -114,7 +114,7 @@ fn straight_items(items: &mut Vec<Item>) -> Result<(), Cause> {
             s_c,
             largest,
             "K",
-            "The null space has two dimensions, S_c is 2 x 2 and changes sign at F = -1. The print is S_c along the last singular vector only: it calls the straight chain stable up to F = -1.5, although it has buckled.",
+            "erratum Table 5.1 S, Delta=0 (S_c): the null space has two dimensions, S_c is 2 x 2 and changes sign at F = -1. The print is S_c along the last singular vector only: it calls the straight chain stable up to F = -1.5, although it has buckled.",
         ));
         items.push(Item::compared(
             format!("{name}, Delta = 0: S_c along (0, -3, 1)/sqrt 10 of (th1, th2, q)"),
@@ -194,7 +194,7 @@ pub(crate) fn table_5_1() -> Result<Contents, Cause> {
         plain,
     );
     let mirrored = pick(&home, "the mirrored Z shape", |e| !e.stable)?;
-    let forgotten = "The print is the chain without preload (th0 = 0) held at the same place: see the next rows. With the preload the mirrored Z carries this.";
+    let forgotten = "erratum Table 5.1 Z unstable, Delta=0: the print is the chain without preload (th0 = 0) held at the same place: see the next rows. With the preload the mirrored Z carries this.";
     triple(
         &mut items,
         "Z unstable, Delta = 0",
@@ -317,7 +317,7 @@ pub(crate) fn eq_5_33() -> Result<Contents, Cause> {
             ((q + t).cos() + 2.0 * q.cos() * t) / t.sin(),
             -own.force,
             "K/l",
-            "th multiplies the whole bracket: (K/L) th (cos(q + th) + 2 cos q)/sin th. Compression positive here.",
+            "erratum 5.33: th multiplies the whole bracket, (K/L) th (cos(q + th) + 2 cos q)/sin th. Compression positive here.",
         ));
         items.push(Item::unprinted(
             format!("the corrected equation less the model at Delta = {delta}"),
@@ -382,7 +382,7 @@ pub(crate) fn eq_5_41() -> Result<Contents, Cause> {
     let (q, t1, t2) = (0.3, -0.7, 0.4);
     let g = gram(q, t1, t2)?;
     let (c1, c2, c12) = (t1.cos(), t2.cos(), (t1 + t2).cos());
-    let note = "Without the factor F_x^2, in the order (th1, th2, q) the matrix is [2+2c2, 1+c2, 2+c1+2c2+c12; ., 1, 1+c2+c12; ., ., 3+2c1+2c2+2c12], c12 = cos(th1 + th2). At q = 0.3, th1 = -0.7, th2 = 0.4.";
+    let note = "erratum 5.41: without the factor F_x^2, in the order (th1, th2, q) the matrix is [2+2c2, 1+c2, 2+c1+2c2+c12; ., 1, 1+c2+c12; ., ., 3+2c1+2c2+2c12], c12 = cos(th1 + th2). At q = 0.3, th1 = -0.7, th2 = 0.4.";
     let rows = [
         (1, 1, "3", 3.0, 2.0 + 2.0 * c2),
         (1, 2, "2+cos(th2)", 2.0 + c2, 1.0 + c2),
@@ -417,7 +417,7 @@ pub(crate) fn eq_5_42() -> Result<Contents, Cause> {
     let g = gram(0.3, -t, t)?;
     let c = t.cos();
     let minors = 0.5 * (g.trace().powi(2) - (g * g).trace());
-    let note = "J has rank 2 at most, so zero is always a root: lambda (lambda^2 - tr lambda + det(J J^T)) = 0; for th1 = -th2, tr = 8 + 6 c2 and det = 3 sin^2 th2. At th2 = 0.6.";
+    let note = "erratum 5.42: J has rank 2 at most, so zero is always a root: lambda (lambda^2 - tr lambda + det(J J^T)) = 0; for th1 = -th2, tr = 8 + 6 c2 and det = 3 sin^2 th2. At th2 = 0.6.";
     let items = vec![
         Item::wrong_formula(
             "product of the roots",
@@ -502,11 +502,11 @@ pub(crate) fn text_5_5_1() -> Result<Contents, Cause> {
             computed: Some(mirrored.stiffness),
             unit: "K/l^2".into(),
             status: Status::Erratum,
-            note: "\"For the unstable configurations K_C is positive\" does not hold for this one. The conclusion stands: the unstable S shape and the symmetric Z past its pitchfork do have K_C > 0, so K_C > 0 does not make a shape stable.".into(),
+            note: "erratum 5.5.1 text: \"For the unstable configurations K_C is positive\" does not hold for this one. The conclusion stands: the unstable S shape and the symmetric Z past its pitchfork do have K_C > 0, so K_C > 0 does not make a shape stable.".into(),
         },
     ];
     // 5.2.1: minima and maxima of the energy at a held end.
-    let two = "5.2.1 says exactly two minima and two maxima for each Delta. The Z chain has one of each before its pitchfork at Delta = 0.110931613, two of each after it.";
+    let two = "erratum 5.2.1 text: 5.2.1 says exactly two minima and two maxima for each Delta. The Z chain has one of each before its pitchfork at Delta = 0.110931613, two of each after it.";
     for (name, chain, x) in [
         ("S chain at Delta = 0.2", &s, 2.8),
         ("Z chain at Delta = 0.05", &z, z_at_rest() - 0.05),

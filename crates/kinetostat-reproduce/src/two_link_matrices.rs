@@ -89,7 +89,7 @@ pub(crate) fn table_4_1() -> Result<Contents, Cause> {
         &b.middle,
         1,
         [("0", 0.0), ("0", 0.0), ("1", 1.0)],
-        "g_a does not contain theta: the column is zero.",
+        "erratum Table 4.1 J_th^(G): g_a does not contain theta, the column is zero.",
     );
     column(
         i,
@@ -105,7 +105,7 @@ pub(crate) fn table_4_1() -> Result<Contents, Cause> {
         &b.middle,
         2,
         [("0", 0.0), ("0", 0.0), ("1", 1.0)],
-        "The last row of J_q^(G) is [1 0]: q2 turns the end, not the node.",
+        "erratum Tables 4.1, 4.2 J_q^(G)[3,:]: the last row is [1 0], q2 turns the end, not the node.",
     );
     column(
         i,
@@ -117,7 +117,7 @@ pub(crate) fn table_4_1() -> Result<Contents, Cause> {
             ("-L2 cos(q1+th)", -L2 * c2),
             ("1", 1.0),
         ],
-        "The second entry is +L2 cos(q1 + th).",
+        "erratum Table 4.1 J_th^(F)[2]: the second entry is +L2 cos(q1 + th).",
     );
     column(
         i,
@@ -147,7 +147,7 @@ pub(crate) fn table_4_1() -> Result<Contents, Cause> {
         "h1 = H_qq^(G), q1 q1",
         ("-L1 sin q1 G_y", -L1 * s1 * G[1]),
         g[(0, 0)],
-        "h1 = -L1 (cos q1 G_x + sin q1 G_y); the print holds for G_x = 0 only.",
+        "erratum Table 4.1 h1: h1 = -L1 (cos q1 G_x + sin q1 G_y); the print holds for G_x = 0 only.",
     );
     entry(i, "H_thth^(G)", ("0", 0.0), g[(1, 1)], "");
     entry(i, "H_thq^(G), q1", ("0", 0.0), g[(1, 0)], "");
@@ -207,7 +207,7 @@ pub(crate) fn table_4_2() -> Result<Contents, Cause> {
         &b.middle,
         4,
         [("0", 0.0), ("0", 0.0), ("1", 1.0)],
-        "The last row of J_q^(G) is [1 0]: q2 turns the end, not the node.",
+        "erratum Tables 4.1, 4.2 J_q^(G)[3,:]: the last row is [1 0], q2 turns the end, not the node.",
     );
     column(
         i,
@@ -282,7 +282,7 @@ pub(crate) fn table_4_2() -> Result<Contents, Cause> {
 pub(crate) fn text_4_4() -> Result<Contents, Cause> {
     // A chain of n_q passive coordinates and n_theta springs: the sizes of the systems of 4.15, 4.16.
     let (passive, springs) = (2_usize, 20_usize);
-    let note = "\"3-link manipulator with two passive and two actuated joints\": three links of six springs and two drives, n_theta = 20, n_q = 2 give 6 + n_q + n_theta = 28 and 6 + n_q = 8; the printed pair needs n_q = 8.";
+    let note = "erratum 4.4 text: \"3-link manipulator with two passive and two actuated joints\": three links of six springs and two drives, n_theta = 20, n_q = 2 give 6 + n_q + n_theta = 28 and 6 + n_q = 8; the printed pair needs n_q = 8.";
     let items = vec![
         Item::erratum(
             "size of the matrix to be inverted, 4.15",

@@ -52,12 +52,11 @@ const TABLE_5_2: [(f64, [&str; 3], [&str; 3]); 4] = [
     (1.5, ["-3.31", "-7.46", "-52.7"], ["0.16", "0.26", "0.60"]),
 ];
 
-const LEFT_OUT: &str = "True value for V = (2, -1, -1)/sqrt 6 in (theta, q1, q2), S_c = -(2/3) sin^2(a) K_x. The print leaves the Hessian of G out and uses another unit vector: see the last rows. Only the sign means something; the margin mu does not depend on such a choice.";
+const LEFT_OUT: &str = "erratum Table 5.2 S_c: true value for V = (2, -1, -1)/sqrt 6 in (theta, q1, q2), S_c = -(2/3) sin^2(a) K_x. The print leaves the Hessian of G out and uses another unit vector: see the last rows. Only the sign means something; the margin mu does not depend on such a choice.";
 
 const INFERRED: &str = "Inferred, not proved: (-4 - 2 F_x cos a)/(6 + sin^2 a), the Hessian of G left out and the passive slider dx = 2 L sin(a) with L = 0.5 in the unit vector. All twelve printed numbers follow when rounded.";
 
-const NO_8_67: &str =
-    "K_x is linear in G: half of 14.928203 at half of G*. Where 8.67 comes from was not found.";
+const NO_8_67: &str = "erratum 4.6.1 text, Table 5.2 (0.5 G*, dx = 0): K_x is linear in G, half of 14.928203 at half of G*. Where 8.67 comes from was not found.";
 
 pub(crate) fn table_5_2() -> Result<Contents, Cause> {
     let chain = rigid_links()?;
@@ -123,7 +122,7 @@ pub(crate) fn eq_4_31() -> Result<Contents, Cause> {
             -0.5 * load,
             e.wrench.0[1],
             "K/L",
-            "+G/2 with G downwards, as F_x and K_x require (energy; statics of one link). 5.43 repeats it.",
+            "erratum 4.31, 5.43: +G/2 with G downwards, as F_x and K_x require (energy; statics of one link). 5.43 repeats it.",
         ));
     }
     Ok(Contents {
@@ -155,7 +154,7 @@ pub(crate) fn eq_4_32() -> Result<Contents, Cause> {
             0.5 * (-0.25 * 2.0 * load / cube - (2.0 * (a - ALPHA0) * a.cos() - a.sin()) / cube),
             k_x(&e),
             "K/L^2",
-            "5.44 has lost the brackets of 4.32: K must multiply the sine as well (evaluated at K = 2).",
+            "erratum 4.32, 5.44: 5.44 has lost the brackets of 4.32: K must multiply the sine as well (evaluated at K = 2).",
         ));
         items.push(Item::wrong_formula(
             format!("K_y {at}"),
@@ -163,7 +162,7 @@ pub(crate) fn eq_4_32() -> Result<Contents, Cause> {
             0.0,
             e.stiffness.cartesian.matrix[(1, 1)],
             "K/L^2",
-            "K_y = (F_x - (G/2) tan a)/(2 L cos a), zero only when unloaded.",
+            "erratum 4.6.1, 5.5.2: K_y = (F_x - (G/2) tan a)/(2 L cos a), zero only when unloaded.",
         ));
     }
     Ok(Contents {

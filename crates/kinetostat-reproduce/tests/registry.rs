@@ -96,6 +96,18 @@ fn figure_statuses_are_what_they_say() {
                 Status::Erratum | Status::NotReproduced => {
                     assert!(i.printed.is_some(), "{label}");
                     assert!(!i.note.is_empty(), "{label}: no reason");
+                    // The note names the entry of the errata: "erratum 3.26: ...".
+                    let entry = i.note.strip_prefix("erratum ");
+                    let named = entry
+                        .and_then(|n| n.split_once(':'))
+                        .is_some_and(|(id, _)| {
+                            id.len() <= 60 && id.bytes().any(|b| b.is_ascii_digit())
+                        });
+                    assert!(
+                        named || i.status == Status::NotReproduced,
+                        "{label}: {}",
+                        i.note
+                    );
                     if let (Some(p), Some(c)) = (&i.printed, i.computed) {
                         assert!(!is_rounding(p, c), "{label}: {p} agrees with {c}");
                     }

@@ -80,7 +80,7 @@ impl Segment<'_> {
         if (&c.z - &guess).norm() > (&self.there.z - &self.here.z).norm() {
             return None;
         }
-        let next = tangent(&c.matrix, t)?;
+        let next = tangent(&c.matrix, t, reduced.family.as_deref())?;
         Some((c, next))
     }
 
@@ -342,7 +342,9 @@ fn bifurcation(
         Some((c, _)) => c.z,
         None => &segment.here.z + (&segment.there.z - &segment.here.z) * share,
     };
-    let refined = if even {
+    // Along a family the extended system is singular; the test function alone has found the place.
+    let family = tracer.reduced.family.clone();
+    let refined = if even || family.is_some() {
         None
     } else {
         refine(&mut tracer.reduced, &guess).filter(|z| (z - &guess).norm() < 0.5 * step)
@@ -351,7 +353,10 @@ fn bifurcation(
     let accuracy = if refined.is_some() { 1e-10 } else { 1e-6 };
     let z = refined.unwrap_or(guess);
     let (_, balance, matrix) = tracer.reduced.linearised(&z);
-    let list = null_directions(&matrix);
+    let list = match &family {
+        Some(family) => null_directions(&family.beside(&matrix)),
+        None => null_directions(&matrix),
+    };
     let most = list.last()?.0;
     if refined_missing && list.get(1).is_none_or(|l| l.0 > 1e-5 * most) {
         return None;
@@ -378,7 +383,10 @@ fn bifurcation(
         }
     };
     let (kind, path, directions, mode) = if null.len() == 2 {
-        let psi = left_null(&matrix);
+        let psi = match &family {
+            Some(family) => left_null(&family.beside_left(&matrix)),
+            None => left_null(&matrix),
+        };
         let (path, other) = tangents(&mut tracer.reduced, &z, &psi, &null, &own(&null));
         let flat = |d: &DVector<f64>| d[m].abs() < 1e-4;
         let kind = if flat(&path) || flat(&other) {

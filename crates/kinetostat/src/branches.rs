@@ -4,6 +4,11 @@
 //! A curve starts at an equilibrium, is followed both ways, and every further branch that crosses
 //! it can be followed as well. Steps adapt to the curve; limit points and bifurcation points
 //! between two steps are located by themselves ([`Special`]).
+//!
+//! Shapes that a motion turns into each other at no cost (a round rod that buckles in any direction)
+//! are one family and one branch, followed at rest along that motion ([`CurvePoint::in_family`]).
+
+use std::sync::Arc;
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
@@ -11,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::bifurcation::Special;
 use crate::equilibrium::{ChainProblem, Equilibrium};
 use crate::error::Result;
+use crate::family::Family;
 use crate::reduced::{Parameter, Reduced};
 use crate::settings::Settings;
 use crate::stability::ShapeStability;
@@ -72,6 +78,8 @@ pub enum BranchEnd {
     Closed,
     /// The smallest step found no further point.
     Lost,
+    /// Ever shorter steps made no progress.
+    Stalled,
     /// What was looked for has been found.
     Found,
 }
@@ -98,6 +106,7 @@ pub struct CurvePoint {
     pub(crate) z: DVector<f64>,
     pub(crate) tangent: DVector<f64>,
     pub(crate) unstable: [usize; 2],
+    pub(crate) family: Option<Arc<Family>>,
 }
 
 impl CurvePoint {
@@ -106,6 +115,14 @@ impl CurvePoint {
     #[must_use]
     pub fn unstable_modes(&self) -> [usize; 2] {
         self.unstable
+    }
+
+    /// True if the shape is one of a continuum at this value of the parameter: a motion leads from
+    /// it to others that costs nothing (a buckled round rod turned about its axis). Stability then
+    /// is that against all other motions, the neutral one counts as a zero of the inertia.
+    #[must_use]
+    pub fn in_family(&self) -> bool {
+        self.family.is_some()
     }
 
     /// The parameter's load: the factor, or the force along the displacement.

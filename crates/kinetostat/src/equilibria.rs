@@ -33,11 +33,14 @@ pub struct Bounds {
 
 impl Bounds {
     /// Rotations within plus and minus pi, passive slides within two natural lengths of the chain,
-    /// springs that slide within half of one.
+    /// springs that slide within half of one. The rotations of springs of six coordinates (pieces of
+    /// elastic links) stay within plus and minus a quarter turn: three turns about x, y, z describe
+    /// the same orientation as the turns by `a + pi`, `pi - b`, `c + pi`, so that farther out the
+    /// same shape would count again.
     #[must_use]
     pub fn of(chain: &Chain) -> Self {
         let length = chain.scale().length;
-        let high: Vec<f64> = chain
+        let mut high: Vec<f64> = chain
             .coordinates()
             .iter()
             .map(|c| match (c.kind, c.role) {
@@ -46,6 +49,18 @@ impl Bounds {
                 (MotionKind::Prismatic, Role::Spring) => 0.5 * length,
             })
             .collect();
+        for block in chain.springs().iter().filter(|s| s.len() == 6) {
+            for (high, c) in high
+                .iter_mut()
+                .zip(chain.coordinates())
+                .skip(block.first)
+                .take(6)
+            {
+                if c.kind == MotionKind::Revolute {
+                    *high = high.min(std::f64::consts::FRAC_PI_2);
+                }
+            }
+        }
         Self {
             low: high.iter().map(|x| -x).collect(),
             high,

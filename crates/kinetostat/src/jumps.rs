@@ -6,7 +6,7 @@ use crate::branches::{CurvePoint, Curves};
 use crate::error::Result;
 use crate::reduced::{Reduced, Row};
 use crate::state_distance::{distance, wrapped, wraps};
-use crate::tracer::{Tracer, tangent};
+use crate::tracer::Tracer;
 
 impl Curves<'_> {
     /// Equilibria at one value of the parameter, on all branches.
@@ -50,6 +50,7 @@ impl Curves<'_> {
             } else {
                 Row::Conjugate(value)
             };
+            tracer.reduced.family = pair[0].family.clone().or_else(|| pair[1].family.clone());
             let Some(c) = tracer.reduced.correct(&guess, &row, 12) else {
                 continue;
             };
@@ -60,7 +61,7 @@ impl Curves<'_> {
             if far || known {
                 continue;
             }
-            if let Some(t) = tangent(&c.matrix, &pair[0].tangent) {
+            if let Some(t) = tracer.tangent(&c.matrix, &pair[0].tangent) {
                 found.push(tracer.describe(&c, t.direction));
             }
         }

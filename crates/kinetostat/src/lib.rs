@@ -98,6 +98,7 @@ mod elimination;
 mod equilibria;
 mod equilibrium;
 mod error;
+mod family;
 mod follower;
 mod function_load;
 mod graph;

@@ -12,6 +12,8 @@
 //! bifurcation and never a matter of how the chain was written down. Passive motions that change
 //! nothing (strut spin) are held by their own projector.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::chain::Role;
@@ -19,6 +21,7 @@ use crate::equilibrium::{
     Balance, ChainProblem, Equilibrium, Prescribed, System, balance, check_problem, natural, nudged,
 };
 use crate::error::{Error, Result};
+use crate::family::Family;
 use crate::load_energy::is_conservative;
 use crate::loading::Load;
 use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
@@ -113,6 +116,8 @@ pub(crate) struct Reduced<'p, 'a> {
     conservative: bool,
     /// Poses of the nodes at the start, for the displacement along a load pattern.
     reference: Vec<Pose>,
+    /// Family of equilibria through the curve that is followed: what is neutral in it is at rest.
+    pub family: Option<Arc<Family>>,
 }
 
 /// Largest part of `v` (in the given balance) that lies in directions that are prescribed
@@ -195,6 +200,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             turned: Vector3::zeros(),
             conservative,
             reference: Vec::new(),
+            family: None,
         };
         reduced.find_range(&turn);
         reduced.find_neutral();
@@ -638,7 +644,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             if iteration == most || !matrix.iter().chain(lack.iter()).all(|v| v.is_finite()) {
                 return None;
             }
-            let step = solve_bordered(&matrix, &normal, &lack, miss);
+            let step = solve_bordered(&matrix, &normal, &lack, miss, self.family.as_deref());
             let length = step.norm();
             if !length.is_finite() || (iteration > 1 && length > 2.0 * last && length > 1e-9) {
                 return None;
@@ -677,9 +683,36 @@ impl<'p, 'a> Reduced<'p, 'a> {
     pub fn stability(&self, matrix: &DMatrix<f64>, motion: bool) -> (ShapeStability, usize) {
         let rows = self.held_rows(matrix, motion);
         let rank = column_space(&rows).ncols();
-        let stability = stability_within(self.problem.chain, &self.system, &self.factors, &rows);
+        let stability = self.within_family(&rows, rank);
         let unstable = stability.inertia.positive.saturating_sub(rank);
         (stability, unstable)
+    }
+
+    /// Stability while `rows` (of a rank) are held. The motions of a family are neither stable nor
+    /// unstable, whatever rounding says: they are held too, counted as zeros, and named.
+    fn within_family(&self, rows: &DMatrix<f64>, rank: usize) -> ShapeStability {
+        let judge = |rows: &DMatrix<f64>| {
+            stability_within(self.problem.chain, &self.system, &self.factors, rows)
+        };
+        let Some(family) = &self.family else {
+            return judge(rows);
+        };
+        let (r, n) = (self.reactions(), self.coordinates_count());
+        let (first, n_held) = (rows.nrows(), family.motions.ncols());
+        let mut held = rows.clone().resize_vertically(first + n_held, 0.0);
+        held.rows_mut(first, n_held)
+            .copy_from(&family.motions.rows(r, n).transpose());
+        let taken = column_space(&held).ncols().saturating_sub(rank);
+        let mut stability = judge(&held);
+        // Every motion held adds a positive and a negative eigenvalue in place of its zero.
+        let inertia = &mut stability.inertia;
+        inertia.positive = inertia.positive.saturating_sub(taken);
+        inertia.negative = inertia.negative.saturating_sub(taken);
+        inertia.zero += taken;
+        if taken > 0 {
+            stability.neutral.push("the whole shape".into());
+        }
+        stability
     }
 
     /// Everything that is known about the evaluated state.
@@ -689,7 +722,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             torque: c.balance.torque * self.unit,
             loads: c.balance.loads * self.unit,
         };
-        self.system.equilibrium(
+        let mut equilibrium = self.system.equilibrium(
             self.problem.chain,
             &self.factors,
             self.coordinates(&c.z),
@@ -697,7 +730,17 @@ impl<'p, 'a> Reduced<'p, 'a> {
             self.conservative,
             c.iterations,
             &raw,
-        )
+        );
+        if let Some(family) = &self.family {
+            // A family may go on while the whole end is held.
+            let rows = self.balanced_jacobian();
+            let (r, n) = (self.reactions(), self.coordinates_count());
+            if (&rows * family.motions.rows(r, n)).amax() < 1e-6 * rows.amax() {
+                let rank = column_space(&rows).ncols();
+                equilibrium.stability = self.within_family(&rows, rank);
+            }
+        }
+        equilibrium
     }
 }
 
@@ -724,22 +767,24 @@ fn check_numbers(problem: &ChainProblem<'_>, what: &str, v: &Vector6<f64>) -> Re
 }
 
 /// Step that removes `lack` and `miss` in `[matrix; normal^T]`; the shortest one where that is
-/// singular.
+/// singular. Along a family there is none.
 pub(crate) fn solve_bordered(
     matrix: &DMatrix<f64>,
     normal: &DVector<f64>,
     lack: &DVector<f64>,
     miss: f64,
+    family: Option<&Family>,
 ) -> DVector<f64> {
     let m = matrix.nrows();
-    let ones = vec![1.0; m + 1];
-    let mut b = DMatrix::zeros(m + 1, 1);
+    let a = family.map_or_else(|| bordered(matrix, normal), |f| f.bordered(matrix, normal));
+    let ones = vec![1.0; a.nrows()];
+    let mut b = DMatrix::zeros(a.nrows(), 1);
     for i in 0..m {
         b[(i, 0)] = -lack[i];
     }
     b[(m, 0)] = -miss;
-    Saddle::new(bordered(matrix, normal), &ones, &ones).solve(&mut b);
-    b.column(0).into_owned()
+    Saddle::new(a, &ones, &ones).solve(&mut b);
+    b.view((0, 0), (m + 1, 1)).column(0).into_owned()
 }
 
 /// `[matrix; normal^T]`.

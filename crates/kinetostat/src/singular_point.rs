@@ -2,17 +2,18 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::reduced::{Reduced, bordered};
+use crate::reduced::Reduced;
 
-/// Null directions of an `m x (m + 1)` matrix, the most certain first, with their singular values.
+/// Null directions of an `m x n` matrix, the most certain first, with the singular values of all.
 pub(crate) fn null_directions(matrix: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
-    let m = matrix.nrows();
+    let (m, n) = matrix.shape();
     if !matrix.iter().all(|v| v.is_finite()) {
         return Vec::new();
     }
-    let svd = bordered(matrix, &DVector::zeros(m + 1)).svd(false, true);
+    let square = matrix.clone().resize_vertically(m.max(n), 0.0);
+    let svd = square.svd(false, true);
     let mut list: Vec<(f64, DVector<f64>)> = match &svd.v_t {
-        Some(v) => (0..=m)
+        Some(v) => (0..n)
             .map(|k| (svd.singular_values[k], v.row(k).transpose()))
             .collect(),
         None => Vec::new(),
@@ -48,7 +49,7 @@ pub(crate) fn start_direction(matrix: &DMatrix<f64>) -> DVector<f64> {
     }
 }
 
-/// Unit left null vector of an `m x (m + 1)` matrix of rank `m - 1`.
+/// Unit left null vector of a wide matrix of rank `m - 1`.
 pub(crate) fn left_null(matrix: &DMatrix<f64>) -> DVector<f64> {
     let m = matrix.nrows();
     if !matrix.iter().all(|v| v.is_finite()) {

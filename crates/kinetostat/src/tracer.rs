@@ -1,12 +1,15 @@
 //! One step after another along a curve of equilibria: predictor along the tangent, Newton across
 //! it.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::bifurcation::{self, Special};
 use crate::branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Stop, join};
 use crate::chain::MotionKind;
 use crate::error::Result;
+use crate::family::{Family, family_of};
 use crate::reduced::{Corrected, Reduced, Row, bordered};
 use crate::singular_point::start_direction;
 use crate::state_distance::{distance, off_segment, segment_distance, wrapped, wraps};
@@ -19,19 +22,25 @@ pub(crate) struct Tangent {
     pub logarithm: f64,
 }
 
-/// Tangent at a state, oriented along `guide`.
-pub(crate) fn tangent(matrix: &DMatrix<f64>, guide: &DVector<f64>) -> Option<Tangent> {
+/// Tangent at a state, oriented along `guide`, at rest along the motions of a family.
+pub(crate) fn tangent(
+    matrix: &DMatrix<f64>,
+    guide: &DVector<f64>,
+    family: Option<&Family>,
+) -> Option<Tangent> {
     let m = matrix.nrows();
-    let lu = bordered(matrix, guide).lu();
+    let lu = family
+        .map_or_else(|| bordered(matrix, guide), |f| f.bordered(matrix, guide))
+        .lu();
     let mut sign: f64 = lu.p().determinant();
     let mut logarithm = 0.0;
     for pivot in lu.lu_internal().diagonal().iter() {
         sign *= pivot.signum();
         logarithm += pivot.abs().max(1e-300).ln();
     }
-    let mut unit = DVector::zeros(m + 1);
+    let mut unit = DVector::zeros(lu.l().nrows());
     unit[m] = 1.0;
-    let solution = lu.solve(&unit)?;
+    let solution = lu.solve(&unit)?.rows(0, m + 1).into_owned();
     let norm = solution.norm();
     if !norm.is_finite() || norm == 0.0 {
         return None;
@@ -44,6 +53,46 @@ pub(crate) fn tangent(matrix: &DMatrix<f64>, guide: &DVector<f64>) -> Option<Tan
         sign,
         logarithm,
     })
+}
+
+/// Attempted steps after which a branch must have come further.
+const ATTEMPTS: usize = 150;
+
+/// Ends branches that make no progress.
+#[derive(Default)]
+struct Budget {
+    attempts: usize,
+    since: usize,
+    way: f64,
+}
+
+impl Budget {
+    fn advanced(&mut self, by: f64) {
+        self.way += by;
+    }
+
+    /// Counts an attempt from a branch of some points whose longest step is known.
+    fn spent(&mut self, points: usize, longest: f64) -> bool {
+        self.attempts += 1;
+        self.since += 1;
+        if self.since > ATTEMPTS {
+            if self.way < 0.05 * longest {
+                return true;
+            }
+            self.since = 0;
+            self.way = 0.0;
+        }
+        self.attempts > 10 * points + ATTEMPTS
+    }
+}
+
+/// Family of a branch close to the special point from which it starts.
+fn beside_origin(branch: &Branch, special: &Special) -> Option<Arc<Family>> {
+    let apart = |p: &CurvePoint| (&p.z - &special.point.z).norm();
+    let beside = branch.points.iter().filter(|p| apart(p) > 0.0);
+    beside
+        .min_by(|a, b| apart(a).total_cmp(&apart(b)))
+        .and_then(|p| p.family.clone())
 }
 
 pub(crate) struct Tracer<'p, 'a, 's> {
@@ -91,7 +140,12 @@ impl Tracer<'_, '_, '_> {
         branches.push(join(halves, None));
         while next < self.specials.len() && stop.is_none() {
             let special = self.specials[next].clone();
+            let mut followed: Vec<(DVector<f64>, Arc<Family>)> = Vec::new();
             for direction in &special.directions {
+                // One branch of a family stands for all.
+                if followed.iter().any(|(d, f)| f.joins(d, direction)) {
+                    continue;
+                }
                 if branches.len() >= allowed {
                     *more |= self.settings.branches > 1;
                     break;
@@ -114,8 +168,12 @@ impl Tracer<'_, '_, '_> {
                     .into_iter()
                     .map(|h| h.unwrap_or((vec![middle.clone()], BranchEnd::Closed)))
                     .collect();
+                let branch = join(whole, Some(next));
+                if let Some(family) = beside_origin(&branch, &special) {
+                    followed.push((direction.clone(), family));
+                }
                 self.specials[next].branches.push(branches.len());
-                branches.push(join(whole, Some(next)));
+                branches.push(branch);
             }
             next += 1;
         }
@@ -152,12 +210,35 @@ impl Tracer<'_, '_, '_> {
         if t[m] < 0.0 {
             t *= -1.0;
         }
+        self.reduced.family = family_of(&mut self.reduced, &c.z, &t).map(Arc::new);
+        if let Some(own) = self.tangent(&c.matrix, &t) {
+            t = own.direction;
+        }
         self.reduced.evaluate(&c.z);
         Ok(self.describe(&c, t))
     }
 
-    /// A point from a corrected state; the system is evaluated there.
+    /// Tangent of the curve that is followed.
+    pub fn tangent(&self, matrix: &DMatrix<f64>, guide: &DVector<f64>) -> Option<Tangent> {
+        tangent(matrix, guide, self.reduced.family.as_deref())
+    }
+
+    /// A point from a corrected state, with the family as it is there; the system is evaluated
+    /// there.
     pub fn describe(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
+        let before = self.reduced.family.clone();
+        if let Some(carried) = before
+            .as_ref()
+            .and_then(|f| f.carried(&c.matrix, &direction))
+        {
+            self.reduced.family = Some(Arc::new(carried));
+        }
+        let point = self.described(c, direction);
+        self.reduced.family = before;
+        point
+    }
+
+    fn described(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
         self.reduced.evaluate(&c.z);
         let (held, u_held) = self.reduced.stability(&c.matrix, true);
         let (dead, u_dead) = self.reduced.stability(&c.matrix, false);
@@ -185,6 +266,7 @@ impl Tracer<'_, '_, '_> {
             z: c.z.clone(),
             tangent: direction,
             unstable: [u_held, u_dead],
+            family: self.reduced.family.clone(),
         }
     }
 
@@ -224,17 +306,23 @@ impl Tracer<'_, '_, '_> {
     ) -> (Vec<CurvePoint>, BranchEnd) {
         let m = self.reduced.count();
         let mut points = vec![start];
+        self.reduced.family.clone_from(&points[0].family);
         if stop.is_some_and(|stop| stop(&points[0])) {
             return (points, BranchEnd::Found);
         }
         let mut probe = if known { self.probe(&points[0]) } else { None };
         let mut h = 0.2 * self.longest(&points[0].tangent);
+        let mut budget = Budget::default();
         loop {
             let here = points[points.len() - 1].clone();
             if points.len() > self.settings.points {
                 return (points, BranchEnd::Points);
             }
-            h = h.min(self.longest(&here.tangent));
+            let longest = self.longest(&here.tangent);
+            if budget.spent(points.len(), longest) {
+                return (points, BranchEnd::Stalled);
+            }
+            h = h.min(longest);
             let Some((point, next, iterations)) = self.step(&here, h) else {
                 h *= 0.5;
                 if h < self.settings.smallest_step.max(1e-12) {
@@ -277,8 +365,14 @@ impl Tracer<'_, '_, '_> {
                 return (points, BranchEnd::Closed);
             }
             let found = stop.is_some_and(|stop| stop(&point));
+            budget.advanced((&point.z - &here.z).norm());
+            self.reduced.family.clone_from(&point.family);
+            probe = if point.family.is_some() {
+                self.probe(&point)
+            } else {
+                Some(next)
+            };
             points.push(point);
-            probe = Some(next);
             if found {
                 return (points, BranchEnd::Found);
             }
@@ -295,6 +389,7 @@ impl Tracer<'_, '_, '_> {
         there: &CurvePoint,
         verdict: &dyn Fn(&CurvePoint) -> bool,
     ) -> CurvePoint {
+        self.reduced.family.clone_from(&here.family);
         let (mut low, mut high, mut best) = (0.0, 1.0, there.clone());
         for _ in 0..50 {
             let share = 0.5 * (low + high);
@@ -320,7 +415,7 @@ impl Tracer<'_, '_, '_> {
     /// Test functions at a point.
     pub fn probe(&mut self, point: &CurvePoint) -> Option<Tangent> {
         let (_, _, matrix) = self.reduced.linearised(&point.z);
-        tangent(&matrix, &point.tangent)
+        self.tangent(&matrix, &point.tangent)
     }
 
     /// One step of length `h`, `None` if it is too long.
@@ -334,7 +429,7 @@ impl Tracer<'_, '_, '_> {
         if (&c.z - &predicted).norm() > 0.3 * h {
             return None;
         }
-        let next = tangent(&c.matrix, t)?;
+        let next = self.tangent(&c.matrix, t)?;
         if next.direction.dot(t) < 0.95 && h > 1e-5 {
             return None;
         }
@@ -391,7 +486,7 @@ impl Tracer<'_, '_, '_> {
         if (&c.z - &guess).norm() > (&point.z - &here.z).norm() {
             return None;
         }
-        let next = tangent(&c.matrix, &here.tangent)?;
+        let next = self.tangent(&c.matrix, &here.tangent)?;
         let last = self.describe(&c, next.direction.clone());
         Some((last, next))
     }
@@ -408,6 +503,7 @@ impl Tracer<'_, '_, '_> {
         middle.tangent.clone_from(direction);
         let usual = 0.3 * self.longest(direction);
         for h in [usual, 0.2 * usual, 0.04 * usual, 3.0 * usual] {
+            self.reduced.family.clone_from(&special.point.family);
             let predicted = &middle.z + direction * h;
             let offset = direction.dot(&predicted);
             let Some(c) = self
@@ -419,7 +515,8 @@ impl Tracer<'_, '_, '_> {
             if (&c.z - &predicted).norm() > 0.4 * h {
                 continue;
             }
-            let Some(next) = tangent(&c.matrix, direction) else {
+            self.reduced.family = family_of(&mut self.reduced, &c.z, direction).map(Arc::new);
+            let Some(next) = self.tangent(&c.matrix, direction) else {
                 continue;
             };
             let chain = self.reduced.problem.chain;

@@ -304,7 +304,7 @@ pub(crate) fn table_6_2() -> Result<Contents, Cause> {
                     " (not quite the print)"
                 };
                 format!(
-                    "rows Q3 and Q4 are erratum 13 of part 2: with the matrix of leg 1's parallelogram in all three legs {copied:.5} comes out{near}, with each leg's own {value:.5}"
+                    "erratum 13 of part 2 (rows Q3 and Q4): with the matrix of leg 1's parallelogram in all three legs {copied:.5} comes out{near}, with each leg's own {value:.5}"
                 )
             };
             items.push(Item::erratum(

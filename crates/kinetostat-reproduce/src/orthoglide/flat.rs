@@ -370,7 +370,7 @@ pub(crate) fn table_5_3() -> Result<Contents, Cause> {
         corner.0.x * 1e3,
         "mm",
         &format!(
-            "errata 2.3 and 15 of part 2: a misprint of -73.65, which chapter 6 prints; -76.35 would lie {:.2} mm from the flat posture",
+            "erratum 15 of part 2 (and its 2.3): a misprint of -73.65, which chapter 6 prints; -76.35 would lie {:.2} mm from the flat posture",
             (-76.35 - shortest * 1e3) * 3_f64.sqrt()
         ),
     ));

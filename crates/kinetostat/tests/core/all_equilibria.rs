@@ -6,8 +6,8 @@ use crate::curves_and_bifurcations::{
     ELASTIC, elastic_links, elastic_problem, held, z_chain, z_unloaded,
 };
 use kinetostat::{
-    Bounds, Chain, ChainProblem, Equilibria, FoundEquilibrium, MotionKind, Prescribed,
-    SearchSettings, Wrench, equilibria,
+    BeamSection, Bounds, Chain, ChainProblem, EndCondition, Equilibria, FoundEquilibrium,
+    MotionKind, Prescribed, SearchSettings, Wrench, equilibria,
 };
 use nalgebra::{Vector3, vector};
 
@@ -374,4 +374,70 @@ fn wrong_bounds_are_refused_and_nothing_found_is_an_answer() {
     let all = equilibria(&far, &Bounds::of(&chain), &settings).unwrap();
     assert!(all.found.is_empty() && all.hits == 0);
     close("all is open", all.chance_of_more, 1.0, 0.0);
+}
+
+#[test]
+fn a_link_has_one_description_of_its_orientation() {
+    // Two rotations of a link's spring by half a turn and one by minus that are no rotation.
+    let section = BeamSection {
+        youngs_modulus: 70e9,
+        shear_modulus: 26e9,
+        area: 4e-4,
+        second_moment_y: 1.4e-8,
+        second_moment_z: 1.1e-8,
+        torsion_constant: 2.1e-8,
+    };
+    let chain = Chain::builder("links")
+        .spring("drive", MotionKind::Revolute, Vector3::z(), 2e4, 0.0)
+        .link("upper", &section, 0.6)
+        .spring("elbow", MotionKind::Revolute, Vector3::y(), 2e4, 0.0)
+        .node("elbow")
+        .link("fore", &section, 0.4)
+        .build()
+        .unwrap();
+    let bounds = Bounds::of(&chain);
+    let (half, quarter) = (std::f64::consts::PI, std::f64::consts::FRAC_PI_2);
+    for (i, c) in chain.coordinates().iter().enumerate() {
+        let name = c.name.as_str();
+        let most = match (c.kind, ["drive", "elbow"].contains(&name)) {
+            (MotionKind::Revolute, true) => half,
+            (MotionKind::Revolute, false) => quarter,
+            (MotionKind::Prismatic, _) => 0.5 * chain.scale().length,
+        };
+        assert_eq!((bounds.low[i], bounds.high[i]), (-most, most), "{name}");
+    }
+    let mut end = EndCondition::pose(chain_end(&chain));
+    end.pose.translation.vector += vector![0.0, 4e-3, -3e-3];
+    let problem = ChainProblem::new(&chain, end);
+    let settings = SearchSettings {
+        fruitless: 150,
+        ..SearchSettings::default()
+    };
+    let all = equilibria(&problem, &bounds, &settings).unwrap();
+    assert!(!all.found.is_empty());
+    // The same places of all nodes and the same wrench are one equilibrium.
+    for (i, a) in all.found.iter().enumerate() {
+        for b in &all.found[i + 1..] {
+            let (a, b) = (&a.equilibrium, &b.equilibrium);
+            let wrench = (a.wrench.0 - b.wrench.0).norm() / (1.0 + a.wrench.0.norm());
+            let place = a.nodes.iter().zip(&b.nodes);
+            let away = place
+                .map(|(p, q)| (p.to_homogeneous() - q.to_homogeneous()).amax())
+                .fold(wrench, f64::max);
+            assert!(away > 1e-6, "one shape twice: {:?}", b.coordinates);
+        }
+    }
+}
+
+/// Where the end of an unloaded chain is.
+fn chain_end(chain: &Chain) -> kinetostat::Pose {
+    let home = chain.home_coordinates();
+    let k = kinetostat::Kinematics::new(
+        chain,
+        &kinetostat::Pose::identity(),
+        &home,
+        &chain.home_commands(),
+        false,
+    );
+    k.node_pose(chain.tip())
 }

@@ -20,6 +20,7 @@ mod compensation_closes;
 mod condensed_equals_flattened;
 mod curves_and_bifurcations;
 mod curves_of_columns;
+mod curves_of_families;
 mod end_conditions_are_consistent;
 mod energy_equals_work;
 mod euler_angles;

@@ -1,0 +1,156 @@
+//! Round columns in space buckle in every direction alike: one family of shapes, one branch.
+
+use crate::common::close;
+use crate::curves_and_bifurcations::solved;
+use crate::curves_of_columns::press;
+use kinetostat::{
+    BeamSection, BranchEnd, Chain, ChainProblem, CurveSettings, Curves, EndCondition, LinkSpec,
+    MotionKind, Parameter, Pose, Prescribed, SpecialKind, Twist, follow,
+};
+use nalgebra::{Vector3, vector};
+
+const EULER: f64 = std::f64::consts::PI * std::f64::consts::PI;
+
+/// Slender, so that shortening and shear play no part: E I = 1, length 1.
+fn round() -> BeamSection {
+    BeamSection {
+        youngs_modulus: 1.0,
+        shear_modulus: 1.0 / 2.6,
+        area: 4e4,
+        second_moment_y: 1.0,
+        second_moment_z: 1.0,
+        torsion_constant: 2.0,
+    }
+}
+
+fn clamped_rod() -> Chain {
+    Chain::builder("round rod")
+        .link_with("rod", &LinkSpec::beam(round(), 1.0).segments(8))
+        .build()
+        .unwrap()
+}
+
+fn points(c: &Curves<'_>) -> usize {
+    c.branches.iter().map(|b| b.points.len()).sum()
+}
+
+#[test]
+fn a_round_clamped_rod_buckles_into_one_family() {
+    let chain = clamped_rod();
+    let mut end = EndCondition::pose(Pose::translation(1.0, 0.0, 0.0));
+    end.prescribed = [Prescribed::Wrench; 6];
+    let problem = ChainProblem::new(&chain, end);
+    let mut settings = CurveSettings::within(0.0, 1.5 * EULER);
+    settings.branches = 12;
+    settings.largest_change = Some(EULER / 40.0);
+    let pushed = Parameter::end_wrench(press());
+    let c = follow(&problem, &pushed, &solved(&problem), 0.0, &settings).unwrap();
+    assert_eq!(c.specials.len(), 1, "the fork alone");
+    let fork = &c.specials[0];
+    assert_eq!(fork.kind, SpecialKind::Multiple { modes: 2 });
+    let critical = 0.25 * EULER;
+    close(
+        "critical load",
+        fork.point.parameter,
+        critical,
+        1e-3 * critical,
+    );
+    assert_eq!(
+        c.branches.len(),
+        2,
+        "the straight rod and one pair of shapes"
+    );
+    let buckled = &c.branches[1];
+    assert_eq!(buckled.ends, [BranchEnd::Range; 2]);
+    for p in buckled
+        .points
+        .iter()
+        .filter(|p| p.parameter > 1.001 * critical)
+    {
+        assert!(p.in_family());
+        assert!(p.dead.stable && p.held.stable, "at {}", p.parameter);
+        assert_eq!(p.unstable_modes(), [0, 0], "at {}", p.parameter);
+        assert_eq!(p.dead.neutral, ["the whole shape"]);
+        assert_eq!(p.dead.inertia.zero, 1);
+    }
+    // Elastica under a dead load, the tip turned by 60 deg: P / P_E = (2 K(k) / pi)^2, k = sin 30 deg.
+    let turned = |p: &kinetostat::CurvePoint| p.equilibrium.tip.rotation.angle();
+    let elastica = (2.0 * 1.685_750_354_812_596 / std::f64::consts::PI).powi(2) * critical;
+    let there = c.at(elastica).unwrap();
+    let bent: Vec<_> = there.iter().filter(|p| turned(p) > 0.1).collect();
+    assert_eq!(bent.len(), 2, "one pair");
+    for p in bent {
+        let turn = turned(p).to_degrees();
+        close("elastica", turn, 60.0, 0.6);
+        assert!(p.dead.stable && p.held.stable);
+    }
+    assert!(points(&c) < 400, "{} points", points(&c));
+}
+
+#[test]
+fn a_round_rod_pushed_along_its_axis_stays_on_few_branches() {
+    let chain = clamped_rod();
+    let end = EndCondition::pose(Pose::translation(1.0, 0.0, 0.0));
+    let problem = ChainProblem::new(&chain, end);
+    let mut settings = CurveSettings::within(0.0, 0.1);
+    settings.branches = 12;
+    settings.conjugate_range = (-6.0 * EULER, 6.0 * EULER);
+    let along = Twist::new(vector![-1.0, 0.0, 0.0], Vector3::zeros());
+    let parameter = Parameter::Displacement(along);
+    let c = follow(&problem, &parameter, &solved(&problem), 0.0, &settings).unwrap();
+    let forks: Vec<_> = c
+        .specials
+        .iter()
+        .filter(|s| s.kind.is_bifurcation())
+        .collect();
+    close(
+        "critical load",
+        forks[0].point.conjugate.abs(),
+        4.0 * EULER,
+        4e-2 * EULER,
+    );
+    assert!(c.branches.len() <= 3 && points(&c) < 1000);
+    let buckled = &c.branches[1];
+    assert!(buckled.points.iter().filter(|p| p.in_family()).count() + 2 > buckled.points.len());
+    let near = buckled.points.iter().filter(|p| p.in_family());
+    for p in near {
+        assert!(
+            p.held.stable && p.unstable_modes()[0] == 0,
+            "at {}",
+            p.parameter
+        );
+        assert!(p.equilibrium.stability.stable, "at {}", p.parameter);
+    }
+}
+
+#[test]
+fn a_hinge_that_nothing_holds_does_not_keep_a_curve_from_ending() {
+    let z = Vector3::z();
+    let chain = Chain::builder("pinned column")
+        .passive("a", MotionKind::Revolute, z, 0.0)
+        .link_with("rod", &LinkSpec::beam(round(), 1.0).segments(8))
+        .passive("b", MotionKind::Revolute, z, 0.0)
+        .build()
+        .unwrap();
+    let mut end = EndCondition::pose(Pose::translation(1.0, 0.0, 0.0));
+    for k in [0, 5] {
+        end.prescribed[k] = Prescribed::Wrench;
+    }
+    let problem = ChainProblem::new(&chain, end);
+    let mut settings = CurveSettings::within(0.0, 3.0 * EULER);
+    settings.branches = 12;
+    for pull in [-1.0, 1.0] {
+        let parameter = Parameter::end_wrench(press() * pull);
+        let c = follow(&problem, &parameter, &solved(&problem), 0.0, &settings).unwrap();
+        assert!(points(&c) < 1000);
+        if pull < 0.0 {
+            assert_eq!(
+                (c.branches.len(), c.specials.len()),
+                (1, 0),
+                "no fork in tension"
+            );
+        } else {
+            close("Euler", c.specials[0].point.parameter, EULER, 1e-3 * EULER);
+        }
+    }
+}
