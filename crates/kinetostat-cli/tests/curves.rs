@@ -714,7 +714,10 @@ fn wrong_questions_are_refused_with_what_to_do() {
     )
     .answered();
     let text = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("followed only from -50.0000 to 90.68"), "{text}");
+    assert!(
+        text.contains("followed only from -50.0000 to 90.68"),
+        "{text}"
+    );
     // Out of reach: the question is right and has no answer.
     let said = run(
         here.path(),
