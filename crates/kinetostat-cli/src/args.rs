@@ -217,7 +217,7 @@ pub(crate) struct UrdfArgs {
     /// Link that carries the tool; needed where the tree has several ends
     #[arg(long, value_name = "LINK")]
     pub(crate) tip: Option<String>,
-    /// Closed loops (TOML): what the proposed <constraint> element of a URDF says
+    /// Closed loops (TOML): what the proposed `constraint` element of a URDF says
     #[arg(long, value_name = "FILE")]
     pub(crate) loops: Option<PathBuf>,
     /// Joints that nothing drives

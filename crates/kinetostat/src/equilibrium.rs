@@ -25,7 +25,7 @@ use crate::loading::Load;
 use crate::reduced::rotation_rate;
 use crate::saddle::Saddle;
 use crate::settings::Settings;
-use crate::spatial::{Pose, Twist, Wrench, pose_residual};
+use crate::spatial::{Pose, Twist, Wrench, on_screw, pose_residual};
 use crate::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
 use crate::sweep::{Form, Path, Sweep, turned_rows};
@@ -204,6 +204,8 @@ struct Attempt<'p, 'a> {
     spare: Option<Box<Sweep>>,
     /// Closure at the start, kept while the load grows.
     offset: Twist,
+    /// Pose from which the end is led on a screw to the prescribed one while the load grows.
+    screw_from: Option<Pose>,
     /// Rotation (vector, rad) that the end lacks.
     turned: Vector3<f64>,
     /// Norms of the last two corrections, balanced, the last one first.
@@ -236,7 +238,10 @@ impl Attempt<'_, '_> {
         self.evaluate_system(x, wrench, share);
         let p = self.problem;
         let tip = self.system.kinematics.tip_pose();
-        let miss = pose_residual(&p.end.pose, &tip);
+        let target = self
+            .screw_from
+            .map_or(p.end.pose, |from| on_screw(&from, &p.end.pose, share));
+        let miss = pose_residual(&target, &tip);
         self.turned = miss.angular();
         let closure = Twist(miss.0 - self.offset.0 * (1.0 - share));
         let lack = Wrench(p.end.wrench.0 * share - wrench.0);
@@ -574,6 +579,7 @@ pub(crate) fn solve_along(
         factors,
         spare: None,
         offset: Twist::zero(),
+        screw_from: None,
         turned: Vector3::zeros(),
         corrections: [0.0; 2],
     };
@@ -596,12 +602,30 @@ pub(crate) fn solve_along(
             return Ok(attempt.finish(x, wrench, iterations, &balance));
         }
     }
-    let failure = match grow_load(&mut attempt) {
+    let mut failure = match grow_load(&mut attempt, false) {
         Ok((x, wrench, iterations, balance)) => {
             return Ok(attempt.finish(x, wrench, iterations, &balance));
         }
         Err(failure) => failure,
     };
+    // On a straight way to a bent shape the chain is pressed and buckles; on a screw it is pulled.
+    if problem.end.prescribed == [Prescribed::Pose; 6] {
+        match grow_load(&mut attempt, true) {
+            Ok((x, wrench, iterations, balance)) => {
+                return Ok(attempt.finish(x, wrench, iterations, &balance));
+            }
+            Err(other) => {
+                failure.iterations += other.iterations;
+                if other.share > failure.share {
+                    failure = Failure {
+                        iterations: failure.iterations,
+                        ..other
+                    };
+                }
+            }
+        }
+        attempt.screw_from = None;
+    }
     // The way from rest may end at a fold although equilibria exist elsewhere.
     for nudge in [0.3, 0.8, 1.5, 2.5] {
         if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
@@ -630,9 +654,11 @@ struct Failure {
     iterations: usize,
 }
 
-/// Loads, preloads and closure grow together from the unloaded posture.
+/// Loads, preloads and closure grow together from the unloaded posture; the closure straight, or on
+/// a screw.
 fn grow_load(
     attempt: &mut Attempt<'_, '_>,
+    on_screw: bool,
 ) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), Failure> {
     let problem = attempt.problem;
     let mut x = nudged(problem.chain, &problem.posture, 1e-3);
@@ -640,7 +666,11 @@ fn grow_load(
     attempt.offset = Twist::zero();
     let start =
         Kinematics::new(problem.chain, &problem.base, &x, &problem.commands, false).tip_pose();
-    attempt.offset = pose_residual(&problem.end.pose, &start);
+    if on_screw {
+        attempt.screw_from = Some(start);
+    } else {
+        attempt.offset = pose_residual(&problem.end.pose, &start);
+    }
     let (mut share, mut step, mut iterations) = (0.0_f64, 0.125_f64, 0);
     let mut last = Balance {
         closure: 0.0,
@@ -661,6 +691,7 @@ fn grow_load(
                 step *= 0.5;
                 if step < attempt.settings.smallest_load_step.max(1e-9) {
                     attempt.offset = Twist::zero();
+                    attempt.screw_from = None;
                     let (closure, lack) = attempt.evaluate(&x, &wrench, 1.0);
                     let balance = attempt.measure(&attempt.end_rows(&closure, &lack), &wrench);
                     return Err(Failure {
@@ -703,6 +734,7 @@ impl Attempt<'_, '_> {
         balance: &Balance,
     ) -> (Equilibrium, Path) {
         self.offset = Twist::zero();
+        self.screw_from = None;
         self.evaluate_system(&x, &wrench, 1.0);
         let (chain, factors) = (self.problem.chain, &self.factors);
         let verdicts = match self.system.swept_verdicts(chain, factors) {

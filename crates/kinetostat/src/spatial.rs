@@ -232,3 +232,33 @@ mod tests {
         }
     }
 }
+
+/// The pose at a share of the screw motion that leads from one pose to another.
+pub(crate) fn on_screw(from: &Pose, to: &Pose, share: f64) -> Pose {
+    let relative = from.inverse() * to;
+    let turn = relative.rotation.scaled_axis();
+    // The place reached on a screw of rotation `w` and speed `u` in the moving frame is `V(w) u`.
+    let reach = |w: &Vector3<f64>| {
+        let (angle, hat) = (w.norm(), hat(w));
+        let (first, second) = if angle < 1e-4 {
+            (
+                0.5 - angle * angle / 24.0,
+                1.0 / 6.0 - angle * angle / 120.0,
+            )
+        } else {
+            let square = angle * angle;
+            (
+                (1.0 - angle.cos()) / square,
+                (angle - angle.sin()) / (square * angle),
+            )
+        };
+        Matrix3::identity() + hat * first + hat * hat * second
+    };
+    let place = relative.translation.vector;
+    let speed = reach(&turn)
+        .try_inverse()
+        .map_or(place, |inverse| inverse * place);
+    let part = turn * share;
+    let there = reach(&part) * (speed * share);
+    from * Pose::from_parts(there.into(), UnitQuaternion::from_scaled_axis(part))
+}

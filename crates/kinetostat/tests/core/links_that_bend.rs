@@ -385,6 +385,27 @@ fn an_end_moment_rolls_a_cantilever_up_to_a_circle() {
     }
 }
 
+/// The end of a cantilever put where a pure moment would bring it: the solver has to find the arc,
+/// although the straight way there presses the chain beyond its buckling load.
+#[test]
+fn an_end_that_is_put_on_an_arc_takes_a_pure_moment() {
+    // Eight segments of 15 degrees and more lie too near to buckling of their own to be reached.
+    let some: &[f64] = &[0.5, 1.0];
+    for (n, arcs) in [(8, some), (32, &[0.5, 1.0, 1.5, 2.0, 2.5])] {
+        let chain = cantilever(&link(n, Bowing));
+        for &arc in arcs {
+            let place = vector![arc.sin() / arc, (1.0 - arc.cos()) / arc, 0.0];
+            let turn = Pose::rotation(vector![0.0, 0.0, arc]);
+            let end = EndCondition::pose(Pose::from_parts(place.into(), turn.rotation));
+            let label = format!("{n} segments, arc {arc}");
+            let e = solve(&ChainProblem::new(&chain, end));
+            assert!(e.stability.stable, "{label}");
+            close(&label, e.wrench.moment().z, arc, 2e-3);
+            assert!(e.wrench.force().norm() < 0.05, "{label}: {:?}", e.wrench);
+        }
+    }
+}
+
 /// Stiffness at the end of a cantilever that shears, from its compliance.
 fn shearing(section: &BeamSection, shear: f64, length: f64) -> Matrix6<f64> {
     let mut compliance = section.cantilever(length).try_inverse().unwrap();
