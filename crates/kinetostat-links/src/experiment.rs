@@ -1,5 +1,5 @@
 //! Virtual experiments: from the displacements of an interface under six (or more) load cases to the
-//! 6 x 6 compliance and stiffness of a link [Klimchik2013], with what the noise leaves of it.
+//! 6 x 6 compliance and stiffness of a link \[Klimchik2013\], with what the noise leaves of it.
 //!
 //! Each load case is one experiment: the other end is fixed, a known wrench acts at the point `e`, and
 //! the interface's nodes move. A rigid motion is fitted to each ([`crate::rigid_fit`]); the motions are
@@ -163,7 +163,7 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
 
 impl Identified {
     /// The stiffness from a compliance whose insignificant entries are taken for zero: the filter of
-    /// [Klimchik2013]. `None` if what is left is not positive definite.
+    /// \[Klimchik2013\]. `None` if what is left is not positive definite.
     #[must_use]
     pub fn filtered(&self) -> Option<Matrix6<f64>> {
         let mut c = 0.5 * (self.compliance + self.compliance.transpose());
