@@ -76,8 +76,7 @@ impl ChainBlocks {
         chain.check(x, commands)?;
         chain.check(posture, commands)?;
         let mut system = System::new(chain, base, posture, commands, false);
-        let (loads, wrench) = (&problem.loads, &equilibrium.wrench);
-        system.evaluate(chain, base, posture, commands, loads, x, wrench, 1.0);
+        system.evaluate_problem(problem, x, &equilibrium.wrench, 1.0);
         Ok(Self::new(chain, &system, &balance(chain, posture), true))
     }
 

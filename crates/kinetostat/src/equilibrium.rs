@@ -194,6 +194,14 @@ enum Tangent<'s> {
     Dense(Saddle),
 }
 
+/// How the end comes to its prescribed pose; at the whole load it does not matter.
+enum Way {
+    /// The closure at the start shrinks evenly.
+    Straight(Twist),
+    /// On the screw that leads there from a pose.
+    Screw(Pose),
+}
+
 /// State of the chain iteration.
 struct Attempt<'p, 'a> {
     problem: &'p ChainProblem<'a>,
@@ -202,10 +210,8 @@ struct Attempt<'p, 'a> {
     system: System,
     /// Stages that are not needed at the moment.
     spare: Option<Box<Sweep>>,
-    /// Closure at the start, kept while the load grows.
-    offset: Twist,
-    /// Pose from which the end is led on a screw to the prescribed one while the load grows.
-    screw_from: Option<Pose>,
+    /// How the end is led to its prescribed pose while the load grows.
+    way: Way,
     /// Rotation (vector, rad) that the end lacks.
     turned: Vector3<f64>,
     /// Norms of the last two corrections, balanced, the last one first.
@@ -217,16 +223,7 @@ impl Attempt<'_, '_> {
     fn evaluate_system(&mut self, x: &[f64], wrench: &Wrench, share: f64) {
         let p = self.problem;
         for _ in 0..2 {
-            self.system.evaluate(
-                p.chain,
-                &p.base,
-                &p.posture,
-                &p.commands,
-                &p.loads,
-                x,
-                wrench,
-                share,
-            );
+            self.system.evaluate_problem(p, x, wrench, share);
             if self.system.sweep.as_ref().is_none_or(|s| s.serial) {
                 break;
             }
@@ -238,12 +235,14 @@ impl Attempt<'_, '_> {
         self.evaluate_system(x, wrench, share);
         let p = self.problem;
         let tip = self.system.kinematics.tip_pose();
-        let target = self
-            .screw_from
-            .map_or(p.end.pose, |from| on_screw(&from, &p.end.pose, share));
+        let (target, offset) = match &self.way {
+            Way::Screw(from) if share < 1.0 => (on_screw(from, &p.end.pose, share), Twist::zero()),
+            Way::Screw(_) => (p.end.pose, Twist::zero()),
+            Way::Straight(offset) => (p.end.pose, Twist(offset.0 * (1.0 - share))),
+        };
         let miss = pose_residual(&target, &tip);
         self.turned = miss.angular();
-        let closure = Twist(miss.0 - self.offset.0 * (1.0 - share));
+        let closure = Twist(miss.0 - offset.0);
         let lack = Wrench(p.end.wrench.0 * share - wrench.0);
         (closure, lack)
     }
@@ -578,8 +577,7 @@ pub(crate) fn solve_along(
         ),
         factors,
         spare: None,
-        offset: Twist::zero(),
-        screw_from: None,
+        way: Way::Straight(Twist::zero()),
         turned: Vector3::zeros(),
         corrections: [0.0; 2],
     };
@@ -587,7 +585,6 @@ pub(crate) fn solve_along(
     let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
         let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
         let mut wrench = Wrench::zero();
-        attempt.offset = Twist::zero();
         match attempt.newton(&mut x, &mut wrench, 1.0, settings.picard_steps) {
             Ok((iterations, balance)) => Some((x, wrench, iterations, balance)),
             Err((iterations, _)) => {
@@ -624,7 +621,6 @@ pub(crate) fn solve_along(
                 }
             }
         }
-        attempt.screw_from = None;
     }
     // The way from rest may end at a fold although equilibria exist elsewhere.
     for nudge in [0.3, 0.8, 1.5, 2.5] {
@@ -663,14 +659,13 @@ fn grow_load(
     let problem = attempt.problem;
     let mut x = nudged(problem.chain, &problem.posture, 1e-3);
     let mut wrench = Wrench::zero();
-    attempt.offset = Twist::zero();
     let start =
         Kinematics::new(problem.chain, &problem.base, &x, &problem.commands, false).tip_pose();
-    if on_screw {
-        attempt.screw_from = Some(start);
+    attempt.way = if on_screw {
+        Way::Screw(start)
     } else {
-        attempt.offset = pose_residual(&problem.end.pose, &start);
-    }
+        Way::Straight(pose_residual(&problem.end.pose, &start))
+    };
     let (mut share, mut step, mut iterations) = (0.0_f64, 0.125_f64, 0);
     let mut last = Balance {
         closure: 0.0,
@@ -690,8 +685,6 @@ fn grow_load(
                 iterations += spent;
                 step *= 0.5;
                 if step < attempt.settings.smallest_load_step.max(1e-9) {
-                    attempt.offset = Twist::zero();
-                    attempt.screw_from = None;
                     let (closure, lack) = attempt.evaluate(&x, &wrench, 1.0);
                     let balance = attempt.measure(&attempt.end_rows(&closure, &lack), &wrench);
                     return Err(Failure {
@@ -733,8 +726,6 @@ impl Attempt<'_, '_> {
         iterations: usize,
         balance: &Balance,
     ) -> (Equilibrium, Path) {
-        self.offset = Twist::zero();
-        self.screw_from = None;
         self.evaluate_system(&x, &wrench, 1.0);
         let (chain, factors) = (self.problem.chain, &self.factors);
         let verdicts = match self.system.swept_verdicts(chain, factors) {

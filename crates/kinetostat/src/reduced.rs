@@ -351,16 +351,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
         let value = self.value(z);
         let (x, wrench) = (self.coordinates(z), self.wrench(z));
         self.system.pattern.1 = value;
-        self.system.evaluate(
-            p.chain,
-            &p.base,
-            &p.posture,
-            &p.commands,
-            &p.loads,
-            &x,
-            &wrench,
-            1.0,
-        );
+        self.system.evaluate_problem(p, &x, &wrench, 1.0);
         let target = match self.parameter {
             Some(Parameter::Displacement(twist)) => moved(&p.end.pose, &Twist(twist.0 * value)),
             _ => p.end.pose,

@@ -98,16 +98,8 @@ pub fn shape_criterion(
         &problem.commands,
         false,
     );
-    system.evaluate(
-        chain,
-        &problem.base,
-        &problem.posture,
-        &problem.commands,
-        &problem.loads,
-        &equilibrium.coordinates,
-        &equilibrium.wrench,
-        1.0,
-    );
+    let state = &equilibrium.coordinates;
+    system.evaluate_problem(problem, state, &equilibrium.wrench, 1.0);
     let unit: Vec<f64> = chain
         .coordinates()
         .iter()

@@ -4,6 +4,7 @@
 use nalgebra::{DMatrix, Matrix6, Matrix6xX};
 
 use crate::chain::{Chain, MotionKind, Role};
+use crate::equilibrium::ChainProblem;
 use crate::kinematics::Kinematics;
 use crate::loading::{Load, NodeTangent};
 use crate::spatial::{Pose, Wrench};
@@ -110,6 +111,28 @@ impl System {
             Some(_) => Path::Sweep,
             None => Path::Dense,
         }
+    }
+
+    /// Evaluates a problem's chain at coordinates and end wrench; `share` as in [`Self::evaluate`].
+    pub fn evaluate_problem(
+        &mut self,
+        problem: &ChainProblem<'_>,
+        coordinates: &[f64],
+        wrench: &Wrench,
+        share: f64,
+    ) {
+        let p = problem;
+        let (posture, commands) = (&p.posture, &p.commands);
+        self.evaluate(
+            p.chain,
+            &p.base,
+            posture,
+            commands,
+            &p.loads,
+            coordinates,
+            wrench,
+            share,
+        );
     }
 
     /// Evaluates at coordinates and end wrench; `factor` scales loads and preloads (1: as given).
