@@ -9,6 +9,9 @@
 mod along;
 mod args;
 mod check;
+mod check_home;
+mod check_limbs;
+mod check_words;
 mod compensate;
 mod curve;
 mod curve_answer;

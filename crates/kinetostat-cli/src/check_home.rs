@@ -1,0 +1,224 @@
+//! A machine at home: mobility, what holds it, what its own loads do.
+
+use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, Posture, Wrench};
+use serde::Serialize;
+
+use crate::check::Findings;
+use crate::check_limbs::{LimbFinding, counted};
+use crate::screen::{fixed, item, number, triple};
+use crate::stiffness::{Principal, principal, principals, what_moves};
+
+#[derive(Serialize)]
+pub(crate) struct HomeFinding {
+    pub(crate) mobility: usize,
+    pub(crate) actuators: usize,
+    pub(crate) degrees_of_over_constraint: Option<usize>,
+    pub(crate) correctable_directions: Vec<&'static str>,
+    pub(crate) stiffness_rank: usize,
+    pub(crate) principal_directions: Vec<Principal>,
+    pub(crate) shift_without_load_mm: [f64; 3],
+    pub(crate) rotation_without_load_deg: [f64; 3],
+    pub(crate) largest_internal_force_n: f64,
+    pub(crate) largest_internal_moment_n_m: f64,
+    /// Every limb keeps its shape while the tool is held.
+    pub(crate) shapes_stable: bool,
+    /// The tool stays where it is.
+    pub(crate) platform_stable: bool,
+    /// Both.
+    pub(crate) stable: bool,
+    pub(crate) conservative: bool,
+    pub(crate) largest_buckling_margin: Option<f64>,
+}
+
+const DIRECTIONS: [&str; 6] = [
+    "x",
+    "y",
+    "z",
+    "turn about x",
+    "turn about y",
+    "turn about z",
+];
+
+pub(crate) fn at_home(
+    m: &Mechanism,
+    posture: &Posture<'_>,
+    limbs: &mut [LimbFinding],
+) -> Result<HomeFinding, String> {
+    let stiffness = posture.stiffness().map_err(|e| e.to_string())?;
+    let mut held = 0;
+    for (i, found) in limbs.iter_mut().enumerate() {
+        let k = &stiffness.limbs[i];
+        found
+            .redundant_passive_joints
+            .clone_from(&k.redundant_passive);
+        found.stiffness_rank = Some(k.rank);
+        found.constrained_directions = alone(m, posture, i);
+        held += k.rank + k.count(DirectionKind::Rigid);
+    }
+    let mobility = posture.mobility().ncols();
+    let correctable = posture.correctable();
+    let rest = posture
+        .deflected_by(&Wrench::zero())
+        .map_err(|e| e.to_string())?;
+    Ok(HomeFinding {
+        mobility,
+        actuators: m.actuator_count(),
+        // What the limbs hold beyond what the tool needs: they strain each other there.
+        degrees_of_over_constraint: Some(held.saturating_sub(stiffness.rank())),
+        correctable_directions: DIRECTIONS
+            .iter()
+            .zip(correctable)
+            .filter_map(|(name, can)| can.then_some(*name))
+            .collect(),
+        stiffness_rank: stiffness.rank(),
+        principal_directions: stiffness.directions.iter().map(principal).collect(),
+        shift_without_load_mm: (rest.displacement.linear() * 1e3).into(),
+        rotation_without_load_deg: rest.displacement.angular().map(f64::to_degrees).into(),
+        largest_internal_force_n: largest(&rest, |w| w.force().norm()),
+        largest_internal_moment_n_m: largest(&rest, |w| w.moment().norm()),
+        shapes_stable: rest.shapes_stable(),
+        platform_stable: rest.platform.stable,
+        stable: rest.stable(),
+        conservative: rest.conservative,
+        largest_buckling_margin: rest.margin().filter(|m| m.is_finite()),
+    })
+}
+
+fn largest(e: &MechanismEquilibrium, size: impl Fn(&Wrench) -> f64) -> f64 {
+    e.limbs.iter().map(|l| size(&l.wrench)).fold(0.0, f64::max)
+}
+
+/// Directions of the tool that one limb alone leaves no motion in, links taken as rigid.
+fn alone(m: &Mechanism, posture: &Posture<'_>, index: usize) -> Option<usize> {
+    let mut builder = Mechanism::builder(m.name());
+    for platform in m.platforms().iter().skip(1) {
+        builder.platform(platform.clone());
+    }
+    if m.platforms().len() != 2 {
+        return None;
+    }
+    let single = builder.limb(m.limbs()[index].clone()).build().ok()?;
+    let own = single
+        .posture_from_joints(posture.target(), vec![posture.limbs()[index].clone()])
+        .ok()?;
+    Some(6 - own.mobility().ncols())
+}
+
+pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
+    let mut out = String::from("\nAt home\n");
+    let over = match h.degrees_of_over_constraint {
+        Some(0) => {
+            "no over-constraint: deviations shift the tool without straining the limbs".to_owned()
+        }
+        Some(1) => "1 degree of over-constraint: deviations strain the limbs".to_owned(),
+        Some(n) => format!("{n} degrees of over-constraint: deviations strain the limbs"),
+        None => "over-constraint not counted for machines with several platforms".to_owned(),
+    };
+    out.push_str(&item(&format!(
+        "mobility {} with {}; {over}",
+        h.mobility,
+        counted(h.actuators, "actuator")
+    )));
+    out.push_str(&item(&if h.mobility > h.actuators {
+        format!(
+            "{} of these motions no actuator holds",
+            h.mobility - h.actuators
+        )
+    } else {
+        format!(
+            "the machine can correct by itself: {}",
+            match h.correctable_directions.as_slice() {
+                [] => "nothing".to_owned(),
+                list => list.join(", "),
+            }
+        )
+    }));
+    if h.stiffness_rank < 6 {
+        out.push_str(&item(&format!(
+            "no spring holds the tool in {} of 6 directions (see the table below)",
+            6 - h.stiffness_rank
+        )));
+    }
+    let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
+    let causes: Vec<&str> = [
+        ("its deviations", !f.deviations.is_empty()),
+        ("its own weight", f.mass_kg > 0.0),
+        (
+            "the loads on its limbs",
+            f.limbs.iter().any(|l| !l.loads.is_empty()),
+        ),
+        (
+            "its preloads",
+            f.limbs.iter().any(|l| !l.preloaded_springs.is_empty()),
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(cause, acts)| acts.then_some(cause))
+    .collect();
+    let cause = match causes.as_slice() {
+        [] => "without load".to_owned(),
+        ["its own weight"] => "under its own weight".to_owned(),
+        ["its deviations"] => "by its deviations, without load".to_owned(),
+        causes => format!("by {}", causes.join(" and ")),
+    };
+    let moved = shift.iter().chain(&turn).any(|x| x.abs() > 1e-9);
+    if moved {
+        let mut text = format!(
+            "{cause} the tool is shifted by {} mm and turned by {} deg",
+            triple(shift, |x| fixed(x, 5)),
+            triple(turn, |x| fixed(x, 5)),
+        );
+        if f.limbs.len() > 1 {
+            text.push_str(&format!(
+                "; inside, up to {} N and {} N m act on the limbs' ends",
+                fixed(h.largest_internal_force_n, 3),
+                fixed(h.largest_internal_moment_n_m, 4),
+            ));
+        }
+        out.push_str(&item(&text));
+    } else {
+        out.push_str(&item("without load the tool is where it is commanded"));
+    }
+    out.push_str(&item(&match (h.stable, h.largest_buckling_margin) {
+        (true, Some(mu)) if mu.abs() > 1e-9 && h.stiffness_rank == 6 => {
+            format!(
+                "stable; largest share of the way to buckling {}",
+                number(mu, 3)
+            )
+        }
+        (true, _) if h.stiffness_rank < 6 => format!(
+            "stable where it is held; {} of 6 directions are free",
+            6 - h.stiffness_rank
+        ),
+        (true, _) => "stable".to_owned(),
+        (false, _) if h.shapes_stable => {
+            "NOT STABLE: the limbs keep their shapes, but the tool does not stay".to_owned()
+        }
+        (false, _) => "NOT STABLE: it would jump to another shape".to_owned(),
+    }));
+    if !h.conservative {
+        out.push_str(&item(
+            "not conservative: a load on a limb has no potential, so that stability is judged by stiffness alone",
+        ));
+    }
+    if !f.deviations.is_empty() {
+        out.push_str("\nDeviations\n");
+        for d in &f.deviations {
+            out.push_str(&item(d));
+        }
+    }
+    out.push_str(&format!(
+        "\nStiffness at home, unloaded: {} of 6 directions\n\n",
+        h.stiffness_rank
+    ));
+    out.push_str(&principals(&h.principal_directions));
+    let loose = |p: &&Principal| p.kind != DirectionKind::Finite;
+    if h.principal_directions.iter().any(|p| loose(&p)) {
+        out.push_str("\nWhat moves, and what nothing moves\n");
+        h.principal_directions
+            .iter()
+            .filter(loose)
+            .for_each(|p| out.push_str(&what_moves(p)));
+    }
+    out
+}

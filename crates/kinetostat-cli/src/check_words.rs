@@ -1,0 +1,84 @@
+//! Findings about a model in words, readable at 80 columns.
+
+use kinetostat_model::Model;
+
+use crate::check::Findings;
+use crate::check_home::home_in_words;
+use crate::check_limbs::limb_in_words;
+use crate::machine::short;
+use crate::screen::{item, number, triple, wrapped};
+
+pub(crate) fn in_words(f: &Findings, model: &Model) -> String {
+    let mut out = wrapped(&format!("{} ({})", f.model, f.model_source), 0);
+    if let Some(text) = &f.description {
+        out.push_str(&wrapped(text, 0));
+    }
+    if let Some((low, high)) = model.workspace() {
+        out.push_str(&wrapped(
+            &format!(
+                "workspace from {} to {} mm",
+                triple((low * 1e3).into(), short),
+                triple((high * 1e3).into(), short)
+            ),
+            0,
+        ));
+    }
+    out.push_str("\nPlatforms\n");
+    for p in &f.platforms {
+        let mut text = format!(
+            "'{}' at home at {} mm, {}",
+            p.name,
+            triple(p.home_position_mm, short),
+            turned(p.home_rotation_vector_deg)
+        );
+        if p.mass_kg > 0.0 {
+            text.push_str(&format!(", {} kg", number(p.mass_kg, 4)));
+        }
+        if p.carries_the_tool {
+            text.push_str("; carries the tool");
+        }
+        out.push_str(&item(&text));
+    }
+    // Frames, zero posture and positive direction of each joint stand here (`check_frames`).
+    for l in &f.limbs {
+        out.push_str(&format!(
+            "\n{}",
+            wrapped(
+                &format!("Limb '{}', from '{}' to '{}'", l.name, l.from, l.to),
+                0
+            )
+        ));
+        out.push_str(&limb_in_words(l));
+    }
+    if f.mass_kg > 0.0 {
+        out.push('\n');
+        out.push_str(&wrapped(
+            &format!(
+                "Moving mass {} kg, gravity {} m/s^2.",
+                number(f.mass_kg, 5),
+                triple(f.gravity_m_per_s2, short)
+            ),
+            0,
+        ));
+    }
+    if let Some(home) = &f.home {
+        out.push_str(&home_in_words(f, home));
+    }
+    if let Some(problem) = &f.home_problem {
+        out.push_str("\nAt home\n");
+        out.push_str(&item(&format!("nothing can be solved: {problem}")));
+    }
+    out.push_str(&crate::summary::warnings(&f.warnings));
+    if f.warnings.is_empty() {
+        out.push_str("\nNothing looks wrong in the file.\n");
+    }
+    out
+}
+
+fn turned(v: [f64; 3]) -> String {
+    if v.iter().all(|x| x.abs() < 1e-9) {
+        "parallel to the base".to_owned()
+    } else {
+        format!("turned by the rotation vector {} deg", triple(v, short))
+    }
+}
