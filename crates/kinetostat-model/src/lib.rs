@@ -91,5 +91,5 @@ mod template;
 
 pub use file::read_model;
 pub use model::{Model, json_schema};
-pub use presets::{Preset, preset_names, preset_text};
+pub use presets::{Preset, PresetKind, preset_names, preset_text};
 pub use problem::{ModelError, Problem, Severity};

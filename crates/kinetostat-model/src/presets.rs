@@ -3,60 +3,104 @@
 use crate::hints;
 use crate::problem::{ModelError, Problem};
 
+/// What kind of machine a preset is: families of the report's chapter 2 (figures 2.5 to 2.8), or
+/// an example that teaches one effect. In the order in which lists show them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum PresetKind {
+    /// A robot whose joints follow one another; compensators and parallelograms included.
+    Serial,
+    /// A robot whose platform is carried by several limbs.
+    Parallel,
+    /// A robot of parallel and serial parts.
+    Hybrid,
+    /// A machine as small as the effect allows that it shows.
+    Teaching,
+}
+
+impl PresetKind {
+    /// Every kind, in the order of lists.
+    pub const ALL: [Self; 4] = [Self::Serial, Self::Parallel, Self::Hybrid, Self::Teaching];
+
+    /// Heading of the presets of this kind in a list.
+    #[must_use]
+    pub fn heading(self) -> &'static str {
+        match self {
+            Self::Serial => "Serial robots",
+            Self::Parallel => "Parallel robots",
+            Self::Hybrid => "Hybrid robots",
+            Self::Teaching => "Teaching examples",
+        }
+    }
+}
+
 /// A model that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
     /// Name, as taken by [`crate::Model::preset`].
     pub name: &'static str,
+    /// What kind of machine it is.
+    pub kind: PresetKind,
     /// What it is, in one line.
     pub description: &'static str,
     text: &'static str,
 }
 
 macro_rules! preset {
-    ($name:literal, $description:literal) => {
+    ($kind:ident, $name:literal, $description:literal) => {
         Preset {
             name: $name,
+            kind: PresetKind::$kind,
             description: $description,
             text: include_str!(concat!("../models/", $name, ".toml")),
         }
     };
 }
 
-const PRESETS: [Preset; 9] = [
+// One line per preset and no count: branches that add machines merge.
+const PRESETS: &[Preset] = &[
     preset!(
+        Parallel,
         "orthoglide",
         "Orthoglide: three sliding legs with parallelograms, 200 mm cube, identified stiffness"
     ),
     preset!(
+        Parallel,
         "stewart_gough_a",
         "Stewart-Gough platform, equal hexagons: singular at home"
     ),
     preset!(
+        Parallel,
         "stewart_gough_b",
         "Stewart-Gough platform, paired joints: six stiff directions"
     ),
     preset!(
+        Teaching,
         "two_link",
         "Two rigid links with a springy joint: the smallest machine that can snap through"
     ),
     preset!(
+        Teaching,
         "three_link_s",
         "Three rigid links with springy joints, straight: buckles like a column"
     ),
     preset!(
+        Teaching,
         "three_link_z",
         "Three rigid links with springy joints, at rest in a Z: buckles at a pitchfork"
     ),
     preset!(
+        Parallel,
         "puu3",
         "3-PUU: three sliders with struts and universal joints, moves without turning"
     ),
     preset!(
+        Serial,
         "heavy_6r",
         "Heavy six-axis arm of the 200 kg class with drive and link compliances and weights"
     ),
     preset!(
+        Teaching,
         "compensated_arm",
         "Planar arm of three joints, its shoulder relieved by a spring; links that bow"
     ),
@@ -65,7 +109,7 @@ const PRESETS: [Preset; 9] = [
 /// The presets in a fixed order.
 #[must_use]
 pub fn preset_names() -> &'static [Preset] {
-    &PRESETS
+    PRESETS
 }
 
 /// The model file of a preset.

@@ -52,7 +52,9 @@ fn an_unknown_preset_is_refused_with_the_nearest() {
             && error.contains("did you mean 'orthoglide'?"),
         "{error}"
     );
-    let error = Model::preset("scara").expect_err("unknown").to_string();
+    let error = Model::preset("palletiser")
+        .expect_err("unknown")
+        .to_string();
     assert!(
         error.contains("orthoglide, stewart_gough_a, stewart_gough_b"),
         "{error}"
