@@ -65,7 +65,7 @@ const PRESETS: &[Preset] = &[
         "Orthoglide: three sliding legs with parallelograms, 200 mm cube, identified stiffness"
     ),
     preset!(
-        Parallel,
+        Teaching,
         "stewart_gough_a",
         "Stewart-Gough platform, equal hexagons: singular at home"
     ),

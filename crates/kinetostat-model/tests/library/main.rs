@@ -1,7 +1,7 @@
 //! Every robot of the library: its file, inverse kinematics, home posture, and its stiffness against
 //! a dense global system.
 
-mod agreement;
+mod figures;
 mod machine;
 mod msa;
 
@@ -25,7 +25,7 @@ pub struct Random(pub u64);
 
 impl Random {
     /// The next one.
-    pub fn next(&mut self) -> f64 {
+    pub fn number(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -34,7 +34,7 @@ impl Random {
 
     /// Three of them.
     pub fn vector(&mut self) -> Vector3<f64> {
-        Vector3::from_fn(|_, _| self.next())
+        Vector3::from_fn(|_, _| self.number())
     }
 }
 

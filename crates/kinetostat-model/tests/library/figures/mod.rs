@@ -1,0 +1,4 @@
+//! What the library is measured by.
+
+mod agreement;
+mod postures;
