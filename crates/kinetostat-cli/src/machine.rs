@@ -91,11 +91,8 @@ fn with_deviations(model: Model, job: Option<&JobFile>) -> Answer<Model> {
     };
     let mut model = model;
     for deviation in &j.job.deviation {
-        let d = deviation.get_ref();
-        let motion = orientation::pose(&d.moved_by)
-            .map_err(|(message, help)| j.error(deviation, &message, &help))?;
         model = model
-            .with_deviation(&d.limb, &d.at, &motion)
+            .deviating(deviation.get_ref().clone())
             .map_err(|error| {
                 let (message, help) = error.problems().first().map_or_else(
                     || (error.to_string(), String::new()),
@@ -109,35 +106,8 @@ fn with_deviations(model: Model, job: Option<&JobFile>) -> Answer<Model> {
 
 /// The deviations of a model, one sentence each.
 pub(crate) fn deviations_in_words(model: &Model) -> Vec<String> {
-    model
-        .document
-        .deviation
-        .iter()
-        .map(|d| {
-            let place = match d.at.as_str() {
-                "start" => "at its start".to_owned(),
-                "end" => "at its end".to_owned(),
-                name => format!("behind '{name}'"),
-            };
-            let Ok(motion) = orientation::pose(&d.moved_by) else {
-                return format!("limb '{}' is out of place {place}", d.limb);
-            };
-            let (shift, turn) = (
-                motion.translation.vector * 1e3,
-                motion.rotation.scaled_axis().map(f64::to_degrees),
-            );
-            let mut parts = Vec::new();
-            if shift.norm() > 0.0 {
-                parts.push(format!("shifted by {} mm", triple(shift.into(), short)));
-            }
-            if turn.norm() > 0.0 {
-                parts.push(format!("turned by {} deg", triple(turn.into(), short)));
-            }
-            if parts.is_empty() {
-                parts.push("not moved".to_owned());
-            }
-            format!("limb '{}' is {} {place}", d.limb, parts.join(" and "))
-        })
+    let list = model.document.deviation.iter();
+    list.map(kinetostat_model::schema::Deviation::in_words)
         .collect()
 }
 

@@ -52,7 +52,7 @@
 //!   place the chain between its platforms.
 //! - **Deviations are separate** (`[[deviation]]`): the chain says what was drawn, the deviation what
 //!   was built. A deviation is a motion behind a named rigid element or link, or at the limb's `start`
-//!   or `end`.
+//!   or `end`; or in words of the shop, a link that is longer, a joint whose axis is tilted.
 //! - **Links bow**: a link shortens as it bends, so that it buckles at its Euler load; `convention`
 //!   names the plain springs of the literature, `segments` divides it.
 //! - **Loads belong to a limb** (`[[limb.load]]`): springs, gas springs and ropes between two of its
@@ -67,6 +67,7 @@
 
 mod assemble;
 mod check;
+mod deviation;
 mod elastic;
 mod file;
 mod hints;

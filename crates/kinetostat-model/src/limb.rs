@@ -6,6 +6,7 @@ use kinetostat::{Chain, Limb, Load, Pose};
 use nalgebra::Vector3;
 
 use crate::assemble::{Findings, name};
+use crate::deviation::{AsBuilt, Own, as_built, deviations};
 use crate::elastic::unknown;
 use crate::load::{loads, named_places};
 use crate::part::Part;
@@ -70,7 +71,7 @@ fn limb(
     place: &Place,
     written: &LimbTable,
     template: Option<&Template>,
-    own: &BTreeMap<&str, (Place, Pose)>,
+    own: &Own<'_>,
     findings: &mut Findings,
 ) -> Option<(Limb, Vec<Load>)> {
     let from = platform_index(document, &place.key("from"), &written.from, findings);
@@ -95,31 +96,12 @@ fn limb(
     let start = placed("start", &written.start);
     let end = placed("end", &written.end);
     let template = template?;
-    for (at, (place, _)) in own {
-        let named = |p: &Part| matches!(p, Part::Rigid(Some(n), _) if n == at);
-        if !["start", "end"].contains(at) && !template.parts.iter().any(|(_, p)| named(p)) {
-            let known: Vec<&str> = ["start", "end"]
-                .into_iter()
-                .chain(template.parts.iter().filter_map(|(_, p)| match p {
-                    Part::Rigid(name, _) => name.as_deref(),
-                    _ => None,
-                }))
-                .collect();
-            findings.errors.push(unknown(
-                &place.key("at"),
-                "rigid element or link",
-                at,
-                &known,
-                "name the element that is out of place",
-            ));
-            return None;
-        }
-    }
+    let built = findings.keep(as_built(own, &template.parts))?;
     let table = document.chain.get(&written.chain)?;
     let places = named_places(place, written, table, template, findings);
     let (start, end, places) = (start?, end?, places?);
     let mut build = |actual: bool| {
-        let chain = chain(&written.name, template, own, actual, &start, &places);
+        let chain = chain(&written.name, template, &built, actual, &start, &places);
         chain
             .map_err(|e| findings.errors.push(locate(&e, &written.chain, document)))
             .ok()
@@ -147,34 +129,33 @@ fn limb(
 fn chain(
     name: &str,
     template: &Template,
-    own: &BTreeMap<&str, (Place, Pose)>,
+    built: &AsBuilt,
     actual: bool,
     start: &Pose,
     places: &BTreeMap<usize, String>,
 ) -> kinetostat::Result<Chain> {
-    let deviation = |at: &str| own.get(at).filter(|_| actual).map(|(_, pose)| pose);
     let mut builder = Chain::builder(name);
-    if *start != Pose::identity() || own.contains_key("start") {
+    if *start != Pose::identity() || built.start.is_some() {
         let part = Part::Rigid(None, *start);
-        builder = part.add(builder, deviation("start"));
+        builder = part.add(builder, built.start.as_ref().filter(|_| actual));
     }
     for (k, (element, part)) in template.parts.iter().enumerate() {
-        let moved = match part {
-            Part::Rigid(Some(name), _) => deviation(name),
-            _ => None,
-        };
-        builder = part.add(builder, moved);
+        let part = built.instead.get(&k).filter(|_| actual).unwrap_or(part);
+        builder = part.add(builder, built.behind.get(&k).filter(|_| actual));
         // Places of loads are behind all that their element is made of.
         let last = template.parts.get(k + 1).is_none_or(|(e, _)| e != element);
         if let Some(name) = places.get(element).filter(|_| last) {
             builder = builder.node(name);
         }
     }
-    if own.contains_key("end") {
+    if let Some(end) = built.end {
         // The tip sits at `end * deviation` of the platform, which is the same as a chain that goes
         // on by the inverse deviation and sits at `end`.
-        let back = deviation("end").map_or_else(Pose::identity, Pose::inverse);
-        builder = builder.rigid(back);
+        builder = builder.rigid(if actual {
+            end.inverse()
+        } else {
+            Pose::identity()
+        });
     }
     builder.build()
 }
@@ -218,44 +199,4 @@ fn platform_index(
         ));
     }
     index.map(|i| i + 1)
-}
-
-/// Deviations by limb and place in the limb.
-fn deviations<'d>(
-    document: &'d Document,
-    findings: &mut Findings,
-) -> BTreeMap<usize, BTreeMap<&'d str, (Place, Pose)>> {
-    let mut found: BTreeMap<usize, BTreeMap<&str, (Place, Pose)>> = BTreeMap::new();
-    for (i, d) in document.deviation.iter().enumerate() {
-        if findings.enough() {
-            break;
-        }
-        let place = Place::root().key("deviation").index(i);
-        let motion = findings.keep(pose(&place.key("moved_by"), &d.moved_by));
-        let Some(limb) = document.limb.iter().position(|l| l.name == d.limb) else {
-            let known: Vec<&str> = document.limb.iter().map(|l| l.name.as_str()).collect();
-            findings.errors.push(unknown(
-                &place.key("limb"),
-                "limb",
-                &d.limb,
-                &known,
-                "write a table [[limb]]",
-            ));
-            continue;
-        };
-        let taken = found.entry(limb).or_default();
-        if taken.contains_key(d.at.as_str()) {
-            findings.error(
-                &place.key("at"),
-                format!(
-                    "the limb '{}' has a deviation at '{}' already",
-                    d.limb, d.at
-                ),
-                "write their product as one deviation",
-            );
-        } else if let Some(motion) = motion {
-            taken.insert(&d.at, (place, motion));
-        }
-    }
-    found
 }

@@ -151,15 +151,24 @@ impl Model {
     /// # Errors
     /// [`ModelError`] if there is no such limb or element, or if the motion is not finite.
     pub fn with_deviation(&self, limb: &str, at: &str, motion: &Pose) -> Result<Self, ModelError> {
-        let mut document = self.document.clone();
-        document.deviation.retain(|d| d.limb != limb || d.at != at);
-        document.deviation.push(Deviation {
+        self.deviating(Deviation {
             limb: limb.to_owned(),
             at: at.to_owned(),
-            moved_by: placement::written(motion),
-            source: None,
-            assumption: None,
-        });
+            moved_by: Some(placement::written(motion)),
+            ..Deviation::default()
+        })
+    }
+
+    /// The same machine with one more error of manufacture or assembly, as a file says it. Replaces a
+    /// deviation at the same place.
+    ///
+    /// # Errors
+    /// [`ModelError`] as for a file with this deviation.
+    pub fn deviating(&self, deviation: Deviation) -> Result<Self, ModelError> {
+        let mut document = self.document.clone();
+        let same = |d: &Deviation| d.limb == deviation.limb && d.at == deviation.at;
+        document.deviation.retain(|d| !same(d));
+        document.deviation.push(deviation);
         Self::from_document(&document, &self.changed())
     }
 

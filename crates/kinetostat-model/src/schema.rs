@@ -254,16 +254,26 @@ pub struct LimbTable {
     pub load: Vec<LoadTable>,
 }
 
-/// An error of manufacture or assembly: a small motion of the actual geometry behind one element.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// An error of manufacture or assembly: the actual geometry differs at one place. Exactly one of
+/// `moved_by`, `longer_by_mm` and `tilted_by_deg` is written.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Deviation {
     /// Limb that has it.
     pub limb: String,
-    /// Name of a rigid element or a link of its chain, or 'start' or 'end'.
+    /// Name of a rigid element, a link or (where its axis is tilted) a joint of its chain, or 'start'
+    /// or 'end'.
     pub at: String,
-    /// The motion, in the frame reached behind that element.
-    pub moved_by: Placement,
+    /// Moves all that follows, in the frame reached behind that element.
+    pub moved_by: Option<Placement>,
+    /// By how much a link, a parallelogram or the offset of a rigid element is longer than drawn,
+    /// mm; shorter if negative.
+    pub longer_by_mm: Option<f64>,
+    /// Tilt, degrees: of a joint's axis, where `at` names a joint (what follows stays in place while the
+    /// joint is at zero); else of all that follows.
+    pub tilted_by_deg: Option<f64>,
+    /// Axis of the tilt, in the frame reached there.
+    pub about: Option<Axis>,
     /// Where the figures come from.
     pub source: Option<String>,
     /// What is assumed.
