@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Args, Parser, Subcommand};
 
+use crate::assemble_args::AssembleArgs;
 use crate::curve_args::{CurveArgs, EquilibriaArgs};
 use crate::import_link_args::{DisplacementsArgs, MatrixArgs};
 use crate::job::{Axes, BlockDeleteWord, UnitsWord};
@@ -55,6 +56,7 @@ pub(crate) enum Command {
     Compensate(Box<CompensateArgs>),
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
+    Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),
     Equilibria(Box<EquilibriaArgs>),
     Check(CheckArgs),

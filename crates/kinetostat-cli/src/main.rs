@@ -8,6 +8,12 @@
 
 mod along;
 mod args;
+mod assemble;
+mod assemble_along;
+mod assemble_answer;
+mod assemble_args;
+mod assemble_question;
+mod assemble_table;
 mod check;
 mod check_home;
 mod check_limbs;
@@ -85,6 +91,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Compensate(args) => compensate::run(*args),
         Command::Deflect(args) => deflect::run(*args),
         Command::Stiffness(args) => stiffness::run(&args),
+        Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),
         Command::Check(args) => check::run(&args),

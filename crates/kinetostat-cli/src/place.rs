@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
 use kinetostat_machining::straight_tool;
+use kinetostat_model::Model;
 use nalgebra::Vector3;
 
 use crate::args::PlaceArgs;
@@ -38,6 +39,19 @@ pub(crate) fn spot(
     moment: Option<&[f64]>,
 ) -> Answer<Spot> {
     let (read, path) = files.model(model, Path::new(""))?;
+    spot_of(&read, path, model, place, tool_length_mm, force, moment)
+}
+
+/// The same for a model that was read already, under the name it was `asked` for.
+pub(crate) fn spot_of(
+    read: &Model,
+    path: Option<PathBuf>,
+    asked: &str,
+    place: &PlaceArgs,
+    tool_length_mm: Option<f64>,
+    force: Option<&[f64]>,
+    moment: Option<&[f64]>,
+) -> Answer<Spot> {
     let length = tool_length_mm.unwrap_or(0.0);
     if !length.is_finite() || length.abs() > 1e5 {
         return Err(Failure::input(format!(
@@ -68,8 +82,8 @@ pub(crate) fn spot(
     Ok(Spot {
         name: read.name().to_owned(),
         source: match &path {
-            Some(_) => model.to_owned(),
-            None => format!("preset {model}"),
+            Some(_) => asked.to_owned(),
+            None => format!("preset {asked}"),
         },
         tool_words: if length == 0.0 {
             "none: the platform's own point".to_owned()
@@ -80,7 +94,7 @@ pub(crate) fn spot(
         at_home: place.at.is_none(),
         wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),
         inputs: path.into_iter().collect(),
-        deviations: deviations_in_words(&read),
+        deviations: deviations_in_words(read),
         warnings: read
             .warnings
             .iter()

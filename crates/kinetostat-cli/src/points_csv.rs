@@ -75,7 +75,7 @@ pub(crate) fn table(question: &Question, points: &[PointResult]) -> Answer<Vec<u
 }
 
 /// A text that a spreadsheet would take for a formula is led by an apostrophe.
-fn text(cell: &str) -> String {
+pub(crate) fn text(cell: &str) -> String {
     if cell.starts_with(['=', '+', '-', '@', '\t', '\r']) {
         format!("'{cell}")
     } else {
