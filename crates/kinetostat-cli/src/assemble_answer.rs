@@ -28,6 +28,8 @@ pub(crate) struct Assembly {
     /// Platforms, the tool last.
     pub(crate) platforms: Vec<PlatformAnswer>,
     pub(crate) limbs: Vec<LimbAnswer>,
+    /// The machine's natural length: what compares forces and moments.
+    pub(crate) length_m: f64,
     /// Weights, loads on limbs or preloads act also without deviations.
     pub(crate) something_else_acts: bool,
     pub(crate) stable: bool,
@@ -195,10 +197,9 @@ pub(crate) fn answer(question: &Question) -> Answer<Assembly> {
         sizes.fold(0.0, f64::max)
     };
     let acts = inside(perfect) > 1e-9 || perfect.displacement.0.norm() > 1e-12;
-    let most = limbs
-        .iter()
-        .max_by(|a, b| a.strain_n.total_cmp(&b.strain_n))
-        .filter(|l| l.strain_n > NOTHING_N);
+    // The first of those that are strained alike.
+    let largest = limbs.iter().map(|l| l.strain_n).fold(NOTHING_N, f64::max);
+    let most = limbs.iter().find(|l| l.strain_n > (1.0 - 1e-6) * largest);
     let ends = solved.loaded.as_ref().map_or(built, |[_, built]| built);
     let mut warnings = spot.warnings.clone();
     if !ends.stable() {
@@ -217,6 +218,7 @@ pub(crate) fn answer(question: &Question) -> Answer<Assembly> {
         over_constraint: directions(&over, &solved.posture),
         most_strained_limb: most.map(|l| l.name.clone()),
         platforms: platforms(&solved),
+        length_m: length,
         something_else_acts: acts,
         stable: ends.stable(),
         warnings,

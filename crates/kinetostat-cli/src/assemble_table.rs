@@ -1,6 +1,6 @@
 //! What assembly locked in, in words and as a table.
 
-use crate::assemble_answer::{Assembly, Cases, NOTHING_N};
+use crate::assemble_answer::{Assembly, Cases};
 use crate::assemble_question::Question;
 use crate::failure::{Answer, Failure};
 use crate::machine::short;
@@ -64,11 +64,15 @@ fn rows(a: &Assembly) -> Vec<Row> {
                 unit: j.unit,
                 cases: j.shift,
                 // A degree counts as a millimetre: what is seen.
-                weight: j.shift.largest(),
+                weight: j.shift.weight(),
             });
         }
         for s in &l.springs {
-            let energy = s.deflection.largest() * s.torque.largest();
+            let lever = if s.torque_unit == "N" {
+                a.length_m
+            } else {
+                1.0
+            };
             for (what, unit, cases) in [
                 ("spring deflection", s.deflection_unit, s.deflection),
                 ("spring torque", s.torque_unit, s.torque),
@@ -79,7 +83,7 @@ fn rows(a: &Assembly) -> Vec<Row> {
                     name: s.name.clone(),
                     unit,
                     cases,
-                    weight: energy,
+                    weight: lever * s.torque.weight(),
                 });
             }
         }
@@ -88,10 +92,14 @@ fn rows(a: &Assembly) -> Vec<Row> {
         let words = ["platform", "limb", "passive joint", "spring deflection"];
         words.iter().position(|w| *w == what).unwrap_or(3)
     };
-    // Stable: what weighs the same keeps the order of the model.
+    // Stable, so that what weighs the same (up to rounding) keeps the order of the model.
+    let coarse = |x: f64| match x > 0.0 {
+        true => (x.log10() * 1e6).round(),
+        false => f64::MIN,
+    };
     list.sort_by(|x, y| {
         let by_group = order(x.what).cmp(&order(y.what));
-        by_group.then(y.weight.total_cmp(&x.weight))
+        by_group.then(coarse(y.weight).total_cmp(&coarse(x.weight)))
     });
     list
 }
@@ -109,10 +117,12 @@ impl Cases<[f64; 3]> {
 }
 
 impl Cases<f64> {
-    /// Of the share of the deviations, without load or under it.
-    fn largest(&self) -> f64 {
+    /// What sorts a list: the share of the deviations, then the whole.
+    fn weight(&self) -> f64 {
         let under = self.under_load_by_deviations.unwrap_or(0.0).abs();
+        let whole = self.all().into_iter().flatten();
         self.without_load_by_deviations.abs().max(under)
+            + 1e-6 * whole.fold(0.0_f64, |m, x| m.max(x.abs()))
     }
 
     fn all(&self) -> [Option<f64>; 5] {
@@ -179,21 +189,19 @@ pub(crate) fn in_words(question: &Question, a: &Assembly, all: bool) -> String {
         ));
     }
     let list = rows(a);
-    for (what, title, note) in [
-        ("platform", "From the commanded place", ""),
+    for (what, title) in [
+        ("platform", "From the commanded place"),
         (
             "limb",
             "Wrench on the end of every limb, about it, base axes",
-            "",
         ),
-        ("passive joint", "Passive joints", ""),
+        ("passive joint", "Passive joints"),
         (
             "spring",
             "Springs, in their own axes: deflection and torque",
-            "",
         ),
     ] {
-        out.push_str(&group(a, &list, (what, title, note), loaded, all));
+        out.push_str(&group(a, &list, (what, title), loaded, all));
     }
     out.push_str(&summary::warnings(&a.warnings));
     out
@@ -285,24 +293,30 @@ fn over_constraint(a: &Assembly) -> String {
 fn group(
     a: &Assembly,
     list: &[Row],
-    (what, title, _note): (&str, &str, &str),
+    (what, title): (&str, &str),
     loaded: bool,
     all: bool,
 ) -> String {
     let of_group: Vec<&Row> = list.iter().filter(|r| r.what.starts_with(what)).collect();
+    // What is rounding beside the largest, or shows no digit, is zero.
     let most = |unit: &str| {
         let same = of_group.iter().filter(|r| r.unit == unit);
         same.flat_map(|r| r.cases.all())
             .flatten()
             .fold(0.0_f64, |m, x| m.max(x.abs()))
     };
-    let least = |unit: &str| 1e-5 * most(unit).max(NOTHING_N);
+    let cell = |row: &Row, x: f64| {
+        let least = (1e-5 * most(row.unit)).max(0.5 * 0.1_f64.powi(decimals(row.unit)));
+        match x.abs() < least {
+            true => "0".to_owned(),
+            false => fixed(x, decimals(row.unit) as usize),
+        }
+    };
     let shown: Vec<&&Row> = of_group
         .iter()
         .filter(|r| {
-            let largest = r.cases.all().into_iter().flatten();
-            all || what == "platform"
-                || largest.fold(0.0_f64, |m, x| m.max(x.abs())) > least(r.unit)
+            let mut numbers = r.cases.all().into_iter().flatten();
+            all || what == "platform" || numbers.any(|x| cell(r, x) != "0")
         })
         .collect();
     if of_group.is_empty() {
@@ -330,10 +344,7 @@ fn group(
     };
     for row in shown.iter().take(if all { usize::MAX } else { limit }) {
         let c = &row.cases;
-        let cell = |x: f64| match x.abs() <= least(row.unit) {
-            true => "0".to_owned(),
-            false => fixed(x, decimals(row.unit)),
-        };
+        let cell = |x: f64| cell(row, x);
         let mut cells = vec![
             format!("{}: {}", row.owner, row.name),
             row.unit.to_owned(),
@@ -353,14 +364,14 @@ fn group(
     let left = shown.len().saturating_sub(limit);
     if left > 0 && !all {
         out.push_str(&wrapped(
-            &format!("and {left} smaller; --all shows them, --csv and --json have every one"),
+            &format!("... and {left} smaller; --all shows them, --csv and --json have every one"),
             2,
         ));
     }
     out
 }
 
-fn decimals(unit: &str) -> usize {
+fn decimals(unit: &str) -> i32 {
     match unit {
         "N" => 3,
         "N m" => 4,

@@ -19,6 +19,8 @@ fn every_json_says_its_version_and_who_wrote_it() {
         "compensate job.toml --json",
         "curve three_link_z --direction -1 0 0 --displacement-mm 0 200 --json",
         "equilibria three_link_z --displaced-mm -200 0 0 --json",
+        "assemble orthoglide --force 1 0 0 --json",
+        "assemble orthoglide --along 0 0 0 10 0 0 --points 2 --json",
         "demo --json",
     ] {
         let words: Vec<&str> = line.split(' ').collect();
