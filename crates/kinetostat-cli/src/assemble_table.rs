@@ -155,7 +155,7 @@ pub(crate) fn csv(a: &Assembly) -> Answer<Vec<u8>> {
         .map_err(failed)?;
     for row in rows(a) {
         let mut cells: Vec<String> = [row.what, &row.owner, &row.name]
-            .map(|text| crate::points_csv::text(text))
+            .map(crate::points_csv::text)
             .into();
         cells.push(row.unit.to_owned());
         cells.extend(
