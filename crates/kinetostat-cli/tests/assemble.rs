@@ -1,6 +1,8 @@
 //! `kinetostat assemble`: the Orthoglide with errors against reference values that another program
 //! computed (tables 6.1 and 6.2, milling), determinate machines, and what is refused.
 
+#![allow(clippy::print_stdout)] // figures
+
 mod common;
 
 use std::path::Path;
