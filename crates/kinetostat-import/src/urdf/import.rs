@@ -16,7 +16,7 @@ use crate::urdf::question::{
     closed, closings, ends, followers, homes, known_stiffnesses, used, variables,
 };
 use crate::urdf::remarks::{
-    left_out, moving_base, one_limb_each, reach, several_platforms, singular, standing,
+    in_metres, left_out, moving_base, one_limb_each, reach, several_platforms, singular, standing,
 };
 use crate::urdf::tree::{Step, tree};
 use crate::urdf::write::{Parts, text};
@@ -136,6 +136,8 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
     log.stop()?;
     left_out(&robot, &placed, &mut log);
     let reach = reach(&graph);
+    in_metres(&robot, reach, &mut log);
+    log.stop()?;
     inertial::look(&robot, &moving, reach, &mut log);
     standing(&robot, &tree, &variables, &home, &mut log);
     if graph.ways.len() == 1 {

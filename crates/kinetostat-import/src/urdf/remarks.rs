@@ -63,6 +63,20 @@ pub(crate) fn reach(graph: &Graph) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// No arm is as long as this, m.
+const LONGEST: f64 = 300.0;
+
+/// Refuses an arm that is written in millimetres.
+pub(crate) fn in_metres(robot: &Robot, reach: f64, log: &mut Log) {
+    if reach > LONGEST {
+        log.error(
+            &robot.at,
+            format!("the offsets of the arm add up to {reach:.0} m"),
+            "lengths of a URDF are metres, and these look like millimetres: divide all lengths by 1000 (and inertias by a million if they are kg mm^2)",
+        );
+    }
+}
+
 /// Joints beside the way that carry mass and stand still.
 pub(crate) fn standing(
     robot: &Robot,

@@ -106,6 +106,18 @@ fn units_that_smell() {
     }
 }
 
+/// A single odd offset is noticed; an arm of kilometres is refused.
+#[test]
+fn an_arm_in_millimetres_is_refused() {
+    let text = arm(["", "", ""]);
+    let millimetres = text.replace("xyz='0.5 0 0'", "xyz='700 0 0'");
+    assert_ne!(millimetres, text);
+    let said = kinetostat_import::import_urdf(&millimetres, "mm.urdf", &between("l0", "l3"))
+        .expect_err("millimetres")
+        .to_string();
+    assert!(said.contains("divide all lengths by 1000"), "{said}");
+}
+
 #[test]
 fn what_neither_moves_nor_bends_is_skipped_aloud() {
     let extras = "<material name='m'><color rgba='1 0 0 1'/></material><transmission name='t'><type>x</type></transmission>
