@@ -100,6 +100,51 @@ const PRESETS: &[Preset] = &[
         "Heavy six-axis arm of the 200 kg class with drive and link compliances and weights"
     ),
     preset!(
+        Serial,
+        "kuka_kr270_like",
+        "Six-axis arm of the KR 270 class: identified joints, spring compensator at axis 2"
+    ),
+    preset!(
+        Serial,
+        "abb_irb6640_like",
+        "Six-axis arm of the IRB 6640 class: drives and castings bend, balancing spring"
+    ),
+    preset!(
+        Serial,
+        "fanuc_r2000ic_like",
+        "Six-axis arm of the R-2000iC class: drives and castings bend, gas spring"
+    ),
+    preset!(
+        Serial,
+        "fanuc_m900ib_like",
+        "Arm of the M-900iB class: parallelogram as an explicit loop, two balancers"
+    ),
+    preset!(
+        Serial,
+        "scara",
+        "SCARA: two upright joints, a quill that slides and turns"
+    ),
+    preset!(
+        Serial,
+        "gantry",
+        "Gantry: a bridge on two runways with a drive each, trolley and ram"
+    ),
+    preset!(
+        Parallel,
+        "parallel_wrist",
+        "Spherical parallel wrist: three RRR legs turn a platform about one point"
+    ),
+    preset!(
+        Hybrid,
+        "tricept_like",
+        "Tricept-like: three UPS legs, a central tube, a wrist of two axes in series"
+    ),
+    preset!(
+        Hybrid,
+        "arm_with_parallel_wrist",
+        "Arm of three joints that carries a spherical parallel wrist"
+    ),
+    preset!(
         Teaching,
         "compensated_arm",
         "Planar arm of three joints, its shoulder relieved by a spring; links that bow"
