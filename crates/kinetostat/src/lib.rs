@@ -77,7 +77,7 @@
 //! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <- system
 //! with sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse
 //! with graph <- platform, platform_step <- posture with network <- assembly, constraints, mobility,
-//! near_singular, platform_curve, compensation`; and `equilibrium, stability <- reduced, singular_point <-
+//! near_singular, overcome, platform_curve, compensation`; and `equilibrium, stability <- reduced, singular_point <-
 //! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
 mod assembly;
@@ -118,6 +118,7 @@ mod mechanism;
 mod mobility;
 mod near_singular;
 mod network;
+mod overcome;
 mod parallelogram;
 mod passive_rules;
 mod platform;
@@ -180,6 +181,7 @@ pub use loading::{Load, NodeLoad, NodeTangent};
 pub use logarithm::LogarithmLaw;
 pub use mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
 pub use near_singular::{NearSingularity, SingularityKind};
+pub use overcome::OvercomeSpring;
 pub use parallelogram::ParallelogramLaw;
 pub use passive_rules::{
     Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,
