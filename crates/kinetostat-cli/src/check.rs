@@ -14,6 +14,7 @@ use crate::check_words::in_words;
 use crate::failure::Answer;
 use crate::input::Files;
 use crate::machine::deviations_in_words;
+use crate::overcome::load_names;
 use crate::screen::{self, Stream};
 
 /// Findings, stable names with units.
@@ -67,7 +68,7 @@ fn findings(model: &Model, source: String) -> Findings {
     let solved = posture
         .as_ref()
         .map_err(ToString::to_string)
-        .and_then(|p| at_home(m, p, &mut limbs));
+        .and_then(|p| at_home(m, p, &mut limbs, &load_names(model)));
     let (home, home_problem) = match solved {
         Ok(found) => (Some(found), None),
         Err(reason) => (None, Some(reason)),

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::check::Findings;
 use crate::check_limbs::{LimbFinding, counted};
+use crate::overcome::{Overcome, overcome};
 use crate::screen::{fixed, item, number, triple};
 use crate::stiffness::{Principal, principal, principals, what_moves};
 
@@ -26,6 +27,8 @@ pub(crate) struct HomeFinding {
     pub(crate) platform_stable: bool,
     /// Both.
     pub(crate) stable: bool,
+    /// Joints whose springs the loads beat; empty where it is stable.
+    pub(crate) overcome_joints: Vec<Overcome>,
     pub(crate) conservative: bool,
     pub(crate) largest_buckling_margin: Option<f64>,
 }
@@ -43,6 +46,7 @@ pub(crate) fn at_home(
     m: &Mechanism,
     posture: &Posture<'_>,
     limbs: &mut [LimbFinding],
+    load_names: &[Vec<String>],
 ) -> Result<HomeFinding, String> {
     let stiffness = posture.stiffness().map_err(|e| e.to_string())?;
     let mut held = 0;
@@ -79,6 +83,7 @@ pub(crate) fn at_home(
         shapes_stable: rest.shapes_stable(),
         platform_stable: rest.platform.stable,
         stable: rest.stable(),
+        overcome_joints: overcome(posture, &rest, load_names),
         conservative: rest.conservative,
         largest_buckling_margin: rest.margin().filter(|m| m.is_finite()),
     })
@@ -196,6 +201,9 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         }
         (false, _) => "NOT STABLE: it would jump to another shape".to_owned(),
     }));
+    for joint in &h.overcome_joints {
+        out.push_str(&item(&joint.in_words()));
+    }
     if !h.conservative {
         out.push_str(&item(
             "not conservative: a load on a limb has no potential, so that stability is judged by stiffness alone",

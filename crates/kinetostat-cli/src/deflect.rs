@@ -12,6 +12,7 @@ use crate::input::Files;
 use crate::job::looks_like_a_job;
 use crate::machine::machine;
 use crate::output::{Existing, Outputs};
+use crate::overcome::{Overcome, overcome};
 use crate::place::{Spot, spot};
 use crate::screen::{self, Stream, columns, fixed, number, triple, wrapped};
 use crate::setting::{JobFile, WritingFlags, setting};
@@ -112,6 +113,8 @@ struct Deflection {
     shapes_stable: bool,
     /// Both.
     stable: bool,
+    /// Joints whose springs the loads beat; empty where it is stable.
+    overcome_joints: Vec<Overcome>,
     /// All loads have a potential; if not, see the reasons.
     conservative: bool,
     not_conservative_because: Vec<String>,
@@ -313,6 +316,7 @@ fn answer(
         platform_stable: loaded.platform.stable,
         shapes_stable: loaded.shapes_stable(),
         stable: loaded.stable(),
+        overcome_joints: overcome(posture, loaded, &spot.load_names),
         conservative: loaded.conservative,
         not_conservative_because: not_conservative(loaded),
         energy_j: loaded.energy,
@@ -432,6 +436,9 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         )
     };
     out.push_str(&screen::item(&platform));
+    for joint in &a.overcome_joints {
+        out.push_str(&screen::item(&joint.in_words()));
+    }
     if !a.conservative {
         out.push_str(&screen::item(&format!(
             "not conservative: {}; the verdicts compare stiffnesses, not energies",

@@ -45,6 +45,7 @@ mod machine;
 mod models;
 mod orientation;
 mod output;
+mod overcome;
 mod place;
 mod points_csv;
 mod progress;

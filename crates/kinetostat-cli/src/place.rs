@@ -13,6 +13,7 @@ use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::machine::{deviations_in_words, short};
 use crate::orientation;
+use crate::overcome::load_names;
 use crate::screen::{triple, wrapped};
 use crate::setting::vector;
 
@@ -22,6 +23,8 @@ pub(crate) struct Spot {
     pub(crate) source: String,
     pub(crate) tool_words: String,
     pub(crate) mechanism: Mechanism,
+    /// Names of the loads on every limb.
+    pub(crate) load_names: Vec<Vec<String>>,
     pub(crate) target: Pose,
     pub(crate) at_home: bool,
     pub(crate) wrench: Wrench,
@@ -90,6 +93,7 @@ pub(crate) fn spot_of(
         } else {
             format!("{} mm along z of the flange", short(length))
         },
+        load_names: load_names(&read),
         target,
         at_home: place.at.is_none(),
         wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),

@@ -4,6 +4,7 @@
 mod figures;
 mod machine;
 mod msa;
+mod urdf;
 
 use kinetostat::{Error, Mechanism, Posture};
 use kinetostat_model::Model;

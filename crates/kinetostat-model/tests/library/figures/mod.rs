@@ -1,4 +1,7 @@
 //! What the library is measured by.
 
 mod agreement;
+mod arms;
+mod gravity;
 mod postures;
+mod unstable;
