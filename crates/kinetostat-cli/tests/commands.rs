@@ -3,19 +3,8 @@
 mod common;
 
 use common::{contents, run, shell, workplace};
+use kinetostat_model::{PresetKind, preset_names};
 use serde_json::Value;
-
-const PRESETS: [&str; 9] = [
-    "orthoglide",
-    "stewart_gough_a",
-    "stewart_gough_b",
-    "two_link",
-    "three_link_s",
-    "three_link_z",
-    "puu3",
-    "heavy_6r",
-    "compensated_arm",
-];
 
 #[track_caller]
 fn narrow(text: &str) {
@@ -28,7 +17,11 @@ fn narrow(text: &str) {
 fn every_preset_is_checked_and_shown() {
     let here = workplace();
     let list = run(here.path(), &["model", "list"]).answered();
-    for preset in PRESETS {
+    narrow(&list.out);
+    for kind in PresetKind::ALL {
+        assert!(list.out.contains(kind.heading()), "{}", list.out);
+    }
+    for preset in preset_names().iter().map(|p| p.name) {
         assert!(list.out.contains(preset), "{}", list.out);
         let said = run(here.path(), &["check", preset]).answered();
         narrow(&said.out);
@@ -267,6 +260,53 @@ fn deflect_tells_the_load_of_links_and_both_verdicts() {
         assert!((share - (-force / euler).max(0.0)).abs() < 1e-15);
         assert!((1e6..1e8).contains(&euler));
     }
+}
+
+/// The lug of the compensator in front of its joint: the spring pulls across it, and a slipping brake
+/// does not hold against it.
+#[test]
+fn a_compensator_that_beats_its_joint_is_named() {
+    let here = workplace();
+    let shown = run(here.path(), &["model", "show", "kuka_kr270_like"]).answered();
+    let mut text = shown.out;
+    for (from, to) in [
+        (
+            "stiffness_n_m_per_rad = 3.31e6",
+            "stiffness_n_m_per_rad = 2e4",
+        ),
+        ("[0, 0, 184.72]", "[16.0, 0, -184.3]"),
+        (
+            "free_length_mm = 458",
+            "free_length_mm = 458\npreload_n = 200000",
+        ),
+    ] {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    std::fs::write(here.path().join("across.toml"), text).unwrap();
+    for command in ["check", "deflect"] {
+        let said = run(here.path(), &[command, "across.toml", "--json"]).answered();
+        narrow(&said.err);
+        let words = said.err.replace("\n    ", " ");
+        assert!(
+            words.contains("limb 'arm', joint 'A2' runs away: its spring holds with"),
+            "{words}"
+        );
+        assert!(words.contains("'compensator'"), "{words}");
+        let found: Value = serde_json::from_str(&said.out).unwrap();
+        let found = match command {
+            "check" => &found["home"],
+            _ => &found,
+        };
+        assert_eq!(found["stable"], false);
+        let joint = &found["overcome_joints"][0];
+        assert_eq!(joint["joint"], "A2");
+        assert_eq!(joint["unit"], "N m/rad");
+        assert_eq!(joint["loads"][0]["name"], "compensator");
+    }
+    let said = run(here.path(), &["deflect", "kuka_kr270_like", "--json"]).answered();
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(found["overcome_joints"].as_array().unwrap().len(), 0);
 }
 
 #[test]
