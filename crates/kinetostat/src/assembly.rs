@@ -6,6 +6,7 @@ use nalgebra::DMatrix;
 use crate::error::{Error, Result};
 use crate::network::Network;
 use crate::posture::Posture;
+use crate::sparse::PlatformSystem;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
 /// First-order assembly of limbs with errors, no external load [R 6.15-6.20].
@@ -68,39 +69,24 @@ impl Posture<'_> {
         }
         let network = Network::new(self)?;
         let (moving, rows) = (network.moving(), network.rows());
-        let (size, count) = (6 * moving, rows.nrows());
-        let mut a = DMatrix::zeros(size + count, size + count);
-        a.view_mut((0, 0), (size, size))
-            .copy_from(&network.stiffness());
-        a.view_mut((size, 0), (count, size)).copy_from(&rows);
-        a.view_mut((0, size), (size, count))
-            .copy_from(&rows.transpose());
+        let (size, count) = (6 * moving, rows.count());
         let mut b = DMatrix::zeros(size + count, 1);
         let mut at = size;
         for (i, error) in errors.iter().enumerate() {
-            let pull = network.motions[i].matrix(moving).transpose()
-                * (network.limbs[i].cartesian.matrix * error.0);
-            let mut view = b.rows_mut(0, size);
-            view += pull;
+            let pull = network.limbs[i].cartesian.matrix * error.0;
+            let ends = &network.motions[i];
+            for (platform, by) in [&ends.to, &ends.from] {
+                if *platform > 0 {
+                    let mut view = b.fixed_view_mut::<6, 1>(6 * (platform - 1), 0);
+                    view += by.transpose() * pull;
+                }
+            }
             let k = network.rigid[i].ncols();
             b.view_mut((at, 0), (k, 1))
                 .copy_from(&(network.rigid[i].transpose() * error.0));
             at += k;
         }
-        let scale = m.scale();
-        let root = scale.stiffness.sqrt();
-        let mut units: Vec<f64> = (0..size)
-            .map(|i| match i % 6 {
-                0..3 => 1.0 / root,
-                _ => 1.0 / (root * scale.length),
-            })
-            .collect();
-        // Constraints of the size of the stiffest direction, so that none is lost in rounding.
-        let stiffest = (0..size)
-            .map(|i| a[(i, i)].abs() * units[i] * units[i])
-            .fold(1.0, f64::max);
-        units.resize(size + count, root * stiffest);
-        crate::saddle::Saddle::new(a, &units, &units).solve(&mut b);
+        PlatformSystem::new(network.stiffness(), &rows, m.scale()).solve(&mut b);
         let mut platforms = vec![Twist::zero()];
         platforms.extend((0..moving).map(|p| Twist(b.fixed_view::<6, 1>(6 * p, 0).into_owned())));
         let carried: Vec<f64> = b.rows(size, count).iter().copied().collect();

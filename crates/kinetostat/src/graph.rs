@@ -11,13 +11,15 @@
 //! changes from home is least, rotations at the limb's natural length, passive joints counted with a
 //! hundredth. It is a local minimum, found by the same network with limbs that are drawn home.
 
-use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector6};
 
+use crate::block_elimination::{BlockFactors, Pivots};
 use crate::chain::{MotionKind, Role};
 use crate::error::{Error, Result};
 use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::kinematics::Kinematics;
 use crate::mechanism::Mechanism;
+use crate::sparse::{FEW, Sparse};
 use crate::spatial::{Pose, Twist, moved, pose_residual, shift_matrix};
 
 /// Joints of all limbs and poses of all platforms.
@@ -76,10 +78,13 @@ pub(crate) fn graph_rates(mechanism: &Mechanism, at: &GraphPosture) -> Vec<DMatr
         .iter()
         .map(|l| DMatrix::zeros(l.nominal.actuators.len(), 6))
         .collect();
+    let Some(factorised) = search.factorised(&network) else {
+        return rates;
+    };
     for direction in 0..6 {
         let mut unit = Vector6::zeros();
         unit[direction] = search.units()[direction];
-        let Some((_, joints)) = search.solve(&network, Some(&unit)) else {
+        let Some((_, joints)) = search.solve(&factorised, Some(&unit)) else {
             continue;
         };
         for ((limb, own), (rate, own_joints)) in mechanism
@@ -113,6 +118,20 @@ struct Linked {
     /// Weight of every joint: passive ones, then actuators.
     weights: Vec<f64>,
     kinds: Vec<MotionKind>,
+}
+
+/// A network solved for any lack.
+struct Factorised<'n> {
+    network: &'n [Linked],
+    /// First unknown of every platform that is sought.
+    place: Vec<Option<usize>>,
+    factors: NetworkFactors,
+}
+
+enum NetworkFactors {
+    Empty,
+    Dense(Cholesky<f64, Dyn>),
+    Blocks(BlockFactors),
 }
 
 /// Motions of all platforms and of the joints of all limbs.
@@ -295,12 +314,10 @@ impl<'m> GraphSearch<'m> {
             .collect()
     }
 
-    /// Motions of all platforms (balanced; base and tool do not move, or the tool by `tool_motion`
-    /// while nothing lacks) and of all weighted joints.
-    fn solve(&self, network: &[Linked], tool_motion: Option<&Vector6<f64>>) -> Option<Moves> {
+    /// The network of springs, factorised for the platforms that are sought: neither base nor tool.
+    fn factorised<'n>(&self, network: &'n [Linked]) -> Option<Factorised<'n>> {
         let m = self.mechanism;
         let count = m.platforms.len();
-        // Platforms that are sought: neither base nor tool.
         let place: Vec<Option<usize>> = (0..count)
             .scan(0, |next, p| {
                 Some((p != 0 && p != m.tool).then(|| {
@@ -310,7 +327,44 @@ impl<'m> GraphSearch<'m> {
             })
             .collect();
         let size = 6 * (count - 2);
-        let (mut a, mut b) = (DMatrix::zeros(size, size), DVector::zeros(size));
+        let mut a = Sparse::zeros(size, size);
+        for (limb, own) in m.limbs.iter().zip(network) {
+            let ends = [
+                (place[limb.to], &own.by_to),
+                (place[limb.from], &own.by_from),
+            ];
+            for (row, by_row) in ends {
+                let Some(row) = row else { continue };
+                let pull = by_row.transpose() * own.matrix;
+                for (column, by_column) in ends {
+                    let Some(column) = column else { continue };
+                    a.add(row, column, &(pull * by_column));
+                }
+            }
+        }
+        let factors = if size > 6 * FEW {
+            let nodes: Vec<usize> = (0..size).map(|i| i / 6).collect();
+            let blocks = BlockFactors::new(&a, &nodes, &vec![1.0; size], Pivots::Definite)?;
+            NetworkFactors::Blocks(blocks)
+        } else if size > 0 {
+            NetworkFactors::Dense(a.dense().cholesky()?)
+        } else {
+            NetworkFactors::Empty
+        };
+        Some(Factorised {
+            network,
+            place,
+            factors,
+        })
+    }
+
+    /// Motions of all platforms (balanced; base and tool do not move, or the tool by `tool_motion`
+    /// while nothing lacks) and of all weighted joints.
+    fn solve(&self, own: &Factorised<'_>, tool_motion: Option<&Vector6<f64>>) -> Option<Moves> {
+        let m = self.mechanism;
+        let (network, place) = (own.network, &own.place);
+        let count = m.platforms.len();
+        let mut b = DMatrix::zeros(6 * (count - 2), 1);
         let lack = |limb: usize| match tool_motion {
             None => network[limb].closure,
             Some(motion) => {
@@ -326,31 +380,25 @@ impl<'m> GraphSearch<'m> {
             }
         };
         for (i, (limb, own)) in m.limbs.iter().zip(network).enumerate() {
-            let ends = [
+            let pull = own.matrix * lack(i);
+            for (row, by_row) in [
                 (place[limb.to], &own.by_to),
                 (place[limb.from], &own.by_from),
-            ];
-            let pull = own.matrix * lack(i);
-            for (row, by_row) in ends {
+            ] {
                 let Some(row) = row else { continue };
-                let mut part = b.fixed_rows_mut::<6>(row);
+                let mut part = b.fixed_view_mut::<6, 1>(row, 0);
                 part -= by_row.transpose() * pull;
-                for (column, by_column) in ends {
-                    let Some(column) = column else { continue };
-                    let mut part = a.fixed_view_mut::<6, 6>(row, column);
-                    part += by_row.transpose() * own.matrix * by_column;
-                }
             }
         }
-        let found = if size == 0 {
-            b
-        } else {
-            a.cholesky()?.solve(&b)
-        };
+        match &own.factors {
+            NetworkFactors::Empty => {}
+            NetworkFactors::Dense(factors) => factors.solve_mut(&mut b),
+            NetworkFactors::Blocks(factors) => factors.solve(&mut b),
+        }
         let mut motions = vec![Vector6::zeros(); count];
-        for (motion, place) in motions.iter_mut().zip(&place) {
+        for (motion, place) in motions.iter_mut().zip(place) {
             if let Some(at) = place {
-                motion.copy_from(&found.fixed_rows::<6>(*at));
+                motion.copy_from(&b.fixed_view::<6, 1>(*at, 0));
             }
         }
         let joints: Vec<DVector<f64>> = m
@@ -366,6 +414,11 @@ impl<'m> GraphSearch<'m> {
             .collect();
         let finite = joints.iter().all(|j| j.iter().all(|x| x.is_finite()));
         finite.then_some((motions, joints))
+    }
+
+    /// The step that closes all limbs.
+    fn step(&self, network: &[Linked]) -> Option<Moves> {
+        self.solve(&self.factorised(network)?, None)
     }
 
     fn moved_by(
@@ -437,7 +490,7 @@ impl<'m> GraphSearch<'m> {
             if gap <= goal || (polished && gap <= 100.0 * goal) {
                 return Ok(at);
             }
-            let Some((motions, joints)) = self.solve(&network, None) else {
+            let Some((motions, joints)) = self.step(&network) else {
                 return Err(gap);
             };
             let length = self.limit(&network, &motions, &joints);
@@ -485,7 +538,7 @@ impl<'m> GraphSearch<'m> {
             let mut share = 1.0_f64;
             for _ in 0..200 {
                 let network = self.network(&at, LEAST_DAMPING, Some(&home));
-                let Some((motions, joints)) = self.solve(&network, None) else {
+                let Some((motions, joints)) = self.step(&network) else {
                     break;
                 };
                 let size = joints.iter().map(DVector::norm_squared).sum::<f64>().sqrt();
@@ -524,7 +577,7 @@ impl<'m> GraphSearch<'m> {
             }
         }
         let network = self.network(at, LEAST_DAMPING, Some(&drawn));
-        self.solve(&network, None).is_some_and(|(_, joints)| {
+        self.step(&network).is_some_and(|(_, joints)| {
             let moved = joints.iter().map(DVector::norm_squared).sum::<f64>().sqrt();
             let drawn = network.iter().map(|l| l.pull.norm_squared()).sum::<f64>();
             moved > 1e-6 * drawn.sqrt()

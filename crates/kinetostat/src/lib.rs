@@ -74,7 +74,7 @@
 //!
 //! # Order of the modules
 //!
-//! Dependencies point one way: `spatial, saddle <- spring, chain <- kinematics, loading <- system
+//! Dependencies point one way: `spatial, saddle with block_elimination, sparse <- spring, chain <- kinematics, loading <- system
 //! with sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse
 //! with graph <- platform, platform_step <- posture with network <- assembly, constraints, mobility,
 //! near_singular, overcome, platform_curve, compensation`; and `equilibrium, stability <- reduced, singular_point <-
@@ -84,6 +84,7 @@ mod assembly;
 mod beam;
 mod behind;
 mod bifurcation;
+mod block_elimination;
 mod bowing;
 mod branches;
 mod builder;
@@ -123,6 +124,7 @@ mod parallelogram;
 mod passive_rules;
 mod platform;
 mod platform_curve;
+mod platform_load;
 mod platform_step;
 mod posture;
 mod reduced;
@@ -131,6 +133,7 @@ mod saddle;
 mod settings;
 mod shape_criterion;
 mod singular_point;
+mod sparse;
 mod spatial;
 mod spring;
 mod stability;
@@ -190,6 +193,7 @@ pub use passive_rules::{
 };
 pub use platform::MechanismState;
 pub use platform_curve::{HeldCurve, HeldPoint};
+pub use platform_load::PlatformLoad;
 pub use posture::{
     LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
 };

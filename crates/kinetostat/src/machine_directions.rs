@@ -1,10 +1,14 @@
 //! Principal directions of a machine's tool, and what its platforms' tangent says about it.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
+use crate::block_elimination::Pivots;
 use crate::chain::Scale;
 use crate::directions::scaled_twist;
 use crate::saddle::{Saddle, column_space, complement};
+use crate::sparse::{PlatformSystem, RigidRows, Sparse, motion_units};
 use crate::spatial::shift_matrix;
 use crate::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 
@@ -80,19 +84,6 @@ fn along_axes(list: &mut [Direction], kind: DirectionKind, scale: Scale) {
     }
 }
 
-/// Units of the platforms' motions, balanced: square root of energy.
-fn motion_units(count: usize, scale: Scale) -> Vec<f64> {
-    let root = scale.stiffness.sqrt();
-    let unit = |i: usize| {
-        if i % 6 < 3 {
-            1.0 / root
-        } else {
-            1.0 / (root * scale.length)
-        }
-    };
-    (0..count).map(unit).collect()
-}
-
 /// Motions of the platforms that limbs which cannot move that way allow: an orthonormal basis of
 /// the null space of `rigid`, balanced. `None`: all of them.
 fn possible_motions(rigid: &DMatrix<f64>, units: &[f64]) -> Option<DMatrix<f64>> {
@@ -112,15 +103,22 @@ fn possible_motions(rigid: &DMatrix<f64>, units: &[f64]) -> Option<DMatrix<f64>>
 /// Whether the platforms' tangent has no negative direction among the motions that no row of
 /// `rigid` forbids; with `held`, while the tool is held.
 pub(crate) fn others_hold(
-    tangent: &DMatrix<f64>,
-    rigid: &DMatrix<f64>,
+    tangent: &Sparse,
+    rigid: &RigidRows,
     platform: usize,
     scale: Scale,
     held: bool,
 ) -> bool {
-    let size = tangent.nrows();
+    let size = tangent.rows;
+    if size == 6 {
+        return true;
+    }
+    if let Some(answer) = others_certainly_hold(tangent, rigid, platform, scale, held) {
+        return answer;
+    }
+    let (tangent, rigid) = (tangent.dense(), rigid.matrix.dense());
     let kept: Vec<usize> = (0..size).filter(|i| !held || i / 6 != platform).collect();
-    if size == 6 || kept.is_empty() {
+    if kept.is_empty() {
         return true;
     }
     let units = motion_units(size, scale);
@@ -136,8 +134,42 @@ pub(crate) fn others_hold(
         return true;
     }
     let eigenvalues = balanced.symmetric_eigenvalues();
-    eigenvalues.min() >= -1e-9 * eigenvalues.amax()
+    eigenvalues.min() >= -ZERO_STIFFNESS * eigenvalues.amax()
 }
+
+/// [`others_hold`] by the inertia of the sparse system, where it leaves no doubt: every
+/// independent row that forbids a motion adds one negative eigenvalue, whatever holds.
+fn others_certainly_hold(
+    tangent: &Sparse,
+    rigid: &RigidRows,
+    platform: usize,
+    scale: Scale,
+    held: bool,
+) -> Option<bool> {
+    let mut symmetric = tangent.clone();
+    symmetric.entries = tangent
+        .entries
+        .iter()
+        .flat_map(|&(i, j, v)| [(i, j, 0.5 * v), (j, i, 0.5 * v)])
+        .collect();
+    let mut system = PlatformSystem::new(symmetric, rigid, scale);
+    if held {
+        system = system.holding(platform);
+    }
+    let entries = &system.matrix.entries;
+    let rows: BTreeSet<usize> = entries.iter().map(|(i, _, _)| *i).collect();
+    let forbidden = rows.range(tangent.rows..).count();
+    let (inertia, least) = system.factors(Pivots::Any)?.inertia();
+    // Positive ones hold however small they are; a negative one may be rounding.
+    if inertia.negative == forbidden {
+        Some(true)
+    } else {
+        (least > ZERO_STIFFNESS).then_some(false)
+    }
+}
+
+/// Negative stiffness counts above this share of the largest.
+const ZERO_STIFFNESS: f64 = 1e-9;
 
 /// Stiffness of one platform with all others free.
 pub(crate) struct Condensed {
@@ -162,11 +194,18 @@ pub(crate) fn condensed_directions(found: &Condensed, scale: Scale) -> Vec<Direc
 /// Stiffness of one platform with all others free; rows of `rigid` are motions of the platforms
 /// that limbs forbid.
 pub(crate) fn condensed(
-    tangent: &DMatrix<f64>,
-    rigid: &DMatrix<f64>,
+    tangent: &Sparse,
+    rigid: &RigidRows,
     platform: usize,
     scale: Scale,
 ) -> Condensed {
+    if let Some(matrix) = condensed_sparse(tangent, rigid, platform, scale) {
+        return Condensed {
+            matrix,
+            range: DMatrix::identity(6, 6),
+        };
+    }
+    let (tangent, rigid) = (&tangent.dense(), &rigid.matrix.dense());
     let own: Vec<usize> = (6 * platform..6 * platform + 6).collect();
     let units = motion_units(tangent.nrows(), scale);
     if let Some(possible) = possible_motions(rigid, &units) {
@@ -186,6 +225,43 @@ pub(crate) fn condensed(
         matrix: k.fixed_view::<6, 6>(0, 0).into_owned(),
         range: DMatrix::identity(6, 6),
     }
+}
+
+/// [`condensed`] of many platforms where all others are held by the one: any motion of it can be
+/// followed, and in one way.
+fn condensed_sparse(
+    tangent: &Sparse,
+    rigid: &RigidRows,
+    platform: usize,
+    scale: Scale,
+) -> Option<Matrix6<f64>> {
+    let whole = PlatformSystem::new(tangent.clone(), rigid, scale);
+    let first = 6 * platform;
+    let own = first..first + 6;
+    let (mut moved, mut answer) = (DMatrix::zeros(whole.units.len(), 6), Matrix6::zeros());
+    for &(i, j, value) in &whole.matrix.entries {
+        match (own.contains(&i), own.contains(&j)) {
+            (true, true) => answer[(i - first, j - first)] += value,
+            (false, true) => moved[(i, j - first)] -= value,
+            _ => {}
+        }
+    }
+    let entries = whole.matrix.entries.clone();
+    let others = whole.holding(platform);
+    let used: BTreeSet<usize> = others.matrix.entries.iter().map(|(i, _, _)| *i).collect();
+    // A row that only holds the platform itself: rigid, and no affair of the others.
+    if (tangent.rows..others.units.len()).any(|row| !used.contains(&row)) {
+        return None;
+    }
+    others.factors(Pivots::Any)?.solve(&mut moved);
+    for (i, j, value) in entries {
+        if own.contains(&i) && !own.contains(&j) {
+            for k in 0..6 {
+                answer[(i - first, k)] += value * moved[(j, k)];
+            }
+        }
+    }
+    Some(answer)
 }
 
 /// Within the possible motions `Z`, balanced: `[Z^T K Z, -S^T; S, 0] [z; f] = [0; 1]` with `S` the

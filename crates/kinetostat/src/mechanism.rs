@@ -16,6 +16,7 @@ use crate::kinematics::Kinematics;
 use crate::load_check::check_load;
 use crate::load_energy::moments_have_potential;
 use crate::loading::Load;
+use crate::platform_load::PlatformLoad;
 use crate::spatial::Pose;
 
 /// A rigid body of the graph.
@@ -81,6 +82,14 @@ pub struct Mechanism {
         serialize_with = "refuse_loads"
     )]
     pub(crate) loads: Vec<Vec<Load>>,
+    /// Loads on platforms, those between limbs included.
+    #[serde(
+        default,
+        skip_deserializing,
+        skip_serializing_if = "Vec::is_empty",
+        serialize_with = "refuse_platform_loads"
+    )]
+    pub(crate) platform_loads: Vec<PlatformLoad>,
 }
 
 /// A load may be a function, which no file holds; to leave it out in silence would be worse.
@@ -91,6 +100,13 @@ fn refuse_loads<S: serde::Serializer>(
     Err(serde::ser::Error::custom(
         "a mechanism whose limbs carry loads cannot be written; write its model file",
     ))
+}
+
+fn refuse_platform_loads<S: serde::Serializer>(
+    _: &[PlatformLoad],
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    refuse_loads(&[], serializer)
 }
 
 impl Mechanism {
@@ -105,6 +121,7 @@ impl Mechanism {
                 gravity: Vector3::zeros(),
                 tool: 0,
                 loads: Vec::new(),
+                platform_loads: Vec::new(),
             },
             loads: Vec::new(),
         }
@@ -158,6 +175,12 @@ impl Mechanism {
     #[must_use]
     pub fn loads(&self, limb: usize) -> &[Load] {
         self.loads.get(limb).map_or(&[], Vec::as_slice)
+    }
+
+    /// Loads on platforms, those between limbs included, in the order in which they were added.
+    #[must_use]
+    pub fn platform_loads(&self) -> &[PlatformLoad] {
+        &self.platform_loads
     }
 
     /// Everything that acts on a limb between its ends: gravity, then its loads.
@@ -306,6 +329,15 @@ impl MechanismBuilder {
         self
     }
 
+    /// Adds a load on platforms: a wrench on any of them, or a spring or compensator between points
+    /// of two, whatever limbs they belong to. It is there in every equilibrium; commands and the
+    /// unloaded stiffness do not feel it.
+    #[must_use]
+    pub fn platform_load(mut self, load: PlatformLoad) -> Self {
+        self.mechanism.platform_loads.push(load);
+        self
+    }
+
     /// Gravity, m/s^2, base axes; zero if not called.
     #[must_use]
     pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
@@ -318,7 +350,7 @@ impl MechanismBuilder {
     /// # Errors
     /// [`Error::Model`] for an unknown platform, a limb from a platform to itself, a name used
     /// twice, a platform without limbs, a nominal and an actual chain that differ in more than
-    /// rigid offsets, or a load that does not fit its limb; [`Error::UnknownName`] for a load on
+    /// rigid offsets, or a load that does not fit its limb or its platforms; [`Error::UnknownName`] for a load on
     /// a limb that does not exist.
     pub fn build(self) -> Result<Mechanism> {
         let mut m = self.mechanism;
@@ -395,6 +427,9 @@ impl MechanismBuilder {
                 "no limb holds platform '{}'",
                 m.platforms[lonely].name
             ));
+        }
+        for load in &m.platform_loads {
+            load.check(&m)?;
         }
         for (name, load) in self.loads {
             let Some(index) = m.limbs.iter().position(|l| l.name == name) else {

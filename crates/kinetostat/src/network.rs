@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 use crate::error::Result;
 use crate::posture::Posture;
+use crate::sparse::{RigidRows, Sparse};
 use crate::spatial::{Twist, Wrench, shift_matrix};
 use crate::stiffness::{ChainStiffness, DirectionKind, unloaded_stiffness};
 
@@ -103,17 +104,15 @@ impl Network {
     }
 
     /// `K`, 6P x 6P.
-    pub fn stiffness(&self) -> DMatrix<f64> {
-        let mut total = DMatrix::zeros(6 * self.moving(), 6 * self.moving());
+    pub fn stiffness(&self) -> Sparse {
+        let mut total = Sparse::zeros(6 * self.moving(), 6 * self.moving());
         for (limb, ends) in self.limbs.iter().zip(&self.motions) {
             let k = &limb.cartesian.matrix;
             for (row, by_row) in [&ends.to, &ends.from] {
                 for (column, by_column) in [&ends.to, &ends.from] {
                     if *row > 0 && *column > 0 {
                         let block = by_row.transpose() * k * by_column;
-                        let mut view =
-                            total.fixed_view_mut::<6, 6>(6 * (row - 1), 6 * (column - 1));
-                        view += block;
+                        total.add(6 * (row - 1), 6 * (column - 1), &block);
                     }
                 }
             }
@@ -122,17 +121,20 @@ impl Network {
     }
 
     /// `N_i^T A_i` of all limbs, k x 6P.
-    pub fn rows(&self) -> DMatrix<f64> {
-        let count = self.rigid.iter().map(DMatrix::ncols).sum();
-        let mut rows = DMatrix::zeros(count, 6 * self.moving());
-        let mut at = 0;
+    pub fn rows(&self) -> RigidRows {
+        let mut rows = RigidRows::none(self.moving());
         for (rigid, ends) in self.rigid.iter().zip(&self.motions) {
             let k = rigid.ncols();
-            if k > 0 {
-                rows.rows_mut(at, k)
-                    .copy_from(&(rigid.transpose() * ends.matrix(self.moving())));
+            if k == 0 {
+                continue;
             }
-            at += k;
+            let at = rows.grow(ends.to.0 - 1, k);
+            for (platform, by) in [&ends.to, &ends.from] {
+                if *platform > 0 {
+                    rows.matrix
+                        .add(at, 6 * (platform - 1), &(rigid.transpose() * by));
+                }
+            }
         }
         rows
     }

@@ -23,6 +23,7 @@ use crate::loading::Load;
 use crate::mechanism::Mechanism;
 use crate::platform_step::{Linear, PlatformStep};
 use crate::settings::Settings;
+use crate::sparse::Sparse;
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, shift_matrix};
 
 /// Poses, coordinates and end wrenches of a mechanism: where an iteration starts and ends.
@@ -181,8 +182,12 @@ impl<'m> PlatformSolver<'m> {
             })
             .collect();
         lack[m.tool] = lack[m.tool] + self.wrench * self.share;
-        for (platform, wrench) in &self.others {
-            lack[*platform] = lack[*platform] + *wrench * self.share;
+        let mut others = self.others.clone();
+        for load in &m.platform_loads {
+            load.wrenches(&self.state.platforms, &mut others);
+        }
+        for (platform, wrench) in others {
+            lack[platform] = lack[platform] + wrench * self.share;
         }
         let root = self.stiffness.sqrt();
         let unit = [
@@ -484,7 +489,7 @@ impl<'m> PlatformSolver<'m> {
 
     /// Exact tangents at the present state: evaluates, linearises and returns `K` of the platforms,
     /// 6P x 6P, together with the limbs' own systems for stiffness and stability.
-    pub fn finish(&mut self) -> (DMatrix<f64>, Vec<Wrench>) {
+    pub fn finish(&mut self) -> (Sparse, Vec<Wrench>) {
         self.share = 1.0;
         let (_, lack) = self.evaluate();
         self.linearise(true);

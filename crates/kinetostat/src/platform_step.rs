@@ -6,9 +6,11 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
+use crate::chain::Scale;
 use crate::equilibrium::System;
 use crate::platform::{PlatformSolver, Unknowns};
 use crate::saddle::{Saddle, column_space, complement, rows_certainly_independent};
+use crate::sparse::{PlatformSystem, RigidRows, Sparse};
 use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
 use crate::stiffness::balanced_jacobian;
 
@@ -126,13 +128,16 @@ impl PlatformSolver<'_> {
 
     /// Tangent of the wrench on every moving platform by the motions of all moving platforms,
     /// 6P x 6P, and by the nominal target's motion, 6P x 6.
-    pub fn tangents(&self) -> (DMatrix<f64>, DMatrix<f64>) {
+    pub fn tangents(&self) -> (Sparse, DMatrix<f64>) {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
-        let mut by_pose = DMatrix::zeros(6 * p, 6 * p);
+        let mut by_pose = Sparse::zeros(6 * p, 6 * p);
         let mut by_target = DMatrix::zeros(6 * p, 6);
-        let add = |matrix: &mut DMatrix<f64>, row: usize, column: usize, block: &Matrix6<f64>| {
-            let mut view = matrix.view_mut((6 * (row - 1), column), (6, 6));
+        let add = |matrix: &mut Sparse, row: usize, column: usize, block: &Matrix6<f64>| {
+            matrix.add(6 * (row - 1), 6 * (column - 1), block);
+        };
+        let mut add_target = |row: usize, block: &Matrix6<f64>| {
+            let mut view = by_target.view_mut((6 * (row - 1), 0), (6, 6));
             view += block;
         };
         for (i, limb) in m.limbs.iter().enumerate() {
@@ -141,18 +146,13 @@ impl PlatformSolver<'_> {
             let k = self.limb_stiffness(i);
             let f = self.state.wrenches[i].force();
             let own = t.transpose() * k * t + rotational(&(hat(&f) * hat(&arm)));
-            add(&mut by_pose, limb.to, 6 * (limb.to - 1), &own);
+            add(&mut by_pose, limb.to, limb.to, &own);
             let solution = &self.linear[i].solution;
             let r = limb.actual.actuators().len();
             if !self.rates.is_empty() {
                 let sensitivity = solution.view((0, 7), (6, r)) * &self.rates[i];
                 let block = t.transpose() * sensitivity;
-                add(
-                    &mut by_target,
-                    limb.to,
-                    0,
-                    &block.fixed_view::<6, 6>(0, 0).into_owned(),
-                );
+                add_target(limb.to, &block.fixed_view::<6, 6>(0, 0).into_owned());
             }
             if limb.from != 0 {
                 let base_columns = solution.view(
@@ -161,7 +161,7 @@ impl PlatformSolver<'_> {
                 );
                 let by_base: Matrix6<f64> = base_columns.fixed_view::<6, 6>(0, 0).into_owned();
                 let on_to = t.transpose() * by_base;
-                add(&mut by_pose, limb.to, 6 * (limb.from - 1), &on_to);
+                add(&mut by_pose, limb.to, limb.from, &on_to);
                 // Reaction on the base: rows of the extended Hessian and Jacobian.
                 let system = &self.linear[i].system;
                 let n = system.spring_torque.len();
@@ -176,27 +176,14 @@ impl PlatformSolver<'_> {
                     let by_commands = through(solution.view((0, 7), (6 + n, r)).as_view())
                         + system.hessian.view((rows, n), (6, r));
                     let block = -(by_commands * &self.rates[i]);
-                    add(
-                        &mut by_target,
-                        limb.from,
-                        0,
-                        &block.fixed_view::<6, 6>(0, 0).into_owned(),
-                    );
+                    add_target(limb.from, &block.fixed_view::<6, 6>(0, 0).into_owned());
                 }
                 let by_base = through(base_columns.as_view()) + direct;
                 let by_end = through(solution.view((0, 1), (6 + n, 6)).as_view()) * t;
-                add(
-                    &mut by_pose,
-                    limb.from,
-                    6 * (limb.from - 1),
-                    &-by_base.fixed_view::<6, 6>(0, 0),
-                );
-                add(
-                    &mut by_pose,
-                    limb.from,
-                    6 * (limb.to - 1),
-                    &-by_end.fixed_view::<6, 6>(0, 0),
-                );
+                let by_base = -by_base.fixed_view::<6, 6>(0, 0);
+                let by_end = -by_end.fixed_view::<6, 6>(0, 0);
+                add(&mut by_pose, limb.from, limb.from, &by_base);
+                add(&mut by_pose, limb.from, limb.to, &by_end);
             }
         }
         // A weight keeps its direction while its lever arm turns.
@@ -204,39 +191,44 @@ impl PlatformSolver<'_> {
             let weight = m.gravity * (platform.mass * self.share);
             let arm = self.state.platforms[k].rotation * platform.centre_of_mass;
             let block = -rotational(&(hat(&weight) * hat(&arm)));
-            add(&mut by_pose, k, 6 * (k - 1), &block);
+            add(&mut by_pose, k, k, &block);
+        }
+        let mut own = Vec::new();
+        for load in &m.platform_loads {
+            load.tangents(&self.state.platforms, &mut own);
+        }
+        for tangent in own {
+            let block = tangent.matrix * -self.share;
+            add(&mut by_pose, tangent.on, tangent.by, &block);
         }
         (by_pose, by_target)
     }
 
     /// Motions that no limb can follow: rows `N^T (motion of the tip)` over the platforms' motions,
-    /// k x 6P, and what they must be, k.
-    pub fn rigid_rows(&self) -> (DMatrix<f64>, DVector<f64>) {
+    /// and what they must be, k.
+    pub fn rigid_rows(&self) -> (RigidRows, DVector<f64>) {
         let m = self.mechanism;
-        let p = m.platforms.len() - 1;
+        let mut rows = RigidRows::none(m.platforms.len() - 1);
         let count = self.linear.iter().map(|l| l.rigid.ncols()).sum();
-        let (mut rows, mut needed) = (DMatrix::zeros(count, 6 * p), DVector::zeros(count));
-        let mut at = 0;
+        let mut needed = DVector::zeros(count);
         for (i, limb) in m.limbs.iter().enumerate() {
             let linear = &self.linear[i];
             let k = linear.rigid.ncols();
             if k == 0 {
                 continue;
             }
+            let at = rows.grow(limb.to - 1, k);
             let normal = linear.rigid.transpose();
             let t = shift_matrix(&self.arm(i));
-            rows.view_mut((at, 6 * (limb.to - 1)), (k, 6))
-                .copy_from(&(&normal * t));
+            rows.matrix.add(at, 6 * (limb.to - 1), &(&normal * t));
             if limb.from != 0 {
                 let first = linear.system.kinematics.velocity_count() - 6;
                 let by_base = &normal * linear.system.jacobian.columns(first, 6);
-                rows.view_mut((at, 6 * (limb.from - 1)), (k, 6))
-                    .copy_from(&-by_base);
+                rows.matrix.add(at, 6 * (limb.from - 1), &-by_base);
             }
             needed
                 .rows_mut(at, k)
                 .copy_from(&-(&normal * linear.closure.0));
-            at += k;
         }
         (rows, needed)
     }
@@ -300,75 +292,51 @@ impl PlatformSolver<'_> {
             Unknowns::Target(held) => held,
             _ => [false; 6],
         };
+        let own = tool..tool + 6;
+        // What is held does not move: its unknown is another, or it asks for nothing.
+        let replaced = |j: usize| own.contains(&j) && held[j - tool];
+        a.entries.retain(|(_, j, _)| !replaced(*j));
         for k in (0..6).filter(|&k| held[k]) {
-            a.column_mut(tool + k).copy_from(&by_target.column(k));
+            a.add(0, tool + k, &by_target.column(k));
+        }
+        let root = self.stiffness.sqrt();
+        let (mut sizes, mut needed) = self.rigid_rows();
+        if let Unknowns::Along(direction) = self.unknowns {
+            let row = sizes.grow(m.tool - 1, 1);
+            sizes.matrix.add(row, tool, &(direction.transpose() * root));
+            needed = needed.push(0.0);
+        }
+        let (mut rigid, mut reactions) = (sizes.clone(), sizes.matrix.clone());
+        rigid.matrix.entries.retain(|(_, j, _)| !replaced(*j));
+        let by_target = self.rigid_rows_by_target();
+        for k in (0..6).filter(|&k| held[k]) {
+            rigid.matrix.add(0, tool + k, &by_target.column(k));
         }
         if self.unknowns == Unknowns::Held {
             // The tool stays; the other platforms find their places.
+            a.entries
+                .retain(|(i, j, _)| !own.contains(i) && !own.contains(j));
+            for entries in [&mut rigid.matrix.entries, &mut reactions.entries] {
+                entries.retain(|(_, j, _)| !own.contains(j));
+            }
             for k in 0..6 {
                 let unit = if k < 3 {
                     1.0
                 } else {
                     self.length * self.length
                 };
-                a.column_mut(tool + k).fill(0.0);
-                a.row_mut(tool + k).fill(0.0);
-                a[(tool + k, tool + k)] = self.stiffness * unit;
+                a.entries.push((tool + k, tool + k, self.stiffness * unit));
                 b[(tool + k, 0)] = 0.0;
             }
         }
-        let root = self.stiffness.sqrt();
-        let mut scale: Vec<f64> = (0..6 * p)
-            .map(|i| {
-                if i % 6 < 3 {
-                    1.0 / root
-                } else {
-                    1.0 / (root * self.length)
-                }
-            })
-            .collect();
-        let (mut rigid, mut needed) = self.rigid_rows();
-        if let Unknowns::Along(direction) = self.unknowns {
-            let row = rigid.nrows();
-            rigid = rigid.insert_row(row, 0.0);
-            for k in 0..3 {
-                rigid[(row, tool + k)] = direction[k] * root;
-            }
-            needed = needed.push(0.0);
-        }
-        let count = rigid.nrows();
-        if count > 0 {
-            // Constraints of the size of the stiffest direction, so that none is lost in rounding.
-            let stiffest = (0..6 * p)
-                .map(|i| a[(i, i)].abs() * scale[i] * scale[i])
-                .fold(1.0, f64::max);
-            let units = scale.clone();
-            for row in rigid.row_iter() {
-                let size = row.iter().zip(&units).map(|(x, s)| (x * s).powi(2));
-                let size = size.sum::<f64>().sqrt();
-                scale.push(if size > 0.0 { stiffest / size } else { 1.0 });
-            }
-            let mut reactions = rigid.transpose();
-            let by_target = self.rigid_rows_by_target();
-            for k in 0..6 {
-                // What is held does not move: its unknown is another, or it asks for nothing.
-                if held[k] {
-                    let mut column = rigid.column_mut(tool + k);
-                    column
-                        .rows_mut(0, by_target.nrows())
-                        .copy_from(&by_target.column(k));
-                } else if self.unknowns == Unknowns::Held {
-                    rigid.column_mut(tool + k).fill(0.0);
-                    reactions.row_mut(tool + k).fill(0.0);
-                }
-            }
-            a = a.resize(6 * p + count, 6 * p + count, 0.0);
-            a.view_mut((6 * p, 0), (count, 6 * p)).copy_from(&rigid);
-            a.view_mut((0, 6 * p), (6 * p, count)).copy_from(&reactions);
-            b = b.resize(6 * p + count, 1, 0.0);
-            b.view_mut((6 * p, 0), (count, 1)).copy_from(&needed);
-        }
-        Saddle::new(a, &scale, &scale).solve(&mut b);
+        let count = rigid.count();
+        b = b.resize(6 * p + count, 1, 0.0);
+        b.view_mut((6 * p, 0), (count, 1)).copy_from(&needed);
+        let scale = Scale {
+            length: self.length,
+            stiffness: self.stiffness,
+        };
+        PlatformSystem::with_reactions(a, &sizes, &rigid, &reactions, scale).solve(&mut b);
         if b.iter().any(|x| !x.is_finite()) {
             return None;
         }

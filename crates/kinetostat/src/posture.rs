@@ -22,6 +22,7 @@ use crate::network::Network;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::saddle::pseudo_inverse;
 use crate::settings::Settings;
+use crate::sparse::RigidRows;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 use crate::stability::{ShapeStability, shape_stability};
 use crate::stiffness::{ChainStiffness, Direction, DirectionKind, chain_stiffness};
@@ -89,7 +90,7 @@ pub struct MechanismEquilibrium {
     pub displacement: Twist,
     /// External wrench on the tool, about its origin, base axes: given (`f^-1`) or found (`f`).
     pub wrench: Wrench,
-    /// Energy of all springs and potential of all weights and loads on limbs, J, without the
+    /// Energy of all springs and potential of all weights, loads on limbs and on platforms, J, without the
     /// wrench on the tool, whose work it is while the tool is moved. `None` where a load has no
     /// potential.
     pub energy: Option<f64>,
@@ -325,6 +326,9 @@ impl Mechanism {
                         .insert(0, crate::chain::Element::Rigid(inverse));
                 }
             }
+        }
+        for load in &mut moved.platform_loads {
+            *load = load.reframed(moved.tool, tool);
         }
         let platform = &mut moved.platforms[moved.tool];
         platform.home *= *tool;
@@ -651,7 +655,7 @@ pub(crate) fn conclude(
         _ => solver.wrench,
     };
     let rigid = match m.platforms.len() {
-        2 => DMatrix::zeros(0, 6),
+        2 => RigidRows::none(1),
         _ => solver.rigid_rows().0,
     };
     let found = condensed(&tangent, &rigid, tool - 1, scale);
@@ -718,7 +722,10 @@ pub(crate) fn conclude(
         let place = solver.state.platforms[*platform].translation.vector;
         (wrench.moment() == nalgebra::Vector3::zeros()).then(|| -wrench.force().dot(&place))
     });
-    let outside = dead.sum::<Option<f64>>().map(|dead| dead + weights);
+    let between = m.platform_loads.iter();
+    let between = between.map(|load| load.energy(&solver.state.platforms));
+    let outside = dead.chain(between).sum::<Option<f64>>();
+    let outside = outside.map(|outside| outside + weights);
     let energy = limbs.iter().fold(outside, |sum, limb| {
         Some(sum? + limb.energy + limb.load_energy?)
     });

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use crate::kinematics::Kinematics;
 use crate::length_law::{LengthLaw, LengthResponse};
 use crate::loading::{NodeLoad, NodeTangent};
-use crate::spatial::{Wrench, hat, rotational, shift_matrix};
+use crate::spatial::{Pose, Wrench, hat, rotational, shift_matrix};
 
 /// Where a strut is hinged.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,12 +32,23 @@ impl Anchor {
         }
     }
 
+    /// The node that carries it; `None` for the base.
+    pub(crate) fn on(&self) -> Option<usize> {
+        match self {
+            Self::Base(_) => None,
+            Self::Node { node, .. } => Some(*node),
+        }
+    }
+
     /// Its place, base axes, and its arm from the node's origin; `None` for the base.
-    fn place(&self, kinematics: &Kinematics) -> (Vector3<f64>, Option<(usize, Vector3<f64>)>) {
+    fn place(
+        &self,
+        pose_of: &impl Fn(usize) -> Pose,
+    ) -> (Vector3<f64>, Option<(usize, Vector3<f64>)>) {
         match *self {
             Self::Base(point) => (point, None),
             Self::Node { node, point } => {
-                let pose = kinematics.node_pose(node);
+                let pose = pose_of(node);
                 let arm = pose.rotation * point;
                 (pose.translation.vector + arm, Some((node, arm)))
             }
@@ -91,12 +102,15 @@ impl Strut {
             response,
         }
     }
-}
 
-impl NodeLoad for Strut {
-    fn wrenches(&self, kinematics: &Kinematics, out: &mut Vec<(usize, Wrench)>) {
-        let (a, from) = self.from.place(kinematics);
-        let (b, to) = self.to.place(kinematics);
+    /// Wrenches on the nodes, whose poses are given.
+    pub(crate) fn wrenches_at(
+        &self,
+        pose_of: &impl Fn(usize) -> Pose,
+        out: &mut Vec<(usize, Wrench)>,
+    ) {
+        let (a, from) = self.from.place(pose_of);
+        let (b, to) = self.to.place(pose_of);
         let force = self.line(&(b - a)).force;
         for (end, force) in [(from, force), (to, -force)] {
             if let Some((node, arm)) = end {
@@ -107,9 +121,9 @@ impl NodeLoad for Strut {
 
     /// With `S = [1, -hat(r)]` (twist of a node to motion of its anchor) and `M = df/dd`:
     /// `S_i^T (+-M) S_j`, and `hat(f) hat(r)` for the arm that turns under the force.
-    fn tangents(&self, kinematics: &Kinematics, out: &mut Vec<NodeTangent>) {
-        let (a, from) = self.from.place(kinematics);
-        let (b, to) = self.to.place(kinematics);
+    pub(crate) fn tangents_at(&self, pose_of: &impl Fn(usize) -> Pose, out: &mut Vec<NodeTangent>) {
+        let (a, from) = self.from.place(pose_of);
+        let (b, to) = self.to.place(pose_of);
         let line = self.line(&(b - a));
         let mut block = Matrix6::zeros();
         block.fixed_view_mut::<3, 3>(0, 0).copy_from(&line.tangent);
@@ -128,9 +142,24 @@ impl NodeLoad for Strut {
         }
     }
 
+    /// Energy, J.
+    pub(crate) fn energy_at(&self, pose_of: &impl Fn(usize) -> Pose) -> f64 {
+        let (a, b) = (self.from.place(pose_of).0, self.to.place(pose_of).0);
+        self.line(&(b - a)).response.energy
+    }
+}
+
+impl NodeLoad for Strut {
+    fn wrenches(&self, kinematics: &Kinematics, out: &mut Vec<(usize, Wrench)>) {
+        self.wrenches_at(&|node| kinematics.node_pose(node), out);
+    }
+
+    fn tangents(&self, kinematics: &Kinematics, out: &mut Vec<NodeTangent>) {
+        self.tangents_at(&|node| kinematics.node_pose(node), out);
+    }
+
     fn energy(&self, kinematics: &Kinematics) -> Option<f64> {
-        let (a, b) = (self.from.place(kinematics).0, self.to.place(kinematics).0);
-        Some(self.line(&(b - a)).response.energy)
+        Some(self.energy_at(&|node| kinematics.node_pose(node)))
     }
 
     fn conservative(&self) -> bool {
@@ -138,11 +167,10 @@ impl NodeLoad for Strut {
     }
 
     fn nodes(&self) -> Vec<usize> {
-        let node = |anchor: &Anchor| match anchor {
-            Anchor::Base(_) => None,
-            Anchor::Node { node, .. } => Some(*node),
-        };
-        node(&self.from).into_iter().chain(node(&self.to)).collect()
+        [self.from.on(), self.to.on()]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 
     fn numbers(&self) -> Option<String> {

@@ -2,6 +2,7 @@
 
 use crate::common::{Rng, assert_equilibrium, balanced_error};
 use crate::oracle::{Flat, Frames, balanced_solve, springs};
+use crate::platforms::{anchors, lattice, leg};
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
     Posture, Settings, Twist, Wrench, compensate, moved, pose_residual, unloaded_tip,
@@ -112,36 +113,15 @@ pub fn legs(
     home: &Pose,
 ) -> kinetostat::MechanismBuilder {
     for i in 0..6 {
-        let side = if i % 2 == 0 { 1.0 } else { -1.0 };
-        let third = std::f64::consts::FRAC_PI_3 * 2.0 * f64::from(i / 2);
-        let b = Vector3::new((third + side * 0.3).cos(), (third + side * 0.3).sin(), 0.0) * below;
-        let s = third + side * 0.75;
-        let a = Vector3::new(s.cos(), s.sin(), 0.0) * above;
-        let way = home * nalgebra::Point3::from(a) - nalgebra::Point3::from(b);
-        let (first, second) = turns(&way);
-        let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), 2e7);
-        drive.home = way.norm();
-        let chain = Chain::builder(format!("{name} leg {i}"))
-            .translation(b)
-            .passive("u1", MotionKind::Revolute, Vector3::x(), first)
-            .passive("u2", MotionKind::Revolute, Vector3::y(), second)
-            .actuator("slide", drive)
-            .passive_spherical("s")
-            .build()
-            .unwrap();
-        builder = builder.limb(limb(
-            &format!("{name} leg {i}"),
-            from,
-            to,
-            Pose::translation(a.x, a.y, a.z),
-            chain,
-        ));
+        let ends = anchors(i, [below, above]);
+        let own = leg(&format!("{name} leg {i}"), from, to, ends, home, false);
+        builder = builder.limb(own.unwrap());
     }
     builder
 }
 
 /// Rotations about x and then y that turn z along a direction.
-fn turns(way: &Vector3<f64>) -> (f64, f64) {
+pub fn turns(way: &Vector3<f64>) -> (f64, f64) {
     let w = way.normalize();
     let second = w.x.asin();
     ((-w.y).atan2(w.z), second)
@@ -554,84 +534,6 @@ fn a_double_pantograph_enlarges_four_times() {
     }
 }
 
-/// A parallelogram of two bars between two beams against one link with a coupled coordinate:
-/// stiffness unloaded, and the motions under a load that turns it as a share of the motion.
-pub fn parallelogram_apart() -> [f64; 2] {
-    let mut bar = Matrix6::zeros();
-    for (i, j, value) in [
-        (0, 0, 3.25e7),
-        (1, 1, 18.03e3),
-        (1, 5, -2878.5),
-        (5, 5, 598.8),
-        (3, 3, 34.76),
-        (2, 2, 18.03e3),
-        (2, 4, 2878.5),
-        (4, 4, 598.8),
-    ] {
-        bar[(i, j)] = value;
-        bar[(j, i)] = value;
-    }
-    let (length, width) = (0.31, 0.08);
-    let (mut worst, mut apart) = (0.0_f64, 0.0_f64);
-    for q in [0.0, 0.3, -0.7, 1.1] {
-        let far = Pose::rotation(Vector3::y() * q)
-            * Pose::translation(length, 0.0, 0.0)
-            * Pose::rotation(Vector3::y() * -q);
-        let lumped = Chain::builder("lumped")
-            .parallelogram("q", length, width, &bar, q)
-            .build()
-            .unwrap();
-        let lumped = Mechanism::serial(lumped, far, Vector3::zeros()).unwrap();
-        let mut builder = Mechanism::builder("two bars");
-        let beam = builder.platform(Platform::new("beam", Pose::identity()));
-        let tool = builder.platform(Platform::new("tool", far));
-        let root = Chain::builder("root").build().unwrap();
-        let mut builder = builder.limb(limb("root", 0, beam, Pose::identity(), root));
-        for (name, side) in [("left", -0.5), ("right", 0.5)] {
-            let offset = vector![0.0, 0.0, side * width];
-            let chain = Chain::builder(name)
-                .translation(offset)
-                .passive("near", MotionKind::Revolute, Vector3::y(), q)
-                .translation(vector![length, 0.0, 0.0])
-                .spring6("bar", &bar, [0.0; 6])
-                .passive("far", MotionKind::Revolute, Vector3::y(), -q)
-                .translation(-offset)
-                .build()
-                .unwrap();
-            builder = builder.limb(limb(name, beam, tool, Pose::identity(), chain));
-        }
-        let bars = builder.build().unwrap();
-        let (a, b) = (lumped.posture(&far).unwrap(), bars.posture(&far).unwrap());
-        assert_eq!(b.overconstraint().degree, 3, "a planar loop of four pins");
-        assert_eq!(a.mobility().ncols(), 1);
-        assert_eq!(b.mobility().ncols(), 1);
-        let (ka, kb) = (a.stiffness().unwrap(), b.stiffness().unwrap());
-        assert_eq!(ka.rank(), 5);
-        assert_eq!(kb.rank(), 5);
-        worst = worst.max(balanced_error(&kb.cartesian.matrix, &ka.cartesian.matrix));
-        // Held a little off in all directions but its own.
-        let along = Pose::rotation(Vector3::y() * q);
-        let aside = Twist::new(
-            along * vector![2e-5, 1e-3, 0.0],
-            along * vector![4e-3, 1e-3, -2e-3],
-        );
-        let pose = moved(&far, &aside);
-        let (x, y) = (a.wrench_at(&pose).unwrap(), b.wrench_at(&pose).unwrap());
-        let d = (x.wrench.0 - y.wrench.0).norm() / x.wrench.0.norm();
-        apart = apart.max(d);
-    }
-    [worst, apart]
-}
-
-/// Unloaded they are one machine; loaded the lumped one keeps the matrix of its commanded
-/// inclination, while bars turn with their ends: a difference of second order.
-#[test]
-fn a_loaded_parallelogram_differs_by_what_its_lumped_matrix_leaves_out() {
-    let [unloaded, loaded] = parallelogram_apart();
-    assert!(unloaded < 1e-12, "{unloaded:e}");
-    assert!((1e-6..0.1).contains(&loaded), "{loaded:e}");
-}
-
 /// Errors of the limbs of a graph, loads on any platform, springs between its limbs.
 #[test]
 fn a_graph_with_errors_strains_itself_to_first_order() {
@@ -792,7 +694,7 @@ pub fn tower(floors: usize) -> Mechanism {
     for k in 0..floors {
         home *= lift;
         let mut platform = Platform::new(format!("floor {k}"), home);
-        platform.mass = 2.0;
+        platform.mass = 0.05;
         all.push(builder.platform(platform));
     }
     for pair in all.windows(2) {
@@ -809,6 +711,64 @@ pub fn tower(floors: usize) -> Mechanism {
     builder.build().unwrap()
 }
 
+/// Platforms in a lattice, sparse, against the flattened system: unloaded stiffness and
+/// displacement under load, relative.
+pub fn lattice_apart(rigid: bool) -> [f64; 2] {
+    let machine = lattice(4, 3, rigid).unwrap();
+    let home = machine.platforms()[machine.tool()].home;
+    let posture = machine.posture(&home).unwrap();
+    assert_closes(&posture);
+    let k = posture.stiffness().unwrap();
+    assert_eq!(k.rank(), 6);
+    let flat = flat_stiffness(&posture);
+    let pull = Wrench::new(vector![3e3, -2e3, 5e3], vector![400.0, 200.0, -500.0]);
+    let e = posture.deflected_by(&pull).unwrap();
+    assert_equilibrium(&posture, &e);
+    assert!(e.stable());
+    let mut dense = Flat::at_state(&posture, &e.state, &pull);
+    dense.solve(false);
+    let apart = pose_residual(&e.tool, &dense.platforms[machine.tool()]).0;
+    [
+        balanced_error(&k.cartesian.matrix, &flat),
+        apart.norm() / e.displacement.0.norm(),
+    ]
+}
+
+#[test]
+fn a_lattice_of_platforms_is_its_flattened_system() {
+    for rigid in [false, true] {
+        let [stiffness, displacement] = lattice_apart(rigid);
+        assert!(stiffness < 1e-12, "{rigid}: {stiffness:e}");
+        assert!(displacement < 1e-11, "{rigid}: {displacement:e}");
+    }
+}
+
+/// Seconds for the unloaded stiffness, an equilibrium and a target elsewhere of a lattice.
+pub fn lattice_times(rows: usize, columns: usize) -> [f64; 3] {
+    let machine = lattice(rows, columns, false).unwrap();
+    let home = machine.platforms()[machine.tool()].home;
+    let clock = std::time::Instant::now;
+    let start = clock();
+    let posture = machine.posture(&home).unwrap();
+    assert_eq!(posture.stiffness().unwrap().rank(), 6);
+    let unloaded = start.elapsed();
+    let start = clock();
+    let pull = Wrench::new(vector![300.0, -200.0, 500.0], vector![40.0, 20.0, -50.0]);
+    let e = posture.deflected_by(&pull).unwrap();
+    let loaded = start.elapsed();
+    assert_equilibrium(&posture, &e);
+    assert!(e.stable());
+    let start = clock();
+    let target = moved(
+        &home,
+        &Twist::new(vector![0.01, 0.0, 0.01], Vector3::zeros()),
+    );
+    let elsewhere = machine.posture(&target).unwrap();
+    let searched = start.elapsed();
+    assert_closes(&elsewhere);
+    [unloaded, loaded, searched].map(|t| t.as_secs_f64())
+}
+
 /// Seconds for the unloaded stiffness, an equilibrium and a target elsewhere, and how far the
 /// compliance is from that of floors in series, relative.
 pub fn tower_of(floors: usize) -> [f64; 4] {
@@ -820,7 +780,7 @@ pub fn tower_of(floors: usize) -> [f64; 4] {
         let k = posture.stiffness().unwrap();
         let unloaded = start.elapsed();
         let start = std::time::Instant::now();
-        let pull = Wrench::new(vector![10.0, 4.0, -20.0], vector![1.0, 0.0, 2.0]);
+        let pull = Wrench::new(vector![1.0, 0.4, -2.0], vector![0.1, 0.0, 0.2]);
         let e = posture.deflected_by(&pull).unwrap();
         let loaded = start.elapsed();
         assert_equilibrium(&posture, &e);

@@ -12,6 +12,8 @@
 mod common;
 #[path = "../oracle/mod.rs"]
 mod oracle;
+#[path = "../../benches/platforms/mod.rs"]
+mod platforms;
 
 mod all_equilibria;
 mod beam_tables_3_2_and_3_3;
@@ -35,10 +37,12 @@ mod joints_that_follow;
 mod links_that_bend;
 mod loads_in_mechanisms;
 mod loads_of_every_kind;
+mod loads_on_platforms;
 mod long_chains;
 mod machines_with_rigid_directions;
 mod orthoglide_reference;
 mod parallel_machines;
+mod parallelograms;
 mod report_iteration;
 mod shapes_and_their_stability;
 mod stewart_gough_3_34_and_3_35;

@@ -5,7 +5,7 @@
 //! Nothing of the core's kinematics, load terms, saddle solver or platform condensation is used;
 //! only the description of chains and mechanisms and the algebra of poses is shared.
 
-use kinetostat::{Chain, Element, Mechanism, MotionKind, Pose, Wrench};
+use kinetostat::{Anchor, Chain, Element, Mechanism, MotionKind, PlatformLoad, Pose, Wrench};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 /// Rotation by `angle` about the unit vector `axis`, Rodrigues' formula written out.
@@ -330,6 +330,16 @@ impl<'m> Flat<'m> {
             put(&mut rows, k, joined(weight, arm.cross(&weight)));
         }
         put(&mut rows, m.tool(), self.load);
+        for load in m.platform_loads() {
+            for (platform, [place, force, moment]) in self.on_platforms(load) {
+                let arm = place - self.platforms[platform].translation.vector;
+                put(
+                    &mut rows,
+                    platform,
+                    joined(force, moment + arm.cross(&force)),
+                );
+            }
+        }
         for (i, limb) in m.limbs().iter().enumerate() {
             let chain = &limb.actual;
             let x = &self.coordinates[i];
@@ -364,6 +374,40 @@ impl<'m> Flat<'m> {
             }
         }
         rows
+    }
+
+    /// Platform, and point, force and moment there, of a load on platforms.
+    fn on_platforms(&self, load: &PlatformLoad) -> Vec<(usize, [Vector3<f64>; 3])> {
+        let at = |p: usize, point: &Vector3<f64>| {
+            self.platforms[p].translation.vector + self.platforms[p].rotation * point
+        };
+        match load {
+            PlatformLoad::Wrench {
+                platform,
+                point,
+                wrench,
+                turns,
+            } => {
+                let turn = |v: Vector3<f64>| match turns {
+                    true => self.platforms[*platform].rotation * v,
+                    false => v,
+                };
+                let (force, moment) = (turn(wrench.force()), turn(wrench.moment()));
+                vec![(*platform, [at(*platform, point), force, moment])]
+            }
+            PlatformLoad::Strut(strut) => {
+                let end = |anchor: &Anchor| match anchor {
+                    Anchor::Base(point) => (0, *point),
+                    Anchor::Node { node, point } => (*node, at(*node, point)),
+                };
+                let ((a, from), (b, to)) = (end(&strut.from), end(&strut.to));
+                let between = to - from;
+                let pull = between.normalize() * strut.law.respond(between.norm()).tension;
+                let none = Vector3::zeros();
+                vec![(a, [from, pull, none]), (b, [to, -pull, none])]
+            }
+            other => panic!("unknown load {other:?}"),
+        }
     }
 
     fn moved(&self, step: &DVector<f64>) -> Self {

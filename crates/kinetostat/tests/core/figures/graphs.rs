@@ -3,11 +3,13 @@
 use serde_json::json;
 
 use super::{Figures, Worst};
-use crate::graphs::{hybrids_apart, parallelogram_apart, rigid_limbs_apart, tower_of};
+use crate::graphs::{hybrids_apart, lattice_apart, lattice_times, rigid_limbs_apart, tower_of};
+use crate::loads_on_platforms::{derivatives_apart, loaded_apart, spring_and_limb_apart};
 use crate::parallel_machines::{
     cubic_hexapod_apart, delta_apart, hexapod_apart, internal_wrenches, planar_3_rrr_apart,
     tripteron_apart, truss_apart,
 };
+use crate::parallelograms::{left_out, parallelogram_apart};
 
 fn put(f: &mut Figures, name: &str, deviation: f64, most: f64, unit: &str) {
     let mut worst = Worst::new();
@@ -66,14 +68,61 @@ fn hybrids_and_rigid_limbs_against_the_flattened_system() {
         1e-12,
         "relative",
     );
-    let shown = "explained: bars turn with their ends";
     f.print(
         &format!("{name}: wrench, loaded"),
         json!(loaded),
         "shown",
-        shown,
+        "relative",
         true,
     );
+    let [growth, explained, term] = left_out();
+    put(
+        &mut f,
+        &format!("{name}: growth of the difference with the displacement, exponent less 2"),
+        growth,
+        0.05,
+        "exponent",
+    );
+    put(
+        &mut f,
+        &format!("{name}: difference less the term left out, largest"),
+        explained,
+        0.01,
+        "of the difference",
+    );
+    put(
+        &mut f,
+        &format!("{name}: stiffness under tension less N d^2 sin^2 q / (4 L)"),
+        term,
+        1e-3,
+        "relative",
+    );
+    f.finish();
+}
+
+#[test]
+fn loads_on_platforms() {
+    let mut f = Figures::new();
+    let name = "Springs, gas springs, ropes and wrenches on platforms";
+    let [tangent, energy] = derivatives_apart();
+    let [displacement, stiffness] = loaded_apart();
+    let [moved, matrix] = spring_and_limb_apart();
+    for (what, value, most) in [
+        ("tangent minus differences", tangent, 1e-8),
+        ("wrench minus slope of the energy", energy, 1e-8),
+        ("displacement minus flattened", displacement, 1e-11),
+        ("loaded K_C minus flattened", stiffness, 1e-9),
+        ("displacement minus that of a sprung limb", moved, 1e-11),
+        ("loaded K_C minus that of a sprung limb", matrix, 1e-10),
+    ] {
+        put(
+            &mut f,
+            &format!("{name}: {what}"),
+            value,
+            most,
+            "relative (test's tolerance)",
+        );
+    }
     f.finish();
 }
 
@@ -162,6 +211,23 @@ fn a_machine_with_thirty_platforms() {
             f.print(&name, json!(growth), "shown", "times", true);
         }
         before = Some(loaded);
+    }
+    for rigid in [false, true] {
+        let bars = if rigid { ", some limbs rigid" } else { "" };
+        let name = format!("12 platforms in a lattice{bars}, sparse minus flattened");
+        let [unloaded, displacement] = lattice_apart(rigid);
+        for (what, value) in [("unloaded K_C", unloaded), ("displacement", displacement)] {
+            put(&mut f, &format!("{name}: {what}"), value, 1e-12, "relative");
+        }
+    }
+    let times = [30.0, 60.0, 120.0].map(|n: f64| (n, lattice_times(n as usize / 6, 6)));
+    for (k, what) in ["unloaded stiffness", "equilibrium", "commands elsewhere"]
+        .iter()
+        .enumerate()
+    {
+        let exponent = (times[2].1[k] / times[0].1[k]).ln() / 4.0_f64.ln();
+        let name = format!("Lattices of 30 to 120 platforms: growth exponent of time of {what}");
+        f.print(&name, json!(exponent), "shown", "exponent", true);
     }
     f.finish();
 }
