@@ -121,6 +121,11 @@ const PRESETS: &[Preset] = &[
     ),
     preset!(
         Serial,
+        "counterweight_arm",
+        "Heavy arm: linear actuator at the shoulder, crank, bar and counterweight"
+    ),
+    preset!(
+        Serial,
         "scara",
         "SCARA: two upright joints, a quill that slides and turns"
     ),
@@ -143,6 +148,11 @@ const PRESETS: &[Preset] = &[
         Hybrid,
         "arm_with_parallel_wrist",
         "Arm of three joints that carries a spherical parallel wrist"
+    ),
+    preset!(
+        Hybrid,
+        "gantry_with_tripod",
+        "Gantry that carries a tripod of three hinged legs: five axes"
     ),
     preset!(
         Teaching,

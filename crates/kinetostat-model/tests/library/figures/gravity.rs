@@ -11,7 +11,8 @@ use serde_json::json;
 
 use crate::{figure, preset};
 
-/// Weights and springs are taken so small that nothing bends.
+/// Weights and springs are taken so small that nothing bends. In a closed loop, rounding of the closure
+/// times the stiffness of its bars counts against such small forces.
 const SMALL: f64 = 1e-8;
 const G: f64 = 9.81;
 
