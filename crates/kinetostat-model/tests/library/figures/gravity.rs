@@ -148,6 +148,7 @@ fn unbent(name: &str) -> Mechanism {
                 l.preload_n = l.preload_n.map(|f| f * SMALL);
             }
             LoadTable::GasSpring(l) => l.force_n *= SMALL,
+            LoadTable::Counterweight(_) => {} // weighs as gravity lets it
             other => panic!("{}", other.word()),
         }
     }
@@ -326,6 +327,95 @@ fn torques_of_the_parallelogram_arm_are_those_of_the_hand() {
         "at most 1e-8",
         "of the largest",
         share <= 1e-8,
+    );
+}
+
+/// The linear actuator at the shoulder: moments about the shoulder, and about its own foot for the pull
+/// across it by its own weight. The crank's drive: virtual work as above, with its counterweight.
+#[test]
+fn forces_of_the_linear_actuator_are_those_of_the_hand() {
+    let mechanism = unbent("counterweight_arm");
+    let (mut apart, mut share) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for arm in [-0.5, -0.3, -0.1, 0.2, 0.5, 0.7_f64] {
+        for fore in [-0.3, 0.0, 0.3, 0.6_f64] {
+            let elbow = tipped(arm, 0.0, 1.400);
+            let j5 = 1.2;
+            let wrist = tipped(fore, 1.600, 0.250);
+            let turned = [
+                (480.0, tipped(fore, 0.100, 0.130)),
+                (230.0, tipped(fore, 0.900, 0.250)),
+                (110.0, wrist + tipped(fore + j5, 0.100, 0.0)),
+                (40.0, wrist + tipped(fore + j5, 0.300, 0.0)),
+            ];
+            let carried: f64 = turned.iter().map(|(m, _)| m).sum();
+            let second = G
+                * (450.0 * tipped(arm, 0.0, 0.680).x
+                    + carried * elbow.x
+                    + 70.0 * tipped(arm, 0.0, 0.700).x);
+            let third = G
+                * (turned.iter().map(|(m, at)| m * at.x).sum::<f64>()
+                    + 70.0 * tipped(fore, -0.600, 0.0).x
+                    + 620.0 * tipped(fore, -0.950, 0.0).x);
+
+            let (foot, lug) = (vector![-0.750, -0.450], tipped(arm, -0.180, 0.500));
+            let (line, length) = ((lug - foot).normalize(), (lug - foot).norm());
+            let across = vector![-line.y, line.x];
+            // Cylinder and rod hang between foot and lug: their share across the lug presses on the arm.
+            let weights = [(90.0, 0.250), (40.0, length - 0.350)];
+            let own: f64 = weights
+                .iter()
+                .map(|(m, at)| -m * G * across.y * at / length)
+                .sum();
+            let moment = second + torque(lug, across * own);
+            // The push along the line that holds this moment; the rod's weight comes on top.
+            let push = -moment / torque(lug, line);
+            let wanted = [-(push + 40.0 * G * line.y), third];
+
+            let tool = fore + j5;
+            let at = vector![0.500, 1.000] + elbow + wrist + tipped(tool, 0.350, 0.0);
+            let half_turn = std::f64::consts::FRAC_PI_2;
+            let turn = nalgebra::Vector3::y() * (tool + half_turn);
+            let target = Pose::new(vector![at.x, 0.0, at.y], turn);
+            let pitch = -line.y.atan2(line.x);
+            let joints = [
+                (vec![0.0], vec![]),
+                (vec![], vec![arm]),
+                (vec![length], vec![pitch, arm - pitch]),
+                (vec![], vec![fore - arm]),
+                (vec![fore], vec![arm - fore, fore - arm]),
+                (vec![0.0, j5, 0.0], vec![]),
+            ];
+            let limbs = mechanism.limbs().iter().zip(joints);
+            let joints = limbs.map(|(limb, (commands, passive))| {
+                let mut coordinates = limb.nominal.home_coordinates();
+                let places = limb.nominal.indices_of(Role::Passive);
+                assert_eq!(places.len(), passive.len());
+                for (i, value) in places.into_iter().zip(passive) {
+                    coordinates[i] = value;
+                }
+                LimbPosture {
+                    commands,
+                    coordinates,
+                }
+            });
+            let posture = mechanism
+                .posture_from_joints(&target, joints.collect())
+                .expect("a posture");
+            let held = posture.deflected_by(&Wrench::zero()).expect("at rest");
+            let found = held.actuator_forces();
+            for (k, want) in wanted.into_iter().enumerate() {
+                apart[k] = apart[k].max((found[1 + k] / SMALL - want).abs());
+                share[k] = share[k].max(want.abs());
+            }
+        }
+    }
+    let worst = (apart[0] / share[0]).max(apart[1] / share[1]);
+    figure(
+        "Library: linear actuator and crank with counterweight at 24 postures minus hand statics",
+        json!(worst),
+        "at most 1e-8",
+        "of the largest",
+        worst <= 1e-8,
     );
 }
 
