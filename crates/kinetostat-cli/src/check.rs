@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::along;
 use crate::args::CheckArgs;
 use crate::check_home::{HomeFinding, at_home};
-use crate::check_limbs::{LimbFinding, limb};
+use crate::check_limbs::{LimbFinding, LoadFinding, limb, platform_loads};
 use crate::check_words::in_words;
 use crate::failure::Answer;
 use crate::input::Files;
@@ -28,6 +28,9 @@ pub(crate) struct Findings {
     pub(crate) gravity_m_per_s2: [f64; 3],
     pub(crate) platforms: Vec<PlatformFinding>,
     pub(crate) limbs: Vec<LimbFinding>,
+    /// Loads on platforms.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) loads: Vec<LoadFinding>,
     pub(crate) mass_kg: f64,
     pub(crate) deviations: Vec<String>,
     pub(crate) home: Option<HomeFinding>,
@@ -96,6 +99,7 @@ fn findings(model: &Model, source: String) -> Findings {
             })
             .collect(),
         limbs,
+        loads: platform_loads(model),
         deviations: deviations_in_words(model),
         home,
         home_problem,

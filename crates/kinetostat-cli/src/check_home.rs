@@ -152,6 +152,7 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
             "the loads on its limbs",
             f.limbs.iter().any(|l| !l.loads.is_empty()),
         ),
+        ("the loads on its platforms", !f.loads.is_empty()),
         (
             "its preloads",
             f.limbs.iter().any(|l| !l.preloaded_springs.is_empty()),

@@ -39,7 +39,7 @@ pub(crate) struct LinkFinding {
     pub(crate) euler_load_n: f64,
 }
 
-/// A load on a limb.
+/// A load on a limb or on platforms.
 #[derive(Serialize)]
 pub(crate) struct LoadFinding {
     pub(crate) name: String,
@@ -150,9 +150,31 @@ fn loads(model: &Model, index: usize) -> Vec<LoadFinding> {
     .collect()
 }
 
+/// Loads on platforms, those between limbs included.
+pub(crate) fn platform_loads(model: &Model) -> Vec<LoadFinding> {
+    let written = model.document.load.iter();
+    let both = written.zip(model.mechanism.platform_loads());
+    both.map(|(written, load)| LoadFinding {
+        name: written.name().to_owned(),
+        kind: written.word(),
+        in_words: written.in_words(),
+        conservative: load.conservative(),
+    })
+    .collect()
+}
+
 /// `1 actuator`, `3 actuators`.
 pub(crate) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+pub(crate) fn load_in_words(load: &LoadFinding) -> String {
+    let flag = if load.conservative {
+        ""
+    } else {
+        " (not conservative)"
+    };
+    format!("load '{}': {}{flag}", load.name, load.in_words)
 }
 
 pub(crate) fn limb_in_words(l: &LimbFinding) -> String {
@@ -210,15 +232,7 @@ pub(crate) fn limb_in_words(l: &LimbFinding) -> String {
         ));
     }
     for load in &l.loads {
-        let flag = if load.conservative {
-            ""
-        } else {
-            " (not conservative)"
-        };
-        out.push_str(&wrapped(
-            &format!("load '{}': {}{flag}", load.name, load.in_words),
-            2,
-        ));
+        out.push_str(&wrapped(&load_in_words(load), 2));
     }
     if l.mass_kg > 0.0 {
         out.push_str(&wrapped(

@@ -4,7 +4,7 @@ use kinetostat_model::Model;
 
 use crate::check::Findings;
 use crate::check_home::home_in_words;
-use crate::check_limbs::limb_in_words;
+use crate::check_limbs::{limb_in_words, load_in_words};
 use crate::machine::short;
 use crate::screen::{item, number, triple, wrapped};
 
@@ -49,6 +49,12 @@ pub(crate) fn in_words(f: &Findings, model: &Model) -> String {
             )
         ));
         out.push_str(&limb_in_words(l));
+    }
+    if !f.loads.is_empty() {
+        out.push_str("\nOn platforms\n");
+        for load in &f.loads {
+            out.push_str(&wrapped(&load_in_words(load), 2));
+        }
     }
     if f.mass_kg > 0.0 {
         out.push('\n');

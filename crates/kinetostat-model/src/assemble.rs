@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use crate::elastic::Elastic;
 use crate::limb::limbs;
+use crate::load::platform_loads;
 use crate::part::{inertia, mass};
 use crate::placement::pose;
 use crate::plausible;
@@ -72,6 +73,7 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
         .map(|key| (key.as_str(), template(document, key, &elastic, findings)))
         .collect();
     let limbs = limbs(document, &templates, findings);
+    let platform_loads = platform_loads(document, findings);
     weights(document, findings);
     unused(document, findings);
     if !findings.errors.is_empty() {
@@ -88,6 +90,9 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
         for load in loads {
             builder = builder.load(name.as_str(), load);
         }
+    }
+    for load in platform_loads {
+        builder = builder.platform_load(load);
     }
     let mechanism = findings.keep(builder.build().map_err(|e| {
         Finding::new(

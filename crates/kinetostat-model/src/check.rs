@@ -243,7 +243,7 @@ impl Checker {
                 span.clone(),
                 format!("this {noun} is said to be '{first}' and '{second}'"),
                 match noun {
-                    "load" => "a load is one thing: write two of them, each under [[limb.load]]",
+                    "load" => "a load is one thing: write two of them, each under [[limb.load]] or [[load]]",
                     _ => "an element is one thing: write two elements in the order of the chain",
                 }
                 .into(),

@@ -176,7 +176,7 @@ fn locate(error: &kinetostat::Error, chain: &str, document: &Document) -> Findin
     Finding::new(&place, text, "correct this element of the chain")
 }
 
-fn platform_index(
+pub(crate) fn platform_index(
     document: &Document,
     place: &Place,
     name: &str,

@@ -1,16 +1,21 @@
-//! Loads on limbs: from what is written to the core's.
+//! Loads on limbs and platforms: from what is written to the core's.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinetostat::{Anchor, Chain, LengthLaw, Load, Wrench};
+use kinetostat::{Anchor, Chain, LengthLaw, Load, PlatformLoad, Wrench};
 use nalgebra::Vector3;
 
 use crate::assemble::{Findings, name};
 use crate::elastic::unknown;
+use crate::limb::platform_index;
 use crate::part::Part;
 use crate::problem::{Finding, Place};
 use crate::quantity::{Found, MM, choice, need, positive, vector};
-use crate::schema::{self, ChainTable, Element, LimbTable, LoadTable, WrenchAxes};
+use crate::schema::{
+    self, ChainTable, Document, Element, GasSpringLoad, LimbTable, LoadTable, PlatformAxes,
+    PlatformLoadTable, PlatformPoint, SpringLoad, WrenchAxes,
+};
+use crate::schema_load::End;
 use crate::template::Template;
 
 /// The machine's fixed base as a place for the end of a spring.
@@ -117,6 +122,162 @@ pub(crate) fn loads(
     .collect()
 }
 
+/// The loads on platforms; what is wrong is reported.
+pub(crate) fn platform_loads(document: &Document, findings: &mut Findings) -> Vec<PlatformLoad> {
+    let mut seen = BTreeSet::new();
+    let mut list = Vec::new();
+    for (i, load) in document.load.iter().enumerate() {
+        let place = Place::root().key("load").index(i);
+        name(&place.key(load.word()), load.name(), findings);
+        if !seen.insert(load.name()) {
+            findings.error(
+                &place.key(load.word()),
+                format!("there is a load '{}' on platforms already", load.name()),
+                "rename one of them",
+            );
+        }
+        let places = load.places();
+        let mut own = Vec::new();
+        for (keys, target) in &places {
+            let at = keys.iter().fold(place.clone(), |p, key| p.key(key));
+            own.extend(platform_index(document, &at, target, findings));
+        }
+        match own.as_slice() {
+            [0] if places.len() == 1 => {
+                findings.error(
+                    &place.key("platform"),
+                    format!(
+                        "the load '{}' acts on the base, which does not move",
+                        load.name()
+                    ),
+                    "name a moving platform",
+                );
+            }
+            [from, to] if from == to => {
+                findings.error(
+                    &place,
+                    format!(
+                        "the load '{}' begins and ends at '{}', so that it does nothing",
+                        load.name(),
+                        places[0].1
+                    ),
+                    "name two platforms, or write it under the limb whose nodes it joins",
+                );
+            }
+            _ if own.len() == places.len() => {
+                list.extend(findings.keep(on_platforms(&place, load, &own)));
+            }
+            _ => {}
+        }
+    }
+    list
+}
+
+/// The load between or on platforms of these indices.
+fn on_platforms(place: &Place, load: &PlatformLoadTable, own: &[usize]) -> Found<PlatformLoad> {
+    let end = |k: usize, key: &str, written: &PlatformPoint| {
+        Ok((own[k], point(&place.key(key), written)?))
+    };
+    let between = |from: &PlatformPoint, to: &PlatformPoint, law| {
+        Ok(PlatformLoad::strut(
+            end(0, "from", from)?,
+            end(1, "to", to)?,
+            law,
+        ))
+    };
+    match load {
+        PlatformLoadTable::Wrench(l) => {
+            let at = PlatformPoint {
+                platform: l.platform.clone(),
+                position_mm: l.position_mm,
+                position_m: l.position_m,
+            };
+            Ok(PlatformLoad::Wrench {
+                platform: own[0],
+                point: point(place, &at)?,
+                wrench: wrench(place, l.force_n, l.moment_n_m, l.moment_n_mm)?,
+                turns: l.axes == PlatformAxes::Platform,
+            })
+        }
+        PlatformLoadTable::Spring(l) => between(&l.from, &l.to, spring_law(place, l)?),
+        PlatformLoadTable::GasSpring(l) => between(&l.from, &l.to, gas_law(place, l)?),
+        PlatformLoadTable::ConstantTension(l) => between(
+            &l.from,
+            &l.to,
+            LengthLaw::Constant {
+                tension: l.tension_n,
+            },
+        ),
+    }
+}
+
+fn wrench(
+    place: &Place,
+    force_n: Option<[f64; 3]>,
+    moment_n_m: Option<[f64; 3]>,
+    moment_n_mm: Option<[f64; 3]>,
+) -> Found<Wrench> {
+    let moment = vector(
+        place,
+        "moment",
+        &[
+            choice("moment_n_m", moment_n_m, 1.0),
+            choice("moment_n_mm", moment_n_mm, MM),
+        ],
+    )?;
+    let force = vector(place, "force", &[choice("force_n", force_n, 1.0)])?;
+    if force_n.is_none() && moment_n_m.is_none() && moment_n_mm.is_none() {
+        return Err(Finding::new(
+            place,
+            "the wrench has neither force nor moment",
+            "write force_n, moment_n_m or moment_n_mm",
+        ));
+    }
+    Ok(Wrench::new(force, moment))
+}
+
+fn spring_law<A>(place: &Place, l: &SpringLoad<A>) -> Found<LengthLaw> {
+    let stiffness = [
+        choice("stiffness_n_per_m", l.stiffness_n_per_m, 1.0),
+        choice("stiffness_n_per_mm", l.stiffness_n_per_mm, 1.0 / MM),
+    ];
+    let free = [
+        choice("free_length_mm", l.free_length_mm, MM),
+        choice("free_length_m", l.free_length_m, 1.0),
+    ];
+    let free = need(place, "free length", &free)?;
+    if free.value < 0.0 {
+        return Err(Finding::new(
+            &place.key(free.key),
+            format!("the free length is {} m, which is below zero", free.value),
+            "a spring that pulls even at length zero has free length 0 and a preload",
+        ));
+    }
+    Ok(LengthLaw::Linear {
+        stiffness: positive(place, "stiffness", &stiffness)?.value,
+        free_length: free.value,
+        preload: l.preload_n.unwrap_or(0.0),
+    })
+}
+
+fn gas_law<A>(place: &Place, l: &GasSpringLoad<A>) -> Found<LengthLaw> {
+    let length = [
+        choice("length_mm", l.length_mm, MM),
+        choice("length_m", l.length_m, 1.0),
+    ];
+    let column = [
+        choice("column_mm", l.column_mm, MM),
+        choice("column_m", l.column_m, 1.0),
+    ];
+    let given = |key, what, value| positive(place, what, &[choice(key, Some(value), 1.0)]);
+    Ok(LengthLaw::Gas {
+        force: given("force_n", "push", l.force_n)?.value,
+        length: positive(place, "length", &length)?.value,
+        column: positive(place, "column of gas", &column)?.value,
+        exponent: given("exponent", "exponent", l.exponent)?.value,
+    })
+}
+
 fn converted(
     place: &Place,
     load: &LoadTable,
@@ -130,70 +291,14 @@ fn converted(
     match load {
         LoadTable::Wrench(l) => {
             let node = node(&place.key("node"), &l.node, chain)?;
-            let moment = vector(
-                place,
-                "moment",
-                &[
-                    choice("moment_n_m", l.moment_n_m, 1.0),
-                    choice("moment_n_mm", l.moment_n_mm, MM),
-                ],
-            )?;
-            let force = vector(place, "force", &[choice("force_n", l.force_n, 1.0)])?;
-            if l.force_n.is_none() && l.moment_n_m.is_none() && l.moment_n_mm.is_none() {
-                return Err(Finding::new(
-                    place,
-                    "the wrench has neither force nor moment",
-                    "write force_n, moment_n_m or moment_n_mm",
-                ));
-            }
-            let wrench = Wrench::new(force, moment);
+            let wrench = wrench(place, l.force_n, l.moment_n_m, l.moment_n_mm)?;
             Ok(match l.axes {
                 WrenchAxes::Base => Load::dead(node, wrench),
                 WrenchAxes::Node => Load::follower(node, wrench),
             })
         }
-        LoadTable::Spring(l) => {
-            let stiffness = [
-                choice("stiffness_n_per_m", l.stiffness_n_per_m, 1.0),
-                choice("stiffness_n_per_mm", l.stiffness_n_per_mm, 1.0 / MM),
-            ];
-            let free = [
-                choice("free_length_mm", l.free_length_mm, MM),
-                choice("free_length_m", l.free_length_m, 1.0),
-            ];
-            let free = need(place, "free length", &free)?;
-            if free.value < 0.0 {
-                return Err(Finding::new(
-                    &place.key(free.key),
-                    format!("the free length is {} m, which is below zero", free.value),
-                    "a spring that pulls even at length zero has free length 0 and a preload",
-                ));
-            }
-            let law = LengthLaw::Linear {
-                stiffness: positive(place, "stiffness", &stiffness)?.value,
-                free_length: free.value,
-                preload: l.preload_n.unwrap_or(0.0),
-            };
-            between(&l.from, &l.to, law)
-        }
-        LoadTable::GasSpring(l) => {
-            let length = [
-                choice("length_mm", l.length_mm, MM),
-                choice("length_m", l.length_m, 1.0),
-            ];
-            let column = [
-                choice("column_mm", l.column_mm, MM),
-                choice("column_m", l.column_m, 1.0),
-            ];
-            let given = |key, what, value| positive(place, what, &[choice(key, Some(value), 1.0)]);
-            let law = LengthLaw::Gas {
-                force: given("force_n", "push", l.force_n)?.value,
-                length: positive(place, "length", &length)?.value,
-                column: positive(place, "column of gas", &column)?.value,
-                exponent: given("exponent", "exponent", l.exponent)?.value,
-            };
-            between(&l.from, &l.to, law)
-        }
+        LoadTable::Spring(l) => between(&l.from, &l.to, spring_law(place, l)?),
+        LoadTable::GasSpring(l) => between(&l.from, &l.to, gas_law(place, l)?),
         LoadTable::ConstantTension(l) => between(
             &l.from,
             &l.to,
@@ -224,11 +329,9 @@ fn node(place: &Place, name: &str, chain: &Chain) -> Found<usize> {
     chain.node(name).map_err(unknown)
 }
 
-fn point(place: &Place, anchor: &schema::Anchor) -> Found<Vector3<f64>> {
-    let written = [
-        choice("position_mm", anchor.position_mm, MM),
-        choice("position_m", anchor.position_m, 1.0),
-    ];
+fn point(place: &Place, end: &impl End) -> Found<Vector3<f64>> {
+    let (_, mm, m) = end.written();
+    let written = [choice("position_mm", mm, MM), choice("position_m", m, 1.0)];
     vector(place, "position", &written)
 }
 

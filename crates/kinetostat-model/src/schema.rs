@@ -18,8 +18,8 @@ pub use crate::schema_element::{
     ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
 };
 pub use crate::schema_load::{
-    Anchor, ConstantTensionLoad, CounterweightLoad, GasSpringLoad, LoadTable, SpringLoad,
-    WrenchAxes, WrenchLoad,
+    Anchor, ConstantTensionLoad, CounterweightLoad, GasSpringLoad, LoadTable, PlatformAxes,
+    PlatformLoadTable, PlatformPoint, PlatformWrench, SpringLoad, WrenchAxes, WrenchLoad,
 };
 
 /// The version of the format that this crate reads and writes.
@@ -53,6 +53,10 @@ pub struct Document {
     /// Chains between two platforms.
     #[schemars(length(min = 1, max = 256))]
     pub limb: Vec<LimbTable>,
+    /// What pulls and pushes on platforms: wrenches, and springs between bodies of different limbs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 256))]
+    pub load: Vec<PlatformLoadTable>,
     /// Errors of manufacture and assembly: the actual geometry where it differs from the nominal.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 2000))]

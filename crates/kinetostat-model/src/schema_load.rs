@@ -44,18 +44,219 @@ pub struct Anchor {
     pub position_m: Option<[f64; 3]>,
 }
 
-impl Anchor {
+/// An end of something between two points.
+pub trait End {
+    /// Name of what carries it, the point in mm, the point in m.
+    fn written(&self) -> (&str, Option<[f64; 3]>, Option<[f64; 3]>);
+
+    /// `'flange' at (1, 2, 3) mm`.
     fn in_words(&self) -> String {
-        let place = match self.node.as_str() {
+        let (name, mm, m) = self.written();
+        let place = match name {
             "base" => "the base".to_owned(),
             name => format!("'{name}'"),
         };
-        let point = [(self.position_mm, "mm"), (self.position_m, "m")];
+        let point = [(mm, "mm"), (m, "m")];
         let mut point = point.iter().filter_map(|(p, unit)| Some(((*p)?, unit)));
         match point.next() {
             Some(([x, y, z], unit)) => format!("{place} at ({x}, {y}, {z}) {unit}"),
             None => place,
         }
+    }
+}
+
+impl End for Anchor {
+    fn written(&self) -> (&str, Option<[f64; 3]>, Option<[f64; 3]>) {
+        (&self.node, self.position_mm, self.position_m)
+    }
+}
+
+/// A point of a platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlatformPoint {
+    /// Name of a platform, or 'base' for the machine's fixed base.
+    pub platform: String,
+    /// The point in the platform's frame, mm; its origin if not given.
+    pub position_mm: Option<[f64; 3]>,
+    /// The point in the platform's frame, m.
+    pub position_m: Option<[f64; 3]>,
+}
+
+impl End for PlatformPoint {
+    fn written(&self) -> (&str, Option<[f64; 3]>, Option<[f64; 3]>) {
+        (&self.platform, self.position_mm, self.position_m)
+    }
+}
+
+/// A load on platforms, between any two of them or on one, whatever limbs they belong to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PlatformLoadTable {
+    /// Force and moment on one platform.
+    Wrench(PlatformWrench),
+    /// Spring between points of two platforms.
+    Spring(SpringLoad<PlatformPoint>),
+    /// Gas spring between points of two platforms.
+    GasSpring(GasSpringLoad<PlatformPoint>),
+    /// The same pull at every length between points of two platforms.
+    ConstantTension(ConstantTensionLoad<PlatformPoint>),
+}
+
+/// Axes in which the components of a wrench on a platform stay constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PlatformAxes {
+    /// Base axes: the wrench keeps its direction while the machine moves (dead).
+    Base,
+    /// Axes of the platform: the wrench turns with it (follower). Not conservative.
+    Platform,
+}
+
+/// Force and moment on a platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-word" = "wrench"))]
+pub struct PlatformWrench {
+    /// Name of the load, unique among those on platforms.
+    pub wrench: String,
+    /// Name of the platform.
+    pub platform: String,
+    /// 'base': constant in base axes, as a weight is; 'platform': constant in the platform's axes, so
+    /// that it turns with it.
+    pub axes: PlatformAxes,
+    /// Point at which the force acts, in the platform's frame, mm; its origin if not given.
+    pub position_mm: Option<[f64; 3]>,
+    /// Point at which the force acts, in the platform's frame, m.
+    pub position_m: Option<[f64; 3]>,
+    /// Force, N.
+    pub force_n: Option<[f64; 3]>,
+    /// Moment about that point, N m.
+    pub moment_n_m: Option<[f64; 3]>,
+    /// Moment about that point, N mm.
+    pub moment_n_mm: Option<[f64; 3]>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+impl PlatformLoadTable {
+    /// The word that says what the load is.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Wrench(_) => "wrench",
+            Self::Spring(_) => "spring",
+            Self::GasSpring(_) => "gas_spring",
+            Self::ConstantTension(_) => "constant_tension",
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Wrench(l) => &l.wrench,
+            Self::Spring(l) => &l.spring,
+            Self::GasSpring(l) => &l.gas_spring,
+            Self::ConstantTension(l) => &l.constant_tension,
+        }
+    }
+
+    /// What it does, in a sentence without its name.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        match self {
+            Self::Wrench(l) => {
+                let wrench = wrench_in_words(l.force_n, l.moment_n_m, l.moment_n_mm);
+                let axes = match l.axes {
+                    PlatformAxes::Base => "in base axes, keeps its direction",
+                    PlatformAxes::Platform => "in the axes of its platform, turns with it",
+                };
+                let at = PlatformPoint {
+                    platform: l.platform.clone(),
+                    position_mm: l.position_mm,
+                    position_m: l.position_m,
+                };
+                format!("{wrench} on {} {axes}", at.in_words())
+            }
+            Self::Spring(l) => l.in_words(),
+            Self::GasSpring(l) => l.in_words(),
+            Self::ConstantTension(l) => l.in_words(),
+        }
+    }
+
+    /// Platforms it is fixed to, each with the keys that lead to its name.
+    pub(crate) fn places(&self) -> Vec<(&'static [&'static str], &str)> {
+        fn ends<'a>(
+            from: &'a PlatformPoint,
+            to: &'a PlatformPoint,
+        ) -> Vec<(&'static [&'static str], &'a str)> {
+            vec![
+                (&["from", "platform"], from.platform.as_str()),
+                (&["to", "platform"], to.platform.as_str()),
+            ]
+        }
+        match self {
+            Self::Wrench(l) => vec![(&["platform"], l.platform.as_str())],
+            Self::Spring(l) => ends(&l.from, &l.to),
+            Self::GasSpring(l) => ends(&l.from, &l.to),
+            Self::ConstantTension(l) => ends(&l.from, &l.to),
+        }
+    }
+}
+
+fn one(list: &[(Option<f64>, &str)]) -> String {
+    let mut given = list.iter().filter_map(|(v, unit)| Some((((*v)?), unit)));
+    given
+        .next()
+        .map_or_else(String::new, |(v, unit)| format!("{v} {unit}"))
+}
+
+fn wrench_in_words(
+    force_n: Option<[f64; 3]>,
+    moment_n_m: Option<[f64; 3]>,
+    moment_n_mm: Option<[f64; 3]>,
+) -> String {
+    let triple =
+        |v: Option<[f64; 3]>, unit: &str| v.map(|[x, y, z]| format!("({x}, {y}, {z}) {unit}"));
+    let force = triple(force_n, "N").map(|t| format!("force {t}"));
+    let moment = triple(moment_n_m, "N m").or(triple(moment_n_mm, "N mm"));
+    let moment = moment.map(|t| format!("moment {t}"));
+    let parts: Vec<String> = force.into_iter().chain(moment).collect();
+    parts.join(" and ")
+}
+
+impl<A: End> SpringLoad<A> {
+    fn in_words(&self) -> String {
+        let stiffness = one(&[
+            (self.stiffness_n_per_m, "N/m"),
+            (self.stiffness_n_per_mm, "N/mm"),
+        ]);
+        let free = one(&[(self.free_length_mm, "mm"), (self.free_length_m, "m")]);
+        let preload = match self.preload_n {
+            None | Some(0.0) => format!("no force at {free}"),
+            Some(pull) => format!("{pull} N at {free}"),
+        };
+        let (from, to) = (self.from.in_words(), self.to.in_words());
+        format!("spring of {stiffness} from {from} to {to}, {preload}")
+    }
+}
+
+impl<A: End> GasSpringLoad<A> {
+    fn in_words(&self) -> String {
+        let length = one(&[(self.length_mm, "mm"), (self.length_m, "m")]);
+        let (from, to) = (self.from.in_words(), self.to.in_words());
+        let push = self.force_n;
+        format!("gas spring from {from} to {to}, pushes with {push} N at {length}")
+    }
+}
+
+impl<A: End> ConstantTensionLoad<A> {
+    fn in_words(&self) -> String {
+        let (from, to) = (self.from.in_words(), self.to.in_words());
+        format!("pull of {} N between {from} and {to}", self.tension_n)
     }
 }
 
@@ -83,18 +284,18 @@ pub struct WrenchLoad {
     pub assumption: Option<String>,
 }
 
-/// Spring between two points of the limb, or between one and the base: a compensator. It pulls with
+/// Spring between two points of the limb, of one and the base, or of two platforms: a compensator. It pulls with
 /// `preload + stiffness * (length - free length)`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-word" = "spring"))]
-pub struct SpringLoad {
-    /// Name of the load, unique in the limb.
+pub struct SpringLoad<A = Anchor> {
+    /// Name of the load, unique in the limb or among those on platforms.
     pub spring: String,
     /// One end.
-    pub from: Anchor,
+    pub from: A,
     /// The other end.
-    pub to: Anchor,
+    pub to: A,
     /// Stiffness, N/m.
     pub stiffness_n_per_m: Option<f64>,
     /// Stiffness, N/mm.
@@ -112,18 +313,18 @@ pub struct SpringLoad {
     pub assumption: Option<String>,
 }
 
-/// Gas spring between two points of the limb, or between one and the base. Pressed in by `s` it
+/// Gas spring between two points of the limb, of one and the base, or of two platforms. Pressed in by `s` it
 /// pushes with `force * (column / (column - s))^exponent`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-word" = "gas_spring"))]
-pub struct GasSpringLoad {
-    /// Name of the load, unique in the limb.
+pub struct GasSpringLoad<A = Anchor> {
+    /// Name of the load, unique in the limb or among those on platforms.
     pub gas_spring: String,
     /// One end.
-    pub from: Anchor,
+    pub from: A,
     /// The other end.
-    pub to: Anchor,
+    pub to: A,
     /// Push at the length that is given, N.
     pub force_n: f64,
     /// Length at which it pushes with that force (usually extended), mm.
@@ -147,13 +348,13 @@ pub struct GasSpringLoad {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-word" = "constant_tension"))]
-pub struct ConstantTensionLoad {
-    /// Name of the load, unique in the limb.
+pub struct ConstantTensionLoad<A = Anchor> {
+    /// Name of the load, unique in the limb or among those on platforms.
     pub constant_tension: String,
     /// One end.
-    pub from: Anchor,
+    pub from: A,
     /// The other end.
-    pub to: Anchor,
+    pub to: A,
     /// Pull between the ends, N; negative pushes.
     pub tension_n: f64,
     /// Where the figures come from.
@@ -207,48 +408,18 @@ impl LoadTable {
     /// What it does, in a sentence without its name: `spring of 5 N/mm from the base at ...`.
     #[must_use]
     pub fn in_words(&self) -> String {
-        let one = |list: &[(Option<f64>, &str)]| -> String {
-            let mut given = list.iter().filter_map(|(v, unit)| Some((((*v)?), unit)));
-            given
-                .next()
-                .map_or_else(String::new, |(v, unit)| format!("{v} {unit}"))
-        };
         match self {
             Self::Wrench(l) => {
-                let triple = |v: Option<[f64; 3]>, unit: &str| {
-                    v.map(|[x, y, z]| format!("({x}, {y}, {z}) {unit}"))
-                };
-                let force = triple(l.force_n, "N").map(|t| format!("force {t}"));
-                let moment = triple(l.moment_n_m, "N m").or(triple(l.moment_n_mm, "N mm"));
-                let moment = moment.map(|t| format!("moment {t}"));
-                let parts: Vec<String> = force.into_iter().chain(moment).collect();
+                let wrench = wrench_in_words(l.force_n, l.moment_n_m, l.moment_n_mm);
                 let axes = match l.axes {
                     WrenchAxes::Base => "in base axes, keeps its direction",
                     WrenchAxes::Node => "in the axes of its node, turns with it",
                 };
-                format!("{} on '{}' {axes}", parts.join(" and "), l.node)
+                format!("{wrench} on '{}' {axes}", l.node)
             }
-            Self::Spring(l) => {
-                let stiffness =
-                    one(&[(l.stiffness_n_per_m, "N/m"), (l.stiffness_n_per_mm, "N/mm")]);
-                let free = one(&[(l.free_length_mm, "mm"), (l.free_length_m, "m")]);
-                let preload = match l.preload_n {
-                    None | Some(0.0) => format!("no force at {free}"),
-                    Some(pull) => format!("{pull} N at {free}"),
-                };
-                let (from, to) = (l.from.in_words(), l.to.in_words());
-                format!("spring of {stiffness} from {from} to {to}, {preload}")
-            }
-            Self::GasSpring(l) => {
-                let length = one(&[(l.length_mm, "mm"), (l.length_m, "m")]);
-                let (from, to) = (l.from.in_words(), l.to.in_words());
-                let push = l.force_n;
-                format!("gas spring from {from} to {to}, pushes with {push} N at {length}")
-            }
-            Self::ConstantTension(l) => {
-                let (from, to) = (l.from.in_words(), l.to.in_words());
-                format!("pull of {} N between {from} and {to}", l.tension_n)
-            }
+            Self::Spring(l) => l.in_words(),
+            Self::GasSpring(l) => l.in_words(),
+            Self::ConstantTension(l) => l.in_words(),
             Self::Counterweight(l) => format!("{} kg at {}", l.mass_kg, l.at.in_words()),
         }
     }

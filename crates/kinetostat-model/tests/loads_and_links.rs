@@ -1,8 +1,8 @@
 //! Loads and links of a model file are those that the core builds from the same numbers in SI.
 
 use kinetostat::{
-    Anchor, BeamSection, LengthLaw, LinkConvention, LinkSpec, Load, MechanismEquilibrium, Pose,
-    SpringLaw, Wrench,
+    Anchor, BeamSection, LengthLaw, LinkConvention, LinkSpec, Load, MechanismEquilibrium,
+    PlatformLoad, Pose, SpringLaw, Wrench,
 };
 use kinetostat_model::{Model, preset_text};
 use nalgebra::{Matrix6, Rotation3, Unit, Vector3, vector};
@@ -399,5 +399,164 @@ fn the_compensator_carries_the_shoulder() {
             without.limbs[0].actuator_forces[k],
         );
         assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+    }
+}
+
+/// An arm of two parts with a platform between them; `loads` act on platforms.
+fn two_parts(loads: &str) -> String {
+    format!(
+        r#"
+schema = 1
+[mechanism]
+name = "arm of two parts"
+gravity_m_per_s2 = [0, 0, -9.81]
+[[platform]]
+name = "elbow"
+home = {{ position_mm = [600, 0, 0] }}
+mass_kg = 4
+[[platform]]
+name = "tool"
+home = {{ position_mm = [1200, 0, 0] }}
+[section.tube]
+tube = {{ outer_diameter_mm = 60, inner_diameter_mm = 50 }}
+youngs_modulus_gpa = 70
+shear_modulus_gpa = 26
+[chain.part]
+elements = [
+  {{ actuator = "revolute", name = "drive", axis = "-y", stiffness_n_m_per_rad = 2e5 }},
+  {{ link = "tube", length_mm = 600, name = "boom" }},
+]
+[[limb]]
+name = "upper"
+from = "base"
+to = "elbow"
+chain = "part"
+[[limb]]
+name = "fore"
+from = "elbow"
+to = "tool"
+chain = "part"
+{loads}
+"#
+    )
+}
+
+const ON_PLATFORMS: &str = r#"
+[[load]]
+spring = "compensator"
+from = { platform = "base", position_mm = [0, 0, 500] }
+to = { platform = "tool", position_mm = [-200, 10, 40] }
+stiffness_n_per_mm = 4
+free_length_mm = 750
+preload_n = 30
+[[load]]
+gas_spring = "strut"
+from = { platform = "elbow", position_m = [-0.1, 0, 0.1] }
+to = { platform = "tool" }
+force_n = 300
+length_mm = 800
+column_mm = 1500
+exponent = 1.2
+[[load]]
+constant_tension = "rope"
+from = { platform = "elbow" }
+to = { platform = "base", position_mm = [0, 200, 900] }
+tension_n = 80
+[[load]]
+wrench = "hose"
+platform = "elbow"
+position_mm = [20, 0, 30]
+axes = "base"
+force_n = [0, 5, -12]
+[[load]]
+wrench = "jet"
+platform = "tool"
+axes = "platform"
+force_n = [0, 7, 0]
+moment_n_mm = [500, 0, 100]
+"#;
+
+#[test]
+fn loads_on_platforms_are_the_core_s() {
+    let model = model(&two_parts(ON_PLATFORMS));
+    let linear = LengthLaw::Linear {
+        stiffness: 4e3,
+        free_length: 0.75,
+        preload: 30.0,
+    };
+    let gas = LengthLaw::Gas {
+        force: 300.0,
+        length: 0.8,
+        column: 1.5,
+        exponent: 1.2,
+    };
+    let zero = Vector3::zeros();
+    let expected = [
+        PlatformLoad::strut(
+            (0, vector![0.0, 0.0, 0.5]),
+            (2, vector![-0.2, 0.01, 0.04]),
+            linear,
+        ),
+        PlatformLoad::strut((1, vector![-0.1, 0.0, 0.1]), (2, zero), gas),
+        PlatformLoad::strut(
+            (1, zero),
+            (0, vector![0.0, 0.2, 0.9]),
+            LengthLaw::Constant { tension: 80.0 },
+        ),
+        PlatformLoad::Wrench {
+            platform: 1,
+            point: vector![0.02, 0.0, 0.03],
+            wrench: Wrench::new(vector![0.0, 5.0, -12.0], zero),
+            turns: false,
+        },
+        PlatformLoad::Wrench {
+            platform: 2,
+            point: zero,
+            wrench: Wrench::new(vector![0.0, 7.0, 0.0], vector![0.5, 0.0, 0.1]),
+            turns: true,
+        },
+    ];
+    assert_eq!(model.mechanism.platform_loads(), expected);
+    // They act: the compensator and the rope lift the arm.
+    let home = model.mechanism.platforms()[2].home;
+    let bare = self::model(&two_parts(""));
+    let rest = |model: &Model| {
+        let posture = model.mechanism.posture(&home).expect("reachable");
+        let e = posture.deflected_by(&Wrench::zero()).expect("it rests");
+        e.displacement.linear().z
+    };
+    assert!(rest(&model) > rest(&bare));
+    // Written again, it is the same machine.
+    let again = model.to_toml().expect("a document");
+    assert_eq!(self::model(&again).document, model.document);
+    let words: Vec<String> = model.document.load.iter().map(|l| l.in_words()).collect();
+    assert!(words[0].starts_with("spring of 4 N/mm from the base at (0, 0, 500) mm to 'tool'"));
+    assert!(words[4].contains("turns with it"), "{}", words[4]);
+}
+
+#[test]
+fn loads_on_platforms_that_do_not_fit_are_refused_in_words() {
+    for (written, replaced, words) in [
+        ("platform = \"tool\", pos", "platform = \"tol\", pos", "tol"),
+        (
+            "platform = \"elbow\"\nposition",
+            "platform = \"base\"\nposition",
+            "does not move",
+        ),
+        ("\"rope\"", "\"strut\"", "already"),
+        ("wrench = \"jet\"", "wrench = \"hose\"", "already"),
+        ("free_length_mm = 750", "free_length_mm = -1", "below zero"),
+        (
+            "from = { platform = \"elbow\" }",
+            "from = { platform = \"base\" }",
+            "does nothing",
+        ),
+        ("axes = \"platform\"", "axes = \"node\"", "axes"),
+    ] {
+        let text = two_parts(ON_PLATFORMS);
+        assert!(text.contains(written), "{written}");
+        let text = text.replacen(written, replaced, 1);
+        let refused = Model::from_toml(&text, "model.toml").expect_err(replaced);
+        assert!(refused.to_string().contains(words), "{refused}");
     }
 }

@@ -13,6 +13,15 @@ use serde::{Deserialize, Serialize};
 /// `2 [K11; K22, K26; K44 + d^2 c^2 K22/4, d^2 sin(2 q2) K22/8; d^2 c^2 K11/4; K66 + d^2 s^2 K22/4]`.
 /// `q2` is the one of the commanded posture: the block's matrix is constant while the machine
 /// bends about that posture.
+///
+/// Unloaded the link is its two bars exactly. Displaced, it lacks the part of the bars' geometric
+/// stiffness that tells two bars from one: they incline by different angles when the far beam turns
+/// (by `-+ psi d sin(q2) / (2 L)` for a turn `psi` about the pivots' axis, which under a tension `N`
+/// stiffens that turn by `N d^2 sin^2(q2) / (4 L)`), and carry different axial forces on ends that
+/// turn differently. So the difference of wrenches grows with the square of the displacement, that of
+/// stiffnesses with the load; where it matters, write the two bars as limbs between platforms. The
+/// test `a_loaded_parallelogram_differs_by_the_geometric_stiffness_of_its_bars` holds that there is
+/// nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParallelogramLaw {
     /// Stiffness of one bar at its distal end, 6 x 6, cantilever (N/m, N/rad, N m/rad).
