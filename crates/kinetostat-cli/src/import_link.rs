@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_links::{
     Condensed, DIRECTIONS, Error, FreeTest, Grade, Identified, Judgement, Nodes, Question,
-    SYMMETRIC_TO, Superelement, Text, Units, axes_from, condense, free_test, identify, in_n_mm,
-    judge, read_displacements, read_loads, read_matrix, read_nodes, read_superelement,
+    SYMMETRIC_TO, Superelement, Text, Tie, Units, axes_from, condense, free_test, identify,
+    in_n_mm, judge, read_displacements, read_loads, read_matrix, read_nodes, read_superelement,
     stiffness_table, symmetrised, unit_loads,
 };
 use nalgebra::{Matrix6, Rotation3, Vector3};
@@ -149,6 +149,10 @@ fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matri
         },
         end: args.end_mm.as_deref().map(metres),
         axes: axes(&args.mesh)?,
+        tie: match args.averaged {
+            true => Tie::Averaged,
+            false => Tie::Rigid,
+        },
     };
     let share = element.antisymmetric_share;
     if share > SYMMETRIC_TO && !args.symmetrise {
@@ -163,12 +167,16 @@ fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matri
     tell_reduction(&element, &found, &free, &question, told);
     let end = found.end * 1e3;
     let source = format!(
-        "{} ({}), end at {:.3}, {:.3}, {:.3} mm of its mesh, interface rigid",
+        "{} ({}), end at {:.3}, {:.3}, {:.3} mm of its mesh, interface {}",
         file_name(&args.file),
         element.format,
         end.x,
         end.y,
-        end.z
+        end.z,
+        match question.tie {
+            Tie::Averaged => "averaged",
+            Tie::Rigid => "rigid",
+        }
     );
     Ok((found.stiffness, source))
 }
@@ -191,7 +199,12 @@ fn tell_reduction(
     );
     told.row(
         "condensed",
-        format!("{tied} tied to the end, {fixed} fixed, {inside} inside"),
+        match question.tie {
+            Tie::Rigid => format!("{tied} tied to the end, {fixed} fixed, {inside} inside"),
+            Tie::Averaged => {
+                format!("{tied} averaged at the end, {fixed} fixed, {inside} inside")
+            }
+        },
     );
     told.row("rigid body", free.words());
     let end = found.end * 1e3;

@@ -28,8 +28,8 @@ Exit codes:
 ///
 /// Writes a table [stiffness.NAME] for a model file. A 6 x 6 says its units in its header. A matrix of
 /// many degrees of freedom (Nastran DMIG, CalculiX .sti or .mtx, Harwell-Boeing) is condensed: the nodes
-/// of --interface become one rigid body at the link's end, those of --fixed are held. What is not a
-/// stiffness is refused in words.
+/// of --interface become one rigid body at the link's end (or move it by their average), those of --fixed
+/// are held. What is not a stiffness is refused in words.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = MATRIX_HELP)]
 pub(crate) struct MatrixArgs {
@@ -48,6 +48,10 @@ pub(crate) struct MatrixArgs {
     /// Nodes of the end that is held; none if the matrix is of a link held already
     #[arg(long, value_name = "NODES", requires = "interface")]
     pub(crate) fixed: Option<String>,
+    /// The interface may warp: the end moves by the average of its nodes and spreads its load over them
+    /// (RBE3); without it they are tied rigidly (RBE2)
+    #[arg(long, requires = "interface")]
+    pub(crate) averaged: bool,
     /// The link's end in the mesh, mm; the middle of the interface's nodes without it
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number, requires = "interface")]
     pub(crate) end_mm: Option<Vec<f64>>,
@@ -64,7 +68,8 @@ pub(crate) struct MatrixArgs {
 ///
 /// FILE has the columns case,node,x_mm,y_mm,z_mm,ux_mm,uy_mm,uz_mm (units mm, m; displacements also um),
 /// or is the .dat file of CalculiX with one step per case. A rigid motion is fitted to the nodes in
-/// each case; the compliance, how sure it is and what of it is not symmetric are told.
+/// each case, the interface may warp (an averaged interface); the compliance, how sure it is and what of
+/// it is not symmetric are told.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct DisplacementsArgs {

@@ -1,8 +1,14 @@
 //! From a matrix of many degrees of freedom to the 6 x 6 stiffness of one interface, the other fixed.
 //!
-//! The nodes of the interface are tied to a rigid body (a rigid spider) whose point is the link's end;
+//! The nodes of the interface are tied to a rigid body (a rigid spider, RBE2) whose point is the link's end;
 //! the nodes of the other interface are fixed; everything else follows without load (static
 //! condensation [Guyan1965]): `K = G^T K_bb G - (K_ib G)^T K_ii^-1 (K_ib G)`, `G` the spider.
+//!
+//! An averaged interface (RBE3) may warp: its motion is the rigid one that fits the displacements of its
+//! nodes best, `A u` with `A = (G^T G)^-1 G^T`, and a load of the end acts on the nodes as `A^T w`, so
+//! that `K^-1 = A K_uu^-1 A^T` with every node of the interface free. That is never stiffer than the
+//! rigid one. Every node counts alike, so that a coarse mesh gives way a little under its spread load.
+//! [`crate::identify`] takes the average of a table of displacements by the same fit.
 
 use std::collections::BTreeSet;
 
@@ -14,6 +20,16 @@ use crate::interface::{RigidRank, rigid_rank};
 use crate::nodes::Nodes;
 use crate::superelement::Superelement;
 use crate::units::Units;
+
+/// How the nodes of an interface hang on the link's end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tie {
+    /// As on a rigid body (RBE2): a bolted flange, a cast-in bearing.
+    #[default]
+    Rigid,
+    /// By their average, loads spread over them (RBE3): an interface that its neighbour lets warp.
+    Averaged,
+}
 
 /// What is asked of a superelement.
 #[derive(Clone, Debug)]
@@ -28,6 +44,8 @@ pub struct Question {
     pub end: Option<Vector3<f64>>,
     /// The link's axes in the file's: `file = axes * link`.
     pub axes: Rotation3<f64>,
+    /// How the nodes of the interface hang on the end.
+    pub tie: Tie,
 }
 
 /// The stiffness of an interface.
@@ -116,13 +134,18 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
         .iter()
         .any(|d| interface.contains(&d.node) && d.direction > 3);
     let rank = rigid_rank(&places);
-    if !turns && rank.rank < 6 {
+    let averaged = question.tie == Tie::Averaged;
+    if (!turns || averaged) && rank.rank < 6 {
         return Err(fault(
             format!(
                 "the interface's nodes hold {} of 6 motions: {}",
                 rank.rank, rank.words
             ),
-            "take all nodes of a face, or a node with rotations",
+            if averaged {
+                "an average needs three nodes that lie on no line: take all nodes of a face, or tie them rigidly"
+            } else {
+                "take all nodes of a face, or a node with rotations"
+            },
         ));
     }
     let scale: Vec<f64> = element
@@ -165,6 +188,10 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
     for (i, dof) in element.dofs.iter().enumerate() {
         if spider[i].is_some() {
             counts[0] += 1;
+            if averaged {
+                inner[i] = count;
+                count += 1;
+            }
         } else if fixed.contains(&dof.node) {
             counts[1] += 1;
         } else {
@@ -179,7 +206,8 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
     for &(i, j, value) in &element.entries {
         let (i, j) = (i as usize, j as usize);
         let value = value * scale[i] * scale[j];
-        match (&spider[i], &spider[j]) {
+        let of = |i: usize| spider[i].as_ref().filter(|_| !averaged);
+        match (of(i), of(j)) {
             (Some(a), Some(b)) => {
                 own += value * a * b.transpose();
                 if i != j {
@@ -197,29 +225,21 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
     }
     let mut least_pivot = 1.0;
     if count > 0 {
-        let factor = Factor::new(count as usize, &inside).map_err(|e| match e {
-            NoFactor::TooLarge(size) => fault(
-                format!("the direct solution needs {size} numbers, at most {} are held", crate::envelope::MOST_ENVELOPE),
-                "let the program condense it to the interfaces first (*SUBSTRUCTURE GENERATE, superelement)",
-            ),
-            NoFactor::NotHeld(row, share) => {
-                let at = inner.iter().position(|&i| i as usize == row).map(|i| element.dofs[i].to_string());
-                let at = at.unwrap_or_default();
-                if share < -1e-6 {
-                    fault(
-                        format!("the matrix is not positive definite inside: at node.direction {at} elimination leaves {share:.2e} of the diagonal entry"),
-                        "this is no stiffness of a body without load: check signs, and that it is not a mass matrix",
-                    )
-                } else {
-                    fault(
-                        format!("nothing holds the inside of the link: at node.direction {at} elimination leaves nothing"),
-                        "a part is loose, or neither interface touches it; fix the other interface",
-                    )
-                }
-            }
-        })?;
+        let factor =
+            Factor::new(count as usize, &inside).map_err(|e| not_solved(&e, element, &inner))?;
         least_pivot = factor.least_pivot;
-        for c in 0..6 {
+        if averaged {
+            let rows = averages(element, &index, &places, (&middle, rank.size), &inner);
+            own = of_average(&factor, &rows, count as usize)
+                .and_then(|c| moved_to(&c, &(end - middle)).try_inverse())
+                .ok_or_else(|| {
+                    fault(
+                        "the averaged interface has no stiffness of six directions".into(),
+                        "check that the link hangs together and that the other interface is fixed",
+                    )
+                })?;
+        }
+        for c in 0..if averaged { 0 } else { 6 } {
             let b: Vec<f64> = right.column(c).iter().copied().collect();
             let x = factor.solve(&b);
             for r in 0..6 {
@@ -241,6 +261,101 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
         rank,
         least_pivot,
     })
+}
+
+/// Why the inside could not be solved for.
+fn not_solved(error: &NoFactor, element: &Superelement, inner: &[u32]) -> Error {
+    let fault = |message: String, help: &str| Error::new(&element.file, message, help);
+    match *error {
+        NoFactor::TooLarge(size) => fault(
+            format!(
+                "the direct solution needs {size} numbers, at most {} are held",
+                crate::envelope::MOST_ENVELOPE
+            ),
+            "let the program condense it to the interfaces first (*SUBSTRUCTURE GENERATE, superelement)",
+        ),
+        NoFactor::NotHeld(row, share) => {
+            let at = inner
+                .iter()
+                .position(|&i| i as usize == row)
+                .map_or_else(String::new, |i| element.dofs[i].to_string());
+            if share < -1e-6 {
+                fault(
+                    format!(
+                        "the matrix is not positive definite inside: at node.direction {at} elimination leaves {share:.2e} of the diagonal entry"
+                    ),
+                    "this is no stiffness of a body without load: check signs, and that it is not a mass matrix",
+                )
+            } else {
+                fault(
+                    format!(
+                        "nothing holds the inside of the link: at node.direction {at} elimination leaves nothing"
+                    ),
+                    "a part is loose, or neither interface touches it; fix the other interface",
+                )
+            }
+        }
+    }
+}
+
+/// `A^T` of an averaged interface: for each translation of its nodes, the row of the unknown and the
+/// force on it by unit loads at the middle of the nodes (N, N m).
+fn averages(
+    element: &Superelement,
+    interface: &[u64],
+    places: &[Vector3<f64>],
+    (middle, size): (&Vector3<f64>, f64),
+    inner: &[u32],
+) -> Vec<(usize, Vector6<f64>)> {
+    // Rotations in units of the interface's size keep the normal equations well-conditioned.
+    let unit = Vector6::new(1.0, 1.0, 1.0, 1.0 / size, 1.0 / size, 1.0 / size);
+    let mut rows: Vec<(usize, Vector6<f64>)> = Vec::new();
+    for (i, dof) in element.dofs.iter().enumerate() {
+        let (Ok(at), 1..=3) = (interface.binary_search(&dof.node), dof.direction) else {
+            continue;
+        };
+        let d = usize::from(dof.direction) - 1;
+        let map = crate::interface::spider(&places[at..=at], middle);
+        let row = map.row(d).transpose();
+        let row = Vector6::from_column_slice(row.as_slice()).component_mul(&unit);
+        rows.push((inner[i] as usize, row));
+    }
+    let gram: Matrix6<f64> = rows.iter().map(|(_, s)| s * s.transpose()).sum();
+    let inverse = gram.try_inverse().unwrap_or_else(Matrix6::zeros);
+    for (_, s) in &mut rows {
+        *s = (inverse * *s).component_mul(&unit);
+    }
+    rows
+}
+
+/// `A K_uu^-1 A^T`, compliance of the average.
+fn of_average(
+    factor: &Factor,
+    rows: &[(usize, Vector6<f64>)],
+    count: usize,
+) -> Option<Matrix6<f64>> {
+    let mut compliance = Matrix6::zeros();
+    for c in 0..6 {
+        let mut load = vec![0.0; count];
+        for (row, s) in rows {
+            load[*row] += s[c];
+        }
+        let moved = factor.solve(&load);
+        for (row, s) in rows {
+            let mut column = compliance.column_mut(c);
+            column += s * moved[*row];
+        }
+    }
+    compliance
+        .iter()
+        .all(|x: &f64| x.is_finite())
+        .then_some(compliance)
+}
+
+/// A compliance at a point `arm` further on.
+fn moved_to(compliance: &Matrix6<f64>, arm: &Vector3<f64>) -> Matrix6<f64> {
+    let shift = kinetostat::shift_matrix(arm);
+    shift * compliance * shift.transpose()
 }
 
 fn add(right: &mut DMatrix<f64>, row: usize, value: f64, spider: &Vector6<f64>) {

@@ -35,7 +35,7 @@ mod taper;
 mod text;
 mod units;
 
-pub use condense::{Condensed, FreeTest, Question, condense, free_test};
+pub use condense::{Condensed, FreeTest, Question, Tie, condense, free_test};
 pub use displacements::{LoadTable, read_displacements, read_loads, unit_loads};
 pub use envelope::MOST_ENVELOPE;
 pub use error::{Error, Result};

@@ -151,7 +151,7 @@ pub(crate) fn as_built(own: &Own<'_>, parts: &[(usize, Part)]) -> Found<AsBuilt>
                 Misfit::Longer(by) => {
                     // A link in its own axes ends in a turn back from them.
                     let link =
-                        k > 0 && matches!(&parts[k - 1].1, Part::Link(name, _) if name == at);
+                        k > 0 && matches!(&parts[k - 1].1, Part::Link(name, ..) if name == at);
                     let along = match link {
                         true => Vector3::x(),
                         false => offset.translation.vector,

@@ -27,8 +27,8 @@ pub(crate) enum Part {
     /// Stiffness; then the deflections at rest and at home.
     Spring(String, MotionKind, Vector3<f64>, f64, [f64; 2]),
     Spring6(String, Box<Matrix6<f64>>, [f64; 6]),
-    /// Along local x, with its offset.
-    Link(String, Box<LinkSpec>),
+    /// Along local x, with its offset; stiffnesses of its segments where they differ.
+    Link(String, Box<LinkSpec>, Option<Vec<Matrix6<f64>>>),
     /// Matrix in the frame reached, offset from near to far end (written before it).
     LinkSpring(String, Box<Matrix6<f64>>, Vector3<f64>),
     Parallelogram(String, f64, f64, Box<Matrix6<f64>>, f64),
@@ -51,7 +51,8 @@ impl Part {
                 .spring(name, *kind, *axis, *stiffness, *rest)
                 .home(name, *home),
             Self::Spring6(name, matrix, rest) => builder.spring6(name, matrix, *rest),
-            Self::Link(name, spec) => builder.link_with(name, spec),
+            Self::Link(name, spec, None) => builder.link_with(name, spec),
+            Self::Link(name, spec, Some(pieces)) => builder.link_of_pieces(name, spec, pieces),
             Self::LinkSpring(name, matrix, offset) => builder.link_spring(name, matrix, offset),
             Self::Parallelogram(name, length, width, bar, home) => {
                 builder.parallelogram(name, *length, *width, bar, *home)
@@ -72,7 +73,7 @@ impl Part {
             Self::Spring6(name, ..) | Self::LinkSpring(name, ..) => {
                 six.iter().map(|d| format!("{name}.{d}")).collect()
             }
-            Self::Link(name, spec) => (1..=spec.segments)
+            Self::Link(name, spec, _) => (1..=spec.segments)
                 .flat_map(|k| {
                     let own = match spec.segments {
                         1 => name.clone(),
@@ -235,10 +236,11 @@ fn link(
         true => UnitQuaternion::from_rotation_matrix(&frame_along(&axis)),
         false => UnitQuaternion::identity(),
     };
+    let mut pieces = None;
     let spec = match elasticity {
         Elasticity::Section(section) => LinkSpec::beam(section, length),
         Elasticity::Beam(beam) => {
-            beam.divided(place, segments)?;
+            pieces = beam.pieces(place, length, segments)?;
             LinkSpec::matrix(beam.cantilever(place, length)?, length)
         }
         Elasticity::Matrix(matrix) => {
@@ -252,7 +254,7 @@ fn link(
     if slanted {
         parts.push(Part::Rigid(None, turned(turn)));
     }
-    parts.push(Part::Link(name.clone(), Box::new(spec)));
+    parts.push(Part::Link(name.clone(), Box::new(spec), pieces));
     parts.push(Part::Rigid(Some(name), turned(turn.inverse())));
     Ok(parts)
 }

@@ -33,16 +33,29 @@ impl Beam {
         .map_err(|e| Finding::new(place, e.message, e.help))
     }
 
-    /// A tapered link cannot be divided like a uniform one.
-    pub(crate) fn divided(&self, place: &Place, segments: u32) -> Found<()> {
-        if segments > 1 && self.root != self.tip {
-            return Err(Finding::new(
-                &place.key("segments"),
-                "a tapered link is not divided into segments",
-                "write several links, each with the sections at its ends, or leave segments out",
-            ));
+    /// Stiffnesses of equal pieces from the root on, each at its far end; none where all are alike.
+    pub(crate) fn pieces(
+        &self,
+        place: &Place,
+        length: f64,
+        segments: u32,
+    ) -> Found<Option<Vec<Matrix6<f64>>>> {
+        if segments == 1 || self.root == self.tip {
+            return Ok(None);
         }
-        Ok(())
+        let at = |k: u32| {
+            let share = f64::from(k) / f64::from(segments);
+            self.root.towards(&self.tip, share).unwrap_or(self.root)
+        };
+        let piece = |k: u32| {
+            let own = Self {
+                root: at(k),
+                tip: at(k + 1),
+                ..*self
+            };
+            own.cantilever(place, length / f64::from(segments))
+        };
+        (0..segments).map(piece).collect::<Found<_>>().map(Some)
     }
 }
 

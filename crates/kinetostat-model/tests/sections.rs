@@ -1,9 +1,13 @@
 //! Sections by shape, shear, taper and materials in model files: against the matrices that
 //! `kinetostat-links` (tested against closed forms) gives for the same numbers.
 
+use kinetostat::{
+    ChainProblem, CurveSettings, EndCondition, Judged, LoadPattern, Pose, Prescribed, Wrench,
+    critical_load_factor,
+};
 use kinetostat_links::{Shape, Shear, cantilever, in_n_mm};
 use kinetostat_model::Model;
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Vector3};
 
 fn model(link: &str, tables: &str) -> String {
     format!(
@@ -76,6 +80,20 @@ fn shapes_shear_taper_and_materials() {
         &format!("[section.boom]\n{taper}"),
     );
     same(&up, &wanted(&root, &tip, Shear::Timoshenko));
+    // Divided, unloaded, it is the same link, by every convention that is exact without segments.
+    for convention in [
+        "bowing",
+        "translations_first",
+        "rotations_first",
+        "middle",
+        "exponential",
+    ] {
+        let divided = stiffness(
+            &format!("{BOOM}, segments = 5, convention = \"{convention}\""),
+            &format!("[section.boom]\n{taper}"),
+        );
+        same(&divided, &wanted(&root, &tip, Shear::Timoshenko));
+    }
     // Timoshenko's beam in four segments is the same beam, unloaded.
     let four = stiffness(
         &format!("{BOOM}, segments = 4"),
@@ -108,10 +126,69 @@ fn what_is_wrong_is_told() {
         (BOOM, format!("{steel}round = {{ diameter_mm = 50 }}\ntip = {{ rectangle = {{ width_mm = 5, height_mm = 5 }} }}"), "same kind"),
         (BOOM, format!("{steel}round = {{ diameter_mm = 50 }}\ntip = {{ }}"), "far end has no shape"),
         (BOOM, "rigidities = { axial_n = 1e8, bending_y_n_m2 = 1e4, bending_z_n_m2 = 1e4, torsion_n_m2 = 1e4 }\nshear = \"timoshenko\"".to_owned(), "need a shape"),
-        ("link = \"boom\", length_mm = 500, segments = 3", format!("{steel}round = {{ diameter_mm = 50 }}\ntip = {{ round = {{ diameter_mm = 30 }} }}"), "not divided"),
     ] {
         let written = model(link, &format!("[section.boom]\n{keys}"));
         let error = Model::from_toml(&written, "arm.toml").expect_err(needle).to_string();
         assert!(error.contains(needle), "'{needle}' is not in {error}");
+    }
+}
+
+/// A solid cone between pinned ends buckles at `pi^2 E sqrt(I_root I_tip) / L^2`: with the second moment
+/// growing with the fourth power of the distance `x` from the apex, `y = x sin(k / x)` solves
+/// `E I y'' + P y = 0` exactly.
+#[test]
+fn a_tapered_column_in_segments_buckles_where_the_closed_form_says() {
+    let (root, tip, length) = (0.04_f64, 0.02_f64, 1.0_f64);
+    let second_moment = |d: f64| std::f64::consts::PI * d.powi(4) / 64.0;
+    let wanted =
+        std::f64::consts::PI.powi(2) * 210e9 * (second_moment(root) * second_moment(tip)).sqrt()
+            / length.powi(2);
+    let mut errors = Vec::new();
+    for segments in [4, 8, 16] {
+        let text = format!(
+            r#"schema = 1
+[mechanism]
+name = "column"
+[[platform]]
+name = "tool"
+home = {{ position_mm = [1000, 0, 0] }}
+[section.cone]
+round = {{ diameter_mm = 40 }}
+tip = {{ round = {{ diameter_mm = 20 }} }}
+youngs_modulus_gpa = 210
+poissons_ratio = 0.3
+[chain.column]
+elements = [
+  {{ passive = "revolute", name = "foot", axis = "z" }},
+  {{ link = "cone", name = "cone", length_mm = 1000, segments = {segments} }},
+  {{ passive = "revolute", name = "head", axis = "z" }},
+]
+[[limb]]
+name = "column"
+from = "base"
+to = "tool"
+chain = "column"
+"#
+        );
+        let model = Model::from_toml(&text, "column.toml").unwrap_or_else(|e| panic!("{e}"));
+        let chain = &model.mechanism.limbs()[0].actual;
+        // Held everywhere but along x, where it is pressed.
+        let mut end = EndCondition::pose(Pose::translation(length, 0.0, 0.0));
+        end.prescribed[0] = Prescribed::Wrench;
+        let problem = ChainProblem::new(chain, end);
+        let pattern = LoadPattern {
+            end: Wrench::new(-Vector3::x(), Vector3::zeros()),
+            loads: Vec::new(),
+        };
+        let settings = CurveSettings::within(0.0, 1.0);
+        let found = critical_load_factor(&problem, &pattern, Judged::Shape, &settings)
+            .unwrap_or_else(|e| panic!("{e}"));
+        let load = found.linear.expect("a critical load");
+        errors.push(load / wanted - 1.0);
+    }
+    // Fourth order in the pieces, as for a uniform column.
+    assert!(errors[2].abs() < 2e-5, "{errors:?}");
+    for k in 1..errors.len() {
+        assert!(errors[k].abs() < errors[k - 1].abs() / 12.0, "{errors:?}");
     }
 }

@@ -196,7 +196,33 @@ impl ChainBuilder {
     ///
     /// A link of one segment has the spring `name`, one of several has `name.1`, `name.2` and so on.
     #[must_use]
-    pub fn link_with(mut self, name: &str, spec: &LinkSpec) -> Self {
+    pub fn link_with(self, name: &str, spec: &LinkSpec) -> Self {
+        self.link_in_pieces(name, spec, |_| spec.segment_stiffness())
+    }
+
+    /// As [`ChainBuilder::link_with`] for a link that changes along its way: `pieces` are the stiffnesses
+    /// of its equal segments, from the root on, each at the segment's far end with its near end clamped,
+    /// 6 x 6 (N/m, N/rad, N m/m, N m/rad), axes of the link. `whole` has the link's own matrix, length
+    /// and convention; its number of segments is that of the pieces. Every piece bends like a uniform
+    /// beam of its stiffness; the buckling load of a cone converges with the fourth power of the pieces.
+    ///
+    /// A fault where there is no piece, or a matrix is no stiffness of a piece.
+    #[must_use]
+    pub fn link_of_pieces(self, name: &str, whole: &LinkSpec, pieces: &[Matrix6<f64>]) -> Self {
+        let whole = whole.segments(pieces.len());
+        let of = |k: usize| {
+            let piece = LinkSpec::matrix(pieces[k], whole.piece());
+            piece.convention(whole.convention).segment_stiffness()
+        };
+        self.link_in_pieces(name, &whole, of)
+    }
+
+    fn link_in_pieces(
+        mut self,
+        name: &str,
+        spec: &LinkSpec,
+        of: impl Fn(usize) -> Result<Matrix6<f64>, String>,
+    ) -> Self {
         let length = spec.length;
         if !(length.is_finite() && length > 0.0) {
             self.fault(format!(
@@ -210,28 +236,33 @@ impl ChainBuilder {
             ));
             return self;
         }
-        let matrix = match spec.segment_stiffness() {
-            Ok(matrix) => matrix,
-            Err(reason) => {
-                self.fault(format!("link '{name}': {reason}"));
-                return self;
-            }
-        };
+        let bending_stiffness = spec.bending_stiffness();
         let h = spec.piece();
-        let linear = || SpringLaw::Linear(nalgebra::DMatrix::from_fn(6, 6, |i, j| matrix[(i, j)]));
-        let exponential = |length| SpringLaw::Logarithm(Box::new(LogarithmLaw { matrix, length }));
-        let (law, share, rotations_first) = match spec.convention {
-            LinkConvention::Bowing => {
-                let law = BowingLaw { matrix, length: h };
-                (SpringLaw::Bowing(Box::new(law)), 1.0, false)
+        let law_of = |matrix: Matrix6<f64>| {
+            let linear =
+                || SpringLaw::Linear(nalgebra::DMatrix::from_fn(6, 6, |i, j| matrix[(i, j)]));
+            let exponential =
+                |length| SpringLaw::Logarithm(Box::new(LogarithmLaw { matrix, length }));
+            match spec.convention {
+                LinkConvention::Bowing => {
+                    let law = BowingLaw { matrix, length: h };
+                    (SpringLaw::Bowing(Box::new(law)), 1.0, false)
+                }
+                LinkConvention::TranslationsFirst => (linear(), 1.0, false),
+                LinkConvention::RotationsFirst => (linear(), 1.0, true),
+                LinkConvention::Middle => (linear(), 0.5, false),
+                LinkConvention::Exponential => (exponential(0.0), 1.0, false),
+                LinkConvention::ConstantStrain => (exponential(h), 1.0, false),
             }
-            LinkConvention::TranslationsFirst => (linear(), 1.0, false),
-            LinkConvention::RotationsFirst => (linear(), 1.0, true),
-            LinkConvention::Middle => (linear(), 0.5, false),
-            LinkConvention::Exponential => (exponential(0.0), 1.0, false),
-            LinkConvention::ConstantStrain => (exponential(h), 1.0, false),
         };
         for k in 1..=spec.segments {
+            let (law, share, rotations_first) = match of(k - 1) {
+                Ok(matrix) => law_of(matrix),
+                Err(reason) => {
+                    self.fault(format!("link '{name}': {reason}"));
+                    return self;
+                }
+            };
             let own = if spec.segments == 1 {
                 name.to_owned()
             } else {
@@ -242,13 +273,13 @@ impl ChainBuilder {
                 &own,
                 &[0, 1, 2, 3, 4, 5],
                 rotations_first,
-                law.clone(),
+                law,
                 vec![0.0; 6],
             );
             self.last_spring_is(Segment {
                 link: name.to_owned(),
                 link_length: length,
-                bending_stiffness: spec.bending_stiffness(),
+                bending_stiffness,
                 along: Vector3::x(),
             });
             if share < 1.0 {

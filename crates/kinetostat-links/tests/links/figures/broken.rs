@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use kinetostat_links::{
-    Nodes, Question, Result, Text, Units, condense, identify, read_displacements, read_loads,
+    Nodes, Question, Result, Text, Tie, Units, condense, identify, read_displacements, read_loads,
     read_matrix, read_nodes, read_superelement, unit_loads,
 };
 use nalgebra::{Rotation3, Vector3};
@@ -190,6 +190,7 @@ fn questions_that_the_matrix_cannot_answer() {
             fixed: fixed.to_vec(),
             end: None,
             axes: Rotation3::identity(),
+            tie: Tie::Rigid,
         };
         condense(&k, &Nodes::default(), &question)
             .expect_err("refused")
@@ -226,6 +227,7 @@ fn questions_that_the_matrix_cannot_answer() {
             fixed: vec![],
             end: None,
             axes: Rotation3::identity(),
+            tie: Tie::Rigid,
         };
         let words = condense(&k, &Nodes::default(), &question)
             .expect_err("refused")
@@ -299,7 +301,7 @@ proptest! {
             for companion in [None, Some(&dofs)] {
                 if let Ok(k) = read_superelement(&text, companion, None) {
                     let _ = kinetostat_links::free_test(&k, &Nodes::default(), n_mm());
-                    let question = Question { units: n_mm(), interface: vec![5], fixed: vec![6], end: None, axes: Rotation3::identity() };
+                    let question = Question { units: n_mm(), interface: vec![5], fixed: vec![6], end: None, axes: Rotation3::identity(), tie: Tie::Rigid };
                     let _ = condense(&k, &Nodes::default(), &question);
                 }
             }

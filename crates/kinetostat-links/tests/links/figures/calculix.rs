@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use kinetostat_links::{
-    Dof, Nodes, Question, SYMMETRIC_TO, Shape, Shear, Superelement, Text, Units, cantilever,
+    Dof, Nodes, Question, SYMMETRIC_TO, Shape, Shear, Superelement, Text, Tie, Units, cantilever,
     condense, free_test, identify, judge, read_displacements, read_nodes, read_superelement,
     unit_loads,
 };
@@ -101,6 +101,7 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
         fixed: nodes.named("ROOT").expect("set"),
         end: Some(end),
         axes: Rotation3::identity(),
+        tie: Tie::Rigid,
     };
     let whole =
         read_superelement(&read("matrix.sti"), Some(&read("matrix.dof")), None).expect("matrix");
@@ -142,6 +143,24 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
         2.0,
         "% of the diagonal",
     );
+    // An end that may warp, with the load on its nodes alike, is softer in every direction.
+    let averaged = Question {
+        tie: Tie::Averaged,
+        ..question.clone()
+    };
+    let averaged = condense(&whole, &nodes, &averaged)
+        .expect("condensed")
+        .stiffness;
+    let softer = |i: usize| 100.0 * (1.0 - averaged[(i, i)] / found[(i, i)]);
+    let shares: Vec<f64> = (0..6).map(softer).collect();
+    println!("averaged interface softer than the rigid one by {shares:.3?} %");
+    at_most(
+        "ccx: averaged interface against the rigid one, softer by",
+        shares.iter().fold(0.0, |m, x| m.max(*x)),
+        6.0,
+        "% of a diagonal entry",
+    );
+    assert!(shares.iter().all(|s| *s > 0.0), "{shares:?}");
     // Without contraction (nu 0) the stretch is exact and bending nearly so: that was the difference.
     let matrix = fs::read_to_string(folder.0.join("matrix.inp"))
         .expect("input")

@@ -2,7 +2,7 @@
 
 use kinetostat::BeamSection;
 use kinetostat_links::{
-    Nodes, Question, SYMMETRIC_TO, Superelement, Text, Units, condense, free_test, judge,
+    Nodes, Question, SYMMETRIC_TO, Superelement, Text, Tie, Units, condense, free_test, judge,
     read_nodes, read_superelement,
 };
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, Vector3};
@@ -21,6 +21,7 @@ fn question(interface: &[u64], fixed: &[u64]) -> Question {
         fixed: fixed.to_vec(),
         end: None,
         axes: Rotation3::identity(),
+        tie: Tie::Rigid,
     }
 }
 
@@ -313,6 +314,84 @@ fn a_spider_over_translations_is_the_sum_of_its_springs() {
         error.contains("5 of 6") && error.contains("one line"),
         "{error}"
     );
+}
+
+/// Nodes on springs of their own: tied rigidly the springs work side by side, averaged their
+/// compliances are averaged: `C = A diag(1/k) A^T` by hand, and never stiffer.
+#[test]
+fn an_averaged_interface_averages_compliances() {
+    let places = [
+        [0.0, 10.0, 10.0],
+        [0.0, -10.0, 10.0],
+        [0.0, -10.0, -10.0],
+        [0.0, 10.0, -10.0],
+    ];
+    let nodes: String = places
+        .iter()
+        .enumerate()
+        .map(|(n, p)| format!("{},{},{},{}\n", n + 1, p[0], p[1], p[2]))
+        .collect();
+    let mesh = format!("node,x_mm,y_mm,z_mm\n{nodes}");
+    let nodes = read_nodes(&text("mesh.csv", &mesh), n_mm()).expect("nodes");
+    let with = |springs: &[f64; 4], tie: Tie, end: Vector3<f64>| {
+        let mut pairs = String::new();
+        for (n, k) in springs.iter().enumerate() {
+            for d in 1..=3 {
+                pairs += &format!("{0},{d},{0},{d},{k}\n", n + 1);
+            }
+        }
+        let element = read_superelement(&text("k.mtx", &pairs), None, None).expect("matrix");
+        let mut asked = question(&[1, 2, 3, 4], &[]);
+        asked.end = Some(end);
+        asked.tie = tie;
+        condense(&element, &nodes, &asked)
+            .expect("condensed")
+            .stiffness
+    };
+    let uneven = [1e3, 2e3, 4e3, 8e3];
+    let c = with(&uneven, Tie::Averaged, Vector3::zeros())
+        .try_inverse()
+        .expect("regular");
+    // A square of half side a = 10 mm: along x the mean of four, 1/16 of the sum of 1/k; about x each node
+    // carries a quarter of m / (2 a^2) times its arm; about y and z m / (4 a).
+    let sum: f64 = uneven.iter().map(|k| 1e-3 / k).sum();
+    let a: f64 = 0.01;
+    for (i, wanted) in [
+        (0, sum / 16.0),
+        (1, sum / 16.0),
+        (2, sum / 16.0),
+        (3, 2.0 * a * a * sum / (8.0 * a * a).powi(2)),
+        (4, sum / (4.0 * a).powi(2)),
+        (5, sum / (4.0 * a).powi(2)),
+    ] {
+        assert!(
+            (c[(i, i)] / wanted - 1.0).abs() < 1e-12,
+            "{i}: {} {wanted}",
+            c[(i, i)]
+        );
+    }
+    for end in [Vector3::zeros(), Vector3::new(0.3, -0.1, 0.05)] {
+        // Equal springs: both ties say the same.
+        let one = with(&[5e3; 4], Tie::Averaged, end);
+        let other = with(&[5e3; 4], Tie::Rigid, end);
+        assert!(apart(&one, &other) < 1e-10, "{}", apart(&one, &other));
+        // Uneven ones: softer in every direction.
+        let less = with(&uneven, Tie::Rigid, end) - with(&uneven, Tie::Averaged, end);
+        let unit = with(&uneven, Tie::Rigid, end).diagonal().map(f64::sqrt);
+        let balanced = Matrix6::from_fn(|i, j| less[(i, j)] / unit[i] / unit[j]);
+        let least = balanced.symmetric_eigenvalues().min();
+        assert!(least > -1e-9, "{least}");
+        assert!(balanced.symmetric_eigenvalues().max() > 0.1);
+    }
+    // Two nodes have no average rotation about their line.
+    let pairs = "1,1,1,1,1\n1,2,1,2,1\n1,3,1,3,1\n2,1,2,1,1\n2,2,2,2,1\n2,3,2,3,1\n";
+    let element = read_superelement(&text("k.mtx", pairs), None, None).expect("matrix");
+    let mut asked = question(&[1, 2], &[]);
+    asked.tie = Tie::Averaged;
+    let error = condense(&element, &nodes, &asked)
+        .expect_err("a line")
+        .to_string();
+    assert!(error.contains("average needs three nodes"), "{error}");
 }
 
 #[test]
