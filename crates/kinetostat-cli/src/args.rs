@@ -183,6 +183,9 @@ pub(crate) struct CheckArgs {
     /// Preset or model file
     #[arg(value_name = "MODEL")]
     pub(crate) model: String,
+    /// Load on the tool by which deflections are judged, N, base axes; 1 kN along each axis without it
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true)]
+    pub(crate) force: Option<Vec<f64>>,
     /// Print the findings as JSON; the text goes to the standard error
     #[arg(long)]
     pub(crate) json: bool,

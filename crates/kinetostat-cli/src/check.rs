@@ -3,19 +3,23 @@
 
 use std::path::Path;
 
-use kinetostat_model::Model;
+use kinetostat_model::{Model, Problem};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::along;
 use crate::args::CheckArgs;
+use crate::check_assumptions::AssumptionsFinding;
 use crate::check_home::{HomeFinding, at_home};
 use crate::check_limbs::{LimbFinding, LoadFinding, limb, platform_loads};
+use crate::check_reach::ReachFinding;
 use crate::check_words::in_words;
 use crate::failure::Answer;
 use crate::input::Files;
 use crate::machine::deviations_in_words;
 use crate::overcome::load_names;
 use crate::screen::{self, Stream};
+use crate::setting::vector;
 
 /// Findings, stable names with units.
 #[derive(Serialize)]
@@ -34,6 +38,9 @@ pub(crate) struct Findings {
     pub(crate) mass_kg: f64,
     pub(crate) deviations: Vec<String>,
     pub(crate) home: Option<HomeFinding>,
+    pub(crate) reach: Option<ReachFinding>,
+    /// Scale of stiffness, and whether the method's assumptions hold at home.
+    pub(crate) assumptions: Option<AssumptionsFinding>,
     /// Why nothing could be solved at home.
     pub(crate) home_problem: Option<String>,
     pub(crate) warnings: Vec<String>,
@@ -54,8 +61,10 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
         Some(_) => args.model.clone(),
         None => format!("preset {}", args.model),
     };
-    let findings = findings(&model, source);
-    let text = in_words(&findings, &model);
+    let force = args.force.as_deref().map(|f| vector("--force", f));
+    let force = force.transpose()?;
+    let findings = findings(&model, source, force);
+    let text = in_words(&findings, &model, force.is_some());
     if args.json {
         screen::print(Stream::Err, &text)?;
         return screen::print_bytes(along::json(&findings)?.as_bytes());
@@ -63,7 +72,7 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     screen::print(Stream::Out, &text)
 }
 
-fn findings(model: &Model, source: String) -> Findings {
+fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findings {
     let m = &model.mechanism;
     let home = m.platforms()[m.tool()].home;
     let posture = m.posture(&home);
@@ -71,11 +80,14 @@ fn findings(model: &Model, source: String) -> Findings {
     let solved = posture
         .as_ref()
         .map_err(ToString::to_string)
-        .and_then(|p| at_home(m, p, &mut limbs, &load_names(model)));
-    let (home, home_problem) = match solved {
-        Ok(found) => (Some(found), None),
-        Err(reason) => (None, Some(reason)),
+        .and_then(|p| at_home(m, p, force, &mut limbs, &load_names(model)));
+    let (home, assumptions, home_problem) = match solved {
+        Ok((home, assumptions)) => (Some(home), Some(assumptions), None),
+        Err(reason) => (None, None, Some(reason)),
     };
+    let reach = posture.as_ref().ok().map(crate::check_reach::reach);
+    let mut warnings: Vec<String> = model.warnings.iter().map(told).collect();
+    warnings.extend(assumptions.iter().flat_map(|a| a.warnings.clone()));
     Findings {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -102,14 +114,21 @@ fn findings(model: &Model, source: String) -> Findings {
         loads: platform_loads(model),
         deviations: deviations_in_words(model),
         home,
+        reach,
+        assumptions,
         home_problem,
-        warnings: model
-            .warnings
-            .iter()
-            .map(|w| match w.line {
-                Some(line) => format!("line {line}: {}; {}", w.message, w.help),
-                None => format!("{}; {}", w.message, w.help),
-            })
-            .collect(),
+        warnings,
+    }
+}
+
+/// A warning with its file and line.
+fn told(problem: &Problem) -> String {
+    let help = match problem.help.as_str() {
+        "" => String::new(),
+        help => format!("; {help}"),
+    };
+    match problem.line {
+        Some(line) => format!("{}:{line}: {}{help}", problem.file, problem.message),
+        None => format!("{}: {}{help}", problem.file, problem.message),
     }
 }

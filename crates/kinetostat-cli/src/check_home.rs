@@ -1,10 +1,15 @@
 //! A machine at home: mobility, what holds it, what its own loads do.
 
-use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, Posture, Wrench};
+use kinetostat::{
+    DirectionKind, Kinematics, Mechanism, MechanismEquilibrium, Posture, Role, Wrench,
+};
+use nalgebra::{DMatrix, Vector3};
 use serde::Serialize;
 
 use crate::check::Findings;
+use crate::check_assumptions::{AssumptionsFinding, assumptions};
 use crate::check_limbs::{LimbFinding, counted};
+use crate::check_reach;
 use crate::overcome::{Overcome, overcome};
 use crate::screen::{fixed, item, number, triple};
 use crate::stiffness::{Principal, principal, principals, what_moves};
@@ -13,7 +18,15 @@ use crate::stiffness::{Principal, principal, principals, what_moves};
 pub(crate) struct HomeFinding {
     pub(crate) mobility: usize,
     pub(crate) actuators: usize,
-    pub(crate) degrees_of_over_constraint: Option<usize>,
+    pub(crate) degrees_of_over_constraint: usize,
+    /// Sets of wrenches by which the limbs can strain each other without any load, about each
+    /// limb's tip in base axes.
+    pub(crate) over_constraints: Vec<String>,
+    /// Independent ways in which actuators can move while the tool stays.
+    pub(crate) redundant_motions: usize,
+    /// Joints that move while both ends of their limb stay: `limb: joint`.
+    pub(crate) redundant_actuators: Vec<String>,
+    pub(crate) redundant_passive_joints: Vec<String>,
     pub(crate) correctable_directions: Vec<&'static str>,
     pub(crate) stiffness_rank: usize,
     pub(crate) principal_directions: Vec<Principal>,
@@ -45,11 +58,11 @@ const DIRECTIONS: [&str; 6] = [
 pub(crate) fn at_home(
     m: &Mechanism,
     posture: &Posture<'_>,
+    force: Option<Vector3<f64>>,
     limbs: &mut [LimbFinding],
     load_names: &[Vec<String>],
-) -> Result<HomeFinding, String> {
+) -> Result<(HomeFinding, AssumptionsFinding), String> {
     let stiffness = posture.stiffness().map_err(|e| e.to_string())?;
-    let mut held = 0;
     for (i, found) in limbs.iter_mut().enumerate() {
         let k = &stiffness.limbs[i];
         found
@@ -57,18 +70,34 @@ pub(crate) fn at_home(
             .clone_from(&k.redundant_passive);
         found.stiffness_rank = Some(k.rank);
         found.constrained_directions = alone(m, posture, i);
-        held += k.rank + k.count(DirectionKind::Rigid);
     }
     let mobility = posture.mobility().ncols();
     let correctable = posture.correctable();
     let rest = posture
         .deflected_by(&Wrench::zero())
         .map_err(|e| e.to_string())?;
-    Ok(HomeFinding {
+    let over = posture.overconstraint();
+    let assumptions = assumptions(posture, &rest, force);
+    let home = HomeFinding {
         mobility,
         actuators: m.actuator_count(),
-        // What the limbs hold beyond what the tool needs: they strain each other there.
-        degrees_of_over_constraint: Some(held.saturating_sub(stiffness.rank())),
+        degrees_of_over_constraint: over.degree,
+        over_constraints: over
+            .stresses
+            .iter()
+            .map(|s| fight(&s.in_words(posture)))
+            .collect(),
+        redundant_motions: posture.redundancy(),
+        redundant_actuators: (0..limbs.len())
+            .flat_map(|i| redundant_actuators(m, posture, i))
+            .collect(),
+        redundant_passive_joints: limbs
+            .iter()
+            .flat_map(|l| {
+                let joints = l.redundant_passive_joints.iter();
+                joints.map(|j| format!("{}: {j}", l.name))
+            })
+            .collect(),
         correctable_directions: DIRECTIONS
             .iter()
             .zip(correctable)
@@ -86,7 +115,56 @@ pub(crate) fn at_home(
         overcome_joints: overcome(posture, &rest, load_names),
         conservative: rest.conservative,
         largest_buckling_margin: rest.margin().filter(|m| m.is_finite()),
-    })
+    };
+    Ok((home, assumptions))
+}
+
+/// A set of wrenches in balance: `leg x with a moment about x, against leg z with a moment about x`.
+fn fight(words: &str) -> String {
+    let limbs = words.split("; ").map(|part| match part.split_once(": ") {
+        Some((limb, wrench)) => {
+            let wrench = wrench
+                .replace("force", "a force")
+                .replace("moment", "a moment");
+            format!("{limb} with {wrench}")
+        }
+        None => part.to_owned(),
+    });
+    limbs.collect::<Vec<_>>().join(", against ")
+}
+
+/// Actuators of a limb that can move while both its ends stay, its passive joints following.
+fn redundant_actuators(m: &Mechanism, posture: &Posture<'_>, index: usize) -> Vec<String> {
+    let limb = &m.limbs()[index];
+    let (chain, joints) = (&limb.nominal, &posture.limbs()[index]);
+    let base = &posture.platforms()[limb.from];
+    let k = Kinematics::new(chain, base, &joints.coordinates, &joints.commands, false);
+    let all = k.jacobian(chain.tip());
+    let n = chain.coordinate_count();
+    let length = chain.scale().length;
+    let passive = chain.indices_of(Role::Passive).into_iter();
+    let own = (0..chain.actuators().len()).map(|a| n + a);
+    let columns: Vec<usize> = own.chain(passive).collect();
+    let count = columns.len();
+    if count == 0 {
+        return Vec::new();
+    }
+    let a = DMatrix::from_fn(6, count, |i, j| {
+        all[(i, columns[j])] * if i < 3 { 1.0 } else { length }
+    });
+    // Motions that leave the end where it is are the zero directions of the square.
+    let eigen = (a.transpose() * &a).symmetric_eigen();
+    let zero = 1e-12 * eigen.eigenvalues.amax();
+    let moves = |joint: usize| {
+        (0..count)
+            .filter(|&k| eigen.eigenvalues[k].abs() <= zero)
+            .any(|k| eigen.eigenvectors[(joint, k)].abs() > 1e-6)
+    };
+    let actuators = chain.actuators().iter().enumerate();
+    actuators
+        .filter(|(i, _)| moves(*i))
+        .map(|(_, a)| format!("{}: {}", limb.name, a.name))
+        .collect()
 }
 
 fn largest(e: &MechanismEquilibrium, size: impl Fn(&Wrench) -> f64) -> f64 {
@@ -112,18 +190,24 @@ fn alone(m: &Mechanism, posture: &Posture<'_>, index: usize) -> Option<usize> {
 pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
     let mut out = String::from("\nAt home\n");
     let over = match h.degrees_of_over_constraint {
-        Some(0) => {
-            "no over-constraint: deviations shift the tool without straining the limbs".to_owned()
-        }
-        Some(1) => "1 degree of over-constraint: deviations strain the limbs".to_owned(),
-        Some(n) => format!("{n} degrees of over-constraint: deviations strain the limbs"),
-        None => "over-constraint not counted for machines with several platforms".to_owned(),
+        0 => "no over-constraint: deviations shift the tool without straining the limbs".to_owned(),
+        1 => "1 degree of over-constraint: deviations strain the limbs".to_owned(),
+        n => format!("{n} degrees of over-constraint: deviations strain the limbs"),
     };
     out.push_str(&item(&format!(
         "mobility {} with {}; {over}",
         h.mobility,
         counted(h.actuators, "actuator")
     )));
+    out.push_str(&fights(&h.over_constraints));
+    out.push_str(&redundant(h));
+    out.push_str(&item(&match h.stiffness_rank {
+        6 => "rank 6: springs hold the tool in all directions".to_owned(),
+        rank => format!(
+            "rank {rank}: no spring holds the tool in {} of 6 directions (see the table below)",
+            6 - rank
+        ),
+    }));
     out.push_str(&item(&if h.mobility > h.actuators {
         format!(
             "{} of these motions no actuator holds",
@@ -138,12 +222,6 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
             }
         )
     }));
-    if h.stiffness_rank < 6 {
-        out.push_str(&item(&format!(
-            "no spring holds the tool in {} of 6 directions (see the table below)",
-            6 - h.stiffness_rank
-        )));
-    }
     let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
     let causes: Vec<&str> = [
         ("its deviations", !f.deviations.is_empty()),
@@ -210,6 +288,9 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
             "not conservative: a load on a limb has no potential, so that stability is judged by stiffness alone",
         ));
     }
+    if let Some(reach) = &f.reach {
+        out.push_str(&check_reach::in_words(reach));
+    }
     if !f.deviations.is_empty() {
         out.push_str("\nDeviations\n");
         for d in &f.deviations {
@@ -228,6 +309,58 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
             .iter()
             .filter(loose)
             .for_each(|p| out.push_str(&what_moves(p)));
+    }
+    out
+}
+
+/// Most sets of wrenches shown; the JSON has all.
+const FIGHTS: usize = 6;
+
+fn fights(list: &[String]) -> String {
+    let mut out = String::new();
+    for (i, one) in list.iter().take(FIGHTS).enumerate() {
+        out.push_str(&item(&format!("over-constraint {}: {one}", i + 1)));
+    }
+    if list.len() > FIGHTS {
+        out.push_str(&item(&format!(
+            "and {} more over-constraints; --json has them all",
+            list.len() - FIGHTS
+        )));
+    }
+    out
+}
+
+fn redundant(h: &HomeFinding) -> String {
+    let mut out = String::new();
+    let list = |names: &[String]| {
+        const NAMES: usize = 8;
+        let shown = names.iter().take(NAMES).cloned().collect::<Vec<_>>();
+        match names.len().saturating_sub(NAMES) {
+            0 => shown.join(", "),
+            more => format!("{} and {more} more", shown.join(", ")),
+        }
+    };
+    match (h.redundant_motions, h.redundant_actuators.as_slice()) {
+        (0, []) => {}
+        (0, names) => out.push_str(&item(&format!(
+            "can move while both ends of their limb stay: {}",
+            list(names)
+        ))),
+        (n, []) => out.push_str(&item(&format!(
+            "{n} of the actuators' motions leave the tool where it is (redundant, shared by several limbs): of all commands the ones nearest to home are taken"
+        ))),
+        (n, names) => out.push_str(&item(&format!(
+            "{n} of the actuators' motions leave the tool where it is (redundant): {} move then; of all commands those of least motion are taken",
+            list(names)
+        ))),
+    }
+    match h.redundant_passive_joints.as_slice() {
+        [] if out.is_empty() => out.push_str(&item("no joint is redundant")),
+        [] => {}
+        names => out.push_str(&item(&format!(
+            "redundant passive joints, which move while the ends of their limb are held: {}",
+            list(names)
+        ))),
     }
     out
 }

@@ -1,14 +1,16 @@
 //! Findings about a model in words, readable at 80 columns.
 
 use kinetostat_model::Model;
+use serde_json::Value;
 
 use crate::check::Findings;
+use crate::check_assumptions;
 use crate::check_home::home_in_words;
-use crate::check_limbs::{limb_in_words, load_in_words};
+use crate::check_limbs::{LimbFinding, limb_in_words, load_in_words};
 use crate::machine::short;
 use crate::screen::{item, number, triple, wrapped};
 
-pub(crate) fn in_words(f: &Findings, model: &Model) -> String {
+pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String {
     let mut out = wrapped(&format!("{} ({})", f.model, f.model_source), 0);
     if let Some(text) = &f.description {
         out.push_str(&wrapped(text, 0));
@@ -40,15 +42,27 @@ pub(crate) fn in_words(f: &Findings, model: &Model) -> String {
         out.push_str(&item(&text));
     }
     // Frames, zero posture and positive direction of each joint stand here (`check_frames`).
-    for l in &f.limbs {
-        out.push_str(&format!(
-            "\n{}",
-            wrapped(
-                &format!("Limb '{}', from '{}' to '{}'", l.name, l.from, l.to),
-                0
+    for group in alike(&f.limbs) {
+        let [first, rest @ ..] = group.as_slice() else {
+            continue;
+        };
+        let heading = if rest.is_empty() {
+            format!(
+                "Limb '{}', from '{}' to '{}'",
+                first.name, first.from, first.to
             )
-        ));
-        out.push_str(&limb_in_words(l));
+        } else {
+            let names: Vec<String> = group.iter().map(|l| format!("'{}'", l.name)).collect();
+            format!(
+                "{} limbs alike, from '{}' to '{}': {}",
+                group.len(),
+                first.from,
+                first.to,
+                names.join(", ")
+            )
+        };
+        out.push_str(&format!("\n{}", wrapped(&heading, 0)));
+        out.push_str(&limb_in_words(first));
     }
     if !f.loads.is_empty() {
         out.push_str("\nOn platforms\n");
@@ -66,9 +80,14 @@ pub(crate) fn in_words(f: &Findings, model: &Model) -> String {
             ),
             0,
         ));
+    } else {
+        out.push_str("\nNo masses in the model: weight is left out.\n");
     }
     if let Some(home) = &f.home {
         out.push_str(&home_in_words(f, home));
+    }
+    if let Some(assumptions) = &f.assumptions {
+        out.push_str(&check_assumptions::in_words(assumptions, force_given));
     }
     if let Some(problem) = &f.home_problem {
         out.push_str("\nAt home\n");
@@ -86,5 +105,40 @@ fn turned(v: [f64; 3]) -> String {
         "parallel to the base".to_owned()
     } else {
         format!("turned by the rotation vector {} deg", triple(v, short))
+    }
+}
+
+/// Limbs in groups of those that differ in nothing but their names, in the file's order.
+fn alike(limbs: &[LimbFinding]) -> Vec<Vec<&LimbFinding>> {
+    let mut groups: Vec<(Option<Value>, Vec<&LimbFinding>)> = Vec::new();
+    for limb in limbs {
+        let own = serde_json::to_value(limb).ok().map(plain);
+        match groups
+            .iter_mut()
+            .find(|(of, _)| own.is_some() && *of == own)
+        {
+            Some((_, group)) => group.push(limb),
+            None => groups.push((own, vec![limb])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// Without the limb's name, numbers rounded as they are shown.
+fn plain(mut value: Value) -> Value {
+    if let Value::Object(map) = &mut value {
+        map.remove("name");
+    }
+    rounded(value)
+}
+
+fn rounded(value: Value) -> Value {
+    match value {
+        Value::Number(n) => n
+            .as_f64()
+            .map_or(Value::Null, |x| Value::String(number(x, 6))),
+        Value::Array(list) => Value::Array(list.into_iter().map(rounded).collect()),
+        Value::Object(map) => map.into_iter().map(|(k, v)| (k, rounded(v))).collect(),
+        other => other,
     }
 }

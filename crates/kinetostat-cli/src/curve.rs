@@ -40,6 +40,8 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
     let mut answer: CurveAnswer =
         interruptible(move |stage| curve_answer::solve(&q, place, names, stage))?;
     answer.warnings.extend(spot.warnings.iter().cloned());
+    let near = spot.near_singular();
+    answer.warnings.extend(near.map(|n| n.in_words));
     let text = curve_table::in_words(&spot.heading(), &answer);
     targets.finish(
         &text,

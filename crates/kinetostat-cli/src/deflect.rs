@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench};
+use kinetostat_machining::NearSingular;
 use serde::Serialize;
 
 use crate::along::{self, Aim, Files as Targets, tell};
@@ -127,6 +128,8 @@ struct Deflection {
     rate_observed: Option<f64>,
     /// How far the loops are from closing; rotations at the machine's length.
     closure_mm: f64,
+    /// The nearest singular posture, where one is near.
+    near_singularity: Option<NearSingular>,
     warnings: Vec<String>,
 }
 
@@ -248,6 +251,8 @@ fn answer(
     let shift = loaded.displacement.linear() * 1e3;
     let turn = loaded.displacement.angular().map(f64::to_degrees);
     let mut warnings: Vec<String> = spot.warnings.clone();
+    let near_singularity = spot.near_singular();
+    warnings.extend(near_singularity.iter().map(|n| n.in_words.clone()));
     if loaded.platform.free > 0 {
         warnings.push(format!(
             "the machine has {} direction(s) without any stiffness here: see `kinetostat stiffness`",
@@ -324,6 +329,7 @@ fn answer(
         iterations: loaded.residual.iterations,
         rate_observed: loaded.residual.rate,
         closure_mm: 1e3 * loaded.residual.closure_m,
+        near_singularity,
         warnings,
     }
 }

@@ -38,6 +38,8 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
     let mut answer: EquilibriaAnswer =
         interruptible(move |stage| equilibria_answer::solve(&q, place, names, stage))?;
     answer.warnings.extend(spot.warnings.iter().cloned());
+    let near = spot.near_singular();
+    answer.warnings.extend(near.map(|n| n.in_words));
     let text = equilibria_table::in_words(&spot.heading(), &answer);
     targets.finish(
         &text,

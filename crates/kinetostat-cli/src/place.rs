@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
-use kinetostat_machining::straight_tool;
+use kinetostat_machining::{NearSingular, near_singular, straight_tool};
 use kinetostat_model::Model;
 use nalgebra::Vector3;
 
@@ -93,7 +93,7 @@ pub(crate) fn spot_of(
         } else {
             format!("{} mm along z of the flange", short(length))
         },
-        load_names: load_names(&read),
+        load_names: load_names(read),
         target,
         at_home: place.at.is_none(),
         wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),
@@ -114,6 +114,11 @@ impl Spot {
         let posture = self.mechanism.posture(&self.target)?;
         posture.within_limits()?;
         Ok(posture)
+    }
+
+    /// The singular posture near the place, if there is one.
+    pub(crate) fn near_singular(&self) -> Option<NearSingular> {
+        near_singular(&self.mechanism.posture(&self.target).ok()?)
     }
 
     pub(crate) fn asked(&self) -> PlaceAsked {

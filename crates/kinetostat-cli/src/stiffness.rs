@@ -4,6 +4,7 @@ use kinetostat::{
     CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, MotionKind,
     Role,
 };
+use kinetostat_machining::NearSingular;
 use nalgebra::Matrix6;
 use serde::Serialize;
 
@@ -42,6 +43,8 @@ struct Stiffness {
     negative_directions: usize,
     principal_directions: Vec<Principal>,
     limbs: Vec<LimbShare>,
+    /// The nearest singular posture, where one is near.
+    near_singularity: Option<NearSingular>,
     warnings: Vec<String>,
 }
 
@@ -151,6 +154,9 @@ fn answer(
     let count = |kind| directions.iter().filter(|d| d.kind == kind).count();
     let free = count(DirectionKind::Free);
     let held = free + count(DirectionKind::Rigid) < 6;
+    let near_singularity = spot.near_singular();
+    let near = near_singularity.iter().map(|n| n.in_words.clone());
+    let warnings = spot.warnings.iter().cloned().chain(near).collect();
     Stiffness {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -185,7 +191,8 @@ fn answer(
                 redundant_passive_joints: k.redundant_passive.clone(),
             })
             .collect(),
-        warnings: spot.warnings.clone(),
+        warnings,
+        near_singularity,
     }
 }
 

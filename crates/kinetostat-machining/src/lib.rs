@@ -5,6 +5,7 @@
 
 mod field;
 mod load;
+mod near;
 mod placement;
 mod result;
 mod run;
@@ -13,8 +14,10 @@ mod solve;
 
 pub use field::ModelField;
 pub use load::{CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
+pub use near::{NEAR_SINGULAR, NearKind, NearSingular, near_singular};
 pub use placement::Placement;
 pub use result::{
-    ActuatorColumn, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult, Summary,
+    ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
+    Summary,
 };
 pub use run::{Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words};

@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::near::NearSingular;
+
 /// Version of this structure; it changes when a name or a meaning changes.
 pub const RESULT_SCHEMA: u32 = 1;
 
@@ -21,6 +23,10 @@ pub struct RunResult {
     pub worst_points: Vec<PointResult>,
     /// Everything a person should know and did not ask for.
     pub warnings: Vec<String>,
+    /// Where the program comes nearest to a singular posture, of at most
+    /// [`Self::MAX_POSTURES`] places along it; none if no singular posture is near.
+    #[serde(default)]
+    pub near_singularity: Option<NearSingularPlace>,
     /// Points along the path, decimated to at most [`Self::MAX_POINTS`] for plots; `points.csv` has
     /// all of them. The worst points are always among them.
     pub points: Vec<PointResult>,
@@ -29,6 +35,20 @@ pub struct RunResult {
 impl RunResult {
     /// Most points that are kept for plots.
     pub const MAX_POINTS: usize = 4000;
+    /// Most places whose posture is compared with singular ones.
+    pub const MAX_POSTURES: usize = 64;
+}
+
+/// The place of a program that is nearest to a singular posture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NearSingularPlace {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// Distance, direction, and what happens there, base axes.
+    #[serde(flatten)]
+    pub posture: NearSingular,
 }
 
 /// What was asked of the run.

@@ -1,7 +1,7 @@
 //! A run over a program: deflections along it, the compensated program, and the proof from the
 //! written bytes.
 
-use kinetostat::{Error, Mechanism, MotionKind};
+use kinetostat::{Error, Mechanism, MotionKind, Posture};
 use kinetostat_program::{
     Corrected, Monitor, MoveKind, Path, Program, ReadOptions, WriteError, WriteOptions,
     verify_written, write_corrected,
@@ -10,9 +10,11 @@ use nalgebra::Vector3;
 
 use crate::field::{ModelField, in_words};
 use crate::load::{LoadAlongPath, ProgramLoad};
+use crate::near::near_singular;
 use crate::placement::Placement;
 use crate::result::{
-    ActuatorColumn, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult, Summary,
+    ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
+    Summary,
 };
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::in_chunks;
@@ -427,6 +429,17 @@ fn conclude(
             task.placement.scale
         ));
     }
+    let near_singularity = nearest_singular(task, sites);
+    if let Some(near) = &near_singularity {
+        let [x, y, z] = near.position_mm;
+        warnings.insert(
+            0,
+            format!(
+                "line {}, at X{x:.2} Y{y:.2} Z{z:.2} mm: {}",
+                near.line, near.posture.in_words
+            ),
+        );
+    }
     let worst = worst(&points);
     let mut result = RunResult {
         schema: RESULT_SCHEMA,
@@ -435,6 +448,7 @@ fn conclude(
         question,
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
         warnings,
+        near_singularity,
         points: Vec::new(),
     };
     let stride = points
@@ -452,6 +466,42 @@ fn conclude(
         points,
         written,
     }
+}
+
+/// The place nearest to a singular posture: ends of moves and places between them, evenly spread.
+/// Places are compared by the tool's motion, rotations at the natural length.
+fn nearest_singular(task: &Task<'_>, sites: &[Site]) -> Option<NearSingularPlace> {
+    let stride = sites.len().div_ceil(RunResult::MAX_POSTURES).max(1);
+    let limbs = task.mechanism.limbs();
+    let length_mm =
+        1e3 * limbs.iter().map(|l| l.actual.scale().length).sum::<f64>() / limbs.len() as f64;
+    let mut last: Option<Posture<'_>> = None;
+    let mut found: Option<(f64, NearSingularPlace)> = None;
+    for site in sites.iter().step_by(stride) {
+        let pose = task.placement.tool_pose(&site.desired);
+        let posture = match &last {
+            Some(near) => task.mechanism.posture_near(&pose, near),
+            None => task.mechanism.posture(&pose),
+        };
+        let Ok(posture) = posture else { continue };
+        if let Some(near) = near_singular(&posture) {
+            let far = near
+                .distance_mm
+                .max(near.rotation_deg.to_radians() * length_mm);
+            if found.as_ref().is_none_or(|(least, _)| far < *least) {
+                found = Some((
+                    far,
+                    NearSingularPlace {
+                        line: site.line,
+                        position_mm: site.desired.into(),
+                        posture: near,
+                    },
+                ));
+            }
+        }
+        last = Some(posture);
+    }
+    found.map(|(_, place)| place)
 }
 
 fn summarise(

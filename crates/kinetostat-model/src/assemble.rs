@@ -101,7 +101,7 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
             "correct the description of the machine",
         )
     }))?;
-    plausible::check(&mechanism, &mut findings.warnings);
+    plausible::check(document, &mechanism, &mut findings.warnings);
     Some(mechanism)
 }
 

@@ -74,6 +74,7 @@ mod hints;
 mod joint;
 mod limb;
 mod load;
+mod load_path;
 mod model;
 mod part;
 mod placement;
@@ -87,6 +88,7 @@ mod schema_element;
 mod schema_load;
 mod section;
 mod shape;
+mod smells;
 mod source;
 mod template;
 

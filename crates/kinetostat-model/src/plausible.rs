@@ -1,56 +1,48 @@
 //! Figures that are possible but unlikely: usually a unit or a decimal point is wrong.
 
-use kinetostat::{Chain, Element, Mechanism, MotionKind, Pose};
-use nalgebra::{Translation3, UnitQuaternion};
+use kinetostat::{Chain, Mechanism, Pose};
 
+use crate::load_path::frames;
 use crate::problem::{Finding, Place};
+use crate::schema::Document;
+use crate::smells;
 
-/// Pose of a chain's tip in its base, for given coordinates and commands (m, rad), and how far (m)
-/// any of its frames lies from its first one.
-fn tip(chain: &Chain, coordinates: &[f64], commands: &[f64]) -> (Pose, f64) {
-    let mut pose = Pose::identity();
-    let mut origin = None;
-    let mut reach = 0.0_f64;
-    for element in chain.elements() {
-        match element {
-            Element::Rigid(offset) => pose *= offset,
-            Element::Motion(m) => {
-                let share = |drive: Option<kinetostat::Drive>, values: &[f64]| {
-                    drive.map_or(0.0, |d| {
-                        d.ratio * values.get(d.index).copied().unwrap_or(0.0)
-                    })
-                };
-                let amount = share(m.coordinate, coordinates) + share(m.command, commands);
-                match m.kind {
-                    MotionKind::Prismatic => {
-                        pose *= Translation3::from(m.axis.into_inner() * amount);
-                    }
-                    MotionKind::Revolute => {
-                        pose *= UnitQuaternion::from_axis_angle(&m.axis, amount);
-                    }
-                }
-            }
-            Element::Node(_) => {}
-        }
-        // The first offset only places the chain.
-        let here = pose.translation.vector;
-        reach = reach.max((here - *origin.get_or_insert(here)).norm());
-    }
-    (pose, reach)
+/// Pose of a chain's tip in its base at home, and how far (m) any of its frames lies from its first
+/// one: the first offset only places the chain.
+fn tip(chain: &Chain) -> (Pose, f64) {
+    let frames = frames(chain);
+    let at = |f: &Pose| f.translation.vector;
+    let origin = frames.get(1).map_or_else(Default::default, at);
+    let reach = frames.iter().skip(1).map(|f| (at(f) - origin).norm());
+    (
+        frames.last().copied().unwrap_or_default(),
+        reach.fold(0.0, f64::max),
+    )
 }
 
 /// Looks at sizes, masses, gravity and the home posture.
-pub(crate) fn check(mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
+pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
+    smells::of_numbers(document, warnings);
+    smells::of_machine(document, mechanism, warnings);
     let root = Place::root();
     let mut warn = |place: &Place, message: String, help: &str| {
         warnings.push(Finding::new(place, message, help));
     };
-    let gravity = mechanism.gravity().norm();
-    if gravity > 0.0 && !(1.0..=30.0).contains(&gravity) {
+    let gravity = mechanism.gravity();
+    let size = gravity.norm();
+    let place = root.key("mechanism").key("gravity_m_per_s2");
+    if size > 0.0 && !(9.7..=9.9).contains(&size) {
         warn(
-            &root.key("mechanism").key("gravity_m_per_s2"),
-            format!("gravity is {gravity} m/s^2"),
+            &place,
+            format!("gravity is {size} m/s^2"),
             "on the ground it is 9.81 m/s^2; check the unit",
+        );
+    }
+    if gravity.z > 0.5 * size {
+        warn(
+            &place,
+            "gravity points up, along +z of the base".to_owned(),
+            "write [0, 0, -9.81] for a base whose z points up; if the base hangs upside down, all is well",
         );
     }
     for (i, platform) in mechanism.platforms().iter().skip(1).enumerate() {
@@ -65,7 +57,7 @@ pub(crate) fn check(mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
     for (i, limb) in mechanism.limbs().iter().enumerate() {
         let place = root.key("limb").index(i);
         let chain = &limb.nominal;
-        let (tip, reach) = tip(chain, &chain.home_coordinates(), &chain.home_commands());
+        let (tip, reach) = tip(chain);
         if reach > 100.0 || (reach > 0.0 && reach < 1e-3) {
             warn(
                 &place,

@@ -165,7 +165,7 @@ pub(crate) fn several_platforms(robot: &Robot, graph: &Graph, log: &mut Log) {
             names.len(),
             names.join(", ")
         ),
-        "the model has them all; the search for joint values of a pose needs limbs that run from the base to the tool, so commands that ask for a pose may refuse this machine",
+        "the model has them all, and `check` tells mobility, over-constraint and reach of the whole; where actuators are redundant, the commands nearest to home are taken",
     );
 }
 

@@ -1,0 +1,736 @@
+//! `kinetostat check`: what it counts and names, what smells of a wrong unit, and that singular
+//! postures near an answer are told.
+
+mod common;
+
+use common::{MODEL, PROGRAM, Said, run, workplace};
+use serde_json::Value;
+
+/// Writes a model and checks it, with JSON.
+fn checked(text: &str, more: &[&str]) -> (Value, String) {
+    let here = workplace();
+    std::fs::write(here.path().join("own.toml"), text).expect("a file");
+    let mut words = vec!["check", "own.toml", "--json"];
+    words.extend(more);
+    of(run(here.path(), &words))
+}
+
+fn preset(name: &str, more: &[&str]) -> (Value, String) {
+    let here = workplace();
+    let mut words = vec!["check", name, "--json"];
+    words.extend(more);
+    of(run(here.path(), &words))
+}
+
+fn of(said: Said) -> (Value, String) {
+    let said = said.answered();
+    let found = serde_json::from_str(&said.out).expect("JSON");
+    (found, said.err)
+}
+
+/// Text without line breaks, as it is meant.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn edited(text: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(text.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from} is not in the model");
+        text.replacen(from, to, 1)
+    })
+}
+
+fn texts(list: &Value) -> Vec<String> {
+    let list = list.as_array().expect("a list");
+    list.iter()
+        .map(|v| v.as_str().expect("a text").to_owned())
+        .collect()
+}
+
+/// A planar arm of two turning joints, 500 and 300 mm, with weights.
+const ARM: &str = r#"schema = 1
+
+[mechanism]
+name = "planar arm"
+gravity_m_per_s2 = [0, 0, -9.81]
+
+[[platform]]
+name = "tool"
+home = { position_mm = [500, 300, 200], rotation_vector_deg = [0, 0, 90] }
+mass_kg = 5
+
+[section.tube]
+tube = { outer_diameter_mm = 120, inner_diameter_mm = 100 }
+material = "steel"
+
+[chain.arm]
+elements = [
+  { rigid = { translation_mm = [0, 0, 200] }, name = "foot" },
+  { actuator = "revolute", name = "shoulder", axis = "z", stiffness_n_m_per_rad = 4e5, limits_deg = [-90, 90] },
+  { body = "upper mass", mass_kg = 20, centre_of_mass_mm = [250, 0, 0], inertia_kg_m2 = [[0.1, 0, 0], [0, 0.5, 0], [0, 0, 0.5]] },
+  { link = "tube", name = "upper arm", length_mm = 500 },
+  { actuator = "revolute", name = "elbow", axis = "z", stiffness_n_m_per_rad = 3e5, home_deg = 90, limits_deg = [40, 150] },
+  { body = "fore mass", mass_kg = 10, centre_of_mass_mm = [150, 0, 0] },
+  { link = "tube", name = "forearm", length_mm = 300 },
+]
+
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#;
+
+/// An upright arm: pitch, pitch, pitch in a vertical plane, stretched forward, with a turning foot.
+const HEAVY: &str = r#"schema = 1
+
+[mechanism]
+name = "heavy arm"
+gravity_m_per_s2 = [0, 0, -9.81]
+
+[[platform]]
+name = "tool"
+home = { position_mm = [1700, 0, 600] }
+mass_kg = 80
+
+[stiffness.joint]
+diagonal_n_m_rad = [2e8, 2e8, 2e8, 3e6, 3e6, 3e6]
+
+[chain.arm]
+elements = [
+  { actuator = "revolute", name = "a1", axis = "z", stiffness_n_m_per_rad = 4e6, limits_deg = [-170, 170] },
+  { rigid = { translation_mm = [0, 0, 600] } },
+  { actuator = "revolute", name = "a2", axis = "y", stiffness_n_m_per_rad = 5e6, limits_deg = [-90, 60] },
+  { body = "upper", mass_kg = 200, centre_of_mass_mm = [400, 0, 0] },
+  { rigid = { translation_mm = [900, 0, 0] }, name = "upper arm" },
+  { spring6 = "joint", name = "bearing" },
+  { actuator = "revolute", name = "a3", axis = "y", stiffness_n_m_per_rad = 3e6, limits_deg = [-120, 120] },
+  { body = "fore", mass_kg = 120, centre_of_mass_mm = [300, 0, 0] },
+  { rigid = { translation_mm = [800, 0, 0] }, name = "forearm" },
+]
+
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#;
+
+#[test]
+fn over_constraint_is_counted_and_the_fighting_directions_named() {
+    let (found, text) = preset("orthoglide", &[]);
+    let home = &found["home"];
+    assert_eq!(home["degrees_of_over_constraint"], 3);
+    let named = texts(&home["over_constraints"]);
+    assert_eq!(named.len(), 3);
+    // Three legs that all keep the tool from turning fight with moments about x, y and z.
+    for axis in ["x", "y", "z"] {
+        let moment = format!("with a moment about {axis}, against leg");
+        assert!(named.iter().any(|n| n.contains(&moment)), "{named:?}");
+    }
+    assert!(named.iter().all(|n| !n.contains("force")), "{named:?}");
+    assert!(text.contains("over-constraint 1: leg"), "{text}");
+
+    let (found, text) = preset("puu3", &[]);
+    assert_eq!(found["home"]["degrees_of_over_constraint"], 0);
+    assert!(texts(&found["home"]["over_constraints"]).is_empty());
+    assert!(text.contains("no over-constraint"), "{text}");
+}
+
+#[test]
+fn limbs_alike_are_told_once() {
+    let (found, text) = preset("stewart_gough_b", &[]);
+    assert_eq!(found["limbs"].as_array().map(Vec::len), Some(6));
+    assert!(
+        text.contains("6 limbs alike, from 'base' to 'tool':"),
+        "{text}"
+    );
+    assert_eq!(text.matches("actuator 'ram'").count(), 1, "{text}");
+    assert!(
+        found["home"]["stiffness_rank"] == 6 && text.contains("rank 6:"),
+        "{text}"
+    );
+}
+
+#[test]
+fn redundant_joints_are_named_by_limb_and_joint() {
+    // A second shoulder at the same place: one motion leaves the tool where it is.
+    let twice = edited(
+        ARM,
+        &[(
+            "  { body = \"upper mass\"",
+            "  { actuator = \"revolute\", name = \"twin\", axis = \"z\", rigid_drive = true, limits_deg = [-90, 90] },\n  { body = \"upper mass\"",
+        )],
+    );
+    let (found, text) = checked(&twice, &[]);
+    let home = &found["home"];
+    assert_eq!(home["redundant_motions"], 1);
+    assert_eq!(
+        texts(&home["redundant_actuators"]),
+        ["arm: shoulder", "arm: twin"]
+    );
+    assert!(
+        flat(&text).contains("(redundant): arm: shoulder, arm: twin move then"),
+        "{text}"
+    );
+    let (found, text) = checked(ARM, &[]);
+    assert_eq!(found["home"]["redundant_motions"], 0);
+    assert!(text.contains("no joint is redundant"), "{text}");
+    // A bar between two spherical joints turns about itself.
+    let (found, _) = checked(BAR, &[]);
+    let passive = texts(&found["home"]["redundant_passive_joints"]);
+    assert!(passive.contains(&"strut: near.x".to_owned()), "{passive:?}");
+    assert!(passive.contains(&"strut: far.x".to_owned()), "{passive:?}");
+}
+
+/// A bar between two spherical joints.
+const BAR: &str = r#"schema = 1
+[mechanism]
+name = "bar"
+[[platform]]
+name = "tool"
+home = { position_mm = [400, 0, 0] }
+[chain.strut]
+elements = [
+  { passive = "spherical", name = "near" },
+  { actuator = "prismatic", name = "ram", axis = "x", stiffness_n_per_mm = 2e4, home_mm = 400, limits_mm = [300, 500] },
+  { passive = "spherical", name = "far" },
+]
+[[limb]]
+name = "strut"
+from = "base"
+to = "tool"
+chain = "strut"
+"#;
+
+#[test]
+fn the_reach_of_an_arm_is_that_of_its_stretched_elbow() {
+    // The elbow stops at 40 degrees: the law of cosines.
+    let (a, b, stop) = (500.0_f64, 300.0_f64, 40_f64.to_radians());
+    let exact = (a * a + b * b + 2.0 * a * b * stop.cos()).sqrt();
+    let (found, _) = checked(ARM, &[]);
+    let reach = &found["reach"];
+    let close = |value: &Value, exact: f64| (value.as_f64().expect("mm") - exact).abs() < 1e-3;
+    assert!(close(&reach["from_first_axis_mm"], exact), "{reach}");
+    assert!(close(&reach["from_base_mm"], exact.hypot(200.0)), "{reach}");
+    // The passive joints of a chain may stand anywhere.
+    let (found, _) = preset("two_link", &[]);
+    assert!(close(&found["reach"]["from_base_mm"], 2000.0));
+    // No limits, no reach.
+    let slides = edited(BAR, &[(", limits_mm = [300, 500]", "")]);
+    let (found, text) = checked(&slides, &[]);
+    assert!(found["reach"]["from_base_mm"].is_null());
+    assert!(flat(&text).contains("reach: not bounded: the actuator 'ram' slides without limits"));
+}
+
+#[test]
+fn the_reach_of_a_parallel_machine_ends_at_the_limits_of_its_sliders() {
+    // With y = z = 0 the slider of x moves as much as the tool: limits -430 .. -160, home -350.5.
+    let (found, text) = preset("orthoglide", &[]);
+    let reach = &found["reach"];
+    for axis in 0..3 {
+        for (side, exact) in [(0, 79.5), (1, 190.5)] {
+            let far = reach["along_axes_mm"][axis][side].as_f64().expect("mm");
+            assert!((far - exact).abs() < 0.1, "{reach}");
+            let end = reach["ends"][axis][side].as_str().expect("a reason");
+            assert!(end.starts_with("limit of 'leg "), "{end}");
+        }
+    }
+    let corner = |i: usize, k: usize| reach["box_mm"][i][k].as_f64().expect("mm");
+    // The workspace for which the limits were made is in reach but for its corners.
+    assert!(
+        (0..3).all(|k| (-79.6..-40.0).contains(&corner(0, k))),
+        "{reach}"
+    );
+    assert!(
+        (0..3).all(|k| (100.0..190.6).contains(&corner(1, k))),
+        "{reach}"
+    );
+    assert!(
+        text.contains("reach from home, mm: x -79.50 .. +190.5"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_scale_of_stiffness_is_that_of_the_compliance() {
+    let (found, _) = preset("orthoglide", &["--force", "0", "0", "-500"]);
+    let a = &found["assumptions"];
+    let here = workplace();
+    let said = run(here.path(), &["stiffness", "orthoglide", "--json"]).answered();
+    let k: Value = serde_json::from_str(&said.out).expect("JSON");
+    let softest = 1e-3
+        / k["compliance_m_rad_per_n"][0][0]
+            .as_f64()
+            .expect("compliance");
+    let told = a["against_force_n_per_mm"][0]
+        .as_f64()
+        .expect("a stiffness");
+    assert!((told / softest - 1.0).abs() < 1e-3, "{told} {softest}");
+    // The load that was asked for, solved by another command.
+    let said = run(
+        here.path(),
+        &[
+            "deflect",
+            "orthoglide",
+            "--force",
+            "0",
+            "0",
+            "-500",
+            "--json",
+        ],
+    )
+    .answered();
+    let d: Value = serde_json::from_str(&said.out).expect("JSON");
+    let moved = d["displacement_size_mm"].as_f64().expect("mm");
+    let told = a["reference_deflection_mm"].as_f64().expect("mm");
+    assert!((told / moved - 1.0).abs() < 1e-9, "{told} {moved}");
+    assert_eq!(
+        a["reference_force_n"],
+        serde_json::json!([0.0, 0.0, -500.0])
+    );
+    // What the matrix alone tells, as a vector.
+    let off: f64 = (0..3)
+        .map(|i| {
+            let linear = -500e3
+                * k["compliance_m_rad_per_n"][i][2]
+                    .as_f64()
+                    .expect("compliance");
+            let solved = d["displacement_mm"][i].as_f64().expect("mm");
+            (linear - solved).powi(2)
+        })
+        .sum::<f64>()
+        .sqrt();
+    let told = a["linear_error_percent"].as_f64().expect("percent");
+    assert!((told - 100.0 * off / moved).abs() < 1e-6, "{told} {off}");
+}
+
+#[test]
+fn large_deflections_and_loads_near_buckling_are_told() {
+    let (found, text) = preset("orthoglide", &["--force", "0", "0", "-60000"]);
+    assert!(
+        flat(&text).contains("NOT small against the links"),
+        "{text}"
+    );
+    assert!(found["assumptions"]["linear_error_percent"].as_f64() > Some(1.0));
+    let (_, text) = preset("two_link", &[]);
+    assert!(
+        flat(&text).contains("far too much for this machine"),
+        "{text}"
+    );
+    // A slender strut, held upright by a slide: 80 % of its Euler load.
+    let (found, _) = checked(COLUMN, &[]);
+    let euler = found["limbs"][0]["links"][0]["euler_load_n"]
+        .as_f64()
+        .expect("N");
+    let load = format!("{}", -0.8 * euler);
+    let (found, text) = checked(COLUMN, &["--force", &load, "0", "0"]);
+    let share = found["assumptions"]["largest_share_of_euler_load"].as_f64();
+    assert!((share.expect("a share") - 0.8).abs() < 0.01, "{share:?}");
+    assert!(text.contains("NEAR BUCKLING"), "{text}");
+    assert!(
+        texts(&found["warnings"])
+            .iter()
+            .any(|w| w.contains("NEAR BUCKLING"))
+    );
+}
+
+/// A slender bar pinned at its foot; its head slides along x and is pinned, too.
+const COLUMN: &str = r#"schema = 1
+[mechanism]
+name = "column"
+[[platform]]
+name = "head"
+home = { position_mm = [1000, 0, 0] }
+[section.rod]
+round = { diameter_mm = 10 }
+material = "steel"
+[chain.rod]
+elements = [
+  { passive = "revolute", name = "foot pin", axis = "z" },
+  { link = "rod", name = "rod", length_mm = 1000, segments = 4 },
+  { passive = "revolute", name = "head pin", axis = "z" },
+]
+[chain.guide]
+elements = [
+  { rigid = { translation_mm = [1000, 0, 0] } },
+  { passive = "prismatic", name = "slide", axis = "x" },
+]
+[[limb]]
+name = "rod"
+from = "base"
+to = "head"
+chain = "rod"
+[[limb]]
+name = "guide"
+from = "base"
+to = "head"
+chain = "guide"
+"#;
+
+#[test]
+fn a_singular_posture_near_an_answer_is_told_with_distance_and_direction() {
+    let here = workplace();
+    // Two bars of 1 m: stretched at 2 m. To first order it is twice as far as it is, since the
+    // singular value falls with the root of the distance.
+    for (line, key) in [
+        ("stiffness two_link --at 1999 0 0 --json", true),
+        (
+            "deflect two_link --at 1999 0 0 --force 0.001 0 0 --json",
+            true,
+        ),
+        (
+            "equilibria two_link --at 1999 0 0 --force 0.001 0 0 --json",
+            false,
+        ),
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words).answered();
+        let found: Value = serde_json::from_str(&said.out).expect("JSON");
+        let warnings = texts(&found["warnings"]);
+        let told = |w: &&String| w.contains("singular posture is near") && w.contains("along x");
+        assert!(warnings.iter().any(|w| told(&w)), "{line}: {warnings:?}");
+        assert!(
+            flat(&said.err).contains("mm of tool motion away"),
+            "{}",
+            said.err
+        );
+        if key {
+            let near = &found["near_singularity"];
+            let mm = near["distance_mm"].as_f64().expect("mm");
+            assert!((1.0..=2.1).contains(&mm), "{near}");
+            assert!(near["kind"] == "lost" && near["limb"] == "arm", "{near}");
+            assert!((near["motion_mm"][0].as_f64().expect("mm") - mm).abs() < 1e-6 * mm);
+        }
+    }
+    let said = run(here.path(), &["stiffness", "two_link", "--json"]).answered();
+    let found: Value = serde_json::from_str(&said.out).expect("JSON");
+    assert!(found["near_singularity"].is_null());
+    // At home of a machine.
+    let (found, text) = preset("stewart_gough_a", &[]);
+    let near = &found["assumptions"]["near_singularity"];
+    assert!(
+        near["distance_mm"] == 0.0 && near["kind"] == "gained",
+        "{near}"
+    );
+    assert!(flat(&text).contains("this posture is singular"), "{text}");
+    assert!(flat(&text).contains("stiffness falls to zero"), "{text}");
+    let (found, _) = preset("stewart_gough_b", &[]);
+    assert!(found["assumptions"]["near_singularity"].is_null());
+}
+
+#[test]
+fn a_program_near_a_singular_posture_is_told_on_screen_in_json_and_in_the_report() {
+    let here = workplace();
+    std::fs::write(here.path().join("part.ngc"), PROGRAM).expect("a file");
+    let run_at = |x: &str| {
+        let line = format!(
+            "deflect heavy_6r --program part.ngc --part-origin-mm {x} 0 1400 --force 100 0 0 --report r.html --json r.json --force-overwrite"
+        );
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words).answered();
+        let read = |name| std::fs::read_to_string(here.path().join(name)).expect("a file");
+        let found: Value = serde_json::from_str(&read("r.json")).expect("JSON");
+        (found, flat(&said.out), flat(&read("r.html")))
+    };
+    let (found, text, page) = run_at("2500");
+    let near = &found["near_singularity"];
+    assert!(near["line"].as_u64() > Some(0), "{near}");
+    // Farthest out on the circle is nearest to the stretched arm.
+    assert!(
+        (near["position_mm"][0].as_f64().expect("mm") - 20.0).abs() < 8.0,
+        "{near}"
+    );
+    assert!(near["distance_mm"].as_f64() < Some(180.0), "{near}");
+    for said in [text.as_str(), page.as_str()] {
+        assert!(said.contains("of tool motion away"), "{said}");
+    }
+    let (found, text, page) = run_at("1500");
+    assert!(found["near_singularity"].is_null(), "{found}");
+    assert!(!text.contains("singular") && !page.contains("of tool motion away"));
+}
+
+/// What smells: model, edits, what is said, and the line's text to which it points.
+type Smell<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, &'a str);
+
+#[test]
+fn wrong_units_smell_and_the_line_is_named() {
+    let list: &[Smell<'_>] = &[
+        (
+            ARM,
+            &[("[0, 0, -9.81]", "[0, 0, -9810]")],
+            "gravity is 9810 m/s^2",
+            "gravity_m",
+        ),
+        (
+            ARM,
+            &[("[0, 0, -9.81]", "[0, 0, -1.0]")],
+            "gravity is 1 m/s^2",
+            "gravity_m",
+        ),
+        (
+            ARM,
+            &[("[0, 0, -9.81]", "[0, 0, 9.81]")],
+            "gravity points up",
+            "gravity_m",
+        ),
+        (
+            MODEL,
+            &[("youngs_modulus_gpa = 70", "youngs_modulus_pa = 70")],
+            "a Young's modulus of 7.000e1 Pa is no usual solid",
+            "youngs_modulus_pa",
+        ),
+        (
+            ARM,
+            &[("length_mm = 500", "length_m = 500")],
+            "a length of 500 m",
+            "length_m = 500",
+        ),
+        (
+            ARM,
+            &[("length_mm = 300", "length_mm = 0.3")],
+            "the length is 0.3 mm",
+            "length_mm = 0.3",
+        ),
+        (
+            ARM,
+            &[("length_mm = 500", "length_m = 1000")],
+            "reaches over 1000",
+            "[[limb]]",
+        ),
+        (
+            ARM,
+            &[(
+                "outer_diameter_mm = 120, inner_diameter_mm = 100",
+                "outer_diameter_mm = 0.02, inner_diameter_mm = 0.01",
+            )],
+            "the inner diameter is 0.01 mm",
+            "inner_diameter",
+        ),
+        (
+            ARM,
+            &[("home_deg = 90, limits_deg = [40, 150]", "home_rad = 90")],
+            "90 rad are 14 turns",
+            "home_rad",
+        ),
+        (
+            ARM,
+            &[(
+                "home_deg = 90, limits_deg = [40, 150]",
+                "home_deg = 1.5708, limits_deg = [-90, 150]",
+            )],
+            "1.5708 degrees are exactly 90 degrees in radians",
+            "home_deg",
+        ),
+        (
+            ARM,
+            &[("limits_deg = [-90, 90]", "limits_deg = [-1.6, 1.6]")],
+            "the joint turns by only 3.2 degrees in all",
+            "limits_deg = [-1.6",
+        ),
+        (
+            ARM,
+            &[("mass_kg = 10,", "mass_kg = 5000,")],
+            "the body 'fore mass' weighs 5000 kg",
+            "mass_kg = 5000",
+        ),
+        (
+            HEAVY,
+            &[("stiffness_n_m_per_rad = 5e6", "stiffness_n_m_per_rad = 50")],
+            "the joint 'a2' turns by",
+            "stiffness_n_m_per_rad = 50",
+        ),
+        (
+            HEAVY,
+            &[(
+                "stiffness_n_m_per_rad = 4e6",
+                "stiffness_n_mm_per_rad = 4e6",
+            )],
+            "the drive 'a1' is 1250 times softer than the other drives",
+            "stiffness_n_mm_per_rad",
+        ),
+        (
+            HEAVY,
+            &[("stiffness_n_m_per_rad = 3e6", "stiffness_n_m_per_rad = 3e9")],
+            "times stiffer than the other drives",
+            "stiffness_n_m_per_rad = 3e9",
+        ),
+        (
+            HEAVY,
+            &[(
+                "stiffness_n_m_per_rad = 3e6",
+                "stiffness_n_m_per_rad = 3e12",
+            )],
+            "stiffer than any machine's",
+            "stiffness_n_m_per_rad = 3e12",
+        ),
+        (
+            BAR,
+            &[("stiffness_n_per_mm = 2e4", "stiffness_n_per_m = 2e3")],
+            "the drive 'ram' has 2.000e3 N/m, softer than any machine's",
+            "stiffness_n_per_m",
+        ),
+        (
+            HEAVY,
+            &[(
+                "diagonal_n_m_rad = [2e8, 2e8, 2e8, 3e6, 3e6, 3e6]",
+                "diagonal_n_m_rad = [2e5, 2e5, 2e5, 3e9, 3e9, 3e9]",
+            )],
+            "belong to a part of 122",
+            "spring6",
+        ),
+        (
+            ARM,
+            &[(
+                "[[0.1, 0, 0], [0, 0.5, 0], [0, 0, 0.5]]",
+                "[[1e5, 0, 0], [0, 5e5, 0], [0, 0, 5e5]]",
+            )],
+            "the inertia of the body 'upper mass' is that of a part of",
+            "inertia_kg_m2",
+        ),
+        (
+            ARM,
+            &[(
+                "centre_of_mass_mm = [250, 0, 0]",
+                "centre_of_mass_m = [25, 0, 0]",
+            )],
+            "the centre of mass of the body 'upper mass' is",
+            "centre_of_mass_m",
+        ),
+        (
+            ARM,
+            &[
+                ("mass_kg = 20,", "mass_kg = 0.02,"),
+                ("mass_kg = 10,", "mass_kg = 0.01,"),
+            ],
+            "links of that stiffness weigh about",
+            "mass_kg = 0.02",
+        ),
+        (
+            ARM,
+            &[(
+                "[section.tube]",
+                "[workspace]\ncorner_m = [-300, -300, 0]\nopposite_corner_m = [300, 300, 400]\n[section.tube]",
+            )],
+            "a length of 300 m",
+            "corner_m",
+        ),
+        (
+            ARM,
+            &[(
+                "[section.tube]",
+                "[workspace]\ncorner_mm = [-0.3, -0.3, 0]\nopposite_corner_mm = [0.3, 0.3, 0.4]\n[section.tube]",
+            )],
+            "the workspace is 0.0009",
+            "[workspace]",
+        ),
+        (
+            ARM,
+            &[(
+                "[[limb]]",
+                "[[deviation]]\nlimb = \"arm\"\nat = \"foot\"\nmoved_by = { rotation_vector_deg = [0, 0, 57.3] }\n[[limb]]",
+            )],
+            "an error of assembly of 0 mm and 57.3 degrees",
+            "moved_by",
+        ),
+        (
+            ARM,
+            &[(
+                "position_mm = [500, 300, 200]",
+                "position_mm = [500, 200, 200]",
+            )],
+            "away from the platform 'tool'",
+            "[[limb]]",
+        ),
+    ];
+    assert!(list.len() >= 15);
+    for (base, changes, said, at) in list {
+        let text = edited(base, changes);
+        let (found, words) = checked(&text, &[]);
+        let warnings = texts(&found["warnings"]);
+        let Some(own) = warnings.iter().find(|w| w.contains(said)) else {
+            panic!("{said}: {warnings:?}");
+        };
+        let place = own.strip_prefix("own.toml:").expect("the file");
+        let (line, rest) = place.split_once(": ").expect("a line");
+        let line: usize = line.parse().expect("a number");
+        let shown = text.lines().nth(line - 1).unwrap_or_default();
+        assert!(shown.contains(at), "{own}: line {line} is '{shown}'");
+        // What is wrong, then what to do.
+        assert!(rest.contains("; "), "{own}");
+        assert!(flat(&words).contains("warning") || flat(&words).contains("Warning"));
+    }
+}
+
+#[test]
+fn sound_models_raise_no_alarm() {
+    for (name, text) in [
+        ("arm", ARM),
+        ("heavy", HEAVY),
+        ("bar", BAR),
+        ("column", COLUMN),
+        ("model", MODEL),
+    ] {
+        let (found, _) = checked(text, &[]);
+        let warnings: Vec<String> = texts(&found["warnings"])
+            .into_iter()
+            .filter(|w| w.starts_with("own.toml"))
+            .collect();
+        assert!(warnings.is_empty(), "{name}: {warnings:?}");
+    }
+    for preset_ in kinetostat_model::preset_names() {
+        let (found, _) = preset(preset_.name, &[]);
+        let warnings = texts(&found["warnings"]);
+        let singular = found["assumptions"]["near_singularity"].is_object();
+        // The report's platform of equal hexagons is singular at home; nothing else may be.
+        assert_eq!(
+            singular,
+            preset_.name == "stewart_gough_a",
+            "{}",
+            preset_.name
+        );
+        assert!(
+            warnings.is_empty() || singular,
+            "{}: {warnings:?}",
+            preset_.name
+        );
+    }
+}
+
+#[test]
+fn imported_arms_raise_no_alarm_but_that_their_zero_posture_is_singular() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/urdf");
+    let Ok(list) = std::fs::read_dir(&folder) else {
+        eprintln!("SKIPPED: there are no URDF files at {}", folder.display());
+        return;
+    };
+    let here = workplace();
+    for entry in list {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|e| e != "urdf") {
+            continue;
+        }
+        let file = path.display().to_string();
+        let words = [
+            "import",
+            "urdf",
+            &file,
+            "--base",
+            "base_link",
+            "--tip",
+            "tool0",
+            "--joint-stiffness",
+            "2e6",
+            "-o",
+            "own.toml",
+            "--force-overwrite",
+        ];
+        run(here.path(), &words).answered();
+        let (found, _) = of(run(here.path(), &["check", "own.toml", "--json"]));
+        let warnings = texts(&found["warnings"]);
+        let other = |w: &&String| !w.starts_with("at home: ");
+        assert!(!warnings.iter().any(|w| other(&w)), "{file}: {warnings:?}");
+        let reach = found["reach"]["from_first_axis_mm"].as_f64().expect("mm");
+        assert!((800.0..4000.0).contains(&reach), "{file}: {reach}");
+    }
+}

@@ -1,0 +1,157 @@
+//! Whether a posture lies near a singular one, for people: distance and direction of the tool's
+//! motion, and what is lost or gained there [R 5.5.3].
+
+use kinetostat::{NearSingularity, Posture, SingularityKind, Twist};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// Singular postures are told when they are closer than this share of the machine's natural length
+/// (the mean over its limbs); a rotation counts at that length, so for every machine it is 2.9
+/// degrees of tool rotation.
+///
+/// Within it a singular value of the joint axes changes by as much as it measures, so a figure at
+/// the posture says little about its surroundings. Wrists of arms are held farther away than that
+/// by their controllers.
+pub const NEAR_SINGULAR: f64 = 0.05;
+
+/// A singular posture near the one that was asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NearSingular {
+    /// Passive joints let go (a motion gained), or joints cannot follow (a motion lost).
+    pub kind: NearKind,
+    /// Limb that loses the motion.
+    pub limb: Option<String>,
+    /// How far the tool's reference point moves to the singular posture, mm; zero if it is singular.
+    pub distance_mm: f64,
+    /// How far the tool turns on the way, deg.
+    pub rotation_deg: f64,
+    /// Motion of the tool's reference point to the singular posture, base axes, mm.
+    pub motion_mm: [f64; 3],
+    /// Rotation vector of the tool on the way, base axes, deg.
+    pub rotation_vector_deg: [f64; 3],
+    /// The way was followed until the machine is singular; if not, the distance is a first-order
+    /// estimate.
+    pub followed: bool,
+    /// All of it in a sentence.
+    pub in_words: String,
+}
+
+/// What happens at a singular posture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NearKind {
+    /// A motion that neither actuators nor limbs hold.
+    Gained,
+    /// A motion that a limb cannot make.
+    Lost,
+}
+
+/// The nearest singular posture, if it is closer than [`NEAR_SINGULAR`].
+#[must_use]
+pub fn near_singular(posture: &Posture<'_>) -> Option<NearSingular> {
+    let limbs = posture.mechanism().limbs();
+    let sum: f64 = limbs.iter().map(|l| l.actual.scale().length).sum();
+    let length = sum / limbs.len() as f64;
+    let list = posture.near_singularities(NEAR_SINGULAR * length).ok()?;
+    // A first-order distance that following corrected upwards may be far.
+    let near = list
+        .iter()
+        .find(|n| n.distance_m <= NEAR_SINGULAR * length)?;
+    Some(told(near, length))
+}
+
+fn told(near: &NearSingularity, length: f64) -> NearSingular {
+    let motion = near.way.linear() * (1e3 * near.distance_m);
+    let turn = near.way.angular().map(f64::to_degrees) * near.distance_m;
+    let (kind, there) = match (near.kind, &near.limb) {
+        (SingularityKind::Lost, Some(limb)) => (
+            NearKind::Lost,
+            format!(
+                "there the joints of limb '{limb}' cannot {}: joints must move far for little, and figures change quickly around here",
+                motion_of(&near.motion, length)
+            ),
+        ),
+        _ if near.motion.0.norm() == 0.0 => (
+            NearKind::Gained,
+            "there platforms between base and tool are not held by anything: stiffness falls quickly towards it".to_owned(),
+        ),
+        _ => (
+            NearKind::Gained,
+            format!(
+                "there no actuator and no limb holds the tool where it could {}: stiffness falls to zero towards it",
+                motion_of(&near.motion, length)
+            ),
+        ),
+    };
+    let in_words = if near.distance_m == 0.0 {
+        format!(
+            "this posture is singular: {}",
+            there.trim_start_matches("there ")
+        )
+    } else {
+        let mut way = Vec::new();
+        let mut far = Vec::new();
+        if motion.norm() > 1e-2 * 1e3 * near.distance_m {
+            far.push(format!("{} mm", digits(motion.norm())));
+            way.push(format!("moves along {}", axis(&motion)));
+        }
+        if turn.norm().to_radians() * length > 1e-2 * near.distance_m {
+            far.push(format!("{} deg", digits(turn.norm())));
+            way.push(format!("turns about {}", axis(&turn)));
+        }
+        format!(
+            "a singular posture is near{}: {} of tool motion away, if the tool {}; {there}",
+            if near.followed { "" } else { " (estimated)" },
+            far.join(" and "),
+            way.join(" and "),
+        )
+    };
+    NearSingular {
+        kind,
+        limb: near.limb.clone(),
+        distance_mm: motion.norm(),
+        rotation_deg: turn.norm(),
+        motion_mm: motion.into(),
+        rotation_vector_deg: turn.into(),
+        followed: near.followed,
+        in_words,
+    }
+}
+
+/// Three digits, no more than four decimals.
+fn digits(value: f64) -> String {
+    let decimals = (2 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 4);
+    format!("{value:.*}", decimals as usize)
+}
+
+/// `x`, `-z`, or three components.
+fn axis(v: &Vector3<f64>) -> String {
+    let unit = v.normalize();
+    for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
+        if unit[k].abs() > 0.999 {
+            return format!("{}{name}", if unit[k] < 0.0 { "-" } else { "" });
+        }
+    }
+    let clean = unit.map(|x| if x.abs() < 5e-3 { 0.0 } else { x });
+    format!("({:.2}, {:.2}, {:.2})", clean.x, clean.y, clean.z)
+}
+
+/// A motion of the tool as what it does: `turn about z`, `move along x`.
+fn motion_of(motion: &Twist, length: f64) -> String {
+    let (linear, angular) = (motion.linear(), motion.angular());
+    // Turning about an axis that far away is moving.
+    if 2.0 * angular.norm() * length < linear.norm() {
+        return format!("move along {}", axis(&linear));
+    }
+    let unit = angular.normalize();
+    let arm = unit.cross(&linear).norm() / angular.norm();
+    if arm < 1e-3 * length {
+        format!("turn about {}", axis(&angular))
+    } else {
+        format!(
+            "turn about {} on an axis {:.0} mm from its reference point",
+            axis(&angular),
+            1e3 * arm
+        )
+    }
+}

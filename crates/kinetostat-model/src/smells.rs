@@ -1,0 +1,506 @@
+//! What smells of a wrong unit: each number as it is written, and figures that do not fit the rest
+//! of the machine.
+
+use std::f64::consts::{PI, TAU};
+
+use kinetostat::{Mechanism, MotionKind, Role, SpringLaw};
+use serde_json::Value;
+
+use crate::load_path::{farthest, moments, size_of};
+use crate::problem::{Finding, Place};
+use crate::schema::{Document, Element};
+
+/// Looks at every number under the unit of its key.
+pub(crate) fn of_numbers(document: &Document, warnings: &mut Vec<Finding>) {
+    let Ok(tree) = serde_json::to_value(document) else {
+        return;
+    };
+    walk(&tree, "", &Place::root(), warnings);
+}
+
+fn walk(value: &Value, key: &str, place: &Place, warnings: &mut Vec<Finding>) {
+    match value {
+        Value::Object(map) => {
+            for (key, inner) in map {
+                walk(inner, key, &place.key(key), warnings);
+            }
+        }
+        Value::Array(list) => {
+            for (i, inner) in list.iter().enumerate() {
+                walk(inner, key, &place.index(i), warnings);
+            }
+        }
+        Value::Number(number) => {
+            if let Some((message, help)) = number.as_f64().and_then(|x| smell(key, x)) {
+                warnings.push(Finding::new(place, message, help));
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Parts of a section, which may be thin but not that thin.
+const SECTION_KEYS: [&str; 8] = [
+    "outer_diameter",
+    "inner_diameter",
+    "diameter",
+    "width",
+    "height",
+    "flange",
+    "web",
+    "wall",
+];
+
+fn smell(key: &str, x: f64) -> Option<(String, &'static str)> {
+    let compound = key.contains("_per_") || key.contains("n_m") || key.contains("kg_m");
+    if x == 0.0 || compound {
+        return None;
+    }
+    if key.ends_with("_rad") && x.abs() > 7.0 && (x.abs() > 40.0 || x % 5.0 == 0.0) {
+        return Some((
+            format!("{x} rad are {:.0} turns", (x / TAU).abs().max(1.0)),
+            "this looks like degrees: write the key with _deg",
+        ));
+    }
+    if key.ends_with("_deg") && looks_like_radians(x) {
+        return Some((
+            format!("{x} degrees are exactly {} in radians", share_of_pi(x)),
+            "this looks like radians: write the key with _rad",
+        ));
+    }
+    let (name, metres) = match (key.strip_suffix("_mm"), key.strip_suffix("_m")) {
+        (Some(name), _) => (name, 1e-3 * x),
+        (None, Some(name)) => (name, x),
+        _ => return None,
+    };
+    // Limits are often written far out where there are none.
+    if metres.abs() > 50.0 && name != "limits" {
+        return Some((
+            format!("a length of {} m", tidy(metres.abs())),
+            "robots are smaller; check the unit in the key: _mm or _m",
+        ));
+    }
+    let least = match name {
+        "length" => 1e-3,
+        _ if SECTION_KEYS.iter().any(|k| name.ends_with(k)) => 5e-5,
+        _ => return None,
+    };
+    (metres < least).then(|| {
+        (
+            format!(
+                "the {} is {} mm",
+                name.replace('_', " "),
+                tidy(1e3 * metres)
+            ),
+            "parts of robots are larger; check the unit in the key: _mm or _m",
+        )
+    })
+}
+
+/// Twelfths of a half turn by which angles are usually written.
+const USUAL: [f64; 7] = [2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 24.0];
+
+fn looks_like_radians(x: f64) -> bool {
+    USUAL
+        .iter()
+        .any(|k| (x.abs() / (k * PI / 12.0) - 1.0).abs() < 6e-4)
+}
+
+fn share_of_pi(x: f64) -> String {
+    let degrees = (x.to_degrees() / 15.0).round() * 15.0;
+    format!("{degrees} degrees")
+}
+
+fn tidy(x: f64) -> String {
+    let text = format!("{x:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Looks at figures beside the rest of the machine.
+pub(crate) fn of_machine(document: &Document, mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
+    let size = size_of(mechanism);
+    if size <= 0.0 || !size.is_finite() {
+        return;
+    }
+    // Limbs of the same chain would say the same again.
+    let mut seen: Vec<&str> = Vec::new();
+    for (i, written) in document.limb.iter().enumerate() {
+        if seen.contains(&written.chain.as_str()) {
+            continue;
+        }
+        seen.push(&written.chain);
+        let look = Look {
+            document,
+            mechanism,
+            limb: i,
+            size,
+        };
+        look.stiffnesses(warnings);
+        look.springs6(warnings);
+        look.sag(warnings);
+        look.masses(warnings);
+        look.ranges(warnings);
+    }
+    workspace(document, mechanism, size, warnings);
+    deviations(document, size, warnings);
+}
+
+/// One limb of a machine.
+struct Look<'a> {
+    document: &'a Document,
+    mechanism: &'a Mechanism,
+    limb: usize,
+    /// Of the machine, m.
+    size: f64,
+}
+
+impl Look<'_> {
+    /// An element of the limb's chain and its place in the file, by its name.
+    fn element(&self, name: &str) -> Option<(&Element, Place)> {
+        let chain = &self.document.limb[self.limb].chain;
+        let elements = &self.document.chain.get(chain)?.elements;
+        let own = |e: &Element, i: usize| match e.name() {
+            Some(given) => given == name,
+            None => format!("{} {}", e.word(), i + 1) == name,
+        };
+        let index = (0..elements.len()).find(|&i| own(&elements[i], i))?;
+        let place = Place::root().key("chain").key(chain);
+        Some((&elements[index], place.key("elements").index(index)))
+    }
+
+    fn place(&self, name: &str, keys: &[&str]) -> Place {
+        match self.element(name) {
+            Some((element, place)) => {
+                let written = serde_json::to_value(element).unwrap_or_default();
+                let has = |key: &&&str| written.get(**key).is_some_and(|v| !v.is_null());
+                keys.iter()
+                    .find(has)
+                    .map_or(place.clone(), |k| place.key(k))
+            }
+            None => Place::root().key("limb").index(self.limb),
+        }
+    }
+
+    /// Drives out of all proportion, by themselves and beside the others of the limb.
+    fn stiffnesses(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        let drives: Vec<(&str, MotionKind, f64)> = chain
+            .actuators()
+            .iter()
+            .filter_map(|a| {
+                let coordinate = a.coordinate?;
+                let spring = chain.springs().iter().find(|s| s.first == coordinate)?;
+                match &spring.law {
+                    SpringLaw::Linear(k) if k.len() == 1 => {
+                        Some((a.name.as_str(), a.kind, k[(0, 0)]))
+                    }
+                    _ => None,
+                }
+            })
+            .collect();
+        const KEYS: [&str; 4] = [
+            "stiffness_n_per_m",
+            "stiffness_n_per_mm",
+            "stiffness_n_m_per_rad",
+            "stiffness_n_mm_per_rad",
+        ];
+        for (name, kind, k) in &drives {
+            let (low, high, unit, mistake) = match kind {
+                MotionKind::Prismatic => (2e4, 1e12, "N/m", "_n_per_mm or _n_per_m"),
+                MotionKind::Revolute => (0.0, 1e10, "N m/rad", "_n_m_per_rad or _n_mm_per_rad"),
+            };
+            if *k < low || *k > high {
+                warnings.push(Finding::new(
+                    &self.place(name, &KEYS),
+                    format!(
+                        "the drive '{name}' has {k:.3e} {unit}, {} than any machine's",
+                        if *k < low { "softer" } else { "stiffer" }
+                    ),
+                    format!("check the unit in the key: {mistake}"),
+                ));
+            }
+            let mut others: Vec<f64> = drives
+                .iter()
+                .filter(|(other, own, _)| own == kind && other != name)
+                .map(|(_, _, k)| *k)
+                .collect();
+            if others.len() < 2 {
+                continue;
+            }
+            others.sort_by(f64::total_cmp);
+            let ratio = k / others[others.len() / 2];
+            if !(1.0 / 300.0..=300.0).contains(&ratio) {
+                warnings.push(Finding::new(
+                    &self.place(name, &KEYS),
+                    format!(
+                        "the drive '{name}' is {:.0} times {} than the other drives of its limb",
+                        ratio.max(1.0 / ratio),
+                        if ratio < 1.0 { "softer" } else { "stiffer" }
+                    ),
+                    format!("check the unit in the key: {mistake}"),
+                ));
+            }
+        }
+    }
+
+    /// Springs of six directions whose translations and rotations do not belong together: the square
+    /// root of N m/rad by N/m is a length of the part.
+    fn springs6(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        for spring in chain.springs().iter().filter(|s| s.segment.is_none()) {
+            let SpringLaw::Linear(k) = &spring.law else {
+                continue;
+            };
+            if k.nrows() != 6 {
+                continue;
+            }
+            let mean =
+                |range: std::ops::Range<usize>| range.map(|i| k[(i, i)]).product::<f64>().cbrt();
+            let length = (mean(3..6) / mean(0..3)).sqrt();
+            if !(1e-4 * self.size..=5.0 * self.size).contains(&length) {
+                warnings.push(Finding::new(
+                    &self.place(&spring.name, &["spring6"]),
+                    format!(
+                        "the translations and rotations of the spring '{}' belong to a part of {} m, in a machine of {} m",
+                        spring.name,
+                        tidy(length),
+                        tidy(self.size)
+                    ),
+                    "check the unit of the matrix: _n_m_rad or _n_mm_rad",
+                ));
+            }
+        }
+    }
+
+    /// Joints that give way far under the weight alone.
+    fn sag(&self, warnings: &mut Vec<Finding>) {
+        let limb = &self.mechanism.limbs()[self.limb];
+        // With several limbs the others carry too.
+        if self.mechanism.limbs().len() > 1 || limb.nominal.springs().is_empty() {
+            return;
+        }
+        let loads = moments(self.mechanism, self.limb);
+        for spring in limb.nominal.springs() {
+            let SpringLaw::Linear(k) = &spring.law else {
+                continue;
+            };
+            if k.len() != 1 {
+                continue;
+            }
+            let Some(load) = loads.iter().find(|l| l.coordinate == spring.first) else {
+                continue;
+            };
+            let gives = load.size / k[(0, 0)];
+            let kind = limb.nominal.coordinates()[spring.first].kind;
+            let (most, text) = match kind {
+                MotionKind::Revolute => {
+                    (0.1, format!("turns by {:.0} degrees", gives.to_degrees()))
+                }
+                MotionKind::Prismatic => (
+                    0.03 * self.size,
+                    format!("slides by {} mm", tidy((1e3 * gives).round())),
+                ),
+            };
+            if gives > most
+                && !limb
+                    .nominal
+                    .coordinates()
+                    .iter()
+                    .any(|c| c.role == Role::Passive)
+            {
+                warnings.push(Finding::new(
+                    &self.place(
+                        &spring.name,
+                        &[
+                            "stiffness_n_per_m",
+                            "stiffness_n_per_mm",
+                            "stiffness_n_m_per_rad",
+                            "stiffness_n_mm_per_rad",
+                        ],
+                    ),
+                    format!(
+                        "the joint '{}' {text} under the machine's own weight",
+                        spring.name
+                    ),
+                    "check the units of its stiffness and of the masses behind it",
+                ));
+            }
+        }
+    }
+
+    fn masses(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        let bodies = chain.bodies();
+        for body in bodies {
+            let mut others: Vec<f64> = bodies
+                .iter()
+                .filter(|b| b.name != body.name && b.mass > 0.0)
+                .map(|b| b.mass)
+                .collect();
+            others.sort_by(f64::total_cmp);
+            let beside = others.get(others.len() / 2).copied();
+            let alone = body.mass > 1500.0 * self.size.max(0.3);
+            let odd = beside.is_some_and(|m| body.mass > 200.0 * m) && body.mass > 100.0;
+            if alone || odd {
+                let beside = match beside {
+                    Some(m) if odd => format!(", most others about {} kg", tidy(m)),
+                    _ => format!(", in a machine of {} m", tidy(self.size)),
+                };
+                warnings.push(Finding::new(
+                    &self.place(&body.name, &["mass_kg"]),
+                    format!(
+                        "the body '{}' weighs {} kg{beside}",
+                        body.name,
+                        tidy(body.mass)
+                    ),
+                    "check the unit, and whether it is a placeholder",
+                ));
+            }
+            let gyration = (body.inertia.diagonal().amax() / body.mass).sqrt();
+            if body.mass > 0.0 && gyration > 2.0 * self.size.max(0.5) {
+                warnings.push(Finding::new(
+                    &self.place(&body.name, &["inertia_kg_m2"]),
+                    format!(
+                        "the inertia of the body '{}' is that of a part of {} m",
+                        body.name,
+                        tidy(gyration)
+                    ),
+                    "inertias are in kg m^2; statics does not use them",
+                ));
+            }
+        }
+        if let Some((body, centre)) = farthest(chain)
+            && centre > 10.0 * self.size
+        {
+            warnings.push(Finding::new(
+                &self.place(&body, &["centre_of_mass_mm", "centre_of_mass_m"]),
+                format!(
+                    "the centre of mass of the body '{body}' is {} m away, in a machine of {} m",
+                    tidy(centre),
+                    tidy(self.size)
+                ),
+                "check the unit in the key: _mm or _m",
+            ));
+        }
+        self.density(warnings);
+    }
+
+    /// Bodies beside what the links of their stiffness would weigh: `rho / E` is 3.8e-8 s^2/m^2 for
+    /// steel, aluminium and titanium alike.
+    fn density(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        let pieces = |link: &str| {
+            let of =
+                |s: &&kinetostat::SpringBlock| s.segment.as_ref().is_some_and(|g| g.link == link);
+            chain.springs().iter().filter(of).count() as f64
+        };
+        let links: f64 = chain
+            .springs()
+            .iter()
+            .filter_map(|s| {
+                let segment = s.segment.as_ref()?;
+                let k = s.stiffness_at(&vec![0.0; s.len()]);
+                let axial = segment.along.transpose() * k.fixed_view::<3, 3>(0, 0) * segment.along;
+                let length = segment.link_length / pieces(&segment.link);
+                Some(3.8e-8 * axial[0] * length * length)
+            })
+            .sum();
+        let bodies: f64 = chain.bodies().iter().map(|b| b.mass).sum();
+        if links <= 0.0 || bodies <= 0.0 {
+            return;
+        }
+        let ratio = bodies / links;
+        if !(0.01..=300.0).contains(&ratio) {
+            warnings.push(Finding::new(
+                &self.place(&chain.bodies()[0].name, &["mass_kg"]),
+                format!(
+                    "the masses of the limb are {} kg, but links of that stiffness weigh about {} kg in any metal",
+                    tidy(bodies),
+                    tidy(links)
+                ),
+                "check the density behind the masses (steel: 7850 kg/m^3), and the sections",
+            ));
+        }
+    }
+
+    /// Ranges of turning actuators too small to be degrees.
+    fn ranges(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.document.limb[self.limb].chain;
+        let Some(table) = self.document.chain.get(chain) else {
+            return;
+        };
+        let place = Place::root().key("chain").key(chain).key("elements");
+        for (i, element) in table.elements.iter().enumerate() {
+            let Element::Actuator(actuator) = element else {
+                continue;
+            };
+            if let Some([low, high]) = actuator.limits_deg
+                && high - low > 0.5
+                && low.abs().max(high.abs()) <= TAU + 0.01
+            {
+                warnings.push(Finding::new(
+                    &place.index(i).key("limits_deg"),
+                    format!(
+                        "the joint turns by only {} degrees in all",
+                        tidy(high - low)
+                    ),
+                    "this looks like radians: write limits_rad",
+                ));
+            }
+        }
+    }
+}
+
+fn workspace(document: &Document, mechanism: &Mechanism, size: f64, warnings: &mut Vec<Finding>) {
+    let Ok(Some((a, b))) = crate::assemble::corners(document) else {
+        return;
+    };
+    let home = mechanism.platforms()[mechanism.tool()]
+        .home
+        .translation
+        .vector;
+    let far = (a - home).norm().max((b - home).norm());
+    let extent = (a - b).norm();
+    if far > 5.0 * size || extent < 5e-3 * size {
+        warnings.push(Finding::new(
+            &Place::root().key("workspace"),
+            format!(
+                "the workspace is {} m large and lies up to {} m from the tool's home, in a machine of {} m",
+                tidy(extent),
+                tidy(far),
+                tidy(size)
+            ),
+            "check the unit in its keys: _mm or _m",
+        ));
+    }
+}
+
+fn deviations(document: &Document, size: f64, warnings: &mut Vec<Finding>) {
+    for (i, deviation) in document.deviation.iter().enumerate() {
+        let table = Place::root().key("deviation").index(i);
+        let moved = (deviation.moved_by.as_ref())
+            .and_then(|m| crate::placement::pose(&table.key("moved_by"), m).ok());
+        let (shift, turn, key) = match (moved, deviation.longer_by_mm, deviation.tilted_by_deg) {
+            (Some(m), _, _) => (
+                m.translation.vector.norm(),
+                m.rotation.angle().to_degrees(),
+                "moved_by",
+            ),
+            (_, Some(mm), _) => (1e-3 * mm.abs(), 0.0, "longer_by_mm"),
+            (_, _, Some(deg)) => (0.0, deg.abs(), "tilted_by_deg"),
+            _ => continue,
+        };
+        let place = table.key(key);
+        if turn > 10.0 || shift > 0.05 * size {
+            warnings.push(Finding::new(
+                &place,
+                format!(
+                    "an error of assembly of {} mm and {} degrees",
+                    tidy(1e3 * shift),
+                    tidy(turn)
+                ),
+                "errors are small motions; check the unit in the key",
+            ));
+        }
+    }
+}
