@@ -18,7 +18,7 @@ pub(crate) fn kind(joint: JointKind) -> MotionKind {
 }
 
 /// Keys for a length and for an angle: the ones of the joint's kind count, the others are refused.
-fn by_kind<T: Scaled>(
+pub(crate) fn by_kind<T: Scaled>(
     place: &Place,
     what: &str,
     kind: MotionKind,

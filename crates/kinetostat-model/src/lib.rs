@@ -58,6 +58,8 @@
 //! - **Loads belong to a limb** (`[[limb.load]]`): springs, gas springs and ropes between two of its
 //!   points or one and the base, wrenches that keep their direction or turn with their node,
 //!   counterweights. Places are named: nodes, bodies, or any element with a name (behind it).
+//! - **The pendant has coordinates of its own** (`[controller]`): a linear map of the model's joints,
+//!   with names and units as the controller shows them. Geometry is never bent to fit a pendant.
 //! - **Gravity has no default**: a file with masses says which way is down.
 //! - **The reader checks the file against the generated JSON Schema first.** One description serves
 //!   editors, messages and reading; places of values are looked up in the text only for messages, so
@@ -68,6 +70,7 @@
 mod assemble;
 mod check;
 mod deviation;
+mod controller;
 mod elastic;
 mod file;
 mod hints;
@@ -83,6 +86,7 @@ mod presets;
 mod problem;
 mod quantity;
 pub mod schema;
+mod schema_controller;
 mod schema_elastic;
 mod schema_element;
 mod schema_load;
@@ -92,6 +96,7 @@ mod smells;
 mod source;
 mod template;
 
+pub use controller::{Controller, ControllerAxis};
 pub use file::read_model;
 pub use model::{Model, json_schema};
 pub use presets::{Preset, PresetKind, preset_names, preset_text};

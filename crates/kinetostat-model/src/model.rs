@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::assemble::{Findings, assemble, corners};
 use crate::check;
+use crate::controller::{Controller, controller};
 use crate::placement;
 use crate::presets;
 use crate::problem::{Finding, ModelError, Place, Problem, Severity};
@@ -21,6 +22,8 @@ pub struct Model {
     pub document: Document,
     /// What it means, in SI.
     pub mechanism: Mechanism,
+    /// What the controller shows of the joints, where the file declares it.
+    pub controller: Option<Controller>,
     /// The file's text (without a byte order mark).
     pub text: String,
     /// The file's name as it was given, or `preset NAME`.
@@ -71,6 +74,9 @@ impl Model {
             toml::from_str::<Document>(text).map_err(|e| source.error(&[Source::syntax(&e)]))?;
         let mut findings = Findings::default();
         let mechanism = assemble(&document, &mut findings);
+        let controller = mechanism
+            .as_ref()
+            .and_then(|m| controller(&document, m, &mut findings));
         let Some(mechanism) = mechanism.filter(|_| findings.errors.is_empty()) else {
             if findings.errors.is_empty() {
                 findings.errors.push(Finding::new(
@@ -90,6 +96,7 @@ impl Model {
         Ok(Self {
             document,
             mechanism,
+            controller,
             text: text.to_owned(),
             file: file.to_owned(),
             warnings,

@@ -9,6 +9,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::schema_controller::{
+    ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit,
+};
 pub use crate::schema_elastic::{
     HollowBox, IBeam, Rectangle, Rigidities, Round, Section, ShearWord, Spring6, Stiffness, Tip,
     Tube, Values,
@@ -61,6 +64,8 @@ pub struct Document {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 2000))]
     pub deviation: Vec<Deviation>,
+    /// What the controller's pendant shows instead of the model's joint values.
+    pub controller: Option<ControllerTable>,
 }
 
 /// Name, origin and gravity of the machine.

@@ -1,0 +1,99 @@
+//! What the machine's controller shows instead of the model's joint values.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How the controller counts: its pendant shows a linear map of the model's joints.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerTable {
+    /// Which controller, in a few words.
+    pub name: Option<String>,
+    /// The axes in the order of the pendant, one for every actuator, external axes included.
+    #[schemars(length(min = 1, max = 1000))]
+    pub axis: Vec<ControllerAxisTable>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// One axis of the pendant: ratio times its joint, plus shares of other joints, plus an offset.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerAxisTable {
+    /// Name as on the pendant: A1, J1, E1.
+    pub name: String,
+    /// Its actuator; in a machine of several limbs LIMB.ACTUATOR.
+    pub joint: String,
+    /// true: the pendant counts against the model's joint.
+    pub reversed: Option<bool>,
+    /// Motion on the pendant per motion of the joint, above zero; 1 if not given.
+    pub ratio: Option<f64>,
+    /// What the pendant shows while the model's joints are at zero, mm.
+    pub zero_offset_mm: Option<f64>,
+    /// What the pendant shows while the model's joints are at zero, m.
+    pub zero_offset_m: Option<f64>,
+    /// What the pendant shows while the model's joints are at zero, degrees.
+    pub zero_offset_deg: Option<f64>,
+    /// What the pendant shows while the model's joints are at zero, rad.
+    pub zero_offset_rad: Option<f64>,
+    /// Unit that the pendant shows; mm for a joint that slides, deg for one that turns if not given.
+    pub unit: Option<ControllerUnit>,
+    /// Other joints that move this axis on the pendant, with their signs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub coupled: Vec<ControllerCoupling>,
+}
+
+/// The share of another joint in an axis of the pendant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerCoupling {
+    /// The other actuator, of the model.
+    pub joint: String,
+    /// Motion on the pendant per motion of that joint, both of one kind: -1 where the pendant shows
+    /// the difference.
+    pub ratio: Option<f64>,
+    /// For an axis that slides and a joint that turns.
+    pub ratio_mm_per_deg: Option<f64>,
+    /// For an axis that turns and a joint that slides.
+    pub ratio_deg_per_mm: Option<f64>,
+}
+
+/// Unit of an axis of the pendant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ControllerUnit {
+    /// Millimetres.
+    Mm,
+    /// Metres.
+    M,
+    /// Degrees.
+    Deg,
+    /// Radians.
+    Rad,
+}
+
+impl ControllerUnit {
+    /// As it is written: `mm`, `m`, `deg`, `rad`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::M => "m",
+            Self::Deg => "deg",
+            Self::Rad => "rad",
+        }
+    }
+
+    /// m or rad in one of it.
+    #[must_use]
+    pub fn in_si(self) -> f64 {
+        match self {
+            Self::Mm => 1e-3,
+            Self::Deg => std::f64::consts::PI / 180.0,
+            Self::M | Self::Rad => 1.0,
+        }
+    }
+}
