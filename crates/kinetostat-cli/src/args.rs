@@ -319,6 +319,21 @@ pub(crate) struct PlaceArgs {
     /// the orientation at home
     #[arg(long, value_name = "CONVENTION=A,B,C", requires = "at")]
     pub(crate) rotation: Option<String>,
+    /// The place by the model's joint values instead, deg and mm, as in shoulder=30 rail=250; joints
+    /// that are not named stay at home
+    #[arg(long, num_args = 1.., value_name = "JOINT=VALUE", value_delimiter = ',', conflicts_with = "at")]
+    pub(crate) joints: Vec<String>,
+    /// The same by what the controller's pendant shows, as in J1=10 J2=31.324; the model declares it
+    /// under [controller]
+    #[arg(long, num_args = 1.., value_name = "AXIS=VALUE", value_delimiter = ',', conflicts_with_all = ["at", "joints"])]
+    pub(crate) pendant: Vec<String>,
+}
+
+impl PlaceArgs {
+    /// One place is asked for.
+    pub(crate) fn given(&self) -> bool {
+        self.at.is_some() || !self.joints.is_empty() || !self.pendant.is_empty()
+    }
 }
 
 /// Job file, model and everything about the program.

@@ -11,6 +11,7 @@ use crate::args::DeflectArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
+use crate::joints::{self, JointValue};
 use crate::machine::machine;
 use crate::output::{Existing, Outputs};
 use crate::overcome::{Overcome, overcome};
@@ -22,15 +23,15 @@ use crate::summary;
 
 pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
     let subject = Path::new(&args.subject);
-    let is_job = args.place.at.is_none()
+    let is_job = !args.place.given()
         && subject.is_file()
         && Files::default()
             .job(subject)
             .is_ok_and(|t| looks_like_a_job(&t));
     if is_job || args.program.program.is_some() {
-        if args.place.at.is_some() {
+        if args.place.given() {
             return Err(Failure::input(
-                "--at asks for one place, --program for all of a program: keep one of them",
+                "--at, --joints and --pendant ask for one place, --program for all of a program: keep one of them",
             ));
         }
         return along_program(&args, is_job);
@@ -102,6 +103,8 @@ struct Deflection {
     rotation_vector_deg: [f64; 3],
     rotation_size_deg: f64,
     actuators: Vec<ActuatorAnswer>,
+    /// What the controller shows, in the order of its axes; empty without a [controller].
+    pendant: Vec<JointValue>,
     limbs: Vec<LimbAnswer>,
     /// Against a force in the softest direction, the tool free to turn.
     smallest_stiffness_n_per_mm: f64,
@@ -285,6 +288,7 @@ fn answer(
         rotation_vector_deg: turn.into(),
         rotation_size_deg: turn.norm(),
         actuators: actuators(&spot.mechanism, posture, &loaded.actuator_forces()),
+        pendant: spot.on_pendant(posture),
         limbs: loaded
             .limbs
             .iter()
@@ -418,6 +422,7 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         ]);
     }
     out.push_str(&columns(&rows, 2));
+    out.push_str(&joints::in_words("On the pendant", &a.pendant));
     out.push_str("\nStability\n");
     for limb in &a.limbs {
         out.push_str(&screen::item(&limb_in_words(limb)));

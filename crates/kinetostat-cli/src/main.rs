@@ -43,6 +43,7 @@ mod import_link;
 mod import_link_args;
 mod input;
 mod job;
+mod joints;
 mod machine;
 mod models;
 mod orientation;

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
 use kinetostat_machining::{NearSingular, near_singular, straight_tool};
-use kinetostat_model::Model;
+use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
 
 use crate::args::PlaceArgs;
 use crate::deflect::PlaceAsked;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
+use crate::joints::{self, JointValue};
 use crate::machine::{deviations_in_words, short};
 use crate::orientation;
 use crate::overcome::load_names;
@@ -27,6 +28,9 @@ pub(crate) struct Spot {
     pub(crate) load_names: Vec<Vec<String>>,
     pub(crate) target: Pose,
     pub(crate) at_home: bool,
+    /// Commands, m or rad, where the place is given by them.
+    pub(crate) joints: Option<Vec<f64>>,
+    pub(crate) controller: Option<Controller>,
     pub(crate) wrench: Wrench,
     pub(crate) inputs: Vec<PathBuf>,
     pub(crate) deviations: Vec<String>,
@@ -63,9 +67,11 @@ pub(crate) fn spot_of(
     }
     let mechanism = read.mechanism.with_tool(&straight_tool(1e-3 * length));
     let home = mechanism.platforms()[mechanism.tool()].home;
-    let target = match &place.at {
-        None => home,
-        Some(at) => {
+    let joints = joints::given(read, place)?;
+    let target = match (&place.at, &joints) {
+        (None, None) => home,
+        (None, Some(joints)) => *mechanism.posture_at(joints)?.target(),
+        (Some(at), _) => {
             let position = vector("--at", at)? * 1e-3;
             if position.norm() > 1e4 {
                 return Err(Failure::input(
@@ -95,7 +101,9 @@ pub(crate) fn spot_of(
         },
         load_names: load_names(read),
         target,
-        at_home: place.at.is_none(),
+        at_home: !place.given(),
+        joints,
+        controller: read.controller.clone(),
         wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),
         inputs: path.into_iter().collect(),
         deviations: deviations_in_words(read),
@@ -111,14 +119,26 @@ pub(crate) fn spot_of(
 impl Spot {
     /// The machine commanded for the place, within the limits of its actuators.
     pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
-        let posture = self.mechanism.posture(&self.target)?;
+        let posture = self.standing()?;
         posture.within_limits()?;
         Ok(posture)
     }
 
+    fn standing(&self) -> kinetostat::Result<Posture<'_>> {
+        match &self.joints {
+            Some(joints) => self.mechanism.posture_at(joints),
+            None => self.mechanism.posture(&self.target),
+        }
+    }
+
     /// The singular posture near the place, if there is one.
     pub(crate) fn near_singular(&self) -> Option<NearSingular> {
-        near_singular(&self.mechanism.posture(&self.target).ok()?)
+        near_singular(&self.standing().ok()?)
+    }
+
+    /// What the pendant shows there; nothing where no controller is declared.
+    pub(crate) fn on_pendant(&self, posture: &Posture<'_>) -> Vec<JointValue> {
+        joints::on_pendant(self.controller.as_ref(), &posture.commands())
     }
 
     pub(crate) fn asked(&self) -> PlaceAsked {
@@ -154,6 +174,10 @@ impl Spot {
             .starts_with(|c: char| c.is_ascii_digit() || c == '-')
         {
             out.push_str(&wrapped(&format!("tool: {}", self.tool_words), 0));
+        }
+        if let Some(commands) = &self.joints {
+            let values = joints::of_model(&self.mechanism, commands);
+            out.push_str(&joints::in_words("joints of the model", &values));
         }
         for deviation in &self.deviations {
             out.push_str(&wrapped(deviation, 0));

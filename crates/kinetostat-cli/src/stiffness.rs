@@ -2,7 +2,7 @@
 
 use kinetostat::{
     CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, MotionKind,
-    Role,
+    Posture, Role,
 };
 use kinetostat_machining::NearSingular;
 use nalgebra::Matrix6;
@@ -13,6 +13,7 @@ use crate::args::StiffnessArgs;
 use crate::deflect::PlaceAsked;
 use crate::failure::Answer;
 use crate::input::Files;
+use crate::joints::{self, JointValue};
 use crate::machine::short;
 use crate::place::{Spot, spot};
 use crate::screen::{self, Stream, columns, fixed, item, number, triple, wrapped};
@@ -27,6 +28,10 @@ struct Stiffness {
     model_source: String,
     tool: String,
     place: PlaceAsked,
+    /// Commands of the actuators there.
+    joints: Vec<JointValue>,
+    /// What the controller shows, in the order of its axes; empty without a [controller].
+    pendant: Vec<JointValue>,
     loaded: bool,
     force_n: [f64; 3],
     moment_n_m: [f64; 3],
@@ -102,6 +107,7 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         let directions = with_causes(&e.directions, behind);
         answer(
             &spot,
+            &posture,
             true,
             &e.stiffness,
             &e.compliance(),
@@ -114,6 +120,7 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         let directions = with_causes(&k.directions, |d| k.behind(&posture, &d.twist));
         answer(
             &spot,
+            &posture,
             false,
             &k.cartesian,
             &k.compliance(),
@@ -145,6 +152,7 @@ fn with_causes(
 
 fn answer(
     spot: &Spot,
+    posture: &Posture<'_>,
     loaded: bool,
     cartesian: &CartesianStiffness,
     compliance: &CartesianCompliance,
@@ -164,6 +172,8 @@ fn answer(
         model_source: spot.source.clone(),
         tool: spot.tool_words.clone(),
         place: spot.asked(),
+        joints: joints::of_model(&spot.mechanism, &posture.commands()),
+        pendant: spot.on_pendant(posture),
         loaded,
         force_n: spot.wrench.force().into(),
         moment_n_m: spot.wrench.moment().into(),
@@ -247,6 +257,10 @@ pub(crate) fn motion_in_words(d: &Direction) -> String {
 
 fn in_words(spot: &Spot, a: &Stiffness) -> String {
     let mut out = spot.heading();
+    if !a.pendant.is_empty() {
+        out.push_str(&joints::in_words("On the pendant", &a.pendant));
+        out.push('\n');
+    }
     let state = if a.loaded {
         format!(
             "Stiffness under the force {} N and the moment {} N m on the tool, with weights, preloads and deviations: what a further small force would meet.",

@@ -174,7 +174,10 @@ pub(crate) fn controller(
             if map[(row, other)] != 0.0 || other == joint {
                 findings.error(
                     &place.key("joint"),
-                    format!("the share of '{}' in this axis is given twice", names[other]),
+                    format!(
+                        "the share of '{}' in this axis is given twice",
+                        names[other]
+                    ),
                     "write the axis' own joint as joint = ..., every other one once",
                 );
             } else if let Some(ratio) =
@@ -276,12 +279,20 @@ fn own(place: &Place, axis: &ControllerAxisTable, kind: MotionKind) -> Found<Own
     if unit != usual && unit != other {
         return Err(Finding::new(
             &place.key("unit"),
-            format!("'{}' {what}: its unit cannot be {}", axis.joint, unit.word()),
+            format!(
+                "'{}' {what}: its unit cannot be {}",
+                axis.joint,
+                unit.word()
+            ),
             format!("write unit = \"{}\" or \"{}\"", usual.word(), other.word()),
         ));
     }
     Ok(Own {
-        ratio: if axis.reversed == Some(true) { -ratio } else { ratio },
+        ratio: if axis.reversed == Some(true) {
+            -ratio
+        } else {
+            ratio
+        },
         offset: offset.map_or(0.0, |g| g.value),
         unit,
     })
@@ -326,11 +337,14 @@ fn inverse(map: &DMatrix<f64>) -> Result<DMatrix<f64>, DVector<f64>> {
         column /= *by;
     }
     let svd = balanced.clone().svd(false, true);
-    let (least, value) = svd
-        .singular_values
-        .iter()
-        .enumerate()
-        .fold((0, f64::INFINITY), |m, (i, s)| if *s < m.1 { (i, *s) } else { m });
+    let (least, value) =
+        svd.singular_values
+            .iter()
+            .enumerate()
+            .fold(
+                (0, f64::INFINITY),
+                |m, (i, s)| if *s < m.1 { (i, *s) } else { m },
+            );
     let inverse = (value > 1e-9 * svd.singular_values.max())
         .then(|| balanced.try_inverse())
         .flatten()

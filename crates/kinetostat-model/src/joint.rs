@@ -7,8 +7,10 @@ use nalgebra::Vector3;
 use crate::part::Part;
 use crate::placement::direction;
 use crate::problem::{Finding, Place};
-use crate::quantity::{Choice, DEG, Found, Given, MM, Scaled, choice, forbid, pick};
-use crate::schema::{ActuatorElement, JointKind, PassiveElement, PassiveKind, SpringElement};
+use crate::quantity::{Choice, DEG, Found, Given, MM, Scaled, choice, forbid, need, pick};
+use crate::schema::{
+    ActuatorElement, ActuatorKind, JointKind, PassiveElement, PassiveKind, SpringElement,
+};
 
 pub(crate) fn kind(joint: JointKind) -> MotionKind {
     match joint {
@@ -80,7 +82,10 @@ fn stiffness_of(
 }
 
 pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec> {
-    let kind = kind(e.actuator);
+    let kind = match e.actuator {
+        ActuatorKind::Prismatic | ActuatorKind::Screw => MotionKind::Prismatic,
+        ActuatorKind::Revolute => MotionKind::Revolute,
+    };
     let axis = direction(&place.key("axis"), &e.axis)?.into_inner();
     let stiffness = stiffness_of(
         place,
@@ -166,6 +171,24 @@ pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec
         home: home_value,
         limits: limits.map(|l| (l.value[0], l.value[1])),
     })
+}
+
+/// Lead of a screw, m per turn; `None` for another actuator.
+pub(crate) fn lead(place: &Place, e: &ActuatorElement) -> Found<Option<f64>> {
+    let leads = [
+        choice("lead_mm_per_turn", e.lead_mm_per_turn, MM),
+        choice("lead_m_per_turn", e.lead_m_per_turn, 1.0),
+    ];
+    if e.actuator == ActuatorKind::Screw {
+        return Ok(Some(need(place, "lead of the screw", &leads)?.value));
+    }
+    forbid(
+        place,
+        &leads,
+        "only a screw has a lead",
+        "write actuator = \"screw\": its far end is then free to turn",
+    )?;
+    Ok(None)
 }
 
 /// Deflection at rest from its four keys: mm, m, deg, rad.

@@ -6,7 +6,7 @@ use kinetostat::{
 use nalgebra::{Matrix3, Matrix6, Unit, UnitQuaternion, Vector3};
 
 use crate::elastic::{Elastic, Elasticity, along};
-use crate::joint::{actuator, kind, passive, spring};
+use crate::joint::{actuator, kind, lead, passive, spring};
 use crate::placement::{direction, frame_along, pose};
 use crate::problem::{Finding, Place};
 use crate::quantity::{DEG, Found, MM, choice, forbid, need, pick, positive, vector};
@@ -23,6 +23,8 @@ pub(crate) enum Part {
     /// Offset; the name is where deviations attach.
     Rigid(Option<String>, Pose),
     Actuator(String, ActuatorSpec),
+    /// Lead in m per turn.
+    Screw(String, ActuatorSpec, f64),
     Passive(String, MotionKind, Vector3<f64>, f64),
     /// Stiffness; then the deflections at rest and at home.
     Spring(String, MotionKind, Vector3<f64>, f64, [f64; 2]),
@@ -46,6 +48,7 @@ impl Part {
                 None => *pose,
             }),
             Self::Actuator(name, spec) => builder.actuator(name, spec.clone()),
+            Self::Screw(name, spec, lead) => builder.screw(name, spec.clone(), *lead),
             Self::Passive(name, kind, axis, home) => builder.passive(name, *kind, *axis, *home),
             Self::Spring(name, kind, axis, stiffness, [rest, home]) => builder
                 .spring(name, *kind, *axis, *stiffness, *rest)
@@ -70,6 +73,7 @@ impl Part {
             Self::Actuator(name, _) | Self::Passive(name, ..) | Self::Spring(name, ..) => {
                 vec![name.clone()]
             }
+            Self::Screw(name, ..) => vec![name.clone(), format!("{name}.turn")],
             Self::Spring6(name, ..) | Self::LinkSpring(name, ..) => {
                 six.iter().map(|d| format!("{name}.{d}")).collect()
             }
@@ -109,7 +113,13 @@ pub(crate) fn parts(
             let offset = pose(&place.key("rigid"), &e.rigid)?;
             vec![Part::Rigid(e.name.clone(), offset)]
         }
-        Element::Actuator(e) => vec![Part::Actuator(name, actuator(place, e)?)],
+        Element::Actuator(e) => {
+            let spec = actuator(place, e)?;
+            vec![match lead(place, e)? {
+                Some(lead) => Part::Screw(name, spec, lead),
+                None => Part::Actuator(name, spec),
+            }]
+        }
         Element::Passive(e) => passive(place, name, e)?,
         Element::Spring(e) => vec![spring(place, name, e)?],
         Element::Spring6(e) => vec![spring6(place, name, e, elastic)?],

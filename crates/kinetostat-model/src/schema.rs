@@ -17,8 +17,8 @@ pub use crate::schema_elastic::{
     Tube, Values,
 };
 pub use crate::schema_element::{
-    ActuatorElement, BodyElement, Convention, CoupledElement, Element, LinkElement, NodeElement,
-    ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
+    ActuatorElement, ActuatorKind, BodyElement, Convention, CoupledElement, Element, LinkElement,
+    NodeElement, ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
 };
 pub use crate::schema_load::{
     Anchor, ConstantTensionLoad, CounterweightLoad, GasSpringLoad, LoadTable, PlatformAxes,

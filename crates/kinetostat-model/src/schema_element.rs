@@ -52,12 +52,17 @@ pub struct RigidElement {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-word" = "actuator"))]
 pub struct ActuatorElement {
-    /// Slides or turns.
-    pub actuator: JointKind,
+    /// Slides, turns, or is a screw.
+    pub actuator: ActuatorKind,
     /// Name, unique in the chain.
     pub name: Option<String>,
     /// Direction along which it slides or about which it turns.
     pub axis: Axis,
+    /// Lead of a screw, mm per turn: turning its far end by one turn, right-handed about the axis,
+    /// makes it longer by the lead; negative for a left-hand thread.
+    pub lead_mm_per_turn: Option<f64>,
+    /// Lead of a screw, m per turn.
+    pub lead_m_per_turn: Option<f64>,
     /// true: the drive does not give way (then no stiffness is written).
     pub rigid_drive: Option<bool>,
     /// Stiffness of a sliding drive, N/m.
@@ -96,6 +101,19 @@ pub struct ActuatorElement {
     pub source: Option<String>,
     /// What is assumed.
     pub assumption: Option<String>,
+}
+
+/// Kind of an actuator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ActuatorKind {
+    /// Slides along its axis.
+    Prismatic,
+    /// Turns about its axis.
+    Revolute,
+    /// Slides along its axis, its far end free to turn about it: turning changes the length by the
+    /// lead. The turn is the passive joint `name.turn`.
+    Screw,
 }
 
 /// Joint that nothing holds.

@@ -192,6 +192,29 @@ impl ChainBuilder {
         self
     }
 
+    /// A screw whose far end is free to turn, as in a strut between two universal joints: the actuator
+    /// `name`, then the passive rotation `name.turn` about the same axis, which also changes the
+    /// length by `lead / (2 pi)` (m per turn; positive for a right-hand thread). A force `F` along the
+    /// axis and the moment `M` about it then hold `M + F lead / (2 pi) = 0`: a screw without friction.
+    #[must_use]
+    pub fn screw(mut self, name: &str, spec: ActuatorSpec, lead: f64) -> Self {
+        if spec.kind != MotionKind::Prismatic {
+            self.fault(format!(
+                "screw '{name}': a screw slides; its actuator turns"
+            ));
+        }
+        let axis = spec.axis;
+        let turn = format!("{name}.turn");
+        self.actuator(name, spec)
+            .passive(&turn, MotionKind::Revolute, axis, 0.0)
+            .coupled(
+                &turn,
+                MotionKind::Prismatic,
+                axis,
+                lead / std::f64::consts::TAU,
+            )
+    }
+
     /// A passive joint of one degree of freedom. `home` (m or rad) starts inverse kinematics.
     #[must_use]
     pub fn passive(mut self, name: &str, kind: MotionKind, axis: Vector3<f64>, home: f64) -> Self {

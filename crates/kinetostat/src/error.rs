@@ -100,6 +100,21 @@ pub enum Error {
         /// Nearest pose found.
         nearest: Box<Pose>,
     },
+    /// Loops that do not close with the commands that were given.
+    #[error(
+        "{place}: its loops do not close with these commands: from home they close up to {:.1} % of the way, then {:.4} mm and {:.4} deg are missing",
+        100.0 * share, gap_m * 1e3, gap_rad.to_degrees()
+    )]
+    NoClosure {
+        /// Mechanism.
+        place: String,
+        /// Share of the way from home's commands on which the loops close, 0 to 1.
+        share: f64,
+        /// Largest gap of a limb just behind it, m.
+        gap_m: f64,
+        /// Its angle, rad.
+        gap_rad: f64,
+    },
     /// A command lies outside the limits of its actuator.
     #[error("actuator '{actuator}': the command {} is outside its limits {}",
         in_words(*kind, [*command]), in_words(*kind, [*low, *high]))]
@@ -144,6 +159,7 @@ impl Error {
             self,
             Self::NotConverged { .. }
                 | Self::Unreachable { .. }
+                | Self::NoClosure { .. }
                 | Self::OutsideLimits { .. }
                 | Self::FreeDirection { .. }
         )

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::chain::{Chain, Role};
+use crate::chain::{Chain, Drive, Element, Motion, MotionKind, Role};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::saddle::pseudo_inverse;
@@ -266,8 +266,8 @@ impl<'a> Search<'a> {
         };
         step.iter().enumerate().fold(1.0_f64, |limit, (k, dx)| {
             let most = match kind(k) {
-                crate::chain::MotionKind::Revolute => 0.5,
-                crate::chain::MotionKind::Prismatic => self.length,
+                MotionKind::Revolute => 0.5,
+                MotionKind::Prismatic => self.length,
             };
             limit.min(most / dx.abs().max(1e-300))
         })
@@ -281,20 +281,37 @@ impl<'a> Search<'a> {
 
 /// Passive rotations in (-pi, pi]; actuators with limits in the turn nearest to their range.
 pub(crate) fn wrap(chain: &Chain, at: &mut LimbPosture) {
+    wrap_passive(chain, at);
     let turn = std::f64::consts::TAU;
-    for (i, c) in chain.coordinates().iter().enumerate() {
-        if c.role == Role::Passive
-            && c.kind == crate::chain::MotionKind::Revolute
-            && at.coordinates[i].abs() > std::f64::consts::PI
-        {
-            at.coordinates[i] -= turn * (at.coordinates[i] / turn).round();
-        }
-    }
-    for (command, a) in at.commands.iter_mut().zip(chain.actuators()) {
-        if let (crate::chain::MotionKind::Revolute, Some((low, high))) = (a.kind, a.limits)
+    for (i, (command, a)) in at.commands.iter_mut().zip(chain.actuators()).enumerate() {
+        if let (MotionKind::Revolute, Some((low, high))) = (a.kind, a.limits)
             && (*command < low || *command > high)
+            && periodic(chain, |m| m.command.filter(|d| d.index == i))
         {
             *command -= turn * ((*command - 0.5 * (low + high)) / turn).round();
         }
     }
+}
+
+/// Passive rotations in (-pi, pi].
+pub(crate) fn wrap_passive(chain: &Chain, at: &mut LimbPosture) {
+    let turn = std::f64::consts::TAU;
+    for (i, c) in chain.coordinates().iter().enumerate() {
+        if c.role == Role::Passive
+            && c.kind == MotionKind::Revolute
+            && at.coordinates[i].abs() > std::f64::consts::PI
+            && periodic(chain, |m| m.coordinate.filter(|d| d.index == i))
+        {
+            at.coordinates[i] -= turn * (at.coordinates[i] / turn).round();
+        }
+    }
+}
+
+/// A full turn of what drives these motions changes nothing: not so where it drives a screw or a gear.
+fn periodic(chain: &Chain, driven: impl Fn(&Motion) -> Option<Drive>) -> bool {
+    chain.elements().iter().all(|element| match element {
+        Element::Motion(motion) => driven(motion)
+            .is_none_or(|d| motion.kind == MotionKind::Revolute && d.ratio.fract() == 0.0),
+        _ => true,
+    })
 }

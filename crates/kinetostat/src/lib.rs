@@ -76,7 +76,7 @@
 //!
 //! Dependencies point one way: `spatial, saddle with block_elimination, sparse <- spring, chain <- kinematics, loading <- system
 //! with sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse
-//! with graph <- platform, platform_step <- posture with network <- assembly, constraints, mobility,
+//! with graph <- platform, platform_step <- posture with network, forward <- assembly, constraints, mobility,
 //! near_singular, overcome, platform_curve, compensation`; and `equilibrium, stability <- reduced, singular_point <-
 //! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
@@ -101,6 +101,7 @@ mod equilibrium;
 mod error;
 mod family;
 mod follower;
+mod forward;
 mod function_load;
 mod graph;
 mod inverse;

@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use kinetostat::{MotionKind, Pose};
 use kinetostat_model::schema::{
-    ActuatorElement, Axis, AxisName, BodyElement, CoupledElement, Element, JointKind, LinkElement,
-    NodeElement, PassiveElement, PassiveKind, Placement, RigidElement,
+    ActuatorElement, ActuatorKind, Axis, AxisName, BodyElement, CoupledElement, Element, JointKind,
+    LinkElement, NodeElement, PassiveElement, PassiveKind, Placement, RigidElement,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -518,7 +518,12 @@ fn actuator(
     let limits = limits.map(|(low, high)| [low, high]);
     let turns = kind == MotionKind::Revolute;
     Element::Actuator(ActuatorElement {
-        actuator: joint_kind(kind),
+        actuator: match kind {
+            MotionKind::Prismatic => ActuatorKind::Prismatic,
+            MotionKind::Revolute => ActuatorKind::Revolute,
+        },
+        lead_mm_per_turn: None,
+        lead_m_per_turn: None,
         name: Some(name),
         axis,
         rigid_drive: stiffness.is_none().then_some(true),

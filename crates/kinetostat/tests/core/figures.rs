@@ -8,6 +8,7 @@ mod graphs;
 mod orthoglide;
 mod properties;
 mod report;
+mod screws;
 mod shapes;
 mod structure;
 mod theory;

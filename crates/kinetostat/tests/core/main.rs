@@ -44,6 +44,7 @@ mod orthoglide_reference;
 mod parallel_machines;
 mod parallelograms;
 mod report_iteration;
+mod screws_turn_with_their_joints;
 mod shapes_and_their_stability;
 mod stewart_gough_3_34_and_3_35;
 mod stored_stiffness_is_the_derivative_of_the_wrench;
