@@ -186,6 +186,13 @@ pub(crate) struct CheckArgs {
     /// Load on the tool by which deflections are judged, N, base axes; 1 kN along each axis without it
     #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true)]
     pub(crate) force: Option<Vec<f64>>,
+    /// Compare with poses jogged on the machine instead: a table (CSV) or TOML with joint values and
+    /// the measured pose of the tool
+    #[arg(long, value_name = "FILE")]
+    pub(crate) pose: Option<PathBuf>,
+    /// How far apart such poses may be, mm; 0.1 degrees for each millimetre
+    #[arg(long, value_name = "MM", default_value = "1", requires = "pose", value_parser = number)]
+    pub(crate) pose_tolerance_mm: f64,
     /// Print the findings as JSON; the text goes to the standard error
     #[arg(long)]
     pub(crate) json: bool,
@@ -289,6 +296,16 @@ pub(crate) enum ModelAction {
     },
     /// The JSON Schema of model files, for editors
     Schema,
+    /// Are two models one machine but for constant offsets of base, tool and joints?
+    Compare {
+        /// Preset or model file
+        a: String,
+        /// Preset or model file with as many actuators
+        b: String,
+        /// Print the answer as JSON; the text goes to the standard error
+        #[arg(long)]
+        json: bool,
+    },
 }
 
 /// Completions for a shell, to be saved where the shell looks for them

@@ -10,8 +10,10 @@ use serde::Serialize;
 use crate::along;
 use crate::args::CheckArgs;
 use crate::check_assumptions::AssumptionsFinding;
+use crate::check_frames::{Frames, frames};
 use crate::check_home::{HomeFinding, at_home};
 use crate::check_limbs::{LimbFinding, LoadFinding, limb, platform_loads};
+use crate::check_pose;
 use crate::check_reach::ReachFinding;
 use crate::check_words::in_words;
 use crate::failure::Answer;
@@ -31,6 +33,8 @@ pub(crate) struct Findings {
     pub(crate) description: Option<String>,
     pub(crate) gravity_m_per_s2: [f64; 3],
     pub(crate) platforms: Vec<PlatformFinding>,
+    /// Base and tool frame, zero posture, positive direction of each joint.
+    pub(crate) frames: Frames,
     pub(crate) limbs: Vec<LimbFinding>,
     /// Loads on platforms.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -61,6 +65,9 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
         Some(_) => args.model.clone(),
         None => format!("preset {}", args.model),
     };
+    if let Some(file) = &args.pose {
+        return check_pose::run(&model, &source, file, args.pose_tolerance_mm, args.json);
+    }
     let force = args.force.as_deref().map(|f| vector("--force", f));
     let force = force.transpose()?;
     let findings = findings(&model, source, force);
@@ -110,6 +117,7 @@ fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findi
                 carries_the_tool: i == m.tool(),
             })
             .collect(),
+        frames: frames(model),
         limbs,
         loads: platform_loads(model),
         deviations: deviations_in_words(model),

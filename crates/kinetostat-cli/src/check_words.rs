@@ -41,7 +41,7 @@ pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String
         }
         out.push_str(&item(&text));
     }
-    // Frames, zero posture and positive direction of each joint stand here (`check_frames`).
+    out.push_str(&crate::check_frames::in_words(&f.frames));
     for group in alike(&f.limbs) {
         let [first, rest @ ..] = group.as_slice() else {
             continue;

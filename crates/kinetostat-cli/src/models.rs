@@ -3,6 +3,7 @@
 use kinetostat_model::{Model, PresetKind, json_schema, preset_names, preset_text};
 
 use crate::args::{ModelAction, ModelArgs};
+use crate::compare;
 use crate::failure::{Answer, Failure};
 use crate::screen::{self, Stream, listed};
 
@@ -16,6 +17,7 @@ pub(crate) fn run(args: &ModelArgs) -> Answer<()> {
                 Ok(_) => Failure::input(format!("there is no preset named '{name}'")),
             }),
         },
+        ModelAction::Compare { a, b, json } => compare::run(a, b, *json),
         ModelAction::Schema => screen::print_bytes(json_schema().as_bytes()),
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::UnitQuaternion;
 
 use crate::failure::{Answer, Failure};
 
-const CONVENTIONS: [&str; 9] = [
+pub(crate) const CONVENTIONS: [&str; 9] = [
     "rotation_vector_deg",
     "rotation_vector_rad",
     "rotation_intrinsic_xyz_deg",
@@ -65,12 +65,17 @@ pub(crate) fn option(flag: &str, text: &str) -> Answer<UnitQuaternion<f64>> {
         .ok_or_else(|| {
             refuse("numbers with a decimal point, separated by commas, are needed".into())
         })?;
+    of(name, &numbers).map_err(refuse)
+}
+
+/// The orientation that these numbers mean by a convention of [`CONVENTIONS`].
+pub(crate) fn of(name: &str, numbers: &[f64]) -> Result<UnitQuaternion<f64>, String> {
     let needed = if name.starts_with("quaternion") { 4 } else { 3 };
     if numbers.len() != needed {
-        return Err(refuse(format!(
+        return Err(format!(
             "{needed} numbers are needed, {} are given",
             numbers.len()
-        )));
+        ));
     }
     let mut p = Placement::default();
     if let [a, b, c, d] = numbers[..] {
@@ -93,7 +98,7 @@ pub(crate) fn option(flag: &str, text: &str) -> Answer<UnitQuaternion<f64>> {
     }
     pose(&p)
         .map(|pose| pose.rotation)
-        .map_err(|(message, help)| refuse(format!("{message}; {help}")))
+        .map_err(|(message, help)| format!("{message}; {help}"))
 }
 
 /// An orientation in words: the rotation vector in degrees.
