@@ -22,6 +22,7 @@ pub(crate) struct Frames {
     home_axes: [[f64; 3]; 3],
     zero_position_mm: Option<[f64; 3]>,
     zero_axes: Option<[[f64; 3]; 3]>,
+    zero_outside_limits: bool,
     /// Why the machine cannot stand with all joints at zero.
     zero_problem: Option<String>,
     joints: Vec<JointDirection>,
@@ -126,6 +127,7 @@ pub(crate) fn frames(model: &Model) -> Frames {
         home_axes: axes(&tool.home),
         zero_position_mm: zero_pose.map(|p| mm(p.translation.vector)),
         zero_axes: zero_pose.as_ref().map(axes),
+        zero_outside_limits: zero.is_ok_and(|p| p.within_limits().is_err()),
         zero_problem,
         joints: match (&at_home, count <= MOST) {
             (Ok(commands), true) => directions(m, &tool.home, commands),
@@ -252,7 +254,8 @@ pub(crate) fn in_words(f: &Frames) -> String {
     )));
     out.push_str(&item(&match (f.zero_position_mm, &f.zero_axes, &f.zero_problem) {
         (Some(p), Some(axes), _) if f.joints.iter().any(|j| j.home != 0.0) => format!(
-            "with every actuator at 0 the tool's frame is at {} mm; {}",
+            "with every actuator at 0{} the tool's frame is at {} mm; {}",
+            if f.zero_outside_limits { " (outside the limits)" } else { "" },
             place(p),
             pointing(axes)
         ),

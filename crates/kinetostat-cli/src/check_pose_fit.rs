@@ -76,10 +76,6 @@ impl Explanation {
 
     /// Fewer and plainer changes first; a fitted number is dearer than a quarter turn.
     fn cost(&self) -> usize {
-        let quarter = |x: f64| {
-            let quarters = x / std::f64::consts::FRAC_PI_2;
-            (quarters - quarters.round()).abs() < 1e-9
-        };
         let offsets: usize = self
             .offsets
             .iter()
@@ -90,6 +86,12 @@ impl Explanation {
             + 2 * usize::from(self.coupling.is_some())
             + 3 * usize::from(self.frame.is_some())
     }
+}
+
+/// A whole number of quarter turns.
+fn quarter(angle: f64) -> bool {
+    let quarters = angle / std::f64::consts::FRAC_PI_2;
+    (quarters - quarters.round()).abs() < 1e-6
 }
 
 /// The search's answer.
@@ -421,7 +423,10 @@ fn fitted(
             } else {
                 by
             };
-            found.push(with(axis, by));
+            // Quarter turns are tried as such; no offset is no explanation.
+            if !turning || !quarter(by) {
+                found.push(with(axis, by));
+            }
         }
     }
     found

@@ -10,7 +10,7 @@ use crate::along;
 use crate::compare_fit::{Fit, Mapping, Side};
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::joints::{self, unit};
+use crate::joints::{self, JointValue, unit};
 use crate::machine::short;
 use crate::screen::{self, Stream, columns, fixed, item, number, triple, wrapped};
 
@@ -36,8 +36,9 @@ struct Comparison {
     left_mm: f64,
     left_deg: f64,
     postures: usize,
-    /// Against a force at home of A, the tool free to turn, softest first; none where a model is rigid
-    /// or free there.
+    /// Joints of A where the stiffnesses are compared; empty where a model is rigid or free.
+    stiffness_at: Vec<JointValue>,
+    /// Against a force, the tool free to turn, softest first.
     stiffness_a_n_per_mm: Option<[f64; 3]>,
     stiffness_b_n_per_mm: Option<[f64; 3]>,
 }
@@ -161,10 +162,12 @@ fn compare(one: &Model, other: &Model, a: &str, b: &str) -> Answer<Comparison> {
         ))
     })?;
     let same = best.left.0.max(length * best.left.1) < SAME * length;
-    let stiffness = match same {
-        true => stiffness(m, n, &best),
-        false => None,
-    };
+    // Home may be singular, or one of the two rigid.
+    let home = joints::home(m);
+    let stiffness = std::iter::once(&home)
+        .chain(postures.iter().take(3))
+        .filter(|_| same)
+        .find_map(|q| Some((q.clone(), stiffness(m, n, &best, q)?)));
     Ok(Comparison {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -177,8 +180,12 @@ fn compare(one: &Model, other: &Model, a: &str, b: &str) -> Answer<Comparison> {
         left_mm: best.left.0 * 1e3,
         left_deg: best.left.1.to_degrees(),
         postures: postures.len(),
-        stiffness_a_n_per_mm: stiffness.map(|s| s.0),
-        stiffness_b_n_per_mm: stiffness.map(|s| s.1),
+        stiffness_at: stiffness
+            .as_ref()
+            .map(|(q, _)| joints::of_model(m, q))
+            .unwrap_or_default(),
+        stiffness_a_n_per_mm: stiffness.as_ref().map(|(_, s)| s.0),
+        stiffness_b_n_per_mm: stiffness.as_ref().map(|(_, s)| s.1),
     })
 }
 
@@ -253,10 +260,14 @@ fn postures(m: &Mechanism, kinds: &[MotionKind], length: f64, count: usize) -> V
         .collect()
 }
 
-/// Stiffness against a force at home of A, seen at A's tool, softest first, N/mm.
-fn stiffness(m: &Mechanism, n: &Mechanism, best: &Mapping) -> Option<([f64; 3], [f64; 3])> {
-    let q = joints::home(m);
-    let (one, other) = (m.posture_at(&q).ok()?, n.posture_at(&best.joints(&q)).ok()?);
+/// Stiffness against a force with joints of A at `q`, seen at A's tool, softest first, N/mm.
+fn stiffness(
+    m: &Mechanism,
+    n: &Mechanism,
+    best: &Mapping,
+    q: &[f64],
+) -> Option<([f64; 3], [f64; 3])> {
+    let (one, other) = (m.posture_at(q).ok()?, n.posture_at(&best.joints(q)).ok()?);
     let compliance = |k: kinetostat::UnloadedStiffness| {
         (k.rank() == 6).then(|| k.cartesian.compliance()).flatten()
     };
@@ -347,7 +358,7 @@ fn in_words(c: &Comparison) -> String {
         };
         out.push('\n');
         out.push_str(&wrapped(
-            &format!("Against a force on the tool at home of A: {words}."),
+            &format!("Against a force on the tool: {words}."),
             0,
         ));
         let row = |name: &str, v: &[f64; 3]| {
@@ -364,6 +375,10 @@ fn in_words(c: &Comparison) -> String {
                 row("B", b),
             ],
             2,
+        ));
+        out.push_str(&joints::in_words(
+            "with the joints of A at",
+            &c.stiffness_at,
         ));
     }
     out

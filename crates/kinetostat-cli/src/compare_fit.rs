@@ -77,24 +77,36 @@ impl Fit<'_> {
         }
         // Stable: fewer reversed joints come first among equals.
         rough.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let kept = if self.quick { 8 } else { 4 };
-        let mut best: Option<Mapping> = None;
+        let kept = if self.quick { 8 } else { 3 };
+        let mut others: Vec<Mapping> = Vec::new();
         let mut same: Vec<Mapping> = Vec::new();
         for (_, start) in rough.into_iter().take(kept) {
-            let Some(found) = self.refined(start) else {
-                continue;
+            let found = match self.with_left(start.clone()) {
+                Some(exact) if self.is_same(&exact) => Some(exact),
+                _ => self.refined(start),
             };
-            if self.is_same(&found) {
-                same.push(found);
-            } else if best
-                .as_ref()
-                .is_none_or(|b| self.rank(&found) < self.rank(b))
-            {
-                best = Some(found);
+            match found {
+                Some(found) if self.is_same(&found) => same.push(found),
+                Some(found) => others.push(found),
+                None => {}
+            }
+            if !self.quick && !same.is_empty() {
+                break;
             }
         }
         let plain = same.into_iter().map(|m| self.plainest(m));
-        plain.min_by_key(changes).or(best)
+        if let Some(plain) = plain.min_by_key(changes) {
+            return Some(plain);
+        }
+        // Of those that miss by about the same, the one that reverses least.
+        let least = others
+            .iter()
+            .map(|m| self.rank(m))
+            .fold(f64::INFINITY, f64::min);
+        others.retain(|m| self.rank(m) <= 1.2 * least);
+        others
+            .into_iter()
+            .min_by_key(|m| m.signs.iter().filter(|s| **s < 0.0).count())
     }
 
     fn is_same(&self, m: &Mapping) -> bool {
@@ -190,7 +202,7 @@ impl Fit<'_> {
     fn refined(&self, mut at: Mapping) -> Option<Mapping> {
         let mut miss = self.miss(&at)?;
         let mut damping = 1e-6;
-        for _ in 0..40 {
+        for _ in 0..if self.quick { 40 } else { 8 } {
             let before = miss.norm();
             if before < 1e-13 * self.length {
                 break;

@@ -13,6 +13,7 @@ fn every_json_says_its_version_and_who_wrote_it() {
     let here = workplace();
     for line in [
         "check model.toml --json",
+        "model compare model.toml model.toml --json",
         "stiffness model.toml --json",
         "deflect orthoglide --force 1 0 0 --json",
         "deflect orthoglide --program part.ngc --part-origin-mm 0 0 100 --force 1 0 0 --json",
