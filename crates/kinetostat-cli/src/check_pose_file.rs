@@ -74,10 +74,7 @@ fn from_csv(text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
         .trim(csv::Trim::All)
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
-    let header = reader
-        .headers()
-        .map_err(|e| Failure::input(format!("no table: {e}")))?
-        .clone();
+    let header = reader.headers().map_err(|e| unreadable(&e))?.clone();
     let columns: Vec<Column> = header
         .iter()
         .map(|h| column(h, names))
@@ -85,7 +82,7 @@ fn from_csv(text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
     complete(&columns, names)?;
     let mut rows = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|e| Failure::input(format!("no table: {e}")))?;
+        let record = record.map_err(|e| unreadable(&e))?;
         let line = record.position().map_or(0, |p| p.line() as usize);
         let row = cells(&record, &columns, &header, names, rows.len() + 1)
             .map_err(|reason| Failure::input(format!("line {line}: {reason}")))?;
@@ -95,6 +92,16 @@ fn from_csv(text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
         }
     }
     Ok(rows)
+}
+
+fn unreadable(error: &csv::Error) -> Failure {
+    let line = error.position().map_or(0, csv::Position::line);
+    Failure::input(match error.kind() {
+        csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => format!("line {line}: {len} cells, but the table has {expected_len} columns"),
+        _ => format!("no table: {error}"),
+    })
 }
 
 fn column(head: &str, names: &[Named]) -> Answer<Column> {

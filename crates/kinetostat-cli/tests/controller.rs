@@ -462,3 +462,123 @@ fn machines_of_other_lengths_are_not_one() {
     .answered();
     assert!(said.out.contains("The same machine"), "{said:?}");
 }
+
+/// An arm of `../shared`, imported; `None` where it is not there.
+fn imported(here: &std::path::Path, name: &str) -> Option<String> {
+    let urdf = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/data/urdf")
+        .join(format!("{name}.urdf"));
+    if !urdf.is_file() {
+        return None;
+    }
+    let out = format!("{name}.toml");
+    let urdf = urdf.display().to_string();
+    let line = [
+        "import",
+        "urdf",
+        &urdf,
+        "--base",
+        "base_link",
+        "--tip",
+        "tool0",
+        "--joint-stiffness",
+        "2e6",
+        "-o",
+        &out,
+    ];
+    run(here, &line).answered();
+    Some(std::fs::read_to_string(here.join(out)).expect("a model"))
+}
+
+#[test]
+fn arms_of_real_files_are_compared() {
+    let here = workplace();
+    let (Some(kuka), Some(_), Some(_)) = (
+        imported(here.path(), "kuka_kr210l150"),
+        imported(here.path(), "abb_irb6640"),
+        imported(here.path(), "abb_irb6640_185_280"),
+    ) else {
+        println!("SKIPPED: there is no ../shared/data/urdf");
+        return;
+    };
+    // KUKA counts A1, A4 and A6 the other way; the zeros of A2 and A3 are upright.
+    let mut changed = String::new();
+    for line in kuka.lines() {
+        let mut line = line.to_owned();
+        let turned = ["joint_a1", "joint_a4", "joint_a6"];
+        if turned
+            .iter()
+            .any(|j| line.contains(&format!("name = \"{j}\",")))
+        {
+            line = match line.contains("axis = \"-") {
+                true => line.replace("axis = \"-", "axis = \""),
+                false => line.replace("axis = \"", "axis = \"-"),
+            };
+        }
+        for (joint, turn) in [("joint_a2", 90), ("joint_a3", -90)] {
+            if line.contains("actuator") && line.contains(&format!("name = \"{joint}\",")) {
+                line =
+                    format!("  {{ rigid = {{ rotation_vector_deg = [0, {turn}, 0] }} }},\n{line}");
+            }
+        }
+        changed.push_str(&line);
+        changed.push('\n');
+    }
+    // Limits are those of the other way of counting: they do not matter here.
+    let bare = |text: &str| -> String {
+        text.lines()
+            .map(|l| match (l.find(", limits_rad"), l.rfind(" }")) {
+                (Some(from), Some(to)) => format!("{}{}\n", &l[..from], &l[to..]),
+                _ => format!("{l}\n"),
+            })
+            .collect()
+    };
+    std::fs::write(here.path().join("a.toml"), bare(&kuka)).expect("written");
+    std::fs::write(here.path().join("b.toml"), bare(&changed)).expect("written");
+    let said = run(
+        here.path(),
+        &["model", "compare", "a.toml", "b.toml", "--json"],
+    )
+    .answered();
+    let json: Value = serde_json::from_str(&said.out).expect("JSON");
+    assert_eq!(json["same"], true, "{}", said.err);
+    assert!(json["left_mm"].as_f64().expect("mm") < 1e-6, "{}", said.err);
+    let found: Vec<(bool, f64)> = json["joints"]
+        .as_array()
+        .expect("joints")
+        .iter()
+        .map(|j| {
+            let offset = j["offset"].as_f64().expect("deg");
+            (j["reversed"].as_bool().expect("yes or no"), offset)
+        })
+        .collect();
+    let expected = [
+        (true, 0.0),
+        (false, -90.0),
+        (false, 90.0),
+        (true, 0.0),
+        (false, 0.0),
+        (true, 0.0),
+    ];
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            found.0 == expected.0 && (found.1 - expected.1).abs() < 1e-6,
+            "{}",
+            said.err
+        );
+    }
+    // Two variants of one series have arms of different lengths.
+    let line = [
+        "model",
+        "compare",
+        "abb_irb6640.toml",
+        "abb_irb6640_185_280.toml",
+    ];
+    let said = run(here.path(), &line).answered();
+    assert!(
+        said.out
+            .contains("No constant offsets map one on the other"),
+        "{}",
+        said.out
+    );
+}

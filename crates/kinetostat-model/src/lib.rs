@@ -69,8 +69,8 @@
 
 mod assemble;
 mod check;
-mod deviation;
 mod controller;
+mod deviation;
 mod elastic;
 mod file;
 mod hints;
