@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use kinetostat::MotionKind;
 use kinetostat_model::schema::Placement;
 use nalgebra::Vector3;
 use serde::Deserialize;
@@ -109,13 +110,14 @@ fn column(head: &str, names: &[Named]) -> Answer<Column> {
         return Ok(Column::Name);
     }
     // A joint, with or without the unit that it has anyway.
-    for (i, (name, _, usual)) in names.iter().enumerate() {
-        let unit = match *usual {
-            x if x == 1e-3 => ["_mm", "_mm"],
-            x if x != 1.0 => ["_deg", "_deg"],
-            _ => ["_m", "_rad"],
+    for (i, (name, kind, usual)) in names.iter().enumerate() {
+        let unit = match (kind, *usual == 1.0) {
+            (MotionKind::Prismatic, false) => "mm",
+            (MotionKind::Prismatic, true) => "m",
+            (MotionKind::Revolute, false) => "deg",
+            (MotionKind::Revolute, true) => "rad",
         };
-        if head == name || unit.iter().any(|u| head == format!("{name}{u}")) {
+        if head == name || head == format!("{name}_{unit}") {
             return Ok(Column::Joint(i));
         }
     }

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use kinetostat::{Pose, Posture};
 use kinetostat_model::Model;
 use kinetostat_model::schema::{
-    Axis, AxisName, Convention, Element, JointKind, PassiveKind, Placement, Section, Spring6,
-    Stiffness,
+    ActuatorKind, Axis, AxisName, Convention, Element, JointKind, PassiveKind, Placement, Section,
+    Spring6, Stiffness,
 };
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, Unit, UnitQuaternion, Vector3};
 
@@ -128,7 +128,14 @@ impl Reader<'_> {
                 assert_eq!(rigid, stiffness.is_none());
                 let drive = self.coordinates.get(name.as_str()).copied();
                 let value = self.commands[name.as_str()] + drive.unwrap_or(0.0);
-                self.one(&name, e.actuator, &axis(&e.axis), value, stiffness, rigid);
+                let kind = match e.actuator {
+                    ActuatorKind::Prismatic => JointKind::Prismatic,
+                    ActuatorKind::Revolute => JointKind::Revolute,
+                    ActuatorKind::Screw => {
+                        panic!("'{name}': screws are tested against a closed form")
+                    }
+                };
+                self.one(&name, kind, &axis(&e.axis), value, stiffness, rigid);
             }
             Element::Spring(e) => {
                 let mm = e.stiffness_n_per_mm.map(|k| k * 1e3);

@@ -22,7 +22,7 @@ fn strut(i: usize) -> (Vector3<f64>, Vector3<f64>, UnitQuaternion<f64>) {
         vector![r * a.cos(), r * a.sin(), 0.0]
     };
     let k = (i / 2) as f64 * 120.0;
-    let side = if i % 2 == 0 { -1.0 } else { 1.0 };
+    let side = if i.is_multiple_of(2) { -1.0 } else { 1.0 };
     let foot = at(k + side * 50.0, 0.5);
     let head = at(k + side * 13.0, 0.3);
     let along = head + vector![0.0, 0.0, HEIGHT] - foot;
