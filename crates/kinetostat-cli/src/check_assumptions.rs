@@ -2,11 +2,10 @@
 //! singular posture near.
 
 use kinetostat::{Error, MechanismEquilibrium, Posture, Wrench};
-use kinetostat_machining::{NEAR_SINGULAR, NearSingular, near_singular};
+use kinetostat_machining::{NEAR_SINGULAR, NearSingular, natural_length, near_singular};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
-use crate::check_reach::natural_length;
 use crate::machine::short;
 use crate::screen::{fixed, item, number, triple};
 
@@ -117,11 +116,11 @@ impl AssumptionsFinding {
         let percent = number(100.0 * share, 2);
         let text = if share <= SMALL {
             format!(
-                "weight, preloads and deviations move the tool by {percent} % of its natural length: small against the links"
+                "weights, preloads, loads on limbs and deviations move the tool by {percent} % of its natural length: small against the links"
             )
         } else {
             format!(
-                "weight, preloads and deviations move the tool by {percent} % of its natural length: NOT small against the links; the unloaded stiffness is not that of the machine as it stands"
+                "weights, preloads, loads on limbs and deviations move the tool by {percent} % of its natural length: NOT small against the links; the unloaded stiffness is not that of the machine as it stands"
             )
         };
         if share > 0.05 {

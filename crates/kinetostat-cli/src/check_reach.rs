@@ -2,6 +2,7 @@
 //! inverse kinematics around home.
 
 use kinetostat::{Element, Limb, Mechanism, MotionKind, Pose, Posture, Role};
+use kinetostat_machining::natural_length;
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use serde::Serialize;
 
@@ -293,11 +294,8 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
 /// What ends a way that is longer than ten times the machine.
 const UNBOUNDED: &str = "nothing: it was not followed farther";
 
-/// Natural length, m: the mean over the limbs.
-pub(crate) fn natural_length(m: &Mechanism) -> f64 {
-    let sum: f64 = m.limbs().iter().map(|l| l.actual.scale().length).sum();
-    sum / m.limbs().len() as f64
-}
+/// Ways that the tool goes only while it turns.
+const ONLY_TURNING: &str = "the machine moves this way only while the tool turns";
 
 /// The posture at a place near another one, or what forbids it.
 fn at<'m>(from: &Posture<'m>, shift: &Vector3<f64>, home: &Pose) -> Result<Posture<'m>, String> {
@@ -343,7 +341,13 @@ fn march(home: &Posture<'_>, direction: &Vector3<f64>, length: f64) -> (f64, Str
         }
     }
     if good < 1e-4 * length {
-        return (0.0, "the machine does not move this way".to_owned());
+        let turning = (0..3).any(|k| direction[k] != 0.0 && home.correctable()[k]);
+        let end = if turning {
+            ONLY_TURNING
+        } else {
+            "the machine does not move this way"
+        };
+        return (0.0, end.to_owned());
     }
     (good, end)
 }
@@ -424,7 +428,9 @@ pub(crate) fn in_words(reach: &ReachFinding) -> String {
     let ways: Vec<String> = ["x", "y", "z"]
         .iter()
         .zip(along)
-        .map(|(name, [back, ahead])| match (*back, *ahead) {
+        .zip(reach.ends.iter().flatten())
+        .map(|((name, [back, ahead]), ends)| match (*back, *ahead) {
+            (0.0, 0.0) if ends[0] == ONLY_TURNING => format!("{name} only while turning"),
             (0.0, 0.0) => format!("{name} none"),
             _ => format!("{name} -{} .. +{}", number(*back, 4), number(*ahead, 4)),
         })
@@ -440,7 +446,7 @@ pub(crate) fn in_words(reach: &ReachFinding) -> String {
     out.push_str(&item(&text));
     let mut reasons: Vec<&str> = Vec::new();
     for end in reach.ends.iter().flatten().flatten() {
-        if !reasons.contains(&end.as_str()) && !end.starts_with("the machine does not") {
+        if !reasons.contains(&end.as_str()) && !end.starts_with("the machine ") {
             reasons.push(end);
         }
     }

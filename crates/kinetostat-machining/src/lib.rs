@@ -14,7 +14,7 @@ mod solve;
 
 pub use field::ModelField;
 pub use load::{CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
-pub use near::{NEAR_SINGULAR, NearKind, NearSingular, near_singular};
+pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use result::{
     ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,

@@ -1,7 +1,7 @@
 //! Whether a posture lies near a singular one, for people: distance and direction of the tool's
 //! motion, and what is lost or gained there [R 5.5.3].
 
-use kinetostat::{NearSingularity, Posture, SingularityKind, Twist};
+use kinetostat::{Mechanism, NearSingularity, Posture, SingularityKind, Twist};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -46,12 +46,18 @@ pub enum NearKind {
     Lost,
 }
 
+/// Natural length of a machine, m: the mean over its limbs.
+#[must_use]
+pub fn natural_length(mechanism: &Mechanism) -> f64 {
+    let limbs = mechanism.limbs();
+    let sum: f64 = limbs.iter().map(|l| l.actual.scale().length).sum();
+    sum / limbs.len() as f64
+}
+
 /// The nearest singular posture, if it is closer than [`NEAR_SINGULAR`].
 #[must_use]
 pub fn near_singular(posture: &Posture<'_>) -> Option<NearSingular> {
-    let limbs = posture.mechanism().limbs();
-    let sum: f64 = limbs.iter().map(|l| l.actual.scale().length).sum();
-    let length = sum / limbs.len() as f64;
+    let length = natural_length(posture.mechanism());
     let list = posture.near_singularities(NEAR_SINGULAR * length).ok()?;
     // A first-order distance that following corrected upwards may be far.
     let near = list

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 use crate::field::{ModelField, in_words};
 use crate::load::{LoadAlongPath, ProgramLoad};
-use crate::near::near_singular;
+use crate::near::{natural_length, near_singular};
 use crate::placement::Placement;
 use crate::result::{
     ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
@@ -472,9 +472,7 @@ fn conclude(
 /// Places are compared by the tool's motion, rotations at the natural length.
 fn nearest_singular(task: &Task<'_>, sites: &[Site]) -> Option<NearSingularPlace> {
     let stride = sites.len().div_ceil(RunResult::MAX_POSTURES).max(1);
-    let limbs = task.mechanism.limbs();
-    let length_mm =
-        1e3 * limbs.iter().map(|l| l.actual.scale().length).sum::<f64>() / limbs.len() as f64;
+    let length_mm = 1e3 * natural_length(task.mechanism);
     let mut last: Option<Posture<'_>> = None;
     let mut found: Option<(f64, NearSingularPlace)> = None;
     for site in sites.iter().step_by(stride) {
