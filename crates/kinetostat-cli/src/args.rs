@@ -6,6 +6,7 @@ use clap::{ArgAction, Args, Parser, Subcommand};
 
 use crate::assemble_args::AssembleArgs;
 use crate::curve_args::{CurveArgs, EquilibriaArgs};
+use crate::draw::DrawArgs;
 use crate::import_link_args::{DisplacementsArgs, MatrixArgs};
 use crate::job::{Axes, BlockDeleteWord, UnitsWord};
 
@@ -306,6 +307,7 @@ pub(crate) enum ModelAction {
         #[arg(long)]
         json: bool,
     },
+    Draw(DrawArgs),
 }
 
 /// Completions for a shell, to be saved where the shell looks for them

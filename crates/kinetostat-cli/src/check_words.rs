@@ -97,6 +97,9 @@ pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String
     if f.warnings.is_empty() {
         out.push_str("\nNothing looks wrong in the file.\n");
     }
+    if let Some(home) = &f.home {
+        out.push_str(&crate::draw::next(&f.model_source, home.stiffness_rank < 6));
+    }
     out
 }
 

@@ -40,6 +40,7 @@ mod curve_work;
 mod deflect;
 mod demo;
 mod diagnose;
+mod draw;
 mod equilibria;
 mod equilibria_answer;
 mod equilibria_table;

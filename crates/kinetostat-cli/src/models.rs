@@ -4,6 +4,7 @@ use kinetostat_model::{Model, PresetKind, json_schema, preset_names, preset_text
 
 use crate::args::{ModelAction, ModelArgs};
 use crate::compare;
+use crate::draw;
 use crate::failure::{Answer, Failure};
 use crate::screen::{self, Stream, listed};
 
@@ -18,6 +19,7 @@ pub(crate) fn run(args: &ModelArgs) -> Answer<()> {
             }),
         },
         ModelAction::Compare { a, b, json } => compare::run(a, b, *json),
+        ModelAction::Draw(args) => draw::run(args),
         ModelAction::Schema => screen::print_bytes(json_schema().as_bytes()),
     }
 }
@@ -41,6 +43,7 @@ fn list() -> String {
     out.push_str(&listed(
         &[
             ["kinetostat check NAME", "what it is, in words"],
+            ["kinetostat model draw NAME --out NAME.svg", "a drawing"],
             [
                 "kinetostat model show NAME > my.toml",
                 "a start for your own",

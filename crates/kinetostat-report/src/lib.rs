@@ -31,6 +31,7 @@
 mod along;
 mod axis;
 mod chart;
+mod drawing;
 mod facts;
 mod label;
 mod number;
@@ -47,6 +48,7 @@ mod verdict;
 
 use kinetostat_machining::RunResult;
 
+pub use drawing::{Drawing, Magnified, Moved, Placed, View};
 pub use plot::{Plot, PlotLine, PlotMark};
 
 /// Why a report could not be made.

@@ -64,6 +64,12 @@ pub trait NodeLoad: Send + Sync + std::fmt::Debug {
         None
     }
 
+    /// The two points between which it acts, base axes, m: for drawings. `None` where there is no
+    /// such line.
+    fn line(&self, _kinematics: &Kinematics) -> Option<[Vector3<f64>; 2]> {
+        None
+    }
+
     /// What is wrong with its answers at these poses, in words.
     fn fault_at(&self, _kinematics: &Kinematics) -> Option<String> {
         None

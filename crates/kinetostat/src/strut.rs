@@ -162,6 +162,11 @@ impl NodeLoad for Strut {
         Some(self.energy_at(&|node| kinematics.node_pose(node)))
     }
 
+    fn line(&self, kinematics: &Kinematics) -> Option<[Vector3<f64>; 2]> {
+        let pose_of = |node| kinematics.node_pose(node);
+        Some([self.from.place(&pose_of).0, self.to.place(&pose_of).0])
+    }
+
     fn conservative(&self) -> bool {
         true
     }
