@@ -122,11 +122,11 @@ pub(crate) fn name(place: &Place, text: &str, findings: &mut Findings) {
 
 fn workspace(document: &Document, findings: &mut Findings) {
     if let Some((from, to)) = findings.keep(corners(document)).flatten()
-        && (0..3).any(|i| from[i] == to[i])
+        && (0..3).all(|i| from[i] == to[i])
     {
         findings.error(
             &Place::root().key("workspace"),
-            "the workspace has no volume",
+            "the workspace is a single point",
             "write two opposite corners",
         );
     }

@@ -95,6 +95,41 @@ const PRESETS: &[Preset] = &[
         "3-PUU: three sliders with struts and universal joints, moves without turning"
     ),
     preset!(
+        Parallel,
+        "hexapod",
+        "Hanging 6-6 hexapod for milling: elastic telescoping legs, gimbals and ball joints"
+    ),
+    preset!(
+        Parallel,
+        "cubic_hexapod",
+        "Stewart's cube: six legs along its edges, equally stiff in all directions at the centre"
+    ),
+    preset!(
+        Parallel,
+        "hexaglide",
+        "Hexaglide: six struts of constant length on sliders of three parallel rails"
+    ),
+    preset!(
+        Parallel,
+        "delta",
+        "Delta: three turning arms, six elastic rods; moves without turning"
+    ),
+    preset!(
+        Parallel,
+        "tripteron",
+        "Tripteron: three slides with hinged bars; every coordinate is one command"
+    ),
+    preset!(
+        Parallel,
+        "rrr3_planar",
+        "Planar 3-RRR: three cranks move a plate in its plane and turn it"
+    ),
+    preset!(
+        Parallel,
+        "prs3",
+        "3-PRS spindle head: three upright sliders feed and tilt"
+    ),
+    preset!(
         Serial,
         "heavy_6r",
         "Heavy six-axis arm of the 200 kg class with drive and link compliances and weights"

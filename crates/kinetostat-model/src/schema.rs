@@ -37,7 +37,7 @@ pub struct Document {
     pub schema: u32,
     /// Name, origin and gravity of the machine.
     pub mechanism: MechanismTable,
-    /// Where the machine works, as a box in base axes.
+    /// Where the machine works, as a box in base axes; flat for a machine that moves in a plane.
     pub workspace: Option<Workspace>,
     /// Moving bodies. The base exists without being written; the last one carries the tool.
     #[schemars(length(min = 1, max = 64))]

@@ -6,9 +6,9 @@ mod machine;
 mod msa;
 mod urdf;
 
-use kinetostat::{Error, Mechanism, Posture};
+use kinetostat::{Pose, Posture, Wrench, pose_residual};
 use kinetostat_model::Model;
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 use serde_json::{Value, json};
 
 /// Prints a figure, which `cargo xtask figures` collects, and holds it.
@@ -50,20 +50,63 @@ pub fn preset(name: &str) -> Model {
     Model::preset(name).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The posture at a target or, where the machine cannot take it exactly (a planar machine, a tripod that
-/// turns by the way), at the nearest place that it can.
-pub fn posture_near<'m>(
-    mechanism: &'m Mechanism,
-    target: &kinetostat::Pose,
-    start: &Posture<'m>,
-) -> Posture<'m> {
-    let mut at = *target;
-    for _ in 0..20 {
-        match mechanism.posture_near(&at, start) {
-            Ok(posture) => return posture,
-            Err(Error::Unreachable { nearest, .. }) => at = *nearest,
-            Err(e) => panic!("{}: {e}", mechanism.name()),
-        }
+/// The posture at a target or, where the machine cannot take it (a planar machine, a tripod that shifts
+/// by the way), at a place near it: commands are changed until the unloaded machine stands as near
+/// as it can, and inverse kinematics has to find these commands again.
+pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture<'m>) -> Posture<'m> {
+    let mechanism = &model.mechanism;
+    if let Ok(posture) = mechanism.posture_near(target, start) {
+        return posture;
     }
-    panic!("{}: no place near {at}", mechanism.name());
+    let count = start.commands().len();
+    if count == 0 {
+        return start.clone();
+    }
+    let mut light = model.document.clone();
+    light.mechanism.gravity_m_per_s2 = Some([0.0; 3]);
+    light.limb.iter_mut().for_each(|l| l.load.clear());
+    let light = Model::from_document(&light, model.name()).expect("without weights");
+    let length = start.stiffness().expect("a stiffness").length;
+    let unit = |i: usize| if i < 3 { 1.0 } else { length };
+    let stand = |change: &DVector<f64>| {
+        let mut limbs = start.limbs().to_vec();
+        let commands = limbs.iter_mut().flat_map(|l| l.commands.iter_mut());
+        for (command, change) in commands.zip(change.iter()) {
+            *command += change;
+        }
+        let posture = light.mechanism.posture_from_joints(start.target(), limbs);
+        let rest = posture.expect("joints").deflected_by(&Wrench::zero());
+        rest.unwrap_or_else(|e| panic!("{}: {e}", model.name()))
+            .tool
+    };
+    let lacks = |tool: &Pose| {
+        let way = pose_residual(target, tool).0;
+        DVector::from_fn(6, |i, _| way[i] * unit(i))
+    };
+    let mut change = DVector::zeros(count);
+    for _ in 0..4 {
+        let tool = stand(&change);
+        let mut rates = DMatrix::zeros(6, count);
+        for j in 0..count {
+            let mut more = change.clone();
+            more[j] += 1e-4;
+            let moved = pose_residual(&stand(&more), &tool).0 / 1e-4;
+            rates.set_column(j, &DVector::from_fn(6, |i, _| moved[i] * unit(i)));
+        }
+        let inverse = rates.pseudo_inverse(1e-6).expect("a pseudo-inverse");
+        change += inverse * lacks(&tool);
+    }
+    let at = stand(&change);
+    let posture = mechanism.posture_near(&at, start);
+    let posture = posture.unwrap_or_else(|e| panic!("{}: {e}", model.name()));
+    for ((found, given), change) in posture.commands().iter().zip(start.commands()).zip(&change) {
+        assert!((found - given - change).abs() < 1e-9, "{}", model.name());
+    }
+    posture
+}
+
+/// Whether a machine can turn its tool.
+pub fn turns(posture: &Posture<'_>) -> bool {
+    let motions = posture.mobility();
+    motions.nrows() == 6 && motions.rows(3, 3).amax() > 1e-6
 }

@@ -5,7 +5,7 @@ use kinetostat_model::Model;
 use nalgebra::{DMatrix, DVector, Vector3, vector};
 use serde_json::json;
 
-use crate::{figure, machine, names, posture_near, preset};
+use crate::{figure, machine, names, posture_near, preset, turns};
 
 /// A direction with less than this share of what stands behind it is free.
 const FREE: f64 = 1e-12;
@@ -26,7 +26,7 @@ fn places<'m>(model: &'m Model) -> Vec<Posture<'m>> {
     let home = mechanism
         .posture(&home_pose)
         .unwrap_or_else(|e| panic!("{}: home: {e}", model.name()));
-    let turns = home.mobility().ncols() == 6;
+    let turns = turns(&home);
     let mut list = vec![home.clone()];
     for (share, turn) in [
         (vector![0.27, 0.68, 0.41], Vector3::zeros()),
@@ -47,7 +47,7 @@ fn places<'m>(model: &'m Model) -> Vec<Posture<'m>> {
             true => moved(&target, &Twist::new(Vector3::zeros(), turn)),
             false => target,
         };
-        list.push(posture_near(mechanism, &target, &home));
+        list.push(posture_near(model, &target, &home));
     }
     list
 }

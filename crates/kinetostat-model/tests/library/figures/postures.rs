@@ -1,11 +1,11 @@
 //! Home postures and workspaces of the library's robots.
 
-use kinetostat::{DirectionKind, Pose};
+use kinetostat::{DirectionKind, Pose, Twist, moved};
 use kinetostat_model::{PresetKind, preset_names};
 use nalgebra::Vector3;
 use serde_json::json;
 
-use crate::{Random, figure, machine, posture_near, preset};
+use crate::{Random, figure, machine, posture_near, preset, turns};
 
 /// No singular posture is nearer to home than this, m (rotations times the machine's natural length).
 const CLEAR_M: f64 = 0.02;
@@ -69,12 +69,18 @@ fn every_robot_reaches_its_stated_workspace() {
             (0..3).all(|i| low[i] - 1e-9 <= corner[i] && corner[i] <= high[i] + 1e-9),
             "{name}: home is outside the workspace"
         );
+        let turning = turns(&at_home);
         let mut random = Random(20);
-        for _ in 0..50 {
+        for i in 0..50 {
             let share = random.vector().map(|x| 0.5 + 0.5 * x);
             let at = low + (high - low).component_mul(&share);
-            let target = Pose::from_parts(at.into(), home.rotation);
-            let posture = posture_near(mechanism, &target, &at_home);
+            let mut target = Pose::from_parts(at.into(), home.rotation);
+            // Every other place turned by up to 3 degrees about each axis, where the machine turns.
+            if turning && i % 2 == 1 {
+                let turn = random.vector() * 3_f64.to_radians();
+                target = moved(&target, &Twist::new(Vector3::zeros(), turn));
+            }
+            let posture = posture_near(&model, &target, &at_home);
             let outside = posture.limit_violations();
             assert!(outside.is_empty(), "{name} at {at}: {outside:?}");
             // Where the joints lead, by the file read a second time.
