@@ -2,6 +2,8 @@
 
 mod agreement;
 mod arms;
+mod closed_forms;
 mod gravity;
+mod internal;
 mod postures;
 mod unstable;
