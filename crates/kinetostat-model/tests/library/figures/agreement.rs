@@ -43,11 +43,12 @@ fn places<'m>(model: &'m Model) -> Vec<Posture<'m>> {
                 moved(&home_pose, &Twist::new(shift, Vector3::zeros()))
             }
         };
-        let target = match turns {
-            true => moved(&target, &Twist::new(Vector3::zeros(), turn)),
-            false => target,
-        };
-        list.push(posture_near(model, &target, &home));
+        let mut posture = posture_near(model, &target, &home);
+        if turns {
+            let target = moved(posture.target(), &Twist::new(Vector3::zeros(), turn));
+            posture = posture_near(model, &target, &posture);
+        }
+        list.push(posture);
     }
     list
 }
