@@ -47,6 +47,7 @@ pub(crate) struct Cases<T> {
     /// None without a force or moment.
     pub(crate) under_load: Option<T>,
     pub(crate) under_load_by_deviations: Option<T>,
+    pub(crate) under_load_linear: Option<T>,
 }
 
 /// How many directions the limbs fight in, and which.
@@ -120,6 +121,8 @@ pub(crate) struct Solved<'m> {
     /// The same under load.
     pub(crate) loaded: Option<[MechanismEquilibrium; 2]>,
     pub(crate) linear: LinearAssembly,
+    /// The same under load.
+    pub(crate) linear_loaded: Option<LinearAssembly>,
 }
 
 /// Solves both machines in a posture of the machine as built.
@@ -132,37 +135,47 @@ pub(crate) fn solve<'m>(
         Ok([drawn.deflected_by(wrench)?, posture.deflected_by(wrench)?])
     };
     let rest = both(&Wrench::zero())?;
-    let loaded = match wrench.0.norm() > 0.0 {
-        true => Some(both(wrench)?),
-        false => None,
+    let errors = posture.assembly_errors();
+    let (loaded, linear_loaded) = match wrench.0.norm() > 0.0 {
+        true => (
+            Some(both(wrench)?),
+            Some(posture.linear_assembly_under(&errors, wrench)?),
+        ),
+        false => (None, None),
     };
-    let linear = posture.linear_assembly(&posture.assembly_errors())?;
+    let linear = posture.linear_assembly(&errors)?;
     Ok(Solved {
         posture,
         rest,
         loaded,
         linear,
+        linear_loaded,
     })
 }
 
 impl Solved<'_> {
     /// A scalar of an equilibrium in all cases.
-    fn scalar(&self, linear: f64, of: impl Fn(&MechanismEquilibrium) -> f64) -> Cases<f64> {
+    fn scalar(
+        &self,
+        linear: impl Fn(&LinearAssembly) -> f64,
+        of: impl Fn(&MechanismEquilibrium) -> f64,
+    ) -> Cases<f64> {
         let [drawn, built] = &self.rest;
         let under = self.loaded.as_ref();
         Cases {
             without_load: of(built),
             without_load_by_deviations: of(built) - of(drawn),
-            without_load_linear: linear,
+            without_load_linear: linear(&self.linear),
             under_load: under.map(|[_, built]| of(built)),
             under_load_by_deviations: under.map(|[drawn, built]| of(built) - of(drawn)),
+            under_load_linear: self.linear_loaded.as_ref().map(linear),
         }
     }
 
     /// Three components in all cases.
     fn vector(
         &self,
-        linear: [f64; 3],
+        linear: impl Fn(&LinearAssembly) -> [f64; 3],
         of: impl Fn(&MechanismEquilibrium) -> [f64; 3],
     ) -> Cases<[f64; 3]> {
         let less = |[drawn, built]: &[MechanismEquilibrium; 2]| {
@@ -173,9 +186,10 @@ impl Solved<'_> {
         Cases {
             without_load: of(&self.rest[1]),
             without_load_by_deviations: less(&self.rest),
-            without_load_linear: linear,
+            without_load_linear: linear(&self.linear),
             under_load: under.map(|both| of(&both[1])),
             under_load_by_deviations: under.map(less),
+            under_load_linear: self.linear_loaded.as_ref().map(linear),
         }
     }
 }
@@ -263,15 +277,17 @@ fn platforms(solved: &Solved<'_>) -> Vec<PlatformAnswer> {
                 kinetostat::pose_residual(&e.state.platforms[p], nominal)
             };
             let degrees = |v: nalgebra::Vector3<f64>| v.map(f64::to_degrees).into();
-            let linear = &solved.linear.platforms[p];
             PlatformAnswer {
                 name: platform.name.clone(),
                 carries_the_tool: p == mechanism.tool(),
-                shift_mm: solved.vector((linear.linear() * 1e3).into(), |e| {
-                    (moved(e).linear() * 1e3).into()
-                }),
-                rotation_vector_deg: solved
-                    .vector(degrees(linear.angular()), |e| degrees(moved(e).angular())),
+                shift_mm: solved.vector(
+                    |l| (l.platforms[p].linear() * 1e3).into(),
+                    |e| (moved(e).linear() * 1e3).into(),
+                ),
+                rotation_vector_deg: solved.vector(
+                    |l| degrees(l.platforms[p].angular()),
+                    |e| degrees(moved(e).angular()),
+                ),
             }
         })
         .collect();
@@ -283,7 +299,6 @@ fn limb(solved: &Solved<'_>, i: usize, length: f64) -> LimbAnswer {
     let limb = &solved.posture.mechanism().limbs()[i];
     let chain = &limb.actual;
     let nominal = &solved.posture.limbs()[i].coordinates;
-    let linear = &solved.linear;
     let passive = chain.indices_of(Role::Passive);
     let joints = passive.iter().enumerate().map(|(k, &index)| {
         let c = &chain.coordinates()[index];
@@ -291,15 +306,16 @@ fn limb(solved: &Solved<'_>, i: usize, length: f64) -> LimbAnswer {
         JointAnswer {
             name: c.name.clone(),
             unit: units(c.kind).0,
-            shift: solved.scalar(factor * linear.passive[i][k], |e| {
-                factor * (e.limbs[i].coordinates[index] - nominal[index])
-            }),
+            shift: solved.scalar(
+                |l| factor * l.passive[i][k],
+                |e| factor * (e.limbs[i].coordinates[index] - nominal[index]),
+            ),
         }
     });
     let order = chain.indices_of(Role::Spring);
-    let first_order = |index: usize| {
+    let first_order = |l: &LinearAssembly, index: usize| {
         let at = order.iter().position(|&own| own == index);
-        at.map_or(0.0, |k| linear.springs[i][k])
+        at.map_or(0.0, |k| l.springs[i][k])
     };
     let mut springs = Vec::new();
     for block in chain.springs() {
@@ -308,31 +324,36 @@ fn limb(solved: &Solved<'_>, i: usize, length: f64) -> LimbAnswer {
             let index = block.first + j;
             let c = &chain.coordinates()[index];
             let factor = unit_of(c.kind);
-            let torque: f64 = (0..block.len())
-                .map(|k| stiffness[(j, k)] * first_order(block.first + k))
-                .sum();
+            let torque = |l: &LinearAssembly| -> f64 {
+                let of = |k: usize| stiffness[(j, k)] * first_order(l, block.first + k);
+                (0..block.len()).map(of).sum()
+            };
             let (deflection_unit, torque_unit) = units(c.kind);
             springs.push(SpringAnswer {
                 spring: block.name.clone(),
                 name: c.name.clone(),
                 deflection_unit,
-                deflection: solved.scalar(factor * first_order(index), |e| {
-                    factor * (e.limbs[i].coordinates[index] - block.rest[j])
-                }),
+                deflection: solved.scalar(
+                    |l| factor * first_order(l, index),
+                    |e| factor * (e.limbs[i].coordinates[index] - block.rest[j]),
+                ),
                 torque_unit,
                 torque: solved.scalar(torque, |e| e.limbs[i].spring_torques[index]),
             });
         }
     }
-    let wrench = &linear.wrenches[i];
     let [drawn, built] = &solved.rest;
     let own = Wrench(built.limbs[i].wrench.0 - drawn.limbs[i].wrench.0);
     LimbAnswer {
         name: limb.name.clone(),
-        force_n: solved.vector(wrench.force().into(), |e| e.limbs[i].wrench.force().into()),
-        moment_n_m: solved.vector(wrench.moment().into(), |e| {
-            e.limbs[i].wrench.moment().into()
-        }),
+        force_n: solved.vector(
+            |l| l.wrenches[i].force().into(),
+            |e| e.limbs[i].wrench.force().into(),
+        ),
+        moment_n_m: solved.vector(
+            |l| l.wrenches[i].moment().into(),
+            |e| e.limbs[i].wrench.moment().into(),
+        ),
         strain_n: size(&own, length),
         passive_joints: joints.collect(),
         springs,

@@ -112,6 +112,7 @@ impl Cases<[f64; 3]> {
             without_load_linear: self.without_load_linear[i],
             under_load: self.under_load.map(|v| v[i]),
             under_load_by_deviations: self.under_load_by_deviations.map(|v| v[i]),
+            under_load_linear: self.under_load_linear.map(|v| v[i]),
         }
     }
 }
@@ -125,13 +126,14 @@ impl Cases<f64> {
             + 1e-6 * whole.fold(0.0_f64, |m, x| m.max(x.abs()))
     }
 
-    fn all(&self) -> [Option<f64>; 5] {
+    fn all(&self) -> [Option<f64>; 6] {
         [
             Some(self.without_load),
             Some(self.without_load_by_deviations),
             Some(self.without_load_linear),
             self.under_load,
             self.under_load_by_deviations,
+            self.under_load_linear,
         ]
     }
 }
@@ -151,6 +153,7 @@ pub(crate) fn csv(a: &Assembly) -> Answer<Vec<u8>> {
             "without_load_linear",
             "under_load",
             "under_load_by_deviations",
+            "under_load_linear",
         ])
         .map_err(failed)?;
     for row in rows(a) {
@@ -181,7 +184,7 @@ pub(crate) fn in_words(question: &Question, a: &Assembly, all: bool) -> String {
         out.push('\n');
         out.push_str(&wrapped(
             &format!(
-                "The load: force {} N and moment {} N m on the tool.",
+                "The load: force {} N and moment {} N m on the tool. 'of errors' is the share of the deviations: as built less as drawn.",
                 triple(question.spot.wrench.force().into(), short),
                 triple(question.spot.wrench.moment().into(), short)
             ),
@@ -327,14 +330,13 @@ fn group(
         out.push_str(&item("nothing: all zero"));
         return out;
     }
-    let mut header = vec![String::new(), String::new(), "without load".to_owned()];
+    let mut header = vec![String::new(), String::new(), "no load".to_owned()];
     if a.something_else_acts {
-        header.push("by deviations".to_owned());
+        header.push("of errors".to_owned());
     }
     header.push("linear".to_owned());
     if loaded {
-        header.push("under load".to_owned());
-        header.push("by deviations".to_owned());
+        header.extend(["loaded", "of errors", "linear"].map(str::to_owned));
     }
     let mut table = vec![header];
     let limit = match what {
@@ -355,8 +357,14 @@ fn group(
         }
         cells.push(cell(c.without_load_linear));
         if loaded {
-            cells
-                .extend([c.under_load, c.under_load_by_deviations].map(|x| cell(x.unwrap_or(0.0))));
+            cells.extend(
+                [
+                    c.under_load,
+                    c.under_load_by_deviations,
+                    c.under_load_linear,
+                ]
+                .map(|x| cell(x.unwrap_or(0.0))),
+            );
         }
         table.push(cells);
     }

@@ -180,6 +180,26 @@ fn errors_and_milling_together_keep_the_machine_as_drawn_apart() {
         let share = numbers(&tool["under_load_by_deviations"]);
         let drawn: Vec<f64> = built.iter().zip(&share).map(|(b, s)| b - s).collect();
         close(q, &drawn, &numbers(&point["printed"]["dp"]), 1e-6);
+        // To first order errors and load add up: what the load adds is compliance times load.
+        let linear = numbers(&tool["under_load_linear"]);
+        let alone = numbers(&tool["without_load_linear"]);
+        let here = workplace();
+        let at: Vec<String> = numbers(&point["point"])
+            .iter()
+            .map(f64::to_string)
+            .collect();
+        let mut words = vec!["stiffness", "orthoglide", "--json", "--at"];
+        words.extend(at.iter().map(String::as_str));
+        let said = run(here.path(), &words).answered();
+        let k: Value = serde_json::from_str(&said.out).expect("JSON");
+        let w = [215.0, -10.0, -25.0, 1.0, 21.5, 0.0];
+        let added: Vec<f64> = (0..3)
+            .map(|i| {
+                let row = numbers(&k["compliance_m_rad_per_n"][i]);
+                alone[i] + 1e3 * row.iter().zip(w).map(|(c, f)| c * f).sum::<f64>()
+            })
+            .collect();
+        close(q, &linear, &added, 1e-9);
         let inside = a["limbs"].as_array().expect("limbs").iter();
         let inside: Vec<f64> = inside
             .flat_map(|l| numbers(&l["moment_n_m"]["without_load"]))
@@ -305,7 +325,7 @@ fn the_table_has_every_joint_and_spring_and_the_screen_those_that_move_most() {
     ];
     let said = run(here.path(), &words).answered();
     assert!(said.out.contains("'q1' is tilted by 0.3 deg about x"));
-    assert!(said.out.contains("under load") && said.out.contains("--all"));
+    assert!(said.out.contains("loaded") && said.out.contains("--all"));
     let table = std::fs::read_to_string(here.path().join("locked.csv")).expect("the table");
     let rows: Vec<&str> = table.lines().skip(1).collect();
     let of = |what: &str| rows.iter().filter(|r| r.starts_with(what)).count();

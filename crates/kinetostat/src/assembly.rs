@@ -9,14 +9,14 @@ use crate::posture::Posture;
 use crate::sparse::PlatformSystem;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
-/// First-order assembly of limbs with errors, no external load [R 6.15-6.20].
+/// First-order assembly of limbs with errors, without a load or under one [R 6.15-6.20].
 #[derive(Clone, Debug)]
 pub struct LinearAssembly {
     /// Motion of the tool from its nominal target.
     pub shift: Twist,
     /// Motion of every platform from its nominal place, the base (zero) first.
     pub platforms: Vec<Twist>,
-    /// Wrench on every limb's tip, base axes; on every platform they add up to zero.
+    /// Wrench on every limb's tip, base axes; on every platform they add up to the load on it.
     pub wrenches: Vec<Wrench>,
     /// Change of the passive joints of every limb, m or rad.
     pub passive: Vec<Vec<f64>>,
@@ -58,6 +58,21 @@ impl Posture<'_> {
     /// # Errors
     /// Wrong sizes only.
     pub fn linear_assembly(&self, errors: &[Twist]) -> Result<LinearAssembly> {
+        self.linear_assembly_under(errors, &Wrench::zero())
+    }
+
+    /// As [`Self::linear_assembly`] with a wrench on the tool (about its origin, base axes) besides:
+    /// `Dt = (sum A^T K A)^-1 (sum A^T K eps + W)`. Weights, preloads and loads on limbs are left out.
+    /// A direction of the tool that is free does not move.
+    ///
+    /// # Errors
+    /// Wrong sizes; a wrench that is not finite.
+    pub fn linear_assembly_under(
+        &self,
+        errors: &[Twist],
+        wrench: &Wrench,
+    ) -> Result<LinearAssembly> {
+        self.finite("the wrench", wrench.0.iter())?;
         let m = self.mechanism;
         if errors.len() != m.limbs.len() {
             return Err(Error::Size {
@@ -71,6 +86,10 @@ impl Posture<'_> {
         let (moving, rows) = (network.moving(), network.rows());
         let (size, count) = (6 * moving, rows.count());
         let mut b = DMatrix::zeros(size + count, 1);
+        {
+            let mut tool = b.fixed_view_mut::<6, 1>(6 * (m.tool - 1), 0);
+            tool += wrench.0;
+        }
         let mut at = size;
         for (i, error) in errors.iter().enumerate() {
             let pull = network.limbs[i].cartesian.matrix * error.0;
