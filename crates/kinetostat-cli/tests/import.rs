@@ -90,6 +90,24 @@ fn the_summary_is_json_and_the_model_can_go_to_the_standard_output() {
     assert!(said.err.contains("FILL IN"), "{}", said.err);
 }
 
+/// Limits of the URDF hold in the model: a pose that needs more is refused with the joint and its limits.
+#[test]
+fn limits_are_checked_when_a_pose_is_asked_for() {
+    let here = workplace();
+    std::fs::write(here.path().join("crane.urdf"), URDF).expect("a file");
+    let line = "import urdf crane.urdf --tip trolley --joint-stiffness 1e6 -o crane.toml";
+    run(here.path(), &line.split(' ').collect::<Vec<_>>()).answered();
+    // Along the boom: 1 m inwards is possible, half a metre outwards is not.
+    let inside = ["stiffness", "crane.toml", "--at", "600", "0", "2000"];
+    run(here.path(), &inside).answered();
+    let outside = ["stiffness", "crane.toml", "--at", "2000", "0", "2000"];
+    let said = run(here.path(), &outside);
+    assert_eq!(said.code, 2, "{said:?}");
+    for needle in ["'run'", "500 mm", "-1000 .. 0 mm"] {
+        assert!(said.err.contains(needle), "{needle}: {}", said.err);
+    }
+}
+
 #[test]
 fn wrong_questions_end_with_one() {
     let here = workplace();

@@ -270,6 +270,28 @@ fn figure_a_tree_with_everything_agrees_with_pinocchio() {
     }
 }
 
+/// URDF to model to text to model: the same document, and forward kinematics of the URDF again.
+#[test]
+fn figure_round_trip_of_a_tree_with_everything() {
+    let imported = tree("foot", JointStiffness::All(1e6));
+    let written = imported.model.to_toml().unwrap();
+    let again = kinetostat_model::Model::from_toml(&written, "again.toml").unwrap();
+    assert_eq!(again.document, imported.model.document);
+    assert_eq!(again.mechanism, imported.model.mechanism);
+    let second = Imported {
+        model: again,
+        toml: written,
+        ..imported
+    };
+    let d = with_oracle(TREE, &second, 1000);
+    crate::figure_at_most(
+        "URDF round trip (import, write, read): poses",
+        d.pose,
+        1e-10,
+        "m and 1",
+    );
+}
+
 #[test]
 fn the_oracle_is_no_copy_of_the_import() {
     // A hand calculation: one arm of 2 m with 10 kg at 1.5 m, at 30 degrees below the horizon.

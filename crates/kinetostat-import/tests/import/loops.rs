@@ -318,9 +318,8 @@ fn figure_drives_of_the_heavy_arm_hold_its_weight() {
     );
 }
 
-/// Two arms that meet: all limbs run from the base to the tool, so poses can be asked for.
-#[test]
-fn a_parallel_machine_answers_for_poses() {
+/// Two arms that meet.
+fn five_bar() -> String {
     let mut urdf = String::from("<robot name='five_bar'><link name='base'/>");
     urdf += &link("left", [0.2, 0.0, 0.0], 8.0);
     urdf += &link("right", [0.2, 0.0, 0.0], 8.0);
@@ -356,7 +355,11 @@ fn a_parallel_machine_answers_for_poses() {
     );
     urdf += "<constraint name='meeting' type='revolute'><parent link='rod'/><parent_origin xyz='0.6 0 0'/><parent_axis xyz='0 1 0'/>
         <child link='tool'/><child_origin xyz='0.6 0 0'/></constraint></robot>";
-    let options = UrdfOptions {
+    urdf
+}
+
+fn five_bar_options() -> UrdfOptions {
+    UrdfOptions {
         base: Some("base".into()),
         tip: Some("tool".into()),
         loops: None,
@@ -364,7 +367,32 @@ fn a_parallel_machine_answers_for_poses() {
         home: [("one".to_owned(), -1.9), ("two".to_owned(), -1.2)].into(),
         stiffness: JointStiffness::All(1e6),
         ..options()
-    };
+    }
+}
+
+/// A drive that moves joints of both arms cannot be said in a model: refused with what to do.
+#[test]
+fn a_mimic_joint_in_another_limb_is_refused() {
+    let urdf = five_bar().replace(
+        "<joint name='two' type='revolute'>",
+        "<joint name='two' type='revolute'><mimic joint='one' multiplier='1' offset='0.7'/>",
+    );
+    let mut options = five_bar_options();
+    options.home.remove("two");
+    let said = import_urdf(&urdf, "coupled.urdf", &options)
+        .expect_err("two limbs")
+        .to_string();
+    assert!(
+        said.contains("'one' moves joints of two limbs") && said.contains("replace <mimic>"),
+        "{said}"
+    );
+    assert!(said.contains("joint 'two'"), "{said}");
+}
+
+/// All limbs run from the base to the tool, so poses can be asked for.
+#[test]
+fn a_parallel_machine_answers_for_poses() {
+    let (urdf, options) = (five_bar(), five_bar_options());
     let imported = import(&urdf, &options);
     assert!(
         !notices(&imported).contains("platforms"),
