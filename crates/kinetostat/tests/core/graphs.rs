@@ -409,7 +409,7 @@ fn redundant_actuators_take_the_commands_nearest_to_home() {
 
 /// Two pantographs that enlarge twice, the second driven by the first, all of pinned bars in a
 /// plane. `bar` is put between pins; the tool turns freely on the last pin.
-fn double_pantograph() -> Mechanism {
+pub fn double_pantograph() -> Mechanism {
     let section = BeamSection::tube(2.1e11, 8.1e10, 0.03, 0.02);
     let slide = |axis: Vector3<f64>| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7);
     let mut builder = Mechanism::builder("double pantograph");

@@ -31,6 +31,7 @@ mod frames_that_snap;
 mod free_rigid_and_redundant_directions;
 mod fuzz_short;
 mod graphs;
+mod hybrids;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
 mod joints_that_follow;

@@ -4,6 +4,7 @@ use serde_json::json;
 
 use super::{Figures, Worst};
 use crate::graphs::{hybrids_apart, lattice_apart, lattice_times, rigid_limbs_apart, tower_of};
+use crate::hybrids::{hybrids_apart as loaded_hybrids_apart, variants};
 use crate::loads_on_platforms::{derivatives_apart, loaded_apart, spring_and_limb_apart};
 use crate::parallel_machines::{
     cubic_hexapod_apart, delta_apart, hexapod_apart, internal_wrenches, planar_3_rrr_apart,
@@ -97,6 +98,23 @@ fn hybrids_and_rigid_limbs_against_the_flattened_system() {
         1e-3,
         "relative",
     );
+    f.finish();
+}
+
+#[test]
+fn hybrids_with_errors_preload_and_rigid_limbs_against_the_flattened_system() {
+    let mut f = Figures::new();
+    for (name, machine) in variants() {
+        let [tool, wrenches, stiffness] = loaded_hybrids_apart(&machine);
+        for (what, value) in [
+            ("displacement", tool),
+            ("wrenches of limbs", wrenches),
+            ("loaded K_C", stiffness),
+        ] {
+            let name = format!("{name}, minus flattened: {what}");
+            put(&mut f, &name, value, 1e-10, "relative (test's tolerance)");
+        }
+    }
     f.finish();
 }
 
