@@ -88,6 +88,39 @@ fn a_fanuc_shows_the_difference_of_its_third_and_second_joint() {
     assert_eq!(controller.axes()[6].unit.word(), "mm");
 }
 
+/// For `cargo xtask figures`.
+#[test]
+fn figures_of_the_pendant() {
+    let controller = read(FANUC).expect("a model").controller.expect("declared");
+    let mut joints = [0.0; 7];
+    (joints[2], joints[3]) = (31.324_f64.to_radians(), -2.018_f64.to_radians());
+    let shown = controller.pendant(&joints).expect("seven values");
+    let apart = (shown[2] + 33.342).abs();
+    let back = controller.joints(&shown).expect("seven axes");
+    let there_and_back = back
+        .iter()
+        .zip(joints)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
+    for (name, measured, most, unit) in [
+        (
+            "FANUC: model J2 31.324, J3 -2.018 deg, pendant J3 minus -33.342 deg",
+            apart,
+            1e-12,
+            "deg",
+        ),
+        ("Pendant's values and back", there_and_back, 1e-14, "m, rad"),
+    ] {
+        let holds = measured <= most;
+        let figure = serde_json::json!({
+            "name": name, "measured": measured, "asked": format!("at most {most}"),
+            "unit": unit, "holds": holds,
+        });
+        println!("figure {figure}");
+        assert!(holds, "{figure}");
+    }
+}
+
 #[test]
 fn a_controller_is_written_and_read_again() {
     let model = read(FANUC).expect("a model");

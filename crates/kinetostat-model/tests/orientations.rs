@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use serde_json::Value;
 
 #[test]
-fn every_convention_agrees_with_an_independent_library() {
+fn figures_of_every_convention_against_an_independent_library() {
     let golden: Value =
         serde_json::from_str(include_str!("golden/orientations.json")).expect("JSON");
     let text = kinetostat_model::preset_text("two_link").expect("preset");
@@ -29,5 +29,11 @@ fn every_convention_agrees_with_an_independent_library() {
     }
     assert_eq!(counts.len(), 7);
     assert!(counts.values().all(|n| *n >= 20), "{counts:?}");
-    assert!(worst < 1e-14, "{worst:e}");
+    let holds = worst < 1e-14;
+    let figure = serde_json::json!({
+        "name": "Orientations of 7 conventions, 20 to 24 each, minus SciPy's matrices",
+        "measured": worst, "asked": "at most 1e-14", "unit": "of 1", "holds": holds,
+    });
+    println!("figure {figure}");
+    assert!(holds, "{figure}");
 }
