@@ -1,58 +1,119 @@
-//! `kinetostat curve`: force against displacement of a serial chain, with everything that happens
-//! on the way.
+//! `kinetostat curve`: force against displacement of a chain or a machine, with everything that
+//! happens on the way; and what `curve` and `equilibria` do alike.
 
 use std::path::Path;
 
 use serde::Serialize;
 
 use crate::along;
+use crate::args::PlaceArgs;
 use crate::curve_answer::{self, CurveAnswer};
 use crate::curve_args::{CurveArgs, CurveOutputs};
-use crate::curve_chain::serial_chain;
+use crate::curve_chain::{is_chain, serial_chain};
 use crate::curve_csv;
+use crate::curve_machine::{self, Machine};
 use crate::curve_plot;
-use crate::curve_question::question;
+use crate::curve_question::{question, with_loads};
 use crate::curve_table;
-use crate::curve_work::interruptible;
+use crate::curve_work::{Stage, interruptible};
+use crate::deflect::PlaceAsked;
 use crate::failure::Answer;
 use crate::input::Files;
 use crate::output::{Existing, Outputs};
-use crate::place::spot;
+use crate::place::{Spot, spot};
 use crate::screen::{self, Stream};
 
 pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
+    let asked = Asked {
+        model: &args.model,
+        place: &args.place,
+        tool_length_mm: args.tool_length_mm,
+        outputs: &args.outputs,
+    };
+    let about = |spot: &Spot| -> Answer<Work<CurveAnswer>> {
+        if is_chain(spot) {
+            let chain = with_loads(serial_chain(spot)?, &args.end)?;
+            let q = question(&chain.moves(), Some(&chain), args)?;
+            Ok(Box::new(move |place, names, stage| {
+                curve_answer::solve(&chain, &q, place, names, stage)
+            }))
+        } else {
+            curve_machine::refuse(args)?;
+            let machine = Machine::of(spot)?;
+            let q = question(&machine.moves, None, args)?;
+            Ok(Box::new(move |place, names, stage| {
+                curve_machine::solve(&machine, &q, place, names, stage)
+            }))
+        }
+    };
+    follow(
+        &asked,
+        about,
+        |answer| &mut answer.warnings,
+        |heading, answer| {
+            Ok(Shown {
+                text: curve_table::in_words(heading, answer),
+                csv: curve_csv::of_curve(answer)?,
+                svg: curve_plot::plot(answer).svg(),
+            })
+        },
+    )
+}
+
+/// What `curve` and `equilibria` are asked alike.
+pub(crate) struct Asked<'a> {
+    pub(crate) model: &'a str,
+    pub(crate) place: &'a PlaceArgs,
+    pub(crate) tool_length_mm: Option<f64>,
+    pub(crate) outputs: &'a CurveOutputs,
+}
+
+/// The long work: from the place and the names of model, source and tool to the answer.
+pub(crate) type Work<A> =
+    Box<dyn FnOnce(PlaceAsked, [String; 3], &Stage) -> Answer<A> + Send + 'static>;
+
+/// An answer for a person and as files.
+pub(crate) struct Shown {
+    pub(crate) text: String,
+    pub(crate) csv: Vec<u8>,
+    pub(crate) svg: String,
+}
+
+/// From the question to the files: reads the model, claims what will be written, works, shows.
+pub(crate) fn follow<A: Serialize + Send + 'static>(
+    asked: &Asked<'_>,
+    question: impl FnOnce(&Spot) -> Answer<Work<A>>,
+    warnings: impl Fn(&mut A) -> &mut Vec<String>,
+    show: impl FnOnce(&str, &A) -> Answer<Shown>,
+) -> Answer<()> {
     let spot = spot(
         &Files::default(),
-        &args.model,
-        &args.place,
-        args.tool_length_mm,
+        asked.model,
+        asked.place,
+        asked.tool_length_mm,
         None,
         None,
     )?;
-    let q = question(serial_chain(&spot)?, args)?;
-    let targets = Targets::claim(&args.outputs, &spot.inputs)?;
+    let work = question(&spot)?;
+    let targets = Targets::claim(asked.outputs, &spot.inputs)?;
     let place = spot.asked();
     let names = [
         spot.name.clone(),
         spot.source.clone(),
         spot.tool_words.clone(),
     ];
-    let mut answer: CurveAnswer =
-        interruptible(move |stage| curve_answer::solve(&q, place, names, stage))?;
-    answer.warnings.extend(spot.warnings.iter().cloned());
-    let near = spot.near_singular();
-    answer.warnings.extend(near.map(|n| n.in_words));
-    let text = curve_table::in_words(&spot.heading(), &answer);
-    targets.finish(
-        &text,
-        &answer,
-        || curve_csv::of_curve(&answer),
-        || curve_plot::plot(&answer).svg(),
-    )
+    let mut answer = interruptible(move |stage| work(place, names, stage))?;
+    warnings(&mut answer).extend(spot.warnings.iter().cloned());
+    if is_chain(&spot) {
+        // Of a machine the answer says it itself, as far as it is moved.
+        warnings(&mut answer).extend(spot.near_singular().map(|n| n.in_words));
+    }
+    let shown = show(&spot.heading(), &answer)?;
+    targets.finish(&shown, &answer)
 }
 
 /// Claimed outputs of `curve` and `equilibria`.
-pub(crate) struct Targets {
+struct Targets {
     outputs: Outputs,
     json: Option<usize>,
     csv: Option<usize>,
@@ -62,7 +123,7 @@ pub(crate) struct Targets {
 
 impl Targets {
     /// Claims every target before the long work begins.
-    pub(crate) fn claim(args: &CurveOutputs, inputs: &[std::path::PathBuf]) -> Answer<Self> {
+    fn claim(args: &CurveOutputs, inputs: &[std::path::PathBuf]) -> Answer<Self> {
         let existing = if args.force_overwrite {
             Existing::Replace
         } else {
@@ -83,24 +144,18 @@ impl Targets {
     }
 
     /// Writes what was asked for and says the rest.
-    pub(crate) fn finish<T: Serialize>(
-        mut self,
-        text: &str,
-        answer: &T,
-        csv: impl FnOnce() -> Answer<Vec<u8>>,
-        svg: impl FnOnce() -> String,
-    ) -> Answer<()> {
+    fn finish<T: Serialize>(mut self, shown: &Shown, answer: &T) -> Answer<()> {
         if let Some(index) = self.json {
             self.outputs.fill(index, along::json(answer)?.as_bytes())?;
         }
         if let Some(index) = self.csv {
-            self.outputs.fill(index, &csv()?)?;
+            self.outputs.fill(index, &shown.csv)?;
         }
         if let Some(index) = self.plot {
-            self.outputs.fill(index, svg().as_bytes())?;
+            self.outputs.fill(index, shown.svg.as_bytes())?;
         }
         let paths = self.outputs.commit()?;
-        let text = format!("{text}{}", along::written(&paths));
+        let text = format!("{}{}", shown.text, along::written(&paths));
         if self.to_screen {
             screen::print(Stream::Err, &text)?;
             return screen::print_bytes(along::json(answer)?.as_bytes());

@@ -3,8 +3,8 @@
 
 use kinetostat::{
     Bounds, BranchEnd, ChainProblem, CriticalLoad, CurvePoint, CurveSettings, Curves, Judged,
-    Parameter, Role, SearchSettings, Settings, Special, SpecialKind, Twist, critical_load_factor,
-    equilibria, follow, moved, solve_chain,
+    Parameter, Pose, Role, SearchSettings, Settings, Special, SpecialKind, Twist, Wrench,
+    critical_load_factor, equilibria, follow, moved, solve_chain,
 };
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -41,6 +41,9 @@ pub(crate) struct CurveAnswer {
     /// True if everything that acts has a potential: statements about energy hold.
     pub(crate) conservative: bool,
     pub(crate) warnings: Vec<String>,
+    /// `chain` or `machine`.
+    #[serde(skip)]
+    pub(crate) subject: &'static str,
     #[serde(skip)]
     pub(crate) units: Units,
     /// What was asked and what the start's own branch covers of it, as the parameter is shown.
@@ -61,7 +64,7 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    fn of(question: &Question) -> Self {
+    pub(crate) fn of(question: &Question) -> Self {
         match question.measure {
             Measure::Force(_) => Self {
                 displacement: "displacement",
@@ -130,7 +133,8 @@ pub(crate) struct PointAnswer {
 #[derive(Clone, Serialize)]
 pub(crate) struct NamedPoint {
     pub(crate) name: String,
-    /// start, load_limit, displacement_limit, pitchfork, transcritical, multiple, landing or end.
+    /// start, load_limit, displacement_limit, pitchfork, transcritical, multiple, crossing (of
+    /// machines), landing or end.
     pub(crate) kind: &'static str,
     pub(crate) in_words: String,
     /// Numbers of the branches through it, from 1.
@@ -202,6 +206,7 @@ pub(crate) fn kind_in_words(kind: &str) -> &'static str {
         "pitchfork" => "pitchfork",
         "transcritical" => "transcritical crossing",
         "multiple" => "several modes at once",
+        "crossing" => "stability changes",
         "landing" => "after a jump",
         "end" => "end",
         _ => "start",
@@ -242,14 +247,15 @@ fn at<'a>(problem: &ChainProblem<'a>, parameter: &Parameter, value: f64) -> Chai
     there
 }
 
-/// Follows the curve.
+/// Follows the curve of a chain.
 pub(crate) fn solve(
+    chain: &SerialChain,
     q: &Question,
     place: PlaceAsked,
     spot: [String; 3],
     stage: &Stage,
 ) -> Answer<CurveAnswer> {
-    let problem = q.chain.problem(q.holding.end.clone());
+    let problem = chain.problem(q.holding.end.clone());
     let mut settings = CurveSettings::within(q.range.0, q.range.1);
     settings.branches = q.branches;
     settings.points = q.points;
@@ -278,7 +284,7 @@ pub(crate) fn solve(
         }
         if q.force_limits.is_none() {
             // Chains of this stiffness and length buckle at about one of these units.
-            let scale = q.chain.chain.scale();
+            let scale = chain.chain.scale();
             let (unit, word) = match q.measure {
                 Measure::Moment(_) => (scale.stiffness * scale.length.powi(2), "N m"),
                 _ => (scale.stiffness * scale.length, "N"),
@@ -298,7 +304,7 @@ pub(crate) fn solve(
         for v in values {
             stage.is("searching for shapes off the curve");
             let there = at(&problem, &q.parameter, v);
-            let bounds = Bounds::of(&q.chain.chain);
+            let bounds = Bounds::of(&chain.chain);
             let all = equilibria(&there, &bounds, &SearchSettings::default())?;
             if !all.settled {
                 warnings.push(format!(
@@ -308,7 +314,7 @@ pub(crate) fn solve(
             }
             for found in &all.found {
                 stage.is("following the curve through another shape");
-                if degenerate(&q.chain, &there, found) {
+                if degenerate(chain, &there, found) {
                     continue;
                 }
                 if let Err(error) = curves.add(&found.equilibrium, v) {
@@ -331,13 +337,14 @@ pub(crate) fn solve(
         _ => Turns::none(),
     };
     let view = View {
+        chain,
         q,
         curves: &curves,
         turns,
     };
     let (named, jumps) = view.named((value, conjugate), &jumps);
     stage.is("looking for the critical load");
-    let critical = critical_loads(q, &problem, &settings)?;
+    let critical = critical_loads(chain, q, &problem, &settings)?;
     let branches: Vec<BranchAnswer> = view.branches(&named);
     for b in &branches {
         for end in b.ends {
@@ -377,12 +384,8 @@ pub(crate) fn solve(
         place,
         question: q.words.clone(),
         tool_held: q.holding.clone(),
-        grows: match (q.by_load(), q.measure) {
-            (true, _) => "load",
-            (false, Measure::Moment(_)) => "rotation",
-            (false, _) => "displacement",
-        },
-        coordinates: q.chain.coordinates(),
+        grows: grows(q),
+        coordinates: chain.coordinates(),
         named_points: named,
         jumps,
         critical_loads: critical,
@@ -390,6 +393,7 @@ pub(crate) fn solve(
         more_branches: curves.more_branches,
         conservative,
         warnings,
+        subject: q.holding.subject,
         units: Units::of(q),
         asked: (q.shown(q.range.0), q.shown(q.range.1)),
         reached: own
@@ -427,6 +431,7 @@ fn is_locked(curves: &Curves<'_>) -> bool {
 }
 
 fn critical_loads(
+    chain: &SerialChain,
     q: &Question,
     problem: &ChainProblem<'_>,
     settings: &CurveSettings,
@@ -443,7 +448,7 @@ fn critical_loads(
         (Judged::ShapeAndEnd, "shape_and_tool"),
     ] {
         let found = critical_load_factor(problem, pattern, judged, settings)?;
-        list.push(critical_answer(&q.chain, name, found));
+        list.push(critical_answer(chain, name, found));
     }
     Ok(list)
 }
@@ -470,19 +475,27 @@ fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -
     }
 }
 
-/// Curves as they are shown.
-struct View<'v> {
-    q: &'v Question,
-    curves: &'v Curves<'v>,
-    turns: Turns,
+/// An equilibrium on a curve of a chain or a machine, SI.
+pub(crate) struct Found {
+    pub(crate) parameter: f64,
+    pub(crate) conjugate: f64,
+    pub(crate) slope: f64,
+    /// Under a dead load, under prescribed motion.
+    pub(crate) stable: [bool; 2],
+    pub(crate) margin: Option<f64>,
+    pub(crate) energy: f64,
+    pub(crate) wrench: Wrench,
+    pub(crate) tip: Pose,
+    /// In their units.
+    pub(crate) coordinates: Vec<f64>,
 }
 
-impl View<'_> {
-    /// `more`: what a continuous rotation has more than the one within half a turn, about the moment
-    /// that grows, rad.
-    fn point(&self, p: &CurvePoint, more: &Vector3<f64>) -> PointAnswer {
-        let by_load = self.q.by_load();
-        let [displacement, load, slope] = match (self.q.measure, by_load) {
+impl Found {
+    /// In the units of the question. `turned`: whole turns of the tool about the growing moment, rad.
+    pub(crate) fn answer(self, q: &Question, turned: f64) -> PointAnswer {
+        let by_load = q.by_load();
+        let p = &self;
+        let [displacement, load, slope] = match (q.measure, by_load) {
             (Measure::Force(_), false) => [1e3 * p.parameter, p.conjugate, 1e-3 * p.slope],
             (Measure::Force(f), true) => [
                 1e3 * p.conjugate / f,
@@ -493,17 +506,16 @@ impl View<'_> {
                 [p.parameter.to_degrees(), p.conjugate, p.slope.to_radians()]
             }
             (Measure::Moment(m), true) => [
-                (p.conjugate / m + self.about(more)).to_degrees(),
+                (p.conjugate / m + turned).to_degrees(),
                 m * p.parameter,
                 (m * m * p.slope).to_radians(),
             ],
             (Measure::Work, _) => [p.conjugate, p.parameter, p.slope],
         };
         let of = |this: bool, x: f64| this.then_some(x);
-        let force = matches!(self.q.measure, Measure::Force(_));
-        let moment = matches!(self.q.measure, Measure::Moment(_));
-        let work = self.q.measure == Measure::Work;
-        let e = &p.equilibrium;
+        let force = matches!(q.measure, Measure::Force(_));
+        let moment = matches!(q.measure, Measure::Moment(_));
+        let work = q.measure == Measure::Work;
         PointAnswer {
             factor: of(by_load, p.parameter),
             displacement_mm: of(force, displacement),
@@ -514,17 +526,54 @@ impl View<'_> {
             slope_n_per_mm: of(force, slope),
             slope_n_m_per_deg: of(moment, slope),
             slope_per_j: of(work, slope),
-            stable_under_dead_load: p.dead.stable,
-            stable_under_prescribed_motion: p.held.stable,
-            buckling_margin: p.held.margin.filter(|m| m.is_finite()),
-            spring_energy_j: e.energy,
-            force_n: e.wrench.force().into(),
-            moment_n_m: e.wrench.moment().into(),
-            position_mm: (e.tip.translation.vector * 1e3).into(),
-            rotation_vector_deg: e.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
-            coordinates: self.q.chain.values(&e.coordinates),
+            stable_under_dead_load: p.stable[0],
+            stable_under_prescribed_motion: p.stable[1],
+            buckling_margin: p.margin.filter(|m| m.is_finite()),
+            spring_energy_j: p.energy,
+            force_n: p.wrench.force().into(),
+            moment_n_m: p.wrench.moment().into(),
+            position_mm: (p.tip.translation.vector * 1e3).into(),
+            rotation_vector_deg: p.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
+            coordinates: self.coordinates,
             shown: [displacement, load, slope],
         }
+    }
+}
+
+/// What grows, by name.
+pub(crate) fn grows(q: &Question) -> &'static str {
+    match (q.by_load(), q.measure) {
+        (true, _) => "load",
+        (false, Measure::Moment(_)) => "rotation",
+        (false, _) => "displacement",
+    }
+}
+
+/// Curves as they are shown.
+struct View<'v> {
+    chain: &'v SerialChain,
+    q: &'v Question,
+    curves: &'v Curves<'v>,
+    turns: Turns,
+}
+
+impl View<'_> {
+    /// `more`: what a continuous rotation has more than the one within half a turn, about the moment
+    /// that grows, rad.
+    fn point(&self, p: &CurvePoint, more: &Vector3<f64>) -> PointAnswer {
+        let e = &p.equilibrium;
+        Found {
+            parameter: p.parameter,
+            conjugate: p.conjugate,
+            slope: p.slope,
+            stable: [p.dead.stable, p.held.stable],
+            margin: p.held.margin,
+            energy: e.energy,
+            wrench: e.wrench,
+            tip: e.tip,
+            coordinates: self.chain.values(&e.coordinates),
+        }
+        .answer(self.q, self.about(more))
     }
 
     /// The part of a rotation vector about the growing moment.
@@ -541,8 +590,8 @@ impl View<'_> {
     /// Number of the branch that comes nearest to a point, from 1.
     fn branch_of(&self, p: &CurvePoint) -> usize {
         let x = &p.equilibrium.coordinates;
-        let coordinates = self.q.chain.chain.coordinates();
-        let length = self.q.chain.chain.scale().length;
+        let coordinates = self.chain.chain.coordinates();
+        let length = self.chain.chain.scale().length;
         let distance = |other: &CurvePoint| {
             x.iter()
                 .zip(&other.equilibrium.coordinates)
@@ -605,7 +654,7 @@ impl View<'_> {
                 mode_in_words: if mode.is_empty() {
                     String::new()
                 } else {
-                    mode_in_words(&self.q.chain, mode)
+                    mode_in_words(self.chain, mode)
                 },
                 limits,
                 point: self.point(p, &self.turns.at(self.curves, p)),

@@ -25,20 +25,16 @@ pub(crate) struct SerialChain {
     pub(crate) place: Pose,
 }
 
-/// Takes the chain out of a machine.
+/// Whether a machine is one chain from the base to the tool.
+pub(crate) fn is_chain(spot: &Spot) -> bool {
+    let m = &spot.mechanism;
+    matches!(m.limbs(), [limb] if limb.from == 0 && limb.to == m.tool())
+}
+
+/// Takes the chain out of a machine that [`is_chain`].
 pub(crate) fn serial_chain(spot: &Spot) -> Answer<SerialChain> {
     let m = &spot.mechanism;
-    let (tool, limbs) = (m.tool(), m.limbs());
-    let limb = match limbs {
-        [limb] if limb.from == 0 && limb.to == tool => limb,
-        _ => {
-            return Err(Failure::input(format!(
-                "'{}' has {} limbs; this command follows one chain from the base to the tool, so it needs a model with one limb. For this machine there are `kinetostat deflect`, `kinetostat stiffness` (both with --at and --force: displacement, stability and margin to buckling of every limb) and `kinetostat check`",
-                spot.name,
-                limbs.len()
-            )));
-        }
-    };
+    let (tool, limb) = (m.tool(), &m.limbs()[0]);
     let posture = spot.posture()?;
     let joints = &posture.limbs()[0];
     let offset = limb.platform_from_tip.inverse();
@@ -175,91 +171,133 @@ impl SerialChain {
         }
     }
 
-    /// The part of a twist (m, rad; base axes) that the end can make, as a share from 0 to 1.
-    pub(crate) fn movable_share(&self, movable: &DMatrix<f64>, twist: &Vector6<f64>) -> f64 {
-        let length = self.chain.scale().length;
-        let scaled = Vector6::from_fn(|i, _| if i < 3 { twist[i] / length } else { twist[i] });
-        let size = scaled.norm();
-        if size == 0.0 {
-            return 1.0;
-        }
-        (movable.transpose() * scaled).norm() / size
-    }
-
     /// What every coordinate is, for people and for tables.
     pub(crate) fn coordinates(&self) -> Vec<CoordinateName> {
-        self.chain
-            .coordinates()
-            .iter()
-            .enumerate()
-            .map(|(i, c)| {
-                let actuator = self
-                    .chain
-                    .actuators()
-                    .iter()
-                    .position(|a| a.coordinate == Some(i));
-                CoordinateName {
-                    name: c.name.clone(),
-                    kind: match (c.role, actuator) {
-                        (Role::Passive, _) => "passive joint",
-                        (Role::Spring, Some(_)) => "drive",
-                        (Role::Spring, None) => "spring",
-                    },
-                    unit: match c.kind {
-                        MotionKind::Revolute => "deg",
-                        MotionKind::Prismatic => "mm",
-                    },
-                    command: actuator.map_or(0.0, |a| self.commands[a] * unit_of(c.kind)),
-                }
-            })
-            .collect()
+        coordinates_of(&self.chain, &self.commands)
     }
 
     /// Values of all coordinates in their units; of a drive the joint's whole position, command
     /// included.
     pub(crate) fn values(&self, coordinates: &[f64]) -> Vec<f64> {
-        self.coordinates()
-            .iter()
-            .zip(self.chain.coordinates())
-            .zip(coordinates)
-            .map(|((name, c), x)| name.command + x * unit_of(c.kind))
-            .collect()
+        values_of(&self.chain, &self.commands, coordinates)
     }
 
     /// Places along the chain at a state, base to tip, m, without repetition.
     pub(crate) fn outline(&self, coordinates: &[f64]) -> Vec<nalgebra::Vector3<f64>> {
-        use kinetostat::Element;
-        let mut pose = self.base;
-        let mut points = vec![pose.translation.vector];
-        for element in self.chain.elements() {
-            match element {
-                Element::Rigid(offset) => pose *= offset,
-                Element::Node(_) => {}
-                Element::Motion(motion) => {
-                    let mut by = 0.0;
-                    if let Some(d) = motion.coordinate {
-                        by += d.ratio * coordinates[d.index];
-                    }
-                    if let Some(d) = motion.command {
-                        by += d.ratio * self.commands[d.index];
-                    }
-                    pose *= match motion.kind {
-                        MotionKind::Revolute => Pose::rotation(motion.axis.into_inner() * by),
-                        MotionKind::Prismatic => {
-                            let t = motion.axis.into_inner() * by;
-                            Pose::translation(t.x, t.y, t.z)
-                        }
-                    };
+        outline_of(&self.chain, &self.base, &self.commands, coordinates)
+    }
+
+    /// Where its end can go.
+    pub(crate) fn moves(&self) -> Moves {
+        Moves {
+            subject: "chain",
+            place: self.place,
+            basis: self.movable(),
+            length: self.chain.scale().length,
+        }
+    }
+}
+
+/// Motions that the tool of a chain or a machine can make.
+#[derive(Clone, Debug)]
+pub(crate) struct Moves {
+    /// `chain` or `machine`.
+    pub(crate) subject: &'static str,
+    /// Where the tool is commanded to be.
+    pub(crate) place: Pose,
+    /// Columns of an orthonormal basis, translations as shares of the natural length.
+    pub(crate) basis: DMatrix<f64>,
+    /// Natural length, m.
+    pub(crate) length: f64,
+}
+
+impl Moves {
+    /// The part of a twist (m, rad; base axes) that the tool can make, as a share from 0 to 1.
+    pub(crate) fn share(&self, twist: &Vector6<f64>) -> f64 {
+        let unit = |i: usize| if i < 3 { 1.0 / self.length } else { 1.0 };
+        let scaled = Vector6::from_fn(|i, _| twist[i] * unit(i));
+        let size = scaled.norm();
+        if size == 0.0 {
+            return 1.0;
+        }
+        (self.basis.transpose() * scaled).norm() / size
+    }
+}
+
+/// What every coordinate of a chain is, for people and for tables.
+pub(crate) fn coordinates_of(chain: &Chain, commands: &[f64]) -> Vec<CoordinateName> {
+    let list = chain.coordinates().iter().enumerate();
+    list.map(|(i, c)| {
+        let actuator = chain
+            .actuators()
+            .iter()
+            .position(|a| a.coordinate == Some(i));
+        CoordinateName {
+            name: c.name.clone(),
+            kind: match (c.role, actuator) {
+                (Role::Passive, _) => "passive joint",
+                (Role::Spring, Some(_)) => "drive",
+                (Role::Spring, None) => "spring",
+            },
+            unit: match c.kind {
+                MotionKind::Revolute => "deg",
+                MotionKind::Prismatic => "mm",
+            },
+            command: actuator.map_or(0.0, |a| commands[a] * unit_of(c.kind)),
+        }
+    })
+    .collect()
+}
+
+/// Values of all coordinates of a chain in their units; of a drive the joint's whole position,
+/// command included.
+pub(crate) fn values_of(chain: &Chain, commands: &[f64], coordinates: &[f64]) -> Vec<f64> {
+    coordinates_of(chain, commands)
+        .iter()
+        .zip(chain.coordinates())
+        .zip(coordinates)
+        .map(|((name, c), x)| name.command + x * unit_of(c.kind))
+        .collect()
+}
+
+/// Places along a chain at a state, base to tip, m, without repetition.
+pub(crate) fn outline_of(
+    chain: &Chain,
+    base: &Pose,
+    commands: &[f64],
+    coordinates: &[f64],
+) -> Vec<nalgebra::Vector3<f64>> {
+    use kinetostat::Element;
+    let mut pose = *base;
+    let mut points = vec![pose.translation.vector];
+    for element in chain.elements() {
+        match element {
+            Element::Rigid(offset) => pose *= offset,
+            Element::Node(_) => {}
+            Element::Motion(motion) => {
+                let mut by = 0.0;
+                if let Some(d) = motion.coordinate {
+                    by += d.ratio * coordinates[d.index];
                 }
-            }
-            let here = pose.translation.vector;
-            let last = points.last().copied().unwrap_or_default();
-            if (here - last).norm() > 1e-9 * self.chain.scale().length {
-                points.push(here);
+                if let Some(d) = motion.command {
+                    by += d.ratio * commands[d.index];
+                }
+                pose *= match motion.kind {
+                    MotionKind::Revolute => Pose::rotation(motion.axis.into_inner() * by),
+                    MotionKind::Prismatic => {
+                        let t = motion.axis.into_inner() * by;
+                        Pose::translation(t.x, t.y, t.z)
+                    }
+                };
             }
         }
-        points
+        let here = pose.translation.vector;
+        let last = points.last().copied().unwrap_or_default();
+        if (here - last).norm() > 1e-9 * chain.scale().length {
+            points.push(here);
+        }
     }
+    points
 }
 
 /// mm per m, or degrees per radian.

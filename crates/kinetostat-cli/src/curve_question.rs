@@ -7,7 +7,7 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 use serde::Serialize;
 
 use crate::curve_args::{CurveArgs, EndArgs};
-use crate::curve_chain::SerialChain;
+use crate::curve_chain::{Moves, SerialChain};
 use crate::failure::{Answer, Failure};
 use crate::machine::short;
 use crate::orientation;
@@ -29,6 +29,9 @@ pub(crate) struct Holding {
     pub(crate) axes_rotation_vector_deg: [f64; 3],
     #[serde(skip)]
     pub(crate) end: EndCondition,
+    /// `chain` or `machine`.
+    #[serde(skip)]
+    pub(crate) subject: &'static str,
 }
 
 /// What is driven, base axes.
@@ -100,7 +103,7 @@ fn list(option: &str, text: &str, driven: Option<usize>) -> Answer<[bool; 6]> {
 
 /// How the tool is held at `place`, with the constant wrench where it is free.
 pub(crate) fn holding(
-    chain: &SerialChain,
+    moves: &Moves,
     args: &EndArgs,
     place: &Pose,
     constant: Wrench,
@@ -144,15 +147,15 @@ pub(crate) fn holding(
         (None, None) => [!held_by_default; 6],
     };
     let turn = turn_matrix(&axes);
-    let movable = chain.movable();
     let rigid: [bool; 6] =
-        std::array::from_fn(|k| chain.movable_share(&movable, &turn.column(k).into_owned()) < 1e-6);
+        std::array::from_fn(|k| moves.share(&turn.column(k).into_owned()) < 1e-6);
     if let Some(d) = driven {
         let twist = d.twist();
-        if chain.movable_share(&movable, &twist) < 1.0 - 1e-6 {
+        if moves.share(&twist) < 1.0 - 1e-6 {
             return Err(Failure::input(format!(
-                "the tool cannot be moved {}: the chain is rigid {}. Choose a direction in which it can move",
+                "the tool cannot be moved {}: the {} is rigid {}. Choose a direction in which it can move",
                 d.in_words(),
+                moves.subject,
                 in_words_of(&rigid, "along or about a skew direction"),
             )));
         }
@@ -166,6 +169,7 @@ pub(crate) fn holding(
         }
     }
     let holding = Holding {
+        subject: moves.subject,
         held: names(|k| !free[k] && !rigid[k]),
         free: names(|k| free[k] && !rigid[k]),
         rigid: names(|k| rigid[k]),
@@ -219,7 +223,7 @@ impl Holding {
     /// What holds the tool, in words.
     pub(crate) fn in_words(&self) -> String {
         let mut text = match (self.held.as_slice(), self.free.as_slice()) {
-            ([], []) => "The end of this chain cannot move at all".to_owned(),
+            ([], []) => format!("The end of this {} cannot move at all", self.subject),
             ([], _) => "The tool is free".to_owned(),
             (held, []) => format!("The tool is held in {}", held.join(", ")),
             (held, free) => format!(
@@ -238,7 +242,8 @@ impl Holding {
         let moves = !self.held.is_empty() || !self.free.is_empty();
         if moves && !self.rigid.is_empty() {
             text.push_str(&format!(
-                "; the chain cannot move in {}",
+                "; the {} cannot move in {}",
+                self.subject,
                 self.rigid.join(", ")
             ));
         }
@@ -261,7 +266,6 @@ pub(crate) enum Measure {
 /// A question of `curve`.
 #[derive(Clone, Debug)]
 pub(crate) struct Question {
-    pub(crate) chain: SerialChain,
     pub(crate) holding: Holding,
     pub(crate) parameter: Parameter,
     pub(crate) driven: Option<Driven>,
@@ -337,6 +341,13 @@ pub(crate) fn constant(args: &EndArgs) -> Answer<Wrench> {
     )
 }
 
+/// That a force on a node is asked of a machine.
+pub(crate) fn no_nodes(option: &str) -> Failure {
+    Failure::input(format!(
+        "{option} puts a force on a node of a chain, and this model has several limbs; write such a load into the model file, or a force on the tool"
+    ))
+}
+
 /// Adds the forces on nodes that act all the time.
 pub(crate) fn with_loads(mut chain: SerialChain, args: &EndArgs) -> Answer<SerialChain> {
     for text in &args.load {
@@ -373,11 +384,14 @@ pub(crate) fn constant_in_words(args: &EndArgs) -> String {
     }
 }
 
-/// The question of `curve`.
-pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question> {
-    let grown = with_loads(chain, &args.end)?;
+/// The question of `curve`. `chain`: for forces on its nodes; a machine has none here.
+pub(crate) fn question(
+    moves: &Moves,
+    chain: Option<&SerialChain>,
+    args: &CurveArgs,
+) -> Answer<Question> {
     let constant = constant(&args.end)?;
-    let place = grown.place;
+    let place = moves.place;
     let counts = [
         ("--branches", args.branches, 1, 1000),
         ("--points", args.points, 10, 100_000),
@@ -391,6 +405,7 @@ pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question>
     }
     let mut question = Question {
         holding: Holding {
+            subject: moves.subject,
             held: Vec::new(),
             free: Vec::new(),
             rigid: Vec::new(),
@@ -406,7 +421,6 @@ pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question>
         points: args.points.unwrap_or(600),
         all: args.all,
         words: String::new(),
-        chain: grown,
     };
     if let Some(limits) = &args.force_limits {
         question.force_limits = Some(ends("--force-limits", limits)?);
@@ -473,16 +487,9 @@ pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question>
     }
     if let Some(driven) = question.driven {
         question.parameter = Parameter::Displacement(Twist(driven.twist()));
-        question.holding = holding(
-            &question.chain,
-            &args.end,
-            &place,
-            constant,
-            true,
-            Some(&driven),
-        )?;
+        question.holding = holding(moves, &args.end, &place, constant, true, Some(&driven))?;
     } else {
-        load_pattern(&mut question, args, constant)?;
+        load_pattern(&mut question, moves, chain, args, constant)?;
     }
     question.words.push(' ');
     question.words.push_str(&question.holding.in_words());
@@ -491,15 +498,23 @@ pub(crate) fn question(chain: SerialChain, args: &CurveArgs) -> Answer<Question>
 }
 
 /// The growing load of the options.
-fn load_pattern(question: &mut Question, args: &CurveArgs, constant: Wrench) -> Answer<()> {
+fn load_pattern(
+    question: &mut Question,
+    moves: &Moves,
+    chain: Option<&SerialChain>,
+    args: &CurveArgs,
+    constant: Wrench,
+) -> Answer<()> {
     let end = wrench(
         ("--force", args.force.as_deref()),
         ("--moment", args.moment.as_deref()),
     )?;
-    let chain = &question.chain;
     let mut loads = Vec::new();
     for text in &args.grow {
-        loads.push(chain.node_force("--grow", text)?);
+        match chain {
+            Some(chain) => loads.push(chain.node_force("--grow", text)?),
+            None => return Err(no_nodes("--grow")),
+        }
     }
     let (force, moment) = (end.force().norm(), end.moment().norm());
     let sizes: Vec<f64> = loads
@@ -534,7 +549,7 @@ fn load_pattern(question: &mut Question, args: &CurveArgs, constant: Wrench) -> 
         ));
     }
     for load in &loads {
-        if let Load::Dead { node, wrench } = load {
+        if let (Load::Dead { node, wrench }, Some(chain)) = (load, chain) {
             parts.push(format!(
                 "the force {} N on '{}'",
                 triple(wrench.force().into(), short),
@@ -548,15 +563,15 @@ fn load_pattern(question: &mut Question, args: &CurveArgs, constant: Wrench) -> 
         short(question.range.1),
         parts.join(" with ")
     );
-    let holding = holding(chain, &args.end, &chain.place, constant, false, None)?;
+    let holding = holding(moves, &args.end, &moves.place, constant, false, None)?;
     holding.accepts("the growing load", &end)?;
-    let movable = chain.movable();
     // Work of the wrench on the motions that the chain can make, moments at the natural length.
-    let length = chain.chain.scale().length;
+    let length = moves.length;
     let pull = Vector6::from_fn(|i, _| if i < 3 { end.0[i] * length } else { end.0[i] });
-    if loads.is_empty() && (movable.transpose() * pull).norm() < 1e-9 * pull.norm() {
+    if loads.is_empty() && (moves.basis.transpose() * pull).norm() < 1e-9 * pull.norm() {
         return Err(Failure::input(format!(
-            "the growing load does nothing: the chain is rigid in {}, where it acts. Choose another direction",
+            "the growing load does nothing: the {} is rigid in {}, where it acts. Choose another direction",
+            moves.subject,
             holding.rigid.join(", ")
         )));
     }

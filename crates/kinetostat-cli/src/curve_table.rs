@@ -37,6 +37,7 @@ pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
 
 /// One or two sentences that answer the question.
 fn verdict(a: &CurveAnswer) -> String {
+    let subject = a.subject;
     let place = |p: &PointAnswer| {
         let u = &a.units;
         let load = if u.load_unit.is_empty() {
@@ -81,18 +82,19 @@ fn verdict(a: &CurveAnswer) -> String {
     };
     if a.grows == "load" {
         return match (stable(start, 0), end(0)) {
-            (false, _) => "The chain does NOT hold at the start under this load.".into(),
-            (true, Some((what, place))) => format!("The chain {what} {place}."),
-            (true, None) => "The chain holds all along under this load.".into(),
+            (false, _) => format!("The {subject} does NOT hold at the start under this load."),
+            (true, Some((what, place))) => format!("The {subject} {what} {place}."),
+            (true, None) => format!("The {subject} holds all along under this load."),
         };
     }
     let held = stable(start, 1);
     let mut text = match (held, end(1)) {
         (false, _) => {
-            "The chain does NOT keep its shape at the start, although its motion is prescribed."
-                .to_owned()
+            format!(
+                "The {subject} does NOT keep its shape at the start, although its motion is prescribed."
+            )
         }
-        (true, Some((what, place))) => format!("The chain {what} {place}."),
+        (true, Some((what, place))) => format!("The {subject} {what} {place}."),
         (true, None) => "The shape holds all along while the motion is prescribed.".to_owned(),
     };
     match (held, stable(start, 0), end(0)) {
@@ -121,7 +123,7 @@ fn reach(a: &CurveAnswer) -> String {
     } else {
         a.units.displacement_unit.to_owned()
     };
-    // A locked chain stays at its place but for rounding.
+    // What is locked stays at its place but for rounding.
     let clean = |x: f64| if x.abs() < slack.min(1e-3) { 0.0 } else { x };
     let (low, high) = (short(clean(low)), short(clean(high)));
     let own = a.branches.first();
@@ -284,8 +286,12 @@ fn jumps(a: &CurveAnswer) -> String {
         };
         let text = match jump.to.as_slice() {
             [] => format!(
-                "from {} ({under}): no stable shape was found on the branches followed; --all searches for others",
-                jump.from
+                "from {} ({under}): no stable shape was found on the branches followed; {}",
+                jump.from,
+                match a.subject {
+                    "machine" => "a longer way may reach one",
+                    _ => "--all searches for others",
+                }
             ),
             [one] => format!("from {} ({under}) to {one}", jump.from),
             many => format!(

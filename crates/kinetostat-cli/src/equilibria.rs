@@ -1,56 +1,61 @@
-//! `kinetostat equilibria`: all shapes that a serial chain can take.
+//! `kinetostat equilibria`: all shapes that a chain or a machine can take.
 
 use kinetostat::{SearchSettings, Twist, moved};
 use nalgebra::Vector3;
 
-use crate::curve::Targets;
+use crate::curve::{Asked, Shown, Work, follow};
 use crate::curve_args::EquilibriaArgs;
-use crate::curve_chain::serial_chain;
+use crate::curve_chain::{Moves, is_chain, serial_chain};
 use crate::curve_csv;
+use crate::curve_machine::{Machine, refuse_nodes};
 use crate::curve_question::{Holding, constant, constant_in_words, holding, with_loads, wrench};
-use crate::curve_work::interruptible;
 use crate::equilibria_answer::{self, EquilibriaAnswer, Question};
+use crate::equilibria_machine;
 use crate::equilibria_table;
 use crate::failure::{Answer, Failure};
-use crate::input::Files;
 use crate::machine::short;
-use crate::place::{Spot, spot};
+use crate::place::Spot;
 use crate::screen::triple;
 use crate::setting::vector;
 
 pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
-    let spot = spot(
-        &Files::default(),
-        &args.model,
-        &args.place,
-        args.tool_length_mm,
-        None,
-        None,
-    )?;
-    let q = question(&spot, args)?;
-    let targets = Targets::claim(&args.outputs, &spot.inputs)?;
-    let place = spot.asked();
-    let names = [
-        spot.name.clone(),
-        spot.source.clone(),
-        spot.tool_words.clone(),
-    ];
-    let mut answer: EquilibriaAnswer =
-        interruptible(move |stage| equilibria_answer::solve(&q, place, names, stage))?;
-    answer.warnings.extend(spot.warnings.iter().cloned());
-    let near = spot.near_singular();
-    answer.warnings.extend(near.map(|n| n.in_words));
-    let text = equilibria_table::in_words(&spot.heading(), &answer);
-    targets.finish(
-        &text,
-        &answer,
-        || curve_csv::of_equilibria(&answer),
-        || equilibria_table::plot(&answer).shape_svg(),
+    let asked = Asked {
+        model: &args.model,
+        place: &args.place,
+        tool_length_mm: args.tool_length_mm,
+        outputs: &args.outputs,
+    };
+    let about = |spot: &Spot| -> Answer<Work<EquilibriaAnswer>> {
+        if is_chain(spot) {
+            let chain = with_loads(serial_chain(spot)?, &args.end)?;
+            let q = question(&chain.moves(), args)?;
+            Ok(Box::new(move |place, names, stage| {
+                equilibria_answer::solve(&chain, &q, place, names, stage)
+            }))
+        } else {
+            refuse_nodes(&args.end)?;
+            let machine = Machine::of(spot)?;
+            let q = question(&machine.moves, args)?;
+            Ok(Box::new(move |place, names, stage| {
+                equilibria_machine::solve(&machine, &q, place, names, stage)
+            }))
+        }
+    };
+    follow(
+        &asked,
+        about,
+        |answer| &mut answer.warnings,
+        |heading, answer| {
+            Ok(Shown {
+                text: equilibria_table::in_words(heading, answer),
+                csv: curve_csv::of_equilibria(answer)?,
+                svg: equilibria_table::plot(answer).shape_svg(),
+            })
+        },
     )
 }
 
-fn question(spot: &Spot, args: &EquilibriaArgs) -> Answer<Question> {
-    let chain = with_loads(serial_chain(spot)?, &args.end)?;
+fn question(moves: &Moves, args: &EquilibriaArgs) -> Answer<Question> {
     let acting = wrench(
         ("--force", args.force.as_deref()),
         ("--moment", args.moment.as_deref()),
@@ -65,21 +70,14 @@ fn question(spot: &Spot, args: &EquilibriaArgs) -> Answer<Question> {
     let turn = part("--turned-deg", &args.turned_deg)?;
     let displaced = args.displaced_mm.is_some() || args.turned_deg.is_some();
     let twist = Twist::new(shift * 1e-3, turn.map(f64::to_radians));
-    let movable = chain.movable();
-    if twist.0.amax() > 0.0 && chain.movable_share(&movable, &twist.0) < 1.0 - 1e-6 {
-        return Err(Failure::input(
-            "the tool cannot be held there: the chain cannot move its end that way (a planar chain stays in its plane). Leave out the part of --displaced-mm and --turned-deg across it",
-        ));
+    let subject = moves.subject;
+    if twist.0.amax() > 0.0 && moves.share(&twist.0) < 1.0 - 1e-6 {
+        return Err(Failure::input(format!(
+            "the tool cannot be held there: the {subject} cannot move its end that way (a planar {subject} stays in its plane). Leave out the part of --displaced-mm and --turned-deg across it",
+        )));
     }
-    let place = moved(&chain.place, &twist);
-    let held = holding(
-        &chain,
-        &args.end,
-        &place,
-        acting,
-        displaced || !loaded,
-        None,
-    )?;
+    let place = moved(&moves.place, &twist);
+    let held = holding(moves, &args.end, &place, acting, displaced || !loaded, None)?;
     refuse_displaced_and_free(&held, &twist)?;
     let count = |option: &str, value: Option<usize>, default: usize| match value {
         None => Ok(default),
@@ -101,7 +99,7 @@ fn question(spot: &Spot, args: &EquilibriaArgs) -> Answer<Question> {
         .map(|v| v.normalize());
     let mut words = match (displaced, loaded) {
         (true, _) => format!(
-            "Which shapes does the chain take while its tool is held {} mm from the commanded place{}?",
+            "Which shapes does the {subject} take while its tool is held {} mm from the commanded place{}?",
             triple(shift.into(), short),
             if turn.norm() > 0.0 {
                 format!(" and turned by {} deg", triple(turn.into(), short))
@@ -110,13 +108,14 @@ fn question(spot: &Spot, args: &EquilibriaArgs) -> Answer<Question> {
             }
         ),
         (false, true) => format!(
-            "Which shapes does the chain take under the force {} N and the moment {} N m on its tool?",
+            "Which shapes does the {subject} take under the force {} N and the moment {} N m on its tool?",
             triple(acting.force().into(), short),
             triple(acting.moment().into(), short)
         ),
         (false, false) => {
-            "Which shapes does the chain take while its tool is held at the commanded place?"
-                .to_owned()
+            format!(
+                "Which shapes does the {subject} take while its tool is held at the commanded place?"
+            )
         }
     };
     words.push(' ');
@@ -125,7 +124,6 @@ fn question(spot: &Spot, args: &EquilibriaArgs) -> Answer<Question> {
     Ok(Question {
         end: held.end.clone(),
         holding: held,
-        chain,
         settings,
         along,
         words,

@@ -19,7 +19,6 @@ pub(crate) const MOST_KNOWN: usize = 100;
 
 /// A question of `equilibria`.
 pub(crate) struct Question {
-    pub(crate) chain: SerialChain,
     pub(crate) end: EndCondition,
     pub(crate) holding: Holding,
     pub(crate) settings: SearchSettings,
@@ -95,18 +94,19 @@ pub(crate) struct Coverage {
 
 /// Finds all equilibria.
 pub(crate) fn solve(
+    chain: &SerialChain,
     q: &Question,
     place: PlaceAsked,
     spot: [String; 3],
     stage: &Stage,
 ) -> Answer<EquilibriaAnswer> {
     stage.is("searching for equilibria");
-    let problem = q.chain.problem(q.end.clone());
-    let found = equilibria(&problem, &Bounds::of(&q.chain.chain), &q.settings)?;
+    let problem = chain.problem(q.end.clone());
+    let found = equilibria(&problem, &Bounds::of(&chain.chain), &q.settings)?;
     let outlines = found
         .found
         .iter()
-        .map(|f| q.chain.outline(&f.equilibrium.coordinates))
+        .map(|f| chain.outline(&f.equilibrium.coordinates))
         .collect();
     let conservative = found.found.iter().all(|f| f.equilibrium.conservative);
     let [model, model_source, tool] = spot;
@@ -120,12 +120,12 @@ pub(crate) fn solve(
         question: q.words.clone(),
         tool_held: q.holding.clone(),
         stiffness_along: q.along.map(Into::into),
-        coordinates: q.chain.coordinates(),
+        coordinates: chain.coordinates(),
         equilibria: found
             .found
             .iter()
             .enumerate()
-            .map(|(i, f)| shape(q, &problem, i + 1, f))
+            .map(|(i, f)| shape(chain, q, &problem, i + 1, f))
             .collect(),
         coverage: Coverage {
             starts: found.starts,
@@ -143,6 +143,7 @@ pub(crate) fn solve(
 }
 
 fn shape(
+    chain: &SerialChain,
     q: &Question,
     problem: &ChainProblem<'_>,
     number: usize,
@@ -163,9 +164,9 @@ fn shape(
         mode_in_words: if e.stability.mode.is_empty() {
             String::new()
         } else {
-            mode_in_words(&q.chain, &e.stability.mode)
+            mode_in_words(chain, &e.stability.mode)
         },
-        singular: degenerate(&q.chain, problem, f),
+        singular: degenerate(chain, problem, f),
         found_by_spread_starts: f.hits,
         stiffness_n_per_mm: stiffness,
         stiffness_n_m_rad: std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)])),
@@ -173,7 +174,7 @@ fn shape(
         moment_n_m: e.wrench.moment().into(),
         position_mm: (e.tip.translation.vector * 1e3).into(),
         rotation_vector_deg: e.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
-        coordinates: q.chain.values(&e.coordinates),
+        coordinates: chain.values(&e.coordinates),
     }
 }
 

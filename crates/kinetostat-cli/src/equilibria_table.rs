@@ -46,7 +46,7 @@ fn verdict(a: &EquilibriaAnswer) -> String {
             let of = match stable {
                 0 => "none of them is stable".to_owned(),
                 1 => "one of them is stable".to_owned(),
-                n => format!("{n} of them are stable: the chain may snap between these"),
+                n => format!("{n} of them are stable: it may snap between these"),
             };
             format!("{n} equilibria; {of}.")
         }
@@ -180,8 +180,15 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
         .map(|e| e.found_by_spread_starts)
         .min()
         .unwrap_or(0);
+    let machine = a.tool_held.subject == "machine";
+    let spread = match machine {
+        true => {
+            "from places of the tool spread around the commanded one (and beyond singular postures nearby), every second one with turned joints"
+        }
+        false => "evenly spread over all joint angles within 180 deg",
+    };
     let mut text = format!(
-        "{} starts, evenly spread over all joint angles within 180 deg: {} ended at an equilibrium",
+        "{} starts, {spread}: {} ended at an equilibrium",
         c.starts, c.ended_within_bounds
     );
     if c.ended_outside_bounds > 0 {
@@ -215,6 +222,11 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
             number(100.0 * c.chance_of_more, 2),
             number(100.0 * c.chance_of_more_at_most, 2)
         ));
+    }
+    if machine {
+        list.push(
+            "of a machine of several limbs neither curves nor mirror images are followed from what was found: shapes of single limbs that are bent far are easily missed".to_owned(),
+        );
     }
     if a.equilibria.iter().any(|e| e.found_by_spread_starts == 0) {
         list.push(

@@ -77,7 +77,7 @@
 //! Dependencies point one way: `spatial, saddle with block_elimination, sparse <- spring, chain <- kinematics, loading <- system
 //! with sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse
 //! with graph <- platform, platform_step <- posture with network, forward <- assembly, constraints, mobility,
-//! near_singular, overcome, platform_curve, compensation`; and `equilibrium, stability <- reduced, singular_point <-
+//! near_singular, overcome, platform_curve, platform_path with machine_equilibria, compensation`; and `equilibrium, stability <- reduced, singular_point <-
 //! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
 mod assembly;
@@ -116,6 +116,7 @@ mod load_energy;
 mod loading;
 mod logarithm;
 mod machine_directions;
+mod machine_equilibria;
 mod mechanism;
 mod mobility;
 mod near_singular;
@@ -126,6 +127,7 @@ mod passive_rules;
 mod platform;
 mod platform_curve;
 mod platform_load;
+mod platform_path;
 mod platform_step;
 mod posture;
 mod reduced;
@@ -183,6 +185,7 @@ pub use load_check::{TangentCheck, check_tangents};
 pub use load_energy::{is_conservative, load_energy};
 pub use loading::{Load, NodeLoad, NodeTangent};
 pub use logarithm::LogarithmLaw;
+pub use machine_equilibria::{MachineEquilibria, MachineFound, SpreadSettings};
 pub use mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
 pub use near_singular::{NearSingularity, SingularityKind};
 pub use overcome::OvercomeSpring;
@@ -195,6 +198,7 @@ pub use passive_rules::{
 pub use platform::MechanismState;
 pub use platform_curve::{HeldCurve, HeldPoint};
 pub use platform_load::PlatformLoad;
+pub use platform_path::{MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind};
 pub use posture::{
     LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
 };

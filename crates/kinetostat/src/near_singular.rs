@@ -253,6 +253,7 @@ fn follow(start: f64, first: f64, square: &dyn Fn(f64) -> Option<f64>) -> Option
     for s in [0.5 * first, first] {
         points.push((s, square(s)?));
     }
+    let mut estimate = first;
     for _ in 0..12 {
         let [(a, fa), (b, fb), (c, fc)] = points[..] else {
             return None;
@@ -266,17 +267,23 @@ fn follow(start: f64, first: f64, square: &dyn Fn(f64) -> Option<f64>) -> Option
         if !(0.0..=4.0 * first).contains(&next) {
             return None;
         }
-        let value = square(next)?;
+        estimate = next;
+        // Joints may not be found where the posture is all but singular: then a little off it.
+        let (next, value) = [0.0, 1e-4, -1e-4, 1e-3, -1e-3]
+            .into_iter()
+            .map(|share| next + share * first)
+            .find_map(|s| Some((s, square(s)?)))?;
         if value <= 1e-14 * start {
             return Some(next);
         }
         if points.iter().any(|(s, _)| (s - next).abs() <= 1e-9 * first) {
-            return (value <= 1e-8 * start).then_some(next);
+            return (value <= 1e-5 * start).then_some(estimate);
         }
         // The worst of the three goes.
         let worst = (0..3).max_by(|&i, &j| points[i].1.total_cmp(&points[j].1))?;
         points[worst] = (next, value);
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
-    None
+    let least = points.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
+    (least <= 1e-5 * start).then_some(estimate)
 }

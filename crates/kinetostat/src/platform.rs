@@ -12,7 +12,7 @@
 //! A limb that starts at a moving platform loads it with everything that acts on the limb; that
 //! reaction and its derivative come from six motions of the limb's base.
 
-use nalgebra::{DMatrix, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
 use crate::chain::Scale;
 use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, step_limit};
@@ -24,7 +24,7 @@ use crate::mechanism::Mechanism;
 use crate::platform_step::{Linear, PlatformStep};
 use crate::settings::Settings;
 use crate::sparse::Sparse;
-use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, shift_matrix};
+use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix};
 
 /// Poses, coordinates and end wrenches of a mechanism: where an iteration starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,9 +47,51 @@ pub(crate) enum Unknowns {
     /// The tool is held in the directions that are `true` and the nominal target moves there
     /// instead: compensation.
     Target([bool; 6]),
-    /// The tool's origin is held along a direction (base axes, of size one) and the force in it
-    /// follows: a part of [`PlatformSolver::wrench`]. Everything else moves.
-    Along(Vector3<f64>),
+    /// The tool is held where [`PlatformSolver::guide`] says, and the wrenches that hold it there
+    /// follow: a part of [`PlatformSolver::wrench`]. Everything else moves.
+    Guided,
+}
+
+/// Conditions on the motion of the tool from its nominal target, and as many wrenches on it.
+#[derive(Clone, Debug)]
+pub(crate) struct Guide {
+    /// Conditions `rows * motion = goals`, k x 6, base axes.
+    pub rows: DMatrix<f64>,
+    /// See `rows`, k.
+    pub goals: DVector<f64>,
+    /// Columns: wrenches about the tool's origin, base axes, 6 x k.
+    pub hands: DMatrix<f64>,
+}
+
+impl Guide {
+    /// No condition.
+    pub fn none() -> Self {
+        Self {
+            rows: DMatrix::zeros(0, 6),
+            goals: DVector::zeros(0),
+            hands: DMatrix::zeros(6, 0),
+        }
+    }
+
+    /// What the motion from `target` to `pose` lacks of the goals.
+    pub fn lack(&self, target: &Pose, pose: &Pose) -> DVector<f64> {
+        &self.goals - &self.rows * pose_residual(pose, target).0
+    }
+
+    /// Rows by the motion of the tool at `pose`: the logarithm is no sum.
+    pub fn rows_at(&self, target: &Pose, pose: &Pose) -> DMatrix<f64> {
+        let turned = pose_residual(pose, target).angular();
+        let angle = turned.norm();
+        let mut rows = self.rows.clone();
+        if angle > 1e-9 {
+            let cross = hat(&turned);
+            let share = (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle);
+            let by_turn = Matrix3::identity() - cross * 0.5 + cross * cross * share;
+            let turns = rows.columns(3, 3) * by_turn;
+            rows.columns_mut(3, 3).copy_from(&turns);
+        }
+        rows
+    }
 }
 
 /// A mechanism's equilibrium being solved.
@@ -63,6 +105,7 @@ pub(crate) struct PlatformSolver<'m> {
     /// Joints of the commanded, unloaded posture.
     pub posture: Vec<LimbPosture>,
     pub unknowns: Unknowns,
+    pub guide: Guide,
     /// Pose of the tool for which the limbs are commanded, t0.
     pub target: Pose,
     /// Poses of all platforms for which the limbs are commanded.
@@ -147,6 +190,7 @@ impl<'m> PlatformSolver<'m> {
             nominal: mechanism.platforms.iter().map(|p| p.home).collect(),
             posture,
             unknowns,
+            guide: Guide::none(),
             rates: Vec::new(),
             state,
             factors,
@@ -239,6 +283,12 @@ impl<'m> PlatformSolver<'m> {
             forces = forces.max(size(f));
         }
         let mut force = 0.0_f64;
+        if self.unknowns == Unknowns::Guided {
+            let missing = self.guide.lack(&self.target, &self.state.platforms[m.tool]);
+            let missing = missing.amax();
+            merit += (missing * root).powi(2);
+            closure_m = closure_m.max(missing);
+        }
         for (k, w) in lack.iter().enumerate().skip(1) {
             // Whoever holds the tool supplies what it lacks.
             if self.unknowns != Unknowns::Held || k != m.tool {
@@ -494,6 +544,21 @@ impl<'m> PlatformSolver<'m> {
         let (_, lack) = self.evaluate();
         self.linearise(true);
         (self.tangents().0, lack)
+    }
+
+    /// The moment of the wrench on the tool without the reactions of what guides it.
+    pub fn dead_moment(&self, wrench: &Wrench) -> Vector3<f64> {
+        let held = self.guide.hands.rows(3, 3);
+        let Some(u) = (held.ncols() > 0).then(|| held.into_owned().svd(true, false)) else {
+            return wrench.moment();
+        };
+        let mut moment = wrench.moment();
+        for (k, column) in u.u.iter().flat_map(|u| u.column_iter()).enumerate() {
+            if u.singular_values[k] > 1e-9 {
+                moment -= column * column.dot(&wrench.moment());
+            }
+        }
+        moment
     }
 
     /// System and balance factors of a limb after [`Self::finish`].

@@ -1,10 +1,10 @@
 //! The wrench that holds the tool, followed along a way of the tool: branches, limit points and
 //! snap-through of a machine [R 5.5.3, Table 5.3].
 
-use nalgebra::{DMatrix, Matrix6, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 use crate::error::Result;
-use crate::platform::{MechanismState, Unknowns};
+use crate::platform::{Guide, MechanismState, Unknowns};
 use crate::posture::{MechanismEquilibrium, Posture, conclude};
 use crate::saddle::{complement, pseudo_inverse};
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
@@ -191,7 +191,13 @@ impl<'m> Posture<'m> {
         start: &MechanismState,
     ) -> Result<MechanismEquilibrium> {
         let tool = self.mechanism.tool;
-        let mut solver = self.solver(start.clone(), Unknowns::Along(*direction));
+        let mut solver = self.solver(start.clone(), Unknowns::Guided);
+        let push = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });
+        solver.guide = Guide {
+            rows: push.transpose(),
+            goals: DVector::zeros(1),
+            hands: push,
+        };
         solver.wrench = *dead + Wrench::new(direction * force, Vector3::zeros());
         let place = |pose: &Pose| {
             direction.dot(&(pose.translation.vector - self.target.translation.vector))
@@ -204,6 +210,7 @@ impl<'m> Posture<'m> {
             let left = along - place(&solver.state.platforms[tool]);
             let last = step.abs() >= left.abs();
             let go = if last { left } else { step };
+            solver.guide.goals[0] = place(&solver.state.platforms[tool]) + go;
             solver.state.platforms[tool].translation.vector += direction * go;
             match solver.solve(1.0, 0) {
                 Ok((iterations, balance)) => {

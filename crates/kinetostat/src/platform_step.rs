@@ -301,12 +301,24 @@ impl PlatformSolver<'_> {
         }
         let root = self.stiffness.sqrt();
         let (mut sizes, mut needed) = self.rigid_rows();
-        if let Unknowns::Along(direction) = self.unknowns {
-            let row = sizes.grow(m.tool - 1, 1);
-            sizes.matrix.add(row, tool, &(direction.transpose() * root));
-            needed = needed.push(0.0);
+        let guided = match self.unknowns {
+            Unknowns::Guided => self.guide.hands.ncols(),
+            _ => 0,
+        };
+        let first = needed.len();
+        if guided > 0 {
+            let pose = &self.state.platforms[m.tool];
+            let row = sizes.grow(m.tool - 1, guided);
+            let rows = self.guide.rows_at(&self.target, pose) * root;
+            sizes.matrix.add(row, tool, &rows);
+            needed = needed.resize_vertically(first + guided, 0.0);
+            needed
+                .rows_mut(first, guided)
+                .copy_from(&(self.guide.lack(&self.target, pose) * root));
         }
         let (mut rigid, mut reactions) = (sizes.clone(), sizes.matrix.clone());
+        reactions.entries.retain(|(i, _, _)| *i < first);
+        reactions.add(first, tool, &(self.guide.hands.transpose() * root));
         rigid.matrix.entries.retain(|(_, j, _)| !replaced(*j));
         let by_target = self.rigid_rows_by_target();
         for k in (0..6).filter(|&k| held[k]) {
@@ -359,13 +371,9 @@ impl PlatformSolver<'_> {
                 Wrench(wrench.fixed_view::<6, 1>(0, 0).into_owned())
             })
             .collect();
-        let push = match self.unknowns {
-            // The reaction of the row, on the right-hand side.
-            Unknowns::Along(direction) => {
-                Wrench::new(direction * (-b[(at, 0)] * root), nalgebra::Vector3::zeros())
-            }
-            _ => Wrench::zero(),
-        };
+        // Reactions of the rows, on the right-hand side; what acts is a share of the wrench.
+        let push = &self.guide.hands * b.view((at, 0), (guided, 1)) * (-root / self.share);
+        let push = Wrench(push.fixed_view::<6, 1>(0, 0).into_owned());
         Some(PlatformStep {
             motions,
             target,

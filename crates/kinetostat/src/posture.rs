@@ -112,6 +112,8 @@ pub struct MechanismEquilibrium {
     pub residual: Residual,
     /// State from which a neighbouring equilibrium can be started.
     pub state: MechanismState,
+    /// Platforms other than the tool keep their places while the tool is held.
+    pub(crate) others_hold: bool,
 }
 
 impl MechanismEquilibrium {
@@ -754,7 +756,8 @@ pub(crate) fn conclude(
         displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
         conservative: outside.is_some()
             && limbs.iter().all(|l| l.conservative)
-            && (solver.unknowns == Unknowns::Held || m.tool_moment_has_potential(&wrench.moment())),
+            && (solver.unknowns == Unknowns::Held
+                || m.tool_moment_has_potential(&solver.dead_moment(&wrench))),
         energy,
         wrench,
         stiffness: CartesianStiffness { matrix: stiffness },
@@ -775,6 +778,7 @@ pub(crate) fn conclude(
         limbs,
         residual,
         state: solver.state.clone(),
+        others_hold: others_hold(&tangent, &rigid, tool - 1, scale, true),
     };
     Ok(answer.named(m))
 }

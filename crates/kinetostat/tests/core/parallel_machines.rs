@@ -101,7 +101,7 @@ pub fn internal_wrenches() -> [f64; 2] {
 }
 
 /// A planar 3-RRR with driven, elastic shoulders, rigid bars; the plane is turned anyhow.
-struct Planar {
+pub struct Planar {
     feet: [nalgebra::Vector2<f64>; 3],
     pins: [nalgebra::Vector2<f64>; 3],
     bars: [f64; 2],
@@ -263,7 +263,7 @@ fn by_legs(k: f64, ends: &[(Vector3<f64>, Vector3<f64>)], pose: &Pose) -> Matrix
     })
 }
 
-fn hexapod(k: f64, ends: &[(Vector3<f64>, Vector3<f64>)], home: &Pose) -> Mechanism {
+pub fn hexapod(k: f64, ends: &[(Vector3<f64>, Vector3<f64>)], home: &Pose) -> Mechanism {
     let mut builder = Mechanism::builder("hexapod");
     let tool = builder.platform(Platform::new("tool", *home));
     for (i, (below, above)) in ends.iter().enumerate() {
@@ -362,8 +362,12 @@ pub fn cubic_hexapod_apart() -> f64 {
 
 /// A Delta: driven arms are platforms, each with two rigid rods to the tool.
 fn delta(k: f64) -> (Mechanism, f64) {
-    let (base, arm, rod, head, half) = (0.2, 0.3, 0.7, 0.06, 0.05);
-    let down = 0.4_f64;
+    (delta_with(k, 0.7, 0.4), 0.7)
+}
+
+/// With rods of another length, its arms that far below the level at home (rad).
+fn delta_with(k: f64, rod: f64, down: f64) -> Mechanism {
+    let (base, arm, head, half) = (0.2, 0.3, 0.06, 0.05);
     let reach = base + arm * down.cos() - head;
     let height = -(arm * down.sin()) - (rod * rod - reach * reach).sqrt();
     let home = Pose::translation(0.0, 0.0, height);
@@ -413,7 +417,7 @@ fn delta(k: f64) -> (Mechanism, f64) {
             ));
         }
     }
-    (builder.build().unwrap(), rod)
+    builder.build().unwrap()
 }
 
 /// A Delta of platforms and rigid rods against `J^-T k J^-1`, relative.
@@ -509,7 +513,7 @@ pub fn tripteron_apart() -> f64 {
 }
 
 /// Two elastic sliding legs from the left and the right in the plane x, z: a truss that snaps.
-fn truss(b: f64, h: f64, k: f64) -> Mechanism {
+pub fn truss(b: f64, h: f64, k: f64) -> Mechanism {
     let mut builder = Mechanism::builder("truss");
     let tool = builder.platform(Platform::new("tool", Pose::translation(0.0, 0.0, h)));
     for (name, side) in [("left", -1.0), ("right", 1.0)] {
@@ -675,4 +679,79 @@ fn a_posture_near_a_singular_one_says_how_far_and_where() {
         list[0].in_words()
     );
     assert!(list[0].in_words().starts_with("singular posture"));
+}
+
+/// By symmetry the way to the singular posture is straight up, where the rods are level: there the
+/// tool also tilts for nothing, and it is a tilt that is lost first.
+#[test]
+fn a_delta_near_its_flat_posture_says_how_far_it_is() {
+    let machine = delta_with(4000.0, 0.4, 0.7);
+    // base + arm cos(theta) - head = rod, tool and elbows at one height.
+    let flat = -0.3 * (1.0 - ((0.4 - 0.14) / 0.3_f64).powi(2)).sqrt();
+    for above in [0.08, 0.03, 0.004] {
+        let target = Pose::translation(0.0, 0.0, flat - above);
+        let posture = machine.posture(&target).unwrap();
+        let list = posture.near_singularities(0.5).unwrap();
+        let first = list
+            .iter()
+            .find(|s| s.kind == SingularityKind::Gained)
+            .unwrap();
+        assert!(first.followed, "{}", first.in_words());
+        assert!(
+            (first.distance_m - above).abs() < 1e-4 * above,
+            "{above}: {}",
+            first.in_words()
+        );
+        assert!(first.way.linear().z > 0.999, "{}", first.in_words());
+    }
+}
+
+/// A symmetric 3-RRR turned about its centre is singular where its outer bars meet there; by
+/// symmetry that is the way.
+#[test]
+fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
+    let on = |r: f64, turn: f64| vector![r * turn.cos(), r * turn.sin()];
+    let turns = [0.0, THIRD, 2.0 * THIRD];
+    let planar = Planar {
+        feet: turns.map(|a| on(0.6, a)),
+        pins: turns.map(|a| on(0.12, a)),
+        bars: [0.35, 0.4],
+        k: [900.0; 3],
+        ..Planar::new()
+    };
+    // The elbow lies on the line through centre and pin, at 0.12 + 0.4 from the centre.
+    let (foot, elbow, bar) = (0.6_f64, 0.52, 0.35_f64);
+    let angle = ((foot * foot + elbow * elbow - bar * bar) / (2.0 * foot * elbow)).acos();
+    let meets = |turn: f64| {
+        let shoulder = planar.leg(0, &vector![0.0, 0.0, turn]).0;
+        (planar.feet[0] + on(bar, shoulder) - on(elbow, turn)).norm() < 1e-9
+    };
+    let singular = [angle, -angle].into_iter().find(|t| meets(*t)).unwrap();
+    let near = vector![0.0, 0.0, singular * 0.7];
+    let machine = planar.machine(&near);
+    for off in [0.1, 0.03, 0.005] {
+        for side in [-1.0, 1.0] {
+            let target = planar.pose(&vector![0.0, 0.0, singular + side * off]);
+            let posture = machine.posture(&target).unwrap();
+            let length = posture.stiffness().unwrap().length;
+            let list = posture.near_singularities(0.5).unwrap();
+            let first = list
+                .iter()
+                .find(|s| s.kind == SingularityKind::Gained)
+                .unwrap();
+            assert!(first.followed, "{}", first.in_words());
+            let expected = off * length;
+            assert!(
+                (first.distance_m - expected).abs() < 1e-5 * expected,
+                "{off} {side}: {} {expected}",
+                first.distance_m
+            );
+            // Back by a turn about the plane's axis.
+            let axis = planar.plane.rotation * Vector3::z();
+            let turn = first.way.angular().dot(&axis) * length;
+            assert!((turn + side).abs() < 1e-3, "{turn} {}", first.in_words());
+            let gained = first.motion.angular().dot(&axis) * length;
+            assert!(gained.abs() > 0.99, "{}", first.in_words());
+        }
+    }
 }

@@ -1,0 +1,302 @@
+//! Machines near a flat posture [R 5.5.3]: paths through limit points and back, jumps, stability
+//! while held and under a dead load, both signs of the load. Against energies written by hand.
+
+use kinetostat::{
+    BranchEnd, CurveSettings, EndCondition, LoadPattern, MachinePath, Mechanism, Parameter,
+    PathPoint, PathSpecialKind, Pose, Posture, Prescribed, Twist, Wrench, moved,
+};
+use nalgebra::{DMatrix, Matrix6, Vector3, Vector6, vector};
+
+use crate::common::assert_equilibrium;
+use crate::parallel_machines::{hexapod, truss};
+
+/// Feet and heads.
+type Ends = Vec<(Vector3<f64>, Vector3<f64>)>;
+
+fn free(list: [bool; 6], wrench: Wrench) -> EndCondition {
+    let mut end = EndCondition::wrench(wrench);
+    end.prescribed = list.map(|f| match f {
+        true => Prescribed::Wrench,
+        false => Prescribed::Pose,
+    });
+    end
+}
+
+fn down() -> Parameter {
+    Parameter::Displacement(Twist::new(-Vector3::z(), Vector3::zeros()))
+}
+
+fn of_kind(path: &MachinePath, kind: PathSpecialKind) -> Vec<&PathPoint> {
+    let of = path.specials.iter().filter(|s| s.kind == kind);
+    of.map(|s| &s.point).collect()
+}
+
+/// Force of a truss at a height, up positive.
+fn truss_force(b: f64, h: f64, k: f64, z: f64) -> f64 {
+    let l = b.hypot(z);
+    2.0 * k * (l - b.hypot(h)) * z / l
+}
+
+/// A truss under a growing force: limits, verdicts and landings by hand, both signs of the load.
+/// Worst of force, place of limits and places of landing, as shares of `k h` and `h`.
+pub fn truss_path_apart() -> [f64; 3] {
+    let (b, h, k) = (0.5, 0.1, 1e5);
+    let machine = truss(b, h, k);
+    let posture = machine.posture(&Pose::translation(0.0, 0.0, h)).unwrap();
+    let unloaded = b.hypot(h);
+    let limit = ((unloaded * b * b).powf(2.0 / 3.0) - b * b).sqrt();
+    let most = -truss_force(b, h, k, limit);
+    let push = Parameter::Load(LoadPattern {
+        end: Wrench::new(-Vector3::z(), Vector3::zeros()),
+        loads: Vec::new(),
+    });
+    let range = CurveSettings::within(-1.2 * most, 1.2 * most);
+    let by_load = posture.path(&push, &EndCondition::wrench(Wrench::zero()), &range);
+    let by_load = by_load.unwrap();
+    assert_eq!(by_load.ends, [BranchEnd::Range; 2]);
+    let hold = EndCondition::pose(Pose::identity());
+    let mut settings = CurveSettings::within(-0.3 * h, 2.4 * h);
+    settings.largest_change = Some(0.05 * h);
+    let by_motion = posture.path(&down(), &hold, &settings).unwrap();
+    let mut worst = [0.0_f64; 3];
+    for path in [&by_load, &by_motion] {
+        for p in &path.points {
+            let z = p.equilibrium.tool.translation.z;
+            let force = truss_force(b, h, k, z);
+            let off = (p.equilibrium.wrench.force().z - force).abs() / (k * h);
+            worst[0] = worst[0].max(off);
+            // dF/dz > 0 holds under a dead load; held it always does.
+            let l = b.hypot(z);
+            let slope = 1.0 - unloaded * b * b / l.powi(3);
+            assert!(slope.abs() < 1e-6 || p.dead == (slope > 0.0), "{z}");
+            assert!(p.held || std::ptr::eq(path, &by_load));
+            let expected = 2.0 * k * slope;
+            assert!(
+                (p.slope - expected).abs() < 1e-6 * k,
+                "{} {expected}",
+                p.slope
+            );
+        }
+        let limits = of_kind(path, PathSpecialKind::LoadLimit);
+        assert_eq!(limits.len(), 2);
+        for (found, expected) in limits.iter().zip([limit, -limit]) {
+            let z = found.equilibrium.tool.translation.z;
+            worst[1] = worst[1].max((z - expected).abs() / h);
+        }
+        // Through at the first, and back at the second: the same force on the other side.
+        assert_eq!(path.jumps.len(), 2);
+        for (jump, (side, force)) in path.jumps.iter().zip([(-1.0, -most), (1.0, most)]) {
+            assert!(jump.dead_load && jump.to.len() == 1);
+            let (mut near, mut far) = (limit, 5.0 * h);
+            for _ in 0..80 {
+                let z = 0.5 * (near + far);
+                match truss_force(b, h, k, side * z) * side < force * side {
+                    true => near = z,
+                    false => far = z,
+                }
+            }
+            let z = jump.to[0].equilibrium.tool.translation.z;
+            worst[2] = worst[2].max((z - side * near).abs() / h);
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_truss_snaps_through_and_back() {
+    let [force, limits, landings] = truss_path_apart();
+    assert!(
+        force < 1e-10 && limits < 1e-6 && landings < 1e-8,
+        "{force:e} {limits:e} {landings:e}"
+    );
+}
+
+/// The energy of a hexapod's legs, J.
+struct Legs {
+    ends: Ends,
+    k: f64,
+    rest: Vec<f64>,
+}
+
+impl Legs {
+    fn new(height: f64, k: f64) -> Self {
+        let on = |r: f64, degrees: f64| {
+            let a = degrees.to_radians();
+            vector![r * a.cos(), r * a.sin(), 0.0]
+        };
+        let mut ends = Vec::new();
+        for j in 0..3 {
+            let turn = 120.0 * f64::from(j);
+            ends.push((on(0.6, turn - 10.0), on(0.3, turn - 50.0)));
+            ends.push((on(0.6, turn + 10.0), on(0.3, turn + 50.0)));
+        }
+        let home = Pose::translation(0.0, 0.0, height);
+        let rest = lengths(&ends, &home);
+        Self { ends, k, rest }
+    }
+
+    fn energy(&self, pose: &Pose) -> f64 {
+        let now = lengths(&self.ends, pose);
+        let pairs = now.iter().zip(&self.rest);
+        pairs.map(|(l, r)| 0.5 * self.k * (l - r).powi(2)).sum()
+    }
+
+    /// Derivatives by the tool's motions at a pose, sixth-order differences.
+    fn gradient(&self, pose: &Pose) -> Vector6<f64> {
+        let h = 2e-3;
+        Vector6::from_fn(|i, _| {
+            let at = |s: f64| {
+                let mut twist = Twist::zero();
+                twist.0[i] = s * h;
+                self.energy(&moved(pose, &twist))
+            };
+            let sum: f64 = [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)]
+                .map(|(s, w)| w * (at(s) - at(-s)))
+                .into_iter()
+                .sum();
+            sum / (60.0 * h)
+        })
+    }
+
+    /// Of the energy in exponential coordinates about a pose.
+    fn hessian(&self, pose: &Pose) -> Matrix6<f64> {
+        let h = 1e-3;
+        let at = |i: usize, a: f64, j: usize, b: f64| {
+            let mut twist = Twist::zero();
+            twist.0[i] += a * h;
+            twist.0[j] += b * h;
+            self.energy(&moved(pose, &twist))
+        };
+        Matrix6::from_fn(|i, j| {
+            let four = at(i, 1.0, j, 1.0) - at(i, 1.0, j, -1.0) - at(i, -1.0, j, 1.0)
+                + at(i, -1.0, j, -1.0);
+            four / (4.0 * h * h)
+        })
+    }
+}
+
+fn lengths(ends: &Ends, pose: &Pose) -> Vec<f64> {
+    let above = |p: &Vector3<f64>| (pose * nalgebra::Point3::from(*p)).coords;
+    ends.iter()
+        .map(|(foot, head)| (above(head) - foot).norm())
+        .collect()
+}
+
+/// Smallest eigenvalue of the Hessian in some directions, rotations at 0.3 m, N/m.
+fn least(hessian: &Matrix6<f64>, directions: &[usize]) -> f64 {
+    let unit = |i: usize| if i < 3 { 1.0 } else { 0.3 };
+    let n = directions.len();
+    DMatrix::from_fn(n, n, |a, b| {
+        let (i, j) = (directions[a], directions[b]);
+        hessian[(i, j)] / (unit(i) * unit(j))
+    })
+    .symmetric_eigenvalues()
+    .min()
+}
+
+/// What a path must keep: the wrench is the energy's gradient, verdicts are those of its Hessian.
+/// Returns the largest difference of the wrench as a share of the largest.
+fn against_energy(
+    legs: &Legs,
+    posture: &Posture<'_>,
+    path: &MachinePath,
+    driven: &[usize],
+    free: &[usize],
+) -> f64 {
+    let wrench = |p: &PathPoint| p.equilibrium.wrench.0;
+    let size = path
+        .points
+        .iter()
+        .map(|p| wrench(p).amax())
+        .fold(0.0, f64::max);
+    let mut worst = 0.0_f64;
+    for p in &path.points {
+        if wrench(p).amax() > 1e-6 * size {
+            assert_equilibrium(posture, &p.equilibrium);
+        }
+        let pose = &p.equilibrium.tool;
+        let gradient = legs.gradient(pose);
+        worst = worst.max((gradient - wrench(p)).amax() / size);
+        let hessian = legs.hessian(pose);
+        let verdicts = [(p.held, free.to_vec()), (p.dead, [driven, free].concat())];
+        for (found, directions) in verdicts {
+            if directions.is_empty() {
+                continue;
+            }
+            let smallest = least(&hessian, &directions);
+            let sure = smallest.abs() > 1e-4 * legs.k;
+            assert!(
+                !sure || found == (smallest > 0.0),
+                "{smallest} at {}",
+                p.parameter
+            );
+        }
+    }
+    worst
+}
+
+/// Three paths of a hexapod near its flat posture, against the energy of its legs; the last is
+/// whether its limit points are where the Hessian is singular, as a share of the leg's stiffness.
+pub fn hexapod_path_apart() -> [f64; 2] {
+    let (height, k) = (0.08, 1e6);
+    let legs = Legs::new(height, k);
+    let home = Pose::translation(0.0, 0.0, height);
+    let machine: Mechanism = hexapod(k, &legs.ends, &home);
+    let posture = machine.posture(&home).unwrap();
+    let mut settings = CurveSettings::within(-0.4 * height, 2.3 * height);
+    settings.largest_change = Some(0.04 * height);
+    let mut worst = [0.0_f64; 2];
+
+    // Held in all other directions: straight through.
+    let hold = EndCondition::pose(home);
+    let path = posture.path(&down(), &hold, &settings).unwrap();
+    assert_eq!(path.ends, [BranchEnd::Range; 2]);
+    worst[0] = worst[0].max(against_energy(&legs, &posture, &path, &[2], &[]));
+    let limits = of_kind(&path, PathSpecialKind::LoadLimit);
+    assert_eq!(limits.len(), 2);
+    for limit in limits {
+        let stiffness = legs.hessian(&limit.equilibrium.tool)[(2, 2)];
+        worst[1] = worst[1].max(stiffness.abs() / k);
+    }
+
+    // By a pin: free in all other directions, with a weight across so that nothing is symmetric.
+    let pin = free(
+        [true, true, false, true, true, true],
+        Wrench::new(vector![300.0, -200.0, 0.0], vector![10.0, 4.0, -6.0]),
+    );
+    let path = posture.path(&down(), &pin, &settings).unwrap();
+    worst[0] = worst[0].max(against_energy(
+        &legs,
+        &posture,
+        &path,
+        &[2],
+        &[0, 1, 3, 4, 5],
+    ));
+    for limit in of_kind(&path, PathSpecialKind::LoadLimit) {
+        let hessian = legs.hessian(&limit.equilibrium.tool);
+        let unit = |i: usize| if i < 3 { 1.0 } else { 0.3 };
+        let hessian = Matrix6::from_fn(|i, j| hessian[(i, j)] / (unit(i) * unit(j)));
+        let values = hessian.symmetric_eigenvalues();
+        let nearest = values.iter().map(|v| v.abs()).fold(f64::INFINITY, f64::min);
+        worst[1] = worst[1].max(nearest / k);
+    }
+
+    // A force off the axis that grows both ways; the tool is free.
+    let push = Parameter::Load(LoadPattern {
+        end: Wrench::new(vector![0.2, 0.1, -1.0], vector![0.0, 0.02, 0.01]),
+        loads: Vec::new(),
+    });
+    let settings = CurveSettings::within(-4000.0, 4000.0);
+    let end = EndCondition::wrench(Wrench::zero());
+    let path = posture.path(&push, &end, &settings).unwrap();
+    assert!(path.points.len() > 20);
+    worst[0] = worst[0].max(against_energy(&legs, &posture, &path, &[], &[]));
+    worst
+}
+
+#[test]
+fn a_hexapod_near_its_flat_posture_follows_its_energy() {
+    let [wrench, limits] = hexapod_path_apart();
+    assert!(wrench < 1e-6, "{wrench:e}");
+    assert!(limits < 1e-4, "{limits:e}");
+}
