@@ -8,10 +8,10 @@ use crate::args::{EXIT_CODES, PlaceArgs, number, whole};
 
 /// Force against displacement: stiffness, limit points, buckling, jumps
 ///
-/// Pushes the tool of a serial chain along a direction and tells which force it takes, or grows a
-/// load and tells where the tool goes: around limit points and through bifurcations, along every
-/// branch that crosses, with the places where the chain snaps and where it lands. For models with
-/// one limb between base and tool.
+/// Pushes the tool along a direction and tells which force it takes, or grows a load and tells where
+/// the tool goes: around limit points, with the places where the machine snaps and where it lands.
+/// Of a model with one limb between base and tool it follows every branch that crosses, too; of a
+/// machine of several limbs or platforms the branch of the start.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = CURVE_HELP)]
 pub(crate) struct CurveArgs {
@@ -65,11 +65,11 @@ pub(crate) struct CurveArgs {
     pub(crate) outputs: CurveOutputs,
 }
 
-/// All shapes that a chain can take while its tool is held, or under a force
+/// All shapes that a chain or a machine can take while its tool is held, or under a force
 ///
-/// A serial chain may have several equilibria, stable and unstable, for one place of its tool: this
-/// finds them, sorts them by energy, and says how complete the list is and how sure. For models
-/// with one limb between base and tool.
+/// A chain may have several equilibria, stable and unstable, for one place of its tool, and so has a
+/// machine near a flat posture: this finds them, sorts them by energy, and says how complete the
+/// list is and how sure.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = EQUILIBRIA_HELP)]
 pub(crate) struct EquilibriaArgs {
@@ -162,6 +162,9 @@ Examples:
       grow a force along the chain: critical load factor, buckling mode
   kinetostat curve heavy_6r --at 1200 0 900 --direction 0 0 1 --displacement-mm -2 2 \\
       --free others --csv points.csv
+  kinetostat curve orthoglide --at -120 -120 -120 --direction -1 -1 -1 \\
+      --displacement-mm -20 40 --plot flat.svg
+      a parallel machine pushed through its flat posture
 
 Solid lines are stable, dashed ones are not. Unless --hold or --free say otherwise, a tool that is
 pushed is held in all other directions, and a tool under a growing load is free in all directions.
@@ -179,6 +182,8 @@ Examples:
   kinetostat equilibria two_link --load elbow=0,-1.5,0
       with a load of 1.5 N down on the node 'elbow'
   kinetostat equilibria my_robot.toml --at 1200 0 900 --force 0 0 -3000 --json
+  kinetostat equilibria orthoglide --at -120 -120 -120 --force 0 0 0
+      a parallel machine near its flat posture: it may also rest behind it
 
 Without a force the tool is held at its commanded place (or displaced from it), with one it is free;
 --hold and --free say otherwise, direction by direction.

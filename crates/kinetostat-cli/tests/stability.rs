@@ -22,6 +22,7 @@ fn every_json_says_its_version_and_who_wrote_it() {
         "equilibria three_link_z --displaced-mm -200 0 0 --json",
         "assemble orthoglide --force 1 0 0 --json",
         "assemble orthoglide --along 0 0 0 10 0 0 --points 2 --json",
+        "curve orthoglide --at -120 -120 -120 --direction 1 1 1 --displacement-mm -10 10 --json",
         "demo --json",
     ] {
         let words: Vec<&str> = line.split(' ').collect();

@@ -119,11 +119,7 @@ impl Posture<'_> {
                 continue;
             }
             all.hits += 1;
-            match all
-                .found
-                .iter_mut()
-                .find(|f| path.same(&f.equilibrium, &e))
-            {
+            match all.found.iter_mut().find(|f| path.same(&f.equilibrium, &e)) {
                 Some(known) => known.hits += 1,
                 None => {
                     all.fruitless = 0;

@@ -51,7 +51,7 @@ impl NearSingularity {
         let motion = if self.motion.0.norm() == 0.0 {
             "moves platforms between base and tool".to_owned()
         } else {
-            motion_in_words(&self.motion)
+            motion_in_words(&mainly(&self.motion))
         };
         let what = match (&self.kind, &self.limb) {
             (SingularityKind::Lost, Some(limb)) => {
@@ -62,7 +62,7 @@ impl NearSingularity {
         if self.distance_m == 0.0 {
             return format!("singular posture: {what}");
         }
-        let way = motion_in_words(&self.way);
+        let way = motion_in_words(&mainly(&self.way));
         let how = if self.followed {
             "found by following that way"
         } else {
@@ -73,6 +73,17 @@ impl NearSingularity {
             self.distance_m * 1e3
         )
     }
+}
+
+/// A motion for a sentence: without parts that are a hundredth of what is left (translations against
+/// rotations at one metre, which only decides what is worth a word).
+fn mainly(motion: &Twist) -> Twist {
+    let (v, w) = (motion.linear(), motion.angular());
+    let cut = |part: nalgebra::Vector3<f64>, other: f64| match part.norm() < 0.01 * other {
+        true => nalgebra::Vector3::zeros(),
+        false => part,
+    };
+    Twist::new(cut(v, w.norm()), cut(w, v.norm()))
 }
 
 /// Singular values of one matrix of a posture, falling, and the motion of the last ones.

@@ -678,17 +678,23 @@ impl<'p, 'm> Path<'p, 'm> {
         of: impl Fn(&PathPoint) -> [bool; 2],
     ) -> Option<PathPoint> {
         let first = of(from);
-        let (mut low, mut high, mut best) = (0.0, step, None);
+        let (mut low, mut high, mut best) = (0.0, step, self.step(from, step));
         for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            let there = self.step(from, middle)?;
+            // Newton may fail where branches cross: then a little aside.
+            let there = [0.5, 0.45, 0.55, 0.3, 0.7].into_iter().find_map(|share| {
+                let at = low + share * (high - low);
+                Some((at, self.step(from, at)?))
+            });
+            let Some((middle, there)) = there else {
+                break;
+            };
             if of(&there) == first {
                 low = middle;
             } else {
                 high = middle;
+                best = Some(there);
             }
-            best = Some(there);
-            if (high - low).abs() < 1e-10 * step.abs() {
+            if (high - low).abs() < 1e-9 * step.abs() {
                 break;
             }
         }

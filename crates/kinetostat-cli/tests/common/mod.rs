@@ -1,6 +1,8 @@
 //! Runs the built command in a directory of its own.
 #![allow(dead_code)]
 
+pub mod chains;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

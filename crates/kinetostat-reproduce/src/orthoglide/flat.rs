@@ -1,11 +1,12 @@
 //! Table 5.3 and Figure 5.11: the neighbourhood of the flat posture [R 5.5.3].
 
+use kinetostat::LinkConvention;
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use rayon::prelude::*;
 
 use super::machine::{Orthoglide, SMALL, target};
-use super::toggle::{Bowed, Curve, Place, diagonal, flat, hold, report_fails_at, report_rate};
+use super::toggle::{Bars, Curve, Place, diagonal, flat, hold, report_fails_at, report_rate};
 use crate::{Cause, Contents, Item};
 
 /// A configuration of the table and its print: coordinate on the diagonal (m), `d0` (mm), `F_cr`
@@ -47,6 +48,16 @@ const CONFIGURATIONS: [Configuration; 3] = [
     },
 ];
 
+/// Conventions besides that of the parallelograms as springs and the default.
+const CONVENTIONS: [(&str, LinkConvention); 3] = [
+    ("translations first", LinkConvention::TranslationsFirst),
+    ("rotations first", LinkConvention::RotationsFirst),
+    ("exponential coordinates", LinkConvention::Exponential),
+];
+
+/// How far bars that bow are pulled inside, mm.
+const FAR_INSIDE: f64 = 40.0;
+
 /// What is computed for a configuration.
 struct Answer {
     /// mm.
@@ -58,8 +69,13 @@ struct Answer {
     knee: Place,
     /// Largest difference between the whole machine, held, and three times its first leg, kN.
     apart: f64,
-    bowed: Bowed,
+    bowed: Bars,
+    /// Two bars in every leg by other conventions: name, first limit outside and inside.
+    others: Vec<(&'static str, [Option<Place>; 2])>,
     bowed_outside: Option<Place>,
+    /// The first limit of bars that bow on the way to [`FAR_INSIDE`], and the place there.
+    bowed_inside: Option<Place>,
+    bowed_far: Place,
     /// Where outside the report's iteration stops converging, if it does before the flat posture.
     iteration: Option<Place>,
     /// Rate of the report's iteration at the printed displacement outside.
@@ -88,7 +104,16 @@ impl Configuration {
             let held = hold(&posture, self.at, moved.abs() * share.signum())?;
             apart = apart.max((held.force - force).abs());
         }
-        let bowed = Bowed::new(self.at)?;
+        let bowed = Bars::new(self.at, LinkConvention::default())?;
+        let others = CONVENTIONS
+            .iter()
+            .map(|(name, convention)| {
+                let bars = Bars::new(self.at, *convention)?;
+                let ways = [self.range.0, self.range.1].map(|to| bars.first_limit(to));
+                let [outside, inside] = ways;
+                Ok((*name, [outside?, inside?]))
+            })
+            .collect::<Result<_, Cause>>()?;
         let distance = (self.at - flat(&machine)?) * 3_f64.sqrt() * 1e3;
         let fails = report_fails_at(&machine, self.at, -0.5 * distance)?;
         let iteration = fails.and_then(|moved| {
@@ -110,8 +135,11 @@ impl Configuration {
             knee: inside.knee().ok_or_else(|| missing("the knee inside"))?,
             curve,
             apart,
-            bowed_outside: bowed.outside(self.range.0)?,
+            bowed_outside: bowed.first_limit(self.range.0)?,
+            bowed_inside: bowed.first_limit(FAR_INSIDE)?,
+            bowed_far: bowed.held(FAR_INSIDE)?,
             bowed,
+            others,
         })
     }
 
@@ -157,7 +185,7 @@ impl Configuration {
                 a.stiffness,
                 "N/mm",
                 if q == "Q2" {
-                    "the report defines it and does not print it; reference values 2.3 say 406 for a reason that is not known: the stiffness behind their own section 2.4 gives this number"
+                    "the report defines it and does not print it; reference values 2.3 say 406 for a reason that is not known: the stiffness behind their own section 2.4 gives this number. Tried: drives of 1e8 to 1e12 N/m (402.0 to 408.7), bars of 310.05 mm (408.2), secants over 1 mm (398.4 and 417.7)"
                 } else {
                     "the report defines it and does not print it"
                 },
@@ -240,6 +268,50 @@ impl Configuration {
                 why,
             ));
             items.push(Item::unprinted(name("force"), place.force, "kN", why));
+        }
+        items.push(match a.bowed_inside {
+            Some(place) => Item::unprinted(
+                format!("{q}: first limit inside, bars that bow"),
+                place.moved,
+                "mm",
+                "default law of a link",
+            ),
+            None => Item::unprinted(
+                format!("{q}: force {FAR_INSIDE} mm inside, bars that bow"),
+                a.bowed_far.force,
+                "kN",
+                &format!(
+                    "default law of a link: no instability under tension and no limit all the way there; the slope is {:.0} N/mm by then and grows. The limits inside of the print do not exist for bars that bow",
+                    a.bowed_far.slope
+                ),
+            ),
+        });
+        for (name, [outside, inside]) in &a.others {
+            for (side, place, to) in [
+                ("outside", outside, self.range.0),
+                ("inside", inside, self.range.1),
+            ] {
+                let Some(place) = place else {
+                    let place = format!("{q}: two bars, {name}: way {side} without a limit");
+                    items.push(Item::unprinted(
+                        place,
+                        to,
+                        "mm",
+                        "followed to here; it holds all along",
+                    ));
+                    continue;
+                };
+                let why = match (place.margin > 0.999, side) {
+                    (true, "inside") => {
+                        "a bar under tension loses its shape: an artefact of the springs, no bar does so"
+                    }
+                    (true, _) => "here the first bar loses its shape",
+                    _ => "limit of the force of the toggle",
+                };
+                let what = |of: &str| format!("{q}: {of} {side}, two bars, {name}");
+                items.push(Item::unprinted(what("F_cr"), place.force, "kN", why));
+                items.push(Item::unprinted(what("Δ_cr"), place.moved, "mm", why));
+            }
         }
         if let Some(place) = a.bowed_outside {
             let why = if place.margin > 0.999 {

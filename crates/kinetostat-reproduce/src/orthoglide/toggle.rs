@@ -177,17 +177,20 @@ pub(super) fn report_fails_at(machine: &Mechanism, at: f64, to: f64) -> Result<O
     Ok(Some(good))
 }
 
-/// The machine with bars that bow, held at displacements along the diagonal.
-pub(super) struct Bowed {
+/// The machine with two bars between two beams in every leg, held at displacements along the diagonal.
+pub(super) struct Bars {
     barred: Barred,
     at: f64,
 }
 
-impl Bowed {
-    /// At home at `(at, at, at)` m.
-    pub(super) fn new(at: f64) -> Result<Self, Cause> {
+/// Steps of a search along the way, and halvings after it.
+const STEPS: u32 = 24;
+
+impl Bars {
+    /// At home at `(at, at, at)` m, bars of one segment by a convention.
+    pub(super) fn new(at: f64, convention: LinkConvention) -> Result<Self, Cause> {
         let machine = Orthoglide::default();
-        let barred = Barred::new(&machine, &target([at; 3]), LinkConvention::default(), 1)?;
+        let barred = Barred::new(&machine, &target([at; 3]), convention, 1)?;
         Ok(Self { barred, at })
     }
 
@@ -196,24 +199,27 @@ impl Bowed {
         hold(&self.barred.posture()?, self.at, moved)
     }
 
-    /// On the way outside, the first limit of the force, or the first loss of a bar's shape where
-    /// that comes before it; sought to `from` (mm).
-    pub(super) fn outside(&self, from: f64) -> Result<Option<Place>, Cause> {
-        let holds = |p: &Place| p.slope > 0.0 && p.margin < 1.0;
+    /// On the way to a displacement (mm), the last place before the first limit of the force or the
+    /// first loss of a bar's shape, whichever comes first.
+    pub(super) fn first_limit(&self, to: f64) -> Result<Option<Place>, Cause> {
+        // Where a bar has lost its shape the solver may find nothing at all.
+        let holds = |moved: f64| {
+            let place = self.held(moved).ok()?;
+            (place.slope > 0.0 && place.margin < 1.0).then_some(place)
+        };
         let (mut good, mut bad) = (0.0, None);
-        for k in 1..=40 {
-            let moved = from * f64::from(k) / 40.0;
-            if holds(&self.held(moved)?) {
-                good = moved;
-            } else {
+        for k in 1..=STEPS {
+            let moved = to * f64::from(k) / f64::from(STEPS);
+            if holds(moved).is_none() {
                 bad = Some(moved);
                 break;
             }
+            good = moved;
         }
         let Some(mut bad) = bad else { return Ok(None) };
-        for _ in 0..40 {
+        for _ in 0..STEPS {
             let middle = 0.5 * (good + bad);
-            if holds(&self.held(middle)?) {
+            if holds(middle).is_some() {
                 good = middle;
             } else {
                 bad = middle;

@@ -2,12 +2,14 @@
 //! while held and under a dead load, both signs of the load. Against energies written by hand.
 
 use kinetostat::{
-    BranchEnd, CurveSettings, EndCondition, LoadPattern, MachinePath, Mechanism, Parameter,
-    PathPoint, PathSpecialKind, Pose, Posture, Prescribed, Twist, Wrench, moved,
+    ActuatorSpec, BranchEnd, Chain, CurveSettings, EndCondition, LoadPattern, MachinePath,
+    Mechanism, MotionKind, Parameter, PathPoint, PathSpecialKind, Platform, Pose, Posture,
+    Prescribed, SpreadSettings, Twist, Wrench, moved,
 };
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6, vector};
 
 use crate::common::assert_equilibrium;
+use crate::graphs::limb;
 use crate::parallel_machines::{hexapod, truss};
 
 /// Feet and heads.
@@ -299,4 +301,105 @@ fn a_hexapod_near_its_flat_posture_follows_its_energy() {
     let [wrench, limits] = hexapod_path_apart();
     assert!(wrench < 1e-6, "{wrench:e}");
     assert!(limits < 1e-4, "{limits:e}");
+}
+
+/// The toggle frame of Figure 5.12 as a machine: three legs, each a slide with a spring in the plane
+/// of the flat posture, a hinge, a rigid link of length 1 m, a hinge; up to the tool.
+fn toggle_frame(angle: f64, k: f64) -> Mechanism {
+    let home = Pose::translation(0.0, 0.0, angle.sin());
+    let mut builder = Mechanism::builder("toggle frame");
+    let tool = builder.platform(Platform::new("tool", home));
+    for i in 0..3 {
+        let turn = Vector3::z() * (std::f64::consts::TAU / 3.0 * f64::from(i) + 0.2);
+        let chain = Chain::builder(format!("leg {i}"))
+            .rigid(Pose::rotation(turn))
+            .translation(vector![angle.cos(), 0.0, 0.0])
+            .actuator(
+                "slide",
+                ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), k),
+            )
+            .passive("hinge", MotionKind::Revolute, Vector3::y(), angle)
+            .translation(vector![-1.0, 0.0, 0.0])
+            .passive("head", MotionKind::Revolute, Vector3::y(), -angle)
+            .rigid(Pose::rotation(-turn))
+            .build()
+            .unwrap();
+        builder = builder.limb(limb(&format!("leg {i}"), 0, tool, Pose::identity(), chain));
+    }
+    builder.build().unwrap()
+}
+
+/// [R 5.45]: worst of the critical displacement and force against `cos^3 phi = cos phi0` and
+/// `3 K L sin^3 phi`, relative; and against the print's limits for small angles.
+pub fn toggle_frame_apart() -> [f64; 2] {
+    let (k, mut exact, mut small) = (2e5, 0.0_f64, 0.0_f64);
+    for angle in [0.01, 0.05, 0.1, 0.3, 0.8] {
+        let machine = toggle_frame(angle, k);
+        let home = machine.platforms()[machine.tool()].home;
+        let posture = machine.posture(&home).unwrap();
+        let far: f64 = angle.sin();
+        let mut settings = CurveSettings::within(-0.2 * far, 2.1 * far);
+        settings.largest_change = Some(0.05 * far);
+        let path = posture
+            .path(&down(), &EndCondition::pose(home), &settings)
+            .unwrap();
+        let limits = of_kind(&path, PathSpecialKind::LoadLimit);
+        assert_eq!(limits.len(), 2, "{angle}");
+        let phi = angle.cos().cbrt().acos();
+        let (moved, force) = (far - phi.sin(), 3.0 * k * phi.sin().powi(3));
+        let found = limits[0];
+        exact = exact.max((found.parameter / moved - 1.0).abs());
+        exact = exact.max((found.conjugate / force - 1.0).abs());
+        let start = &path.points[path.start];
+        exact = exact.max((start.slope / (3.0 * k * angle.tan().powi(2)) - 1.0).abs());
+        if angle == 0.01 {
+            let root = 3.0_f64.sqrt();
+            small = small.max((found.parameter / ((1.0 - 1.0 / root) * far) - 1.0).abs());
+            small = small.max((found.conjugate / (k * far.powi(3) / root) - 1.0).abs());
+        }
+    }
+    [exact, small]
+}
+
+#[test]
+fn the_toggle_frame_snaps_as_5_45_says() {
+    let [exact, small] = toggle_frame_apart();
+    assert!(exact < 1e-6, "{exact:e}");
+    assert!(small < 1e-4, "{small:e}");
+}
+
+/// Every equilibrium of a truss under a force, by hand: up, down, and between; pushed through.
+#[test]
+fn all_equilibria_of_a_truss_are_found() {
+    let (b, h, k) = (0.5, 0.1, 1e5);
+    let machine = truss(b, h, k);
+    let posture = machine.posture(&Pose::translation(0.0, 0.0, h)).unwrap();
+    for (force, expected) in [(-50.0, 3), (0.0, 3), (50.0, 3), (-200.0, 1), (200.0, 1)] {
+        let end = EndCondition::wrench(Wrench::new(vector![0.0, 0.0, force], Vector3::zeros()));
+        let all = posture
+            .equilibria(&end, &SpreadSettings::default())
+            .unwrap();
+        let near = all.found.iter().filter(|f| {
+            // A bar that was turned over by half a turn pushes from the other side.
+            f.equilibrium.tool.translation.vector.norm() < 0.4
+        });
+        let near: Vec<_> = near.collect();
+        let heights: Vec<f64> = near
+            .iter()
+            .map(|f| f.equilibrium.tool.translation.z)
+            .collect();
+        assert_eq!(near.len(), expected, "{force}: {heights:?}");
+        assert!(all.settled && all.chance_of_more < 0.1);
+        for f in near {
+            let z = f.equilibrium.tool.translation.z;
+            assert!(
+                (truss_force(b, h, k, z) - force).abs() < 1e-8 * k * h,
+                "{z}"
+            );
+            let slope = 1.0 - b.hypot(h) * b * b / b.hypot(z).powi(3);
+            assert_eq!(f.stable, slope > 0.0, "{z}");
+            let energy = k * (b.hypot(z) - b.hypot(h)).powi(2) - force * (z - h);
+            assert!((f.potential - energy).abs() < 1e-9 * k * h * h);
+        }
+    }
 }

@@ -3,9 +3,14 @@
 use serde_json::json;
 
 use super::{Figures, Worst};
+<<<<<<< HEAD
 use crate::graphs::{hybrids_apart, lattice_apart, lattice_times, rigid_limbs_apart, tower_of};
 use crate::hybrids::{hybrids_apart as loaded_hybrids_apart, variants};
 use crate::loads_on_platforms::{derivatives_apart, loaded_apart, spring_and_limb_apart};
+=======
+use crate::graphs::{hybrids_apart, parallelogram_apart, rigid_limbs_apart, tower_of};
+use crate::machines_that_snap::{hexapod_path_apart, toggle_frame_apart, truss_path_apart};
+>>>>>>> 2a4e0f3 (Machines that snap: tests, tutorial, table 5.3 with rigid limbs and other conventions (work in progress))
 use crate::parallel_machines::{
     cubic_hexapod_apart, delta_apart, hexapod_apart, internal_wrenches, planar_3_rrr_apart,
     tripteron_apart, truss_apart,
@@ -248,5 +253,49 @@ fn a_machine_with_thirty_platforms() {
         let name = format!("Lattices of 30 to 120 platforms: growth exponent of time of {what}");
         f.print(&name, json!(exponent), "shown", "exponent", true);
     }
+    f.finish();
+}
+
+#[test]
+fn machines_near_a_flat_posture() {
+    let mut f = Figures::new();
+    let [force, limits, landings] = truss_path_apart();
+    let name = "Truss that snaps, against statics by hand";
+    for (what, apart, most) in [
+        ("force", force, 1e-10),
+        ("limit points", limits, 1e-6),
+        ("landings", landings, 1e-8),
+    ] {
+        let unit = "share of its height (test's tolerance)";
+        put(&mut f, &format!("{name}: {what}"), apart, most, unit);
+    }
+    let [wrench, limits] = hexapod_path_apart();
+    let name = "Hexapod near its flat posture, against the energy of its legs";
+    let unit = "relative (test's tolerance, differences)";
+    put(&mut f, &format!("{name}: wrenches"), wrench, 1e-6, unit);
+    put(
+        &mut f,
+        &format!("{name}: stiffness left at limits"),
+        limits,
+        1e-4,
+        unit,
+    );
+    let [exact, small] = toggle_frame_apart();
+    let name = "Toggle frame of (5.45) as a machine of three legs";
+    let unit = "relative (test's tolerance)";
+    put(
+        &mut f,
+        &format!("{name}: critical displacement and force"),
+        exact,
+        1e-6,
+        unit,
+    );
+    put(
+        &mut f,
+        &format!("{name}: minus the print's limits at 0.01 rad"),
+        small,
+        1e-4,
+        "relative",
+    );
     f.finish();
 }
