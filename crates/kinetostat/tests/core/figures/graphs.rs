@@ -3,14 +3,10 @@
 use serde_json::json;
 
 use super::{Figures, Worst};
-<<<<<<< HEAD
 use crate::graphs::{hybrids_apart, lattice_apart, lattice_times, rigid_limbs_apart, tower_of};
 use crate::hybrids::{hybrids_apart as loaded_hybrids_apart, variants};
 use crate::loads_on_platforms::{derivatives_apart, loaded_apart, spring_and_limb_apart};
-=======
-use crate::graphs::{hybrids_apart, parallelogram_apart, rigid_limbs_apart, tower_of};
 use crate::machines_that_snap::{hexapod_path_apart, toggle_frame_apart, truss_path_apart};
->>>>>>> 2a4e0f3 (Machines that snap: tests, tutorial, table 5.3 with rigid limbs and other conventions (work in progress))
 use crate::parallel_machines::{
     cubic_hexapod_apart, delta_apart, hexapod_apart, internal_wrenches, planar_3_rrr_apart,
     tripteron_apart, truss_apart,
