@@ -267,28 +267,29 @@ fn follow(start: f64, first: f64, square: &dyn Fn(f64) -> Option<f64>) -> Option
     let mut estimate = first;
     for _ in 0..12 {
         let [(a, fa), (b, fb), (c, fc)] = points[..] else {
-            return None;
+            break;
         };
         let (d1, d2) = ((fb - fa) / (b - a), (fc - fb) / (c - b));
         let curvature = (d2 - d1) / (c - a);
         if curvature <= 0.0 {
-            return None;
+            break;
         }
         let next = 0.5 * (a + b) - 0.5 * d1 / curvature;
         if !(0.0..=4.0 * first).contains(&next) {
-            return None;
+            break;
         }
         estimate = next;
         // Joints may not be found where the posture is all but singular: then a little off it.
-        let (next, value) = [0.0, 1e-4, -1e-4, 1e-3, -1e-3]
-            .into_iter()
-            .map(|share| next + share * first)
-            .find_map(|s| Some((s, square(s)?)))?;
+        let near = [0.0, 1e-4, -1e-4, 1e-3, -1e-3, 1e-2, -1e-2].into_iter();
+        let mut near = near.map(|share| next + share * first);
+        let Some((next, value)) = near.find_map(|s| Some((s, square(s)?))) else {
+            break;
+        };
         if value <= 1e-14 * start {
             return Some(next);
         }
         if points.iter().any(|(s, _)| (s - next).abs() <= 1e-9 * first) {
-            return (value <= 1e-5 * start).then_some(estimate);
+            return (value <= 1e-4 * start).then_some(estimate);
         }
         // The worst of the three goes.
         let worst = (0..3).max_by(|&i, &j| points[i].1.total_cmp(&points[j].1))?;
@@ -296,5 +297,5 @@ fn follow(start: f64, first: f64, square: &dyn Fn(f64) -> Option<f64>) -> Option
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     let least = points.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
-    (least <= 1e-5 * start).then_some(estimate)
+    (least <= 1e-4 * start).then_some(estimate)
 }

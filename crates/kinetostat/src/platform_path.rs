@@ -278,16 +278,22 @@ impl<'p, 'm> Path<'p, 'm> {
     }
 
     /// One equilibrium twice: the same place of the tool, but for motions that cost nothing, and the
-    /// same wrenches on all limbs. Joints that turn for nothing do not count.
+    /// same torques of all springs. Joints that turn for nothing do not count, nor do stresses that
+    /// rigid limbs put on each other.
     pub(crate) fn same(&self, a: &MechanismEquilibrium, b: &MechanismEquilibrium) -> bool {
-        let size = |w: &Wrench| w.force().norm() + w.moment().norm() / self.length;
-        let limbs = || a.limbs.iter().zip(&b.limbs);
-        let most = limbs().flat_map(|(x, y)| [size(&x.wrench), size(&y.wrench)]);
-        let most = most.fold(0.0, f64::max);
+        let torques = |e: &MechanismEquilibrium| -> Vec<f64> {
+            let limbs = e.limbs.iter();
+            limbs.flat_map(|l| l.spring_torques.clone()).collect()
+        };
+        let (x, y) = (torques(a), torques(b));
+        let most = x
+            .iter()
+            .chain(&y)
+            .fold(0.0_f64, |most, t| most.max(t.abs()));
         let off = self.balanced(&pose_residual(&a.tool, &b.tool).0);
         let costly = self.without(a, &DMatrix::identity(6, 6), DirectionKind::Free);
         (costly.transpose() * off).norm() < 1e-6 * self.length
-            && limbs().all(|(x, y)| size(&Wrench(x.wrench.0 - y.wrench.0)) <= 1e-5 * most + 1e-9)
+            && (x.iter().zip(&y)).all(|(x, y)| (x - y).abs() <= 1e-5 * most + 1e-9)
     }
 
     /// With verdict and energy.

@@ -699,7 +699,8 @@ fn a_delta_near_its_flat_posture_says_how_far_it_is() {
         assert!(first.followed, "{}", first.in_words());
         assert!(
             (first.distance_m - above).abs() < 1e-4 * above,
-            "{above}: {}",
+            "{above}: {} {}",
+            first.distance_m,
             first.in_words()
         );
         assert!(first.way.linear().z > 0.999, "{}", first.in_words());
