@@ -46,7 +46,10 @@ fn verdict(a: &EquilibriaAnswer) -> String {
             let of = match stable {
                 0 => "none of them is stable".to_owned(),
                 1 => "one of them is stable".to_owned(),
-                n => format!("{n} of them are stable: it may snap between these"),
+                n => format!(
+                    "{n} of them are stable: the {} may snap between these",
+                    a.tool_held.subject
+                ),
             };
             format!("{n} equilibria; {of}.")
         }

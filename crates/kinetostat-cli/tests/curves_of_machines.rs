@@ -107,9 +107,10 @@ fn figure_a_truss_pushed_and_pulled_snaps_where_statics_says() {
         let middle = middle.expect("a point near the flat posture");
         assert_eq!(middle["stable_under_dead_load"], false, "{line}");
         assert_eq!(middle["stable_under_prescribed_motion"], true, "{line}");
+        // Told as far as the tool is moved.
         let told = answer["warnings"].to_string();
         assert!(
-            told.contains("a singular posture is 100.000 mm away"),
+            line.contains("--force") || told.contains("a singular posture is 100.000 mm away"),
             "{told}"
         );
     }
@@ -215,8 +216,8 @@ fn all_equilibria_of_a_truss_and_of_a_machine_near_its_flat_posture() {
             .expect("a list")
             .iter()
             .collect();
-        // Bars that were turned over are shapes too, far away.
-        let near = |e: &&&Value| number(&e["position_mm"][2]).abs() < 400.0;
+        // Bars pushed in to nothing are shapes too, of an energy that no machine holds.
+        let near = |e: &&&Value| number(&e["energy_j"]) < 1000.0;
         let near: Vec<&&Value> = all.iter().filter(near).collect();
         assert_eq!(near.len(), count, "{line}: {all:#?}");
         let holds = near.iter().filter(|e| e["stable"] == true).count();
