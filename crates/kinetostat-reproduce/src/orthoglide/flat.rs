@@ -271,10 +271,20 @@ impl Configuration {
         }
         items.push(match a.bowed_inside {
             Some(place) => Item::unprinted(
-                format!("{q}: first limit inside, bars that bow"),
+                format!("{q}: held inside up to, bars that bow"),
                 place.moved,
                 "mm",
-                "default law of a link",
+                &format!(
+                    "default law of a link: stable all the way there, far beyond the printed limit; there {:.2} kN, slope {:.0} N/mm, margin {:.3} of 1. {}",
+                    place.force,
+                    place.slope,
+                    place.margin,
+                    if place.margin > 0.999 {
+                        "Then a bar is bent out of shape by the frames at its ends"
+                    } else {
+                        "Beyond it the solver found no equilibrium with the tool held, which is no verdict on the machine"
+                    }
+                ),
             ),
             None => Item::unprinted(
                 format!("{q}: force {FAR_INSIDE} mm inside, bars that bow"),
