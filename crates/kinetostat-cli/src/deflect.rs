@@ -103,7 +103,7 @@ struct Deflection {
     rotation_vector_deg: [f64; 3],
     rotation_size_deg: f64,
     actuators: Vec<ActuatorAnswer>,
-    /// What the controller shows, in the order of its axes; empty without a [controller].
+    /// What the controller shows, in the order of its axes; empty without a section `controller`.
     pendant: Vec<JointValue>,
     limbs: Vec<LimbAnswer>,
     /// Against a force in the softest direction, the tool free to turn.

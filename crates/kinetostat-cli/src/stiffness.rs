@@ -30,7 +30,7 @@ struct Stiffness {
     place: PlaceAsked,
     /// Commands of the actuators there.
     joints: Vec<JointValue>,
-    /// What the controller shows, in the order of its axes; empty without a [controller].
+    /// What the controller shows, in the order of its axes; empty without a section `controller`.
     pendant: Vec<JointValue>,
     loaded: bool,
     force_n: [f64; 3],
