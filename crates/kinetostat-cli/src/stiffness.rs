@@ -366,16 +366,28 @@ fn matrix(
         .iter()
         .flatten()
         .fold(0.0_f64, |most, x| most.max(x.abs()));
+    let cell = |i: usize, j: usize, digits: i32| {
+        let noise = (1e-9 * (scale(i) * scale(j)).sqrt()).max(1e-15 * most);
+        if m[i][j].abs() <= noise {
+            "0".to_owned()
+        } else {
+            number(m[i][j] * factor(i, j), digits)
+        }
+    };
+    // Six columns within the width of a terminal.
+    let all = || (0..36).map(|k| (k / 6, k % 6));
+    let wide = all().any(|(i, j)| cell(i, j, 5).len() > 10);
     for i in 0..6 {
         let mut row = vec![names[i].to_owned()];
-        for j in 0..6 {
-            let noise = (1e-9 * (scale(i) * scale(j)).sqrt()).max(1e-15 * most);
-            row.push(if m[i][j].abs() <= noise {
-                "0".to_owned()
-            } else {
-                number(m[i][j] * factor(i, j), 5)
-            });
-        }
+        row.extend((0..6).map(|j| {
+            if !wide {
+                return cell(i, j, 5);
+            }
+            match cell(i, j, 4) {
+                long if long.len() > 9 => format!("{:.2e}", m[i][j] * factor(i, j)),
+                short => short,
+            }
+        }));
         rows.push(row);
     }
     columns(&rows, 1)

@@ -113,6 +113,21 @@ impl Camera {
                 }
             }
         }
+        // Limbs that point to the eye as a whole.
+        let limbs = scene.bars.iter().filter_map(|b| b.limb).max();
+        for limb in limbs.map_or(0..0, |last| 0..last + 1) {
+            let (mut long, mut seen) = (0.0, 0.0);
+            for bar in &scene.bars {
+                if bar.limb == Some(limb) && bar.kind != BarKind::Rail {
+                    let [a, b] = bar.ends.map(|p| self.project(&p));
+                    long += bar.length();
+                    seen += (a - b).xy().norm();
+                }
+            }
+            if seen < 0.4 * long {
+                cost += 20.0 * (1.0 - seen / (0.4 * long));
+            }
+        }
         let bars: Vec<_> = scene
             .bars
             .iter()
