@@ -372,8 +372,7 @@ chain = "guide"
 #[test]
 fn a_singular_posture_near_an_answer_is_told_with_distance_and_direction() {
     let here = workplace();
-    // Two bars of 1 m: stretched at 2 m. To first order it is twice as far as it is, since the
-    // singular value falls with the root of the distance.
+    // Two bars of 1 m: stretched at 2 m.
     for (line, key) in [
         ("stiffness two_link --at 1999 0 0 --json", true),
         (
@@ -399,14 +398,38 @@ fn a_singular_posture_near_an_answer_is_told_with_distance_and_direction() {
         if key {
             let near = &found["near_singularity"];
             let mm = near["distance_mm"].as_f64().expect("mm");
-            assert!((1.0..=2.1).contains(&mm), "{near}");
+            assert!((mm - 1.0).abs() < 1e-6, "{near}");
             assert!(near["kind"] == "lost" && near["limb"] == "arm", "{near}");
             assert!((near["motion_mm"][0].as_f64().expect("mm") - mm).abs() < 1e-6 * mm);
         }
     }
-    let said = run(here.path(), &["stiffness", "two_link", "--json"]).answered();
-    let found: Value = serde_json::from_str(&said.out).expect("JSON");
-    assert!(found["near_singularity"].is_null());
+    let near_at = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words).answered();
+        let found: Value = serde_json::from_str(&said.out).expect("JSON");
+        found["near_singularity"].clone()
+    };
+    let mm = |near: &Value| near["distance_mm"].as_f64().expect("mm");
+    // At home bent by 30 degrees.
+    let near = near_at("stiffness two_link --json");
+    let off = mm(&near) - 2000.0 * (1.0 - 15_f64.to_radians().cos());
+    assert!(off.abs() < 1e-6, "{near}");
+    assert!(near_at("stiffness two_link --joints theta=60 --json").is_null());
+    // Arms of 325 and 275 mm, also exactly stretched.
+    for (line, bend) in [
+        ("stiffness two_link --joints theta=0 --json", 0.0),
+        ("stiffness scara --joints J2=0 --json", 0.0),
+        ("stiffness scara --joints J2=0.1 --json", 0.1_f64),
+        ("stiffness scara --joints J2=20 --json", 20.0),
+    ] {
+        let near = near_at(line);
+        let bend = bend.to_radians();
+        let reach =
+            (325.0_f64.powi(2) + 275.0_f64.powi(2) + 2.0 * 325.0 * 275.0 * bend.cos()).sqrt();
+        let expected = if bend == 0.0 { 0.0 } else { 600.0 - reach };
+        assert!((mm(&near) - expected).abs() < 1e-7, "{line}: {near}");
+        assert!(near["kind"] == "lost", "{line}: {near}");
+    }
     // At home of a machine.
     let (found, text) = preset("stewart_gough_a", &[]);
     let near = &found["assumptions"]["near_singularity"];
@@ -702,10 +725,11 @@ fn sound_models_raise_no_alarm() {
         let (found, _) = preset(preset_.name, &[]);
         let warnings = texts(&found["warnings"]);
         let singular = found["assumptions"]["near_singularity"].is_object();
-        // The report's platform of equal hexagons is singular at home; nothing else may be.
+        // The report's platform of equal hexagons is singular at home, its two links are 68 mm
+        // from stretched; nothing else may be.
         assert_eq!(
             singular,
-            preset_.name == "stewart_gough_a",
+            ["stewart_gough_a", "two_link"].contains(&preset_.name),
             "{}",
             preset_.name
         );

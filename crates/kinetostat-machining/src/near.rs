@@ -126,6 +126,9 @@ fn told(near: &NearSingularity, length: f64) -> NearSingular {
 
 /// Three digits, no more than four decimals.
 fn digits(value: f64) -> String {
+    if value.abs() < 1e-4 {
+        return "less than 0.0001".to_owned();
+    }
     let decimals = (2 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 4);
     format!("{value:.*}", decimals as usize)
 }

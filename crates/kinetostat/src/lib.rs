@@ -115,6 +115,7 @@ mod load_check;
 mod load_energy;
 mod loading;
 mod logarithm;
+mod lost_motion;
 mod machine_directions;
 mod machine_equilibria;
 mod mechanism;

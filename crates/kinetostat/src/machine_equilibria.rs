@@ -6,7 +6,6 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use crate::chain::{MotionKind, Role};
 use crate::equilibrium::EndCondition;
 use crate::error::Result;
-use crate::near_singular::SingularityKind;
 use crate::platform::MechanismState;
 use crate::platform_path::Path;
 use crate::posture::{MechanismEquilibrium, Posture};
@@ -95,11 +94,8 @@ impl Posture<'_> {
         };
         // Mirrored at the singular postures nearby, and at rest.
         let mut first = vec![Twist::zero()];
-        for near in self.near_singularities(path.length)? {
-            if near.kind == SingularityKind::Gained {
-                first.push(Twist(near.way.0 * (2.0 * near.distance_m)));
-            }
-        }
+        let near = self.motion_gained(path.length);
+        first.extend(near.map(|n| Twist(n.way.0 * (2.0 * n.distance_m))));
         let free = path.free_motions();
         while all.starts < settings.starts && all.fruitless < settings.fruitless {
             let k = all.starts;

@@ -7,7 +7,7 @@
 
 use nalgebra::{DVector, Vector6};
 
-use crate::constraints::{Constraints, limb_motions};
+use crate::constraints::Constraints;
 use crate::directions::motion_in_words;
 use crate::error::Result;
 use crate::posture::Posture;
@@ -31,16 +31,17 @@ pub struct NearSingularity {
     pub limb: Option<String>,
     /// Smallest singular value that is not always zero, as a share of the largest: 0 is singular.
     pub share: f64,
-    /// Motion of the tool towards the singular posture, base axes, its longest part 1 m (rotations
-    /// at the natural length): steepest descent of the singular value. Zero at a singular posture.
+    /// Motion of the tool to the singular posture, base axes, its longest part 1 m (rotations at the
+    /// natural length). For a motion gained the steepest descent of the singular value, for one lost
+    /// the least motion (sum of squares) that ends where it is lost. Zero at a singular posture.
     pub way: Twist,
     /// How far the singular posture is on that way, m (rotations at the natural length).
     pub distance_m: f64,
-    /// The way was followed until the singular value vanished; if not, the distance is a first-order
-    /// estimate, singular value by its slope.
+    /// The singular posture was found; if not, the distance is a first-order estimate, singular value
+    /// by its slope.
     pub followed: bool,
-    /// The motion gained (of the tool; zero if only platforms in between move) or lost (of the
-    /// limb's tip), base axes, longest part 1 m.
+    /// The motion gained (of the tool; zero if only platforms in between move) or lost there (of
+    /// the limb's tip), base axes, longest part 1 m.
     pub motion: Twist,
 }
 
@@ -93,12 +94,40 @@ struct Measure {
 }
 
 impl Posture<'_> {
-    /// Singular postures at most `within_m` (m; rotations at the natural length) away, to first
-    /// order, the nearest first. Only ways that the nominal machine can go are looked at.
+    /// Singular postures at most `within_m` (m; rotations at the natural length) away, the nearest
+    /// first; per limb the nearest that is found from its smallest singular values. Only ways that
+    /// the nominal machine can go are looked at.
     ///
     /// # Errors
     /// None but those of the inverse kinematics where the posture itself does not close.
     pub fn near_singularities(&self, within_m: f64) -> Result<Vec<NearSingularity>> {
+        let length = self.mechanism.scale().length;
+        let mut list: Vec<NearSingularity> = self.motion_gained(within_m).into_iter().collect();
+        list.extend(self.lost_motions(within_m).into_iter().map(|lost| {
+            let far = longest_part(&lost.way, length);
+            // Joints at a border of the workspace are known to the root of rounding.
+            let here = far <= 1e-10 * length;
+            NearSingularity {
+                kind: SingularityKind::Lost,
+                limb: Some(self.mechanism.limbs[lost.limb].name.clone()),
+                share: if here { 0.0 } else { lost.share },
+                way: Twist(if here {
+                    Vector6::zeros()
+                } else {
+                    normal(&(lost.way / far), length)
+                }),
+                distance_m: if here { 0.0 } else { far },
+                followed: lost.followed,
+                motion: Twist(normal(&lost.motion, length)),
+            }
+        }));
+        list.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+        Ok(list)
+    }
+
+    /// The nearest posture at most `within_m` (to first order) away where the locked machine gains a
+    /// motion, on the way of steepest descent.
+    pub(crate) fn motion_gained(&self, within_m: f64) -> Option<NearSingularity> {
         let length = self.mechanism.scale().length;
         // Not only what actuators drive: at a singular posture they drive less.
         let basis = self.mobility();
@@ -106,108 +135,84 @@ impl Posture<'_> {
             .column_iter()
             .map(|c| Vector6::from_fn(|i, _| if i < 3 { c[i] } else { c[i] / length }))
             .collect();
-        let at = |twist: &Vector6<f64>| -> Option<Vec<Measure>> {
+        let at = |twist: &Vector6<f64>| -> Option<Measure> {
             let target: Pose = moved(&self.target, &Twist(*twist));
             let there = self.mechanism.posture_near(&target, self).ok()?;
-            Some(there.measures())
+            Some(there.locked())
         };
-        let here = self.measures();
+        let here = self.locked();
         // What is never zero elsewhere counts here: ranks of postures around this one.
-        let mut ranks: Vec<usize> = here.iter().map(Measure::rank).collect();
+        let mut rank = here.rank();
         for k in 0..3_usize {
             let mut twist = Vector6::zeros();
             for (j, way) in ways.iter().enumerate() {
                 let share = ((k * 5 + j + 1) as f64 * 0.618_034).fract() - 0.5;
                 twist += way * (0.06 * length * share);
             }
-            for (rank, other) in ranks.iter_mut().zip(at(&twist).unwrap_or_default()) {
-                *rank = (*rank).max(other.rank());
-            }
+            rank = rank.max(at(&twist).map_or(0, |other| other.rank()));
         }
+        let last = rank.checked_sub(1)?;
         let step = 1e-4 * length;
-        let around: Vec<[Option<Vec<Measure>>; 2]> = ways
+        let around: Vec<[Option<Measure>; 2]> = ways
             .iter()
             .map(|way| [at(&(way * step)), at(&(way * -step))])
             .collect();
-        let mut list = Vec::new();
-        for (index, measure) in here.iter().enumerate() {
-            let Some(last) = ranks[index].checked_sub(1) else {
-                continue;
+        let most = here.values[0];
+        let value = here.values[last];
+        let mut slope = DVector::zeros(ways.len());
+        for (k, pair) in around.iter().enumerate() {
+            let one = |m: &Option<Measure>| m.as_ref().map(|m| m.values[last]);
+            slope[k] = match (one(&pair[0]), one(&pair[1])) {
+                (Some(a), Some(b)) => (a - b) / (2.0 * step),
+                (Some(a), None) => (a - value) / step,
+                (None, Some(b)) => (value - b) / step,
+                (None, None) => 0.0,
             };
-            let most = measure.values[0];
-            let value = measure.values[last];
-            let mut slope = DVector::zeros(ways.len());
-            for (k, pair) in around.iter().enumerate() {
-                let one = |m: &Option<Vec<Measure>>| m.as_ref().map(|m| m[index].values[last]);
-                slope[k] = match (one(&pair[0]), one(&pair[1])) {
-                    (Some(a), Some(b)) => (a - b) / (2.0 * step),
-                    (Some(a), None) => (a - value) / step,
-                    (None, Some(b)) => (value - b) / step,
-                    (None, None) => 0.0,
-                };
-            }
-            let singular = value <= 1e-8 * most;
-            let first = if singular { 0.0 } else { value / slope.norm() };
-            if first > within_m || first.is_nan() {
-                continue;
-            }
-            let mut way = Vector6::zeros();
-            if !singular {
-                for (k, w) in ways.iter().enumerate() {
-                    way -= w * (slope[k] / slope.norm());
-                }
-            }
-            let found = (!singular)
-                .then(|| {
-                    let along = |s: f64| Some(at(&(way * s))?[index].values[last].powi(2));
-                    follow(value * value, first, &along)
-                })
-                .flatten();
-            let longest = longest_part(&way, length);
-            // At a singular posture what is gained is not told from what is always free; nearby it is.
-            let near = around.iter().flatten().flatten().map(|m| &m[index]);
-            let near = near.max_by(|a, b| a.values[last].total_cmp(&b.values[last]));
-            let motion = match near {
-                Some(near) if singular => &near.motions[last],
-                _ => &measure.motions[last],
-            };
-            list.push(NearSingularity {
-                kind: match index {
-                    0 => SingularityKind::Gained,
-                    _ => SingularityKind::Lost,
-                },
-                limb: index
-                    .checked_sub(1)
-                    .map(|limb| self.mechanism.limbs[limb].name.clone()),
-                share: if singular { 0.0 } else { value / most },
-                distance_m: found.unwrap_or(first) * longest,
-                followed: singular || found.is_some(),
-                way: Twist(normal(&way, length)),
-                motion: Twist(normal(motion, length)),
-            });
         }
-        list.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
-        Ok(list)
+        let singular = value <= 1e-8 * most;
+        let first = if singular { 0.0 } else { value / slope.norm() };
+        if first > within_m || first.is_nan() {
+            return None;
+        }
+        let mut way = Vector6::zeros();
+        if !singular {
+            for (k, w) in ways.iter().enumerate() {
+                way -= w * (slope[k] / slope.norm());
+            }
+        }
+        let found = (!singular)
+            .then(|| {
+                let along = |s: f64| Some(at(&(way * s))?.values[last].powi(2));
+                follow(value * value, first, &along)
+            })
+            .flatten();
+        // At a singular posture what is gained is not told from what is always free; nearby it is.
+        let near = around.iter().flatten().flatten();
+        let near = near.max_by(|a, b| a.values[last].total_cmp(&b.values[last]));
+        let motion = match near {
+            Some(near) if singular => &near.motions[last],
+            _ => &here.motions[last],
+        };
+        Some(NearSingularity {
+            kind: SingularityKind::Gained,
+            limb: None,
+            share: if singular { 0.0 } else { value / most },
+            distance_m: found.unwrap_or(first) * longest_part(&way, length),
+            followed: singular || found.is_some(),
+            way: Twist(normal(&way, length)),
+            motion: Twist(normal(motion, length)),
+        })
     }
 
-    /// The machine with its actuators locked, then every limb by all its joints.
-    fn measures(&self) -> Vec<Measure> {
+    /// The machine with its actuators locked.
+    fn locked(&self) -> Measure {
         let m = self.mechanism;
         let length = m.scale().length;
-        let unit = |i: usize| if i < 3 { 1.0 } else { length };
-        let mut list = Vec::with_capacity(1 + m.limbs.len());
-        let rows = Constraints::new(self, false).rows;
         let tool = 6 * (m.tool - 1);
-        list.push(Measure::of(rows.transpose(), |v| {
-            Vector6::from_fn(|i, _| v[tool + i] / unit(i))
-        }));
-        for limb in 0..m.limbs.len() {
-            let motions = limb_motions(self, limb, true, length);
-            list.push(Measure::of(motions, |v| {
-                Vector6::from_fn(|i, _| v[i] / unit(i))
-            }));
-        }
-        list
+        let rows = Constraints::new(self, false).rows;
+        Measure::of(rows.transpose(), |v| {
+            Vector6::from_fn(|i, _| v[tool + i] / if i < 3 { 1.0 } else { length })
+        })
     }
 }
 

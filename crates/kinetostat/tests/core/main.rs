@@ -40,6 +40,7 @@ mod loads_in_mechanisms;
 mod loads_of_every_kind;
 mod loads_on_platforms;
 mod long_chains;
+mod lost_motions;
 mod machines_that_snap;
 mod machines_with_rigid_directions;
 mod orthoglide_reference;

@@ -758,3 +758,36 @@ fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
         }
     }
 }
+
+/// A leg of a 3-RRR that is all but stretched: the platform goes straight away from its foot.
+#[test]
+fn a_stretched_leg_of_a_3_rrr_says_how_far_the_platform_may_go() {
+    let on = |r: f64, turn: f64| vector![r * turn.cos(), r * turn.sin()];
+    let turns = [0.0, THIRD, 2.0 * THIRD];
+    let planar = Planar {
+        feet: turns.map(|a| on(0.6, a)),
+        pins: turns.map(|a| on(0.12, a)),
+        bars: [0.35, 0.4],
+        k: [900.0; 3],
+        ..Planar::new()
+    };
+    // From foot to pin 0.6 - (0.12 + x).
+    let ends = -(0.35 + 0.4 - 0.48);
+    let machine = planar.machine(&vector![ends + 0.05, 0.0, 0.0]);
+    for off in [0.03, 0.01, 0.001, 1e-5] {
+        let target = planar.pose(&vector![ends + off, 0.0, 0.0]);
+        let posture = machine.posture(&target).unwrap();
+        let list = posture.near_singularities(0.05).unwrap();
+        let first = &list[0];
+        assert!(first.kind == SingularityKind::Lost && first.followed);
+        assert!(
+            (first.distance_m - off).abs() < 1e-6 * off + 1e-12,
+            "{off}: {} {}",
+            first.distance_m,
+            first.in_words()
+        );
+        let away = planar.plane.rotation * -Vector3::x();
+        assert!(first.way.linear().dot(&away) > 0.999_999);
+        assert!(first.motion.linear().dot(&away).abs() > 0.999_99);
+    }
+}
