@@ -132,7 +132,7 @@ proptest! {
     /// On three slides nothing but a turn by the middle angle brings the outer axes in line.
     #[test]
     fn a_wrist_on_slides_is_as_far_from_singular_as_its_middle_joint_is_turned(
-        middle in 0.01..50.0_f64, first in -3.0..3.0_f64, last in -3.0..3.0_f64,
+        middle in 0.01..40.0_f64, first in -3.0..3.0_f64, last in -3.0..3.0_f64,
         turn in prop::array::uniform3(-1.5..1.5_f64),
     ) {
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
