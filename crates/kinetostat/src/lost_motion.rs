@@ -246,8 +246,9 @@ impl<'p, 'm> Search<'p, 'm> {
         (u.transpose() * all, u.transpose() * values)
     }
 
-    /// Least motion of the tool from the start on the conditions, linearised: motion of all.
-    fn step(&self, condition: &DMatrix<f64>, value: &DVector<f64>) -> Option<DVector<f64>> {
+    /// Least motion of the tool from the start on the conditions, linearised: motion of all to the
+    /// conditions, and motion on them.
+    fn step(&self, condition: &DMatrix<f64>, value: &DVector<f64>) -> Option<[DVector<f64>; 2]> {
         let (closure, gaps) = self.closure();
         let count = closure.nrows() + condition.nrows();
         let mut rows = DMatrix::zeros(count, self.count);
@@ -262,12 +263,12 @@ impl<'p, 'm> Search<'p, 'm> {
         let left = self.balanced(&self.gone()) + particular.rows(tool, 6);
         let moves = free.rows(tool, 6).into_owned();
         if moves.is_empty() {
-            return Some(particular);
+            return Some([particular, DVector::zeros(self.count)]);
         }
         let svd = moves.svd(true, true);
         let cut = 1e-4 * svd.singular_values.amax().max(1e-3);
         let z = svd.solve(&-left, cut).ok()?;
-        Some(particular + free * z)
+        Some([particular, free * z])
     }
 
     fn go(&mut self, step: &DVector<f64>) {
@@ -311,12 +312,15 @@ impl<'p, 'm> Search<'p, 'm> {
                 axes.right.column(which).into_owned(),
             ));
             let (condition, value) = self.condition(limb, &axes, which);
-            let step = self.step(&condition, &value)?;
-            let size = step.amax();
-            if !size.is_finite() {
+            let parts = self.step(&condition, &value)?;
+            let size = parts.iter().map(|p| p.amax()).fold(0.0, f64::max);
+            if !parts.iter().all(|p| p.iter().all(|x| x.is_finite())) {
                 return None;
             }
-            self.go(&(&step * (0.3 * self.length / size).min(1.0)));
+            // Each in its bounds: near a lost motion the second may be long and must not hold up
+            // the first.
+            let short = |part: &DVector<f64>| part * (0.3 * self.length / part.amax()).min(1.0);
+            self.go(&(short(&parts[0]) + short(&parts[1])));
             if self.balanced(&self.gone()).norm() > most {
                 return Some(false);
             }
