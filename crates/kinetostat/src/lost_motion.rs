@@ -338,6 +338,9 @@ impl<'p, 'm> Search<'p, 'm> {
 /// Shortest solution and an orthonormal basis of what is left free.
 fn solve(rows: &DMatrix<f64>, wanted: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
     let (m, n) = rows.shape();
+    if n == 0 {
+        return Some((DVector::zeros(0), DMatrix::zeros(0, 0)));
+    }
     if rows.iter().any(|x| !x.is_finite()) {
         return None;
     }
