@@ -244,6 +244,19 @@ fn verdict(a: &Assembly) -> String {
             ),
         };
     };
+    if degree == 0 && a.something_else_acts {
+        // As built less as drawn: the weights' share, in a machine that stands a little elsewhere.
+        let shares = a.limbs.iter().map(|l| {
+            let unlike = norm(l.force_n.without_load_by_deviations);
+            (unlike, norm(l.force_n.without_load))
+        });
+        let (unlike, whole) = shares.fold((0.0_f64, 0.0_f64), |m, s| (m.0.max(s.0), m.1.max(s.1)));
+        return format!(
+            "Nothing is locked in: the machine is statically determinate, its deviations only move it; {moved}. Weights, loads and preloads of the model pass through the limbs a little otherwise than in the machine as drawn under the same: the forces on their ends change by up to {} N, of up to {} N.",
+            number(unlike, 3),
+            number(whole, 4)
+        );
+    }
     let own = a.limbs.iter().find(|l| l.name == *limb);
     let (force, moment) = own.map_or((0.0, 0.0), |l| {
         (

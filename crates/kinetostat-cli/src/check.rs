@@ -20,7 +20,8 @@ use crate::failure::Answer;
 use crate::input::Files;
 use crate::machine::deviations_in_words;
 use crate::overcome::load_names;
-use crate::screen::{self, Stream};
+use crate::place::pose_in_words;
+use crate::screen::{self, Stream, number};
 use crate::setting::vector;
 
 /// Findings, stable names with units.
@@ -86,7 +87,20 @@ fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findi
     let mut limbs: Vec<LimbFinding> = (0..m.limbs().len()).map(|i| limb(model, i)).collect();
     let solved = posture
         .as_ref()
-        .map_err(ToString::to_string)
+        .map_err(|e| match e {
+            kinetostat::Error::Unreachable {
+                place,
+                distance_m,
+                angle_rad,
+                nearest,
+            } => format!(
+                "{place}: this home cannot be reached; the nearest that was found is {} mm and {} deg away: {}",
+                number(1e3 * distance_m, 3),
+                number(angle_rad.to_degrees(), 3),
+                pose_in_words(nearest)
+            ),
+            other => other.to_string(),
+        })
         .and_then(|p| at_home(m, p, force, &mut limbs, &load_names(model)));
     let (home, assumptions, home_problem) = match solved {
         Ok((home, assumptions)) => (Some(home), Some(assumptions), None),
@@ -94,6 +108,11 @@ fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findi
     };
     let reach = posture.as_ref().ok().map(crate::check_reach::reach);
     let mut warnings: Vec<String> = model.warnings.iter().map(told).collect();
+    if home_problem.is_some() {
+        warnings.push(
+            "nothing can be solved at home, and every other place is sought from there: write the nearest pose as home, or check the home_ values of the joints and the limbs' start and end".to_owned(),
+        );
+    }
     warnings.extend(assumptions.iter().flat_map(|a| a.warnings.clone()));
     Findings {
         schema: 1,

@@ -203,10 +203,15 @@ impl AssumptionsFinding {
             ));
         }
         if let Some(case) = jumps {
-            self.warnings.push(format!(
+            let said = format!(
                 "under a load of {} N on the tool the machine does not stay in its shape; see `kinetostat deflect`",
                 triple(case.into(), short)
-            ));
+            );
+            // What moves freely is not meant to carry the example load.
+            match free.is_empty() {
+                true => self.warnings.push(said),
+                false => self.in_words.push(said),
+            }
         }
         let (moved, case, loaded) = worst?;
         self.small(moved / length, &case);

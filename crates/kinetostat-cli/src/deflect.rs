@@ -421,7 +421,10 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
             x.force_unit.to_owned(),
         ]);
     }
-    out.push_str(&columns(&rows, 2));
+    match a.actuators.as_slice() {
+        [] => out.push_str("The machine has no actuators.\n"),
+        _ => out.push_str(&columns(&rows, 2)),
+    }
     out.push_str(&joints::in_words("On the pendant", &a.pendant));
     out.push_str("\nStability\n");
     for limb in &a.limbs {

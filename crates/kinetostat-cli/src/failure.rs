@@ -1,5 +1,7 @@
 //! Why a command ends without an answer, and its exit code.
 
+use crate::place::pose_in_words;
+use crate::screen::number;
 use std::fmt::Display;
 
 use kinetostat_machining::RunError;
@@ -105,11 +107,12 @@ impl From<kinetostat::Error> for Failure {
                 place,
                 distance_m,
                 angle_rad,
-                ..
+                nearest,
             } => format!(
-                "{place}: the place cannot be reached; the nearest that was found is {:.3} mm and {:.3} deg away",
-                1e3 * distance_m,
-                angle_rad.to_degrees()
+                "{place}: the place cannot be reached; the nearest that was found is {} mm and {} deg away: {}",
+                number(1e3 * distance_m, 3),
+                number(angle_rad.to_degrees(), 3),
+                pose_in_words(nearest)
             ),
             other => other.to_string(),
         };

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
-use kinetostat_machining::{NearSingular, near_singular, straight_tool};
+use kinetostat_machining::{NearSingular, natural_length, near_singular, straight_tool};
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ use crate::joints::{self, JointValue};
 use crate::machine::{deviations_in_words, short};
 use crate::orientation;
 use crate::overcome::load_names;
-use crate::screen::{triple, wrapped};
+use crate::screen::{number, triple, wrapped};
 use crate::setting::vector;
 
 /// Everything about one place.
@@ -85,6 +85,15 @@ pub(crate) fn spot_of(
             Pose::from_parts(position.into(), rotation)
         }
     };
+    let mut warnings: Vec<String> = read
+        .warnings
+        .iter()
+        .map(|w| format!("model: {}", w.message))
+        .collect();
+    let target = match joints {
+        Some(_) => target,
+        None => reachable(&mechanism, target, &mut warnings)?,
+    };
     let load = |name: &str, values: Option<&[f64]>| {
         values.map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
     };
@@ -107,13 +116,59 @@ pub(crate) fn spot_of(
         wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),
         inputs: path.into_iter().collect(),
         deviations: deviations_in_words(read),
-        warnings: read
-            .warnings
-            .iter()
-            .map(|w| format!("model: {}", w.message))
-            .collect(),
+        warnings,
         mechanism,
     })
+}
+
+/// Share of the natural length by which an asked pose may miss what the machine can take.
+const ROUNDED: f64 = 1e-6;
+/// How far the nearest pose is looked for where a place cannot be reached, in natural lengths.
+const AROUND: f64 = 0.1;
+
+/// The place, or the nearest one that the machine can take where only the digits of the place keep it
+/// from that; a place that cannot be reached is refused with the nearest pose.
+fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<String>) -> Answer<Pose> {
+    let error = match m.posture(&target) {
+        Err(error @ kinetostat::Error::Unreachable { .. }) => error,
+        _ => return Ok(target),
+    };
+    let length = natural_length(m);
+    let Some(nearest) = m.nearest_reachable(&target, AROUND * length) else {
+        return Err(error.into());
+    };
+    let off = kinetostat::pose_residual(&nearest, &target);
+    let (shift, turn) = (off.linear().norm(), off.angular().norm());
+    if shift.max(length * turn) <= ROUNDED * length {
+        warnings.push(format!(
+            "the machine cannot take this place exactly; the nearest is used, {} mm and {} deg away: {}",
+            number(1e3 * shift, 3),
+            number(turn.to_degrees(), 3),
+            pose_in_words(&nearest)
+        ));
+        return Ok(nearest);
+    }
+    Err(kinetostat::Error::Unreachable {
+        place: m.name().to_owned(),
+        distance_m: shift,
+        angle_rad: turn,
+        nearest: Box::new(nearest),
+    }
+    .into())
+}
+
+/// A pose to copy: `position (0, 760, 0) mm, rotation vector (0, 0, 53.13) deg`.
+pub(crate) fn pose_in_words(pose: &Pose) -> String {
+    let clean = |x: f64| (x * 1e6).round() / 1e6 + 0.0;
+    format!(
+        "position {} mm, rotation vector {} deg",
+        triple((pose.translation.vector * 1e3).into(), |x| clean(x)
+            .to_string()),
+        triple(
+            pose.rotation.scaled_axis().map(f64::to_degrees).into(),
+            |x| clean(x).to_string()
+        )
+    )
 }
 
 impl Spot {

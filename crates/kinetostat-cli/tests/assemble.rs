@@ -390,3 +390,17 @@ fn figure(name: &str, measured: f64, most: f64, unit: &str) {
     println!("figure {figure}");
     assert!(measured <= most, "{figure}");
 }
+
+#[test]
+fn weights_that_pass_a_little_otherwise_are_not_called_strain() {
+    let here = workplace();
+    let words = ["assemble", "delta", "--deviation", "arm 1:arm:1mm longer"];
+    let said = run(here.path(), &words).answered().out;
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("Nothing is locked in"), "{said}");
+    assert!(said.contains("as drawn under the same"), "{said}");
+    assert!(
+        !said.contains("strains limb") && !said.contains("e-14"),
+        "{said}"
+    );
+}

@@ -778,3 +778,88 @@ fn imported_arms_raise_no_alarm_but_that_their_zero_posture_is_singular() {
         assert!((800.0..4000.0).contains(&reach), "{file}: {reach}");
     }
 }
+
+/// A machine cannot do what its home asks for, by a little or by more, only where it cannot move.
+#[test]
+fn a_home_off_by_rounding_is_used_and_a_wrong_one_is_never_called_fine() {
+    for (home, off) in [
+        ("[500, 300, 200.001]", "0.001 mm"),
+        ("[500, 300.000002, 198]", "2 mm"),
+    ] {
+        let (found, said) = checked(&edited(ARM, &[("[500, 300, 200]", home)]), &[]);
+        assert!(found["home_problem"].is_null(), "{found}");
+        let warnings = texts(&found["warnings"]).join(" ");
+        assert!(warnings.contains(off), "{warnings}");
+        let exact = "home = { position_mm = [500, 300, 200], rotation_vector_deg = [0, 0, 90] }";
+        assert!(
+            flat(&warnings).contains(exact) || off.starts_with('2'),
+            "{warnings}"
+        );
+        assert!(!said.contains("Nothing looks wrong"), "{said}");
+    }
+    let wrong = edited(ARM, &[("[500, 300, 200]", "[500, 300, 260]")]);
+    let (found, said) = checked(&wrong, &[]);
+    let problem = found["home_problem"].as_str().expect("a problem");
+    assert!(problem.contains("position (500, 300, 200) mm"), "{problem}");
+    assert!(!texts(&found["warnings"]).is_empty(), "{found}");
+    assert!(!said.contains("Nothing looks wrong"), "{said}");
+}
+
+#[test]
+fn a_place_off_by_rounding_is_taken_to_the_nearest_and_others_are_refused_with_it() {
+    let here = workplace();
+    std::fs::write(here.path().join("arm.toml"), ARM).expect("a file");
+    let ask = |z: &str| {
+        run(
+            here.path(),
+            &["deflect", "arm.toml", "--at", "500", "300", z],
+        )
+    };
+    let said = flat(&ask("200.0001").answered().out);
+    assert!(said.contains("the nearest is used"), "{said}");
+    let refused = flat(&ask("200.01").err);
+    assert!(refused.contains("position (500, 300, 200) mm"), "{refused}");
+    assert!(!refused.contains("0.000 mm"), "{refused}");
+}
+
+/// A platform in between: an eight-digit place of the tool.
+#[test]
+fn a_home_of_eight_digits_serves_a_machine_with_a_platform_in_between() {
+    let text = r#"schema = 1
+[mechanism]
+name = "bars"
+[stiffness.bar]
+matrix_n_mm_rad = [
+  [3.25e4, 0, 0, 0, 0, 0],
+  [0, 18.03, 0, 0, 0, -2878.5],
+  [0, 0, 18.03, 0, 2878.5, 0],
+  [0, 0, 0, 3.476e4, 0, 0],
+  [0, 0, 2878.5, 0, 5.988e5, 0],
+  [0, -2878.5, 0, 0, 0, 5.988e5],
+]
+[chain.drive]
+elements = [{ actuator = "prismatic", name = "s", axis = "y", stiffness_n_per_mm = 500, home_mm = 0 }]
+[chain.leg]
+elements = [{ parallelogram = "bar", name = "q2", length_mm = 310, width_mm = 80, home_deg = 20 }]
+[[platform]]
+name = "slide"
+home = { position_mm = [0, 0, 0] }
+[[platform]]
+name = "tool"
+home = { position_mm = [291.30471, 0, -106.02624] }
+[[limb]]
+name = "drive"
+from = "base"
+to = "slide"
+chain = "drive"
+[[limb]]
+name = "leg"
+from = "slide"
+to = "tool"
+chain = "leg"
+"#;
+    let (found, _) = checked(text, &[]);
+    assert!(found["home_problem"].is_null(), "{}", found["home_problem"]);
+    let warnings = texts(&found["warnings"]).join(" ");
+    assert!(warnings.contains("the nearest pose"), "{warnings}");
+}

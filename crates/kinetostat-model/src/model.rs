@@ -73,7 +73,10 @@ impl Model {
         let document =
             toml::from_str::<Document>(text).map_err(|e| source.error(&[Source::syntax(&e)]))?;
         let mut findings = Findings::default();
-        let mechanism = assemble(&document, &mut findings);
+        let mut mechanism = assemble(&document, &mut findings);
+        if let Some(mechanism) = mechanism.as_mut().filter(|_| findings.errors.is_empty()) {
+            settle_home(mechanism, &mut findings);
+        }
         let controller = mechanism
             .as_ref()
             .and_then(|m| controller(&document, m, &mut findings));
@@ -206,6 +209,31 @@ impl Model {
     pub fn to_toml(&self) -> Result<String, ModelError> {
         write(&self.document, &self.file)
     }
+}
+
+/// How far a written home may lie from what the machine can take, m.
+const ROUGH_HOME_M: f64 = 5e-3;
+
+/// A home that is off by a few millimetres, only where the machine cannot move, is taken to the
+/// nearest pose that it can take.
+fn settle_home(mechanism: &mut Mechanism, findings: &mut Findings) {
+    let Some(written) = mechanism.settle_home(ROUGH_HOME_M) else {
+        return;
+    };
+    let tool = mechanism.tool();
+    let home = mechanism.platforms()[tool].home;
+    let off = kinetostat::pose_residual(&home, &written);
+    // Platforms of the file are counted without the base.
+    let place = Place::root().key("platform").index(tool - 1).key("home");
+    findings.warnings.push(Finding::new(
+        &place,
+        format!(
+            "the machine cannot take this home exactly: the nearest pose, {} mm and {} deg away, is used",
+            placement::short(1e3 * off.linear().norm()),
+            placement::short(off.angular().norm().to_degrees())
+        ),
+        format!("to be exact, write {}", placement::told(&home)),
+    ));
 }
 
 fn write(document: &Document, file: &str) -> Result<String, ModelError> {

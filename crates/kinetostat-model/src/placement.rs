@@ -180,6 +180,30 @@ pub(crate) fn written(pose: &Pose) -> Placement {
     }
 }
 
+/// Three significant digits, nothing below a billionth.
+pub(crate) fn short(value: f64) -> String {
+    match value < 1e-9 {
+        true => "0".to_owned(),
+        false => format!("{value:.2e}").parse().unwrap_or(value).to_string(),
+    }
+}
+
+/// A pose as the line of a file: `home = { .. }`, with the digits that a machine can tell apart.
+pub(crate) fn told(pose: &Pose) -> String {
+    let list = |v: [f64; 3], decimals: i32| {
+        let unit = 10_f64.powi(decimals);
+        let parts = v.map(|x| format!("{}", (x * unit).round() / unit + 0.0));
+        parts.join(", ")
+    };
+    let position = list((pose.translation.vector * 1e3).into(), 9);
+    let turn = pose.rotation.scaled_axis();
+    if turn.norm() < 1e-11 {
+        return format!("home = {{ position_mm = [{position}] }}");
+    }
+    let turn = list(turn.map(f64::to_degrees).into(), 10);
+    format!("home = {{ position_mm = [{position}], rotation_vector_deg = [{turn}] }}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -69,7 +69,7 @@ pub enum Error {
     },
     /// An iteration did not converge; carries its last state so that it can be looked at.
     #[error(
-        "{place}: no equilibrium found in {iterations} iterations (last converged share of the load {load_factor:.3}, residual: {residual_position_m:.3e} m, torque {residual_torque:.3e} of the applied)"
+        "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {load_factor:.3}; the last try left a gap of {residual_position_m:.3e} m, and torques of {residual_torque:.3e} times the largest without balance)"
     )]
     NotConverged {
         /// Chain or mechanism.
@@ -87,7 +87,7 @@ pub enum Error {
     },
     /// The actuators cannot bring the end there.
     #[error(
-        "{place}: the target cannot be reached; the nearest pose found is {:.4} mm and {:.4} deg away",
+        "{place}: the target cannot be reached; the nearest pose found is {:.4e} mm and {:.4e} deg away",
         distance_m * 1e3, angle_rad.to_degrees()
     )]
     Unreachable {
@@ -97,7 +97,7 @@ pub enum Error {
         distance_m: f64,
         /// Its angle, rad.
         angle_rad: f64,
-        /// Nearest pose found.
+        /// Nearest pose found, base axes: of the limb's tip, or of the tool for a mechanism.
         nearest: Box<Pose>,
     },
     /// Loops that do not close with the commands that were given.

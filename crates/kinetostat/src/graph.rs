@@ -68,6 +68,29 @@ pub(crate) fn graph_inverse(
     }
 }
 
+/// Where the tool ends if it is first brought as near to `target` as the joints can, then let go so
+/// that all limbs close; `None` where they do not.
+pub(crate) fn graph_nearest(mechanism: &Mechanism, target: &Pose) -> Option<Pose> {
+    let mut search = GraphSearch::new(mechanism);
+    let mut platforms: Vec<Pose> = mechanism.platforms.iter().map(|p| p.home).collect();
+    platforms[mechanism.tool] = *target;
+    let limbs = mechanism.limbs.iter().map(|limb| LimbPosture {
+        commands: limb.nominal.home_commands(),
+        coordinates: limb.nominal.home_coordinates(),
+    });
+    let start = GraphPosture {
+        platforms,
+        limbs: limbs.collect(),
+    };
+    let near = match search.close(start) {
+        Ok(_) => return Some(*target),
+        Err(near) => near,
+    };
+    search.tool_free = true;
+    let closed = search.close(near).ok()?;
+    Some(closed.platforms[mechanism.tool])
+}
+
 /// Motion of every limb's commands per motion of the tool (base axes, at its origin), r x 6 each:
 /// the least motion of joints where there are several.
 pub(crate) fn graph_rates(mechanism: &Mechanism, at: &GraphPosture) -> Vec<DMatrix<f64>> {
@@ -141,6 +164,8 @@ struct GraphSearch<'m> {
     mechanism: &'m Mechanism,
     passive: Vec<Vec<usize>>,
     length: f64,
+    /// The tool is sought like the other platforms.
+    tool_free: bool,
 }
 
 impl<'m> GraphSearch<'m> {
@@ -153,6 +178,7 @@ impl<'m> GraphSearch<'m> {
                 .map(|l| l.nominal.indices_of(Role::Passive))
                 .collect(),
             length: mechanism.scale().length,
+            tool_free: false,
         }
     }
 
@@ -314,19 +340,20 @@ impl<'m> GraphSearch<'m> {
             .collect()
     }
 
-    /// The network of springs, factorised for the platforms that are sought: neither base nor tool.
+    /// The network of springs, factorised for the platforms that are sought: not the base, and the
+    /// tool only where it is free.
     fn factorised<'n>(&self, network: &'n [Linked]) -> Option<Factorised<'n>> {
         let m = self.mechanism;
         let count = m.platforms.len();
         let place: Vec<Option<usize>> = (0..count)
             .scan(0, |next, p| {
-                Some((p != 0 && p != m.tool).then(|| {
+                Some((p != 0 && (self.tool_free || p != m.tool)).then(|| {
                     *next += 6;
                     *next - 6
                 }))
             })
             .collect();
-        let size = 6 * (count - 2);
+        let size = 6 * place.iter().flatten().count();
         let mut a = Sparse::zeros(size, size);
         for (limb, own) in m.limbs.iter().zip(network) {
             let ends = [
@@ -364,7 +391,7 @@ impl<'m> GraphSearch<'m> {
         let m = self.mechanism;
         let (network, place) = (own.network, &own.place);
         let count = m.platforms.len();
-        let mut b = DMatrix::zeros(6 * (count - 2), 1);
+        let mut b = DMatrix::zeros(6 * place.iter().flatten().count(), 1);
         let lack = |limb: usize| match tool_motion {
             None => network[limb].closure,
             Some(motion) => {
@@ -479,8 +506,9 @@ impl<'m> GraphSearch<'m> {
             .sqrt()
     }
 
-    /// Closes all limbs with the tool where it is.
-    fn close(&self, mut at: GraphPosture) -> std::result::Result<GraphPosture, f64> {
+    /// Closes all limbs with the tool where it is, unless it is free. `Err` holds the best that was
+    /// found.
+    fn close(&self, mut at: GraphPosture) -> std::result::Result<GraphPosture, GraphPosture> {
         let mut damping = LEAST_DAMPING;
         let mut network = self.network(&at, damping, None);
         let goal = 1e-13 * self.length * (network.len() as f64).sqrt();
@@ -491,7 +519,7 @@ impl<'m> GraphSearch<'m> {
                 return Ok(at);
             }
             let Some((motions, joints)) = self.step(&network) else {
-                return Err(gap);
+                return Err(at);
             };
             let length = self.limit(&network, &motions, &joints);
             let trial = self.moved_by(&at, &network, &motions, &joints, length);
@@ -511,12 +539,12 @@ impl<'m> GraphSearch<'m> {
                 }
                 damping = (10.0 * damping).max(1e-8);
                 if damping > 1e6 || damping.is_nan() {
-                    return Err(gap);
+                    return Err(at);
                 }
                 network = self.network(&at, damping, None);
             }
         }
-        Err(Self::gap(&network))
+        Err(at)
     }
 
     /// Distance from home in weighted joints.

@@ -121,6 +121,7 @@ mod machine_equilibria;
 mod mechanism;
 mod mobility;
 mod near_singular;
+mod nearest;
 mod network;
 mod overcome;
 mod parallelogram;

@@ -25,6 +25,7 @@ use crate::platform_step::{Linear, PlatformStep};
 use crate::settings::Settings;
 use crate::sparse::Sparse;
 use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix};
+use crate::stiffness::{balanced_jacobian, motions_of_end};
 
 /// Poses, coordinates and end wrenches of a mechanism: where an iteration starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -543,6 +544,18 @@ impl<'m> PlatformSolver<'m> {
         self.share = 1.0;
         let (_, lack) = self.evaluate();
         self.linearise(true);
+        for (linear, (limb, factors)) in self
+            .linear
+            .iter_mut()
+            .zip(self.mechanism.limbs.iter().zip(&self.factors))
+        {
+            // A limb that cannot move in all directions has no regular system: its end apart from them.
+            if limb.from == 0 && linear.rigid.ncols() > 0 {
+                let jacobian = balanced_jacobian(&linear.system, factors);
+                let (_, answer) = motions_of_end(&limb.actual, &linear.system, factors, &jacobian);
+                linear.solution.columns_mut(1, 6).copy_from(&answer);
+            }
+        }
         (self.tangents().0, lack)
     }
 

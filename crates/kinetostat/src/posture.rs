@@ -224,12 +224,9 @@ impl Mechanism {
             for (i, limb) in self.limbs.iter().enumerate() {
                 let tip = target * limb.platform_from_tip;
                 let start = near.map(|near| &near.limbs[i]);
-                limbs.push(inverse_kinematics(
-                    &limb.nominal,
-                    &platforms[limb.from],
-                    &tip,
-                    start,
-                )?);
+                let base = &platforms[limb.from];
+                let found = inverse_kinematics(&limb.nominal, base, &tip, start);
+                limbs.push(found.map_err(|error| of_tool(error, &limb.platform_from_tip))?);
             }
             limbs
         };
@@ -609,6 +606,14 @@ impl<'m> Posture<'m> {
         let residual = solver.solve_robustly()?;
         conclude(&mut solver, residual)
     }
+}
+
+/// A limb's nearest pose is told as the pose that the tool would have with it.
+fn of_tool(mut error: Error, platform_from_tip: &Pose) -> Error {
+    if let Error::Unreachable { nearest, .. } = &mut error {
+        **nearest *= platform_from_tip.inverse();
+    }
+    error
 }
 
 /// Unloaded stiffness of a mechanism and its limbs.

@@ -154,14 +154,58 @@ pub(crate) fn chain_stiffness(
     solved: Option<DMatrix<f64>>,
 ) -> ChainStiffness {
     let jacobian = balanced_jacobian(system, factors);
-    let range = column_space(&jacobian);
     let redundant = passive_null_space(chain, &jacobian);
-    let answer = match solved {
-        Some(solution) if range.ncols() == 6 => solution,
-        _ => unit_motions(system, factors, &jacobian, &range),
+    let (range, answer) = match solved {
+        Some(solution) if column_space(&jacobian).ncols() == 6 => {
+            (DMatrix::identity(6, 6), solution)
+        }
+        _ => motions_of_end(chain, system, factors, &jacobian),
     };
     described(chain, factors, &jacobian, &range, &redundant, &answer)
 }
+
+/// What the end can do (orthonormal, balanced, 6 x r), and [`unit_motions`] over it. A direction so
+/// stiff that all others would drown in its rounding (a chain pulled straight) counts as rigid.
+pub(crate) fn motions_of_end(
+    chain: &Chain,
+    system: &System,
+    factors: &[f64],
+    jacobian: &DMatrix<f64>,
+) -> (DMatrix<f64>, DMatrix<f64>) {
+    let range = column_space(jacobian);
+    let answer = unit_motions(system, factors, jacobian, &range);
+    if range.ncols() < 2 {
+        return (range, answer);
+    }
+    // The direction that the joints move least in.
+    let moved = range.transpose() * jacobian;
+    let sizes: Vec<f64> = moved.row_iter().map(|row| row.norm()).collect();
+    let most = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
+    let Some((weakest, size)) =
+        (sizes.iter().copied().enumerate()).min_by(|a, b| a.1.total_cmp(&b.1))
+    else {
+        return (range, answer);
+    };
+    if size > STRAIGHT * most {
+        return (range, answer);
+    }
+    let free = |range: &DMatrix<f64>, answer: &DMatrix<f64>| {
+        let balanced = Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]));
+        let list = directions(chain.scale(), &balanced, range);
+        let free = list.iter().filter(|d| d.kind == DirectionKind::Free);
+        free.count()
+    };
+    let others = range.clone().remove_column(weakest);
+    let without = unit_motions(system, factors, jacobian, &others);
+    if free(&others, &without) < free(&range, &answer) {
+        (others, without)
+    } else {
+        (range, answer)
+    }
+}
+
+/// Joints that move the end less than this share of their largest motion make it nearly rigid.
+const STRAIGHT: f64 = 1e-3;
 
 /// The same by sweeps along a long chain; `None` where they cannot.
 pub(crate) fn swept_stiffness(
@@ -238,19 +282,37 @@ fn unit_motions(
 ) -> DMatrix<f64> {
     let (n, r) = (jacobian.ncols(), range.ncols());
     let bordered = system.bordered(true);
-    let reduced = range.transpose() * jacobian;
+    // Rows of unit length and torques of size one: where the joints hardly move the end (a chain
+    // pulled straight) its stiffness is large, but nothing of it is lost.
+    let mut reduced = range.transpose() * jacobian;
+    let rows: Vec<f64> = reduced
+        .row_iter()
+        .map(|row| 1.0 / row.norm().max(f64::MIN_POSITIVE))
+        .collect();
+    for (mut row, unit) in reduced.row_iter_mut().zip(&rows) {
+        row *= *unit;
+    }
+    let torques = DMatrix::from_fn(n, n, |i, j| {
+        bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j]
+    });
+    let size = match torques.amax() {
+        most if most > 0.0 => most,
+        _ => 1.0,
+    };
     let mut a = DMatrix::zeros(r + n, r + n);
     a.view_mut((0, r), (r, n)).copy_from(&reduced);
     a.view_mut((r, 0), (n, r)).copy_from(&reduced.transpose());
-    for i in 0..n {
-        for j in 0..n {
-            a[(r + i, r + j)] = bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j];
-        }
-    }
+    a.view_mut((r, r), (n, n)).copy_from(&(torques / size));
     let mut b = DMatrix::zeros(r + n, 6);
     b.view_mut((0, 0), (r, 6)).copy_from(&range.transpose());
+    for (i, unit) in rows.iter().enumerate() {
+        b.row_mut(i).scale_mut(*unit);
+    }
     let ones = vec![1.0; r + n];
     Saddle::new(a, &ones, &ones).solve(&mut b);
+    for (i, unit) in rows.iter().enumerate() {
+        b.row_mut(i).scale_mut(*unit * size);
+    }
     let wrench = range * b.rows(0, r);
     DMatrix::from_fn(6 + n, 6, |i, j| {
         let balanced = if i < 6 {

@@ -477,8 +477,12 @@ fn entries(scene: &Scene, d: &Drawing<'_>, factor: f64) -> Vec<(Key, String)> {
         (Key::Passive, _) => "passive joint".to_owned(),
         (Key::Spring, _) => "spring".to_owned(),
         (Key::Moved, Some(m)) if m.magnified != Magnified::Direction => {
-            let factor = crate::number::setting(factor);
-            format!("{}, {factor} times larger", m.name)
+            let shown = crate::number::setting(factor);
+            if factor < 1.0 {
+                format!("{}, drawn at {shown} times its size", m.name)
+            } else {
+                format!("{}, {shown} times larger", m.name)
+            }
         }
         (Key::Moved, Some(m)) => m.name.clone(),
         (Key::Moved, None) => String::new(),

@@ -494,7 +494,7 @@ pub(crate) fn fig_5_11() -> Result<Contents, Cause> {
                 "Q2b of Table 5.3",
             ));
         }
-        let note = "the figure prints no digits; the curve is drawn below";
+        let note = "the figure prints no digits; the HTML page draws the curve";
         items.push(Item::unprinted(
             format!("{q}: K0"),
             answer.stiffness,

@@ -85,7 +85,8 @@ fn figure(case: &Orthoglide, name: &str) -> Result<Contents, Cause> {
     let mean = |value: &dyn Fn(&Sources) -> f64| {
         few.iter().map(|s| value(s)).sum::<f64>() / few.len() as f64
     };
-    let note = "eleven points of the line; the figure prints no digits, its curves are drawn below";
+    let note =
+        "eleven points of the line; the figure prints no digits, the HTML page draws its curves";
     let wrench = cutting(0.0);
     let (force, moment) = (wrench.force(), wrench.moment());
     let print = "forces 215, -10, -25 N on a tool of 100 mm along z (7.16)";

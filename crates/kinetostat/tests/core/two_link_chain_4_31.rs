@@ -3,7 +3,8 @@
 
 use crate::common::{assert_chain_equilibrium, close, golden, number};
 use kinetostat::{
-    Chain, ChainProblem, EndCondition, Load, MotionKind, Pose, Prescribed, Wrench, solve_chain,
+    Chain, ChainProblem, DirectionKind, EndCondition, LimbPosture, Load, Mechanism, MotionKind,
+    Pose, Prescribed, Wrench, solve_chain,
 };
 use nalgebra::{Matrix2, Vector3, vector};
 use serde_json::Value;
@@ -142,4 +143,85 @@ fn the_margin_is_the_true_shape_criterion_of_table_5_2() {
             e.stability.inertia
         );
     }
+}
+
+/// Links of length `a`, elbow open by `t`, spring of 1 N m/rad at rest at `t0`: the pull
+/// `F a sin(t / 2) = t0 - t`, the radial stiffness its derivative by `x = 2 a cos(t / 2)`, the one
+/// across `F / x`.
+#[test]
+fn a_pulled_two_link_chain_is_as_stiff_as_its_closed_form_until_it_is_straight_to_rounding() {
+    let half = 15_f64.to_radians();
+    let rest = 2.0 * half;
+    let nominal = Chain::builder("pulled")
+        .passive("q1", MotionKind::Revolute, Vector3::z(), half)
+        .translation(vector![1.0, 0.0, 0.0])
+        .spring("theta", MotionKind::Revolute, Vector3::z(), 1.0, -rest)
+        .translation(vector![1.0, 0.0, 0.0])
+        .passive("q2", MotionKind::Revolute, Vector3::z(), half)
+        .build()
+        .unwrap();
+    let (mut finite, mut rigid) = (0, 0);
+    // Along an axis and off it: there the radial direction is no coordinate.
+    for turn in [0.0_f64, 0.9] {
+        let way = vector![turn.cos(), turn.sin(), 0.0];
+        let across = vector![-way.y, way.x, 0.0];
+        let place = way * (2.0 * half.cos());
+        let home = Pose::translation(place.x, place.y, 0.0);
+        let machine = Mechanism::serial(nominal.clone(), home, Vector3::zeros()).unwrap();
+        let joints = LimbPosture {
+            commands: vec![],
+            coordinates: vec![half + turn, -rest, half - turn],
+        };
+        let posture = machine.posture_from_joints(&home, vec![joints]).unwrap();
+        let unloaded = posture.deflected_by(&Wrench::zero()).unwrap().state;
+        for step in 0..=20 {
+            let force = 10_f64.powf(0.25 * f64::from(step));
+            let mut t = rest;
+            for _ in 0..200 {
+                let f = force * (0.5 * t).sin() - (rest - t);
+                t -= f / (0.5 * force * (0.5 * t).cos() + 1.0);
+            }
+            let (s, c) = (0.5 * t).sin_cos();
+            // From the closed form: the way there is not asked for.
+            let wrench = Wrench::new(way * force, Vector3::zeros());
+            let mut state = unloaded.clone();
+            state.coordinates[0] = vec![turn + 0.5 * t, -t, 0.5 * t - turn];
+            state.platforms[1] = Pose::translation(2.0 * c * way.x, 2.0 * c * way.y, 0.0);
+            state.wrenches[0] = wrench;
+            let e = posture
+                .deflected_from(&wrench, state)
+                .unwrap_or_else(|error| panic!("{force} N: {error}"));
+            let radial = (1.0 / s + (rest - t) * 0.5 * c / (s * s)) / s;
+            assert!(e.stable(), "{force} N: {:?}", e.directions);
+            let kinds = |kind| e.directions.iter().filter(|d| d.kind == kind).count();
+            assert_eq!(kinds(DirectionKind::Negative), 0, "{force} N");
+            assert_eq!(kinds(DirectionKind::Free), 1, "{force} N: the end hinge");
+            let k = e.stiffness.matrix.fixed_view::<3, 3>(0, 0).into_owned();
+            // The radial stiffness is so much larger that its rounding shows in the base's axes.
+            let own = across.dot(&(k * across));
+            let expected = force / (2.0 * c);
+            let rounding = 1e-6 * expected + 1e-14 * radial;
+            assert!(
+                (own - expected).abs() < rounding,
+                "{force} N: {own} across, {expected}"
+            );
+            match kinds(DirectionKind::Rigid) {
+                3 => {
+                    let own = way.dot(&(k * way));
+                    assert!(
+                        (own / radial - 1.0).abs() < 1e-6,
+                        "{force} N: {own}, {radial}"
+                    );
+                    finite += 1;
+                }
+                4 => {
+                    // Straight to rounding: 1e9 times stiffer than across.
+                    assert!(radial > 1e8 * expected, "{force} N is finite: {radial}");
+                    rigid += 1;
+                }
+                other => panic!("{force} N: {other} rigid directions"),
+            }
+        }
+    }
+    assert!(finite > 30 && rigid > 0, "{finite} finite, {rigid} rigid");
 }
