@@ -336,7 +336,7 @@ pub(crate) struct PlaceArgs {
     pub(crate) at: Option<Vec<f64>>,
     /// Orientation of the tool there by a named convention, as in a_b_c_kuka_deg=0,0,90; without it,
     /// the orientation at home
-    #[arg(long, value_name = "CONVENTION=A,B,C")]
+    #[arg(long, value_name = "CONVENTION=A,B,C", conflicts_with_all = ["joints", "pendant"])]
     pub(crate) rotation: Option<String>,
     /// The place by the model's joint values instead, deg and mm, as in shoulder=30 rail=250; joints
     /// that are not named stay at home
@@ -351,7 +351,10 @@ pub(crate) struct PlaceArgs {
 impl PlaceArgs {
     /// One place is asked for.
     pub(crate) fn given(&self) -> bool {
-        self.at.is_some() || !self.joints.is_empty() || !self.pendant.is_empty()
+        self.at.is_some()
+            || self.rotation.is_some()
+            || !self.joints.is_empty()
+            || !self.pendant.is_empty()
     }
 }
 

@@ -69,7 +69,13 @@ pub(crate) fn spot_of(
     let home = mechanism.platforms()[mechanism.tool()].home;
     let joints = joints::given(read, place)?;
     let target = match (&place.at, &joints) {
-        (None, None) => home,
+        (None, None) => match &place.rotation {
+            Some(text) => {
+                let rotation = orientation::option("--rotation", text)?;
+                Pose::from_parts(home.translation, rotation)
+            }
+            None => home,
+        },
         (None, Some(joints)) => *mechanism.posture_at(joints)?.target(),
         (Some(at), _) => {
             let position = vector("--at", at)? * 1e-3;
