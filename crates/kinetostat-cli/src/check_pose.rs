@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::along;
 use crate::check_pose_file::read;
 use crate::check_pose_fit::{
-    Explained, Explanation, Forward, Frame, Gap, Jogged, Tolerance, explain, left,
+    Axis, Coupling, Explained, Explanation, Forward, Frame, Gap, Jogged, Tolerance, explain, left,
 };
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
@@ -96,15 +96,20 @@ pub(crate) fn run(
             difference_deg: gap.angle.map(f64::to_degrees),
         });
     }
-    let turns: Vec<bool> = names.iter().map(|n| n.1 == MotionKind::Revolute).collect();
-    let explained = explain(&forward, &rows, &turns, quick(model), tolerance);
+    let declared = declared(model, &names);
+    let words = Words {
+        names: &names,
+        axes: &declared,
+        joints: &joints_of(model),
+    };
+    let explained = explain(&forward, &rows, &declared, quick(model), tolerance);
     let agrees = explained.fitting.first() == Some(&Explanation::default());
     let explanations: Vec<String> = match agrees {
         true => Vec::new(),
         false => explained
             .fitting
             .iter()
-            .map(|e| in_words_of(e, &names, true))
+            .map(|e| words.of(e, true))
             .collect(),
     };
     let answer = Comparison {
@@ -123,7 +128,7 @@ pub(crate) fn run(
         agrees,
         ambiguous: explanations.len() > 1,
         explanations,
-        nearest: nearest(&explained, &forward, &rows, &names),
+        nearest: nearest(&explained, &forward, &rows, &words),
     };
     let text = in_words(&answer, rows.len());
     if json {
@@ -138,19 +143,19 @@ fn nearest(
     explained: &Explained,
     forward: &Forward<'_>,
     rows: &[Jogged],
-    names: &[Named],
+    words: &Words<'_>,
 ) -> Option<Nearest> {
     let (explanation, gaps) = explained.nearest.as_ref()?;
     if *explanation == Explanation::default() {
         return None;
     }
     let (distance, angle) = largest(gaps);
-    let before = left(forward, rows, &Explanation::default())?;
+    let before = left(forward, rows, words.axes, &Explanation::default())?;
     if distance > 0.5 * largest(&before).0 {
         return None;
     }
     Some(Nearest {
-        in_words: in_words_of(explanation, names, false),
+        in_words: words.of(explanation, false),
         difference_mm: distance * 1e3,
         difference_deg: angle.map(f64::to_degrees),
     })
@@ -175,6 +180,44 @@ fn axes(model: &Model) -> Vec<Named> {
                 .map(|(name, kind)| (name, kind, unit(kind).1))
                 .collect()
         }
+    }
+}
+
+/// What the file says of each of them.
+fn declared(model: &Model, names: &[Named]) -> Vec<Axis> {
+    let turns = |i: usize| names[i].1 == MotionKind::Revolute;
+    let Some(controller) = &model.controller else {
+        let plain = |i| Axis {
+            turns: turns(i),
+            zero: 0.0,
+            ratio: 1.0,
+            coupled: Vec::new(),
+        };
+        return (0..names.len()).map(plain).collect();
+    };
+    let (axes, map) = (controller.axes(), controller.map());
+    let zeros = controller
+        .pendant(&vec![0.0; axes.len()])
+        .unwrap_or_else(|| vec![0.0; axes.len()]);
+    let plain = |i: usize| (0..axes.len()).all(|j| j == axes[i].joint || map[(i, j)] == 0.0);
+    let declared = axes.iter().enumerate().map(|(i, axis)| Axis {
+        turns: turns(i),
+        zero: zeros[i] * axis.unit.in_si(),
+        ratio: map[(i, axis.joint)],
+        coupled: (0..axes.len())
+            .filter(|&j| j != i && plain(j) && map[(i, axes[j].joint)] != 0.0)
+            .map(|j| (j, map[(i, axes[j].joint)]))
+            .collect(),
+    });
+    declared.collect()
+}
+
+/// The model's joint of each axis.
+fn joints_of(model: &Model) -> Vec<String> {
+    let names = model.mechanism.actuator_names();
+    match &model.controller {
+        Some(c) => c.axes().iter().map(|a| names[a.joint].clone()).collect(),
+        None => names,
     }
 }
 
@@ -219,38 +262,38 @@ fn forward(model: &Model, shown: &[f64]) -> Option<Pose> {
     Some(tip * limb.platform_from_tip.inverse())
 }
 
-/// `sign of A3 is reversed; A2 is shifted by 90 deg`. With `advice`, what to write.
-fn in_words_of(e: &Explanation, names: &[Named], advice: bool) -> String {
-    let name = |i: usize| names[i].0.as_str();
-    let mut parts = Vec::new();
-    match e.reversed.as_slice() {
-        [] => {}
-        [one] => parts.push(format!("sign of {} is reversed", name(*one))),
-        several => {
-            let list: Vec<&str> = several.iter().map(|&i| name(i)).collect();
-            parts.push(format!("signs of {} are reversed", list.join(", ")));
+/// What words are made of: the axes, what the file says of them, and their joints in the model.
+struct Words<'a> {
+    names: &'a [Named],
+    axes: &'a [Axis],
+    joints: &'a [String],
+}
+
+impl Words<'_> {
+    /// `sign of A3 is reversed; A2 is shifted by 90 deg`. With `advice`, what to write.
+    fn of(&self, e: &Explanation, advice: bool) -> String {
+        let names = self.names;
+        let name = |i: usize| names[i].0.as_str();
+        let mut parts = Vec::new();
+        match e.reversed.as_slice() {
+            [] => {}
+            [one] => parts.push(format!("sign of {} is reversed", name(*one))),
+            several => {
+                let list: Vec<&str> = several.iter().map(|&i| name(i)).collect();
+                parts.push(format!("signs of {} are reversed", list.join(", ")));
+            }
         }
-    }
-    for &(i, by) in &e.offsets {
-        let (unit, size) = unit(names[i].1);
-        // What has to be added to the shown value: the model's zero is there.
-        parts.push(format!(
-            "zero of {} is off: {} {unit} have to be added to what is shown",
-            name(i),
-            joints::plain(by / size)
-        ));
-    }
-    if let Some((i, j, share)) = e.coupling {
-        parts.push(format!(
-            "{} is coupled with {}: the model needs {} {} {}",
-            name(i),
-            name(j),
-            name(i),
-            if share < 0.0 { "-" } else { "+" },
-            name(j)
-        ));
-    }
-    match &e.frame {
+        for &(i, by) in &e.offsets {
+            let (unit, size) = unit(names[i].1);
+            // What has to be added to the shown value: the model's zero is there.
+            parts.push(format!(
+                "zero of {} is off: {} {unit} have to be added to what is shown",
+                name(i),
+                joints::plain(by / size)
+            ));
+        }
+        parts.extend(e.coupling.map(|c| self.coupling(e, c, advice)));
+        match &e.frame {
         Some(Frame::Base(pose)) => parts.push(format!(
             "the base frame is another one: the model's base is at {}",
             place(pose)
@@ -261,11 +304,82 @@ fn in_words_of(e: &Explanation, names: &[Named], advice: bool) -> String {
         )),
         None => {}
     }
-    let text = parts.join("; ");
-    if advice && !e.reversed.is_empty() && e.offsets.is_empty() {
-        return format!("{text} (change 'reversed' of it in the section [controller])");
+        let text = parts.join("; ");
+        if advice && !e.reversed.is_empty() && e.offsets.is_empty() && e.coupling.is_none() {
+            return format!("{text} (change 'reversed' of it in the section [controller])");
+        }
+        text
     }
-    text
+
+    /// `J3 is coupled with J2: the model needs J3 + J2`. With `advice`, what to write.
+    fn coupling(&self, e: &Explanation, coupling: Coupling, advice: bool) -> String {
+        let name = |i: usize| self.names[i].0.as_str();
+        let share_of = |i: usize, j: usize| {
+            let declared = self.axes[i].coupled.iter().find(|c| c.0 == j);
+            declared.map_or(0.0, |c| c.1)
+        };
+        // A share between a slide and a turn has a unit of its own; it is not written as a number.
+        let ratio = |i: usize, j: usize, share: f64| {
+            if self.axes[i].turns == self.axes[j].turns {
+                format!(" ratio = {}", joints::plain(share))
+            } else {
+                " the ratio with the other sign".to_owned()
+            }
+        };
+        match coupling {
+            Coupling::Missing { axis, other, share } => {
+                let sign = if share < 0.0 { "-" } else { "+" };
+                let (own, theirs) = (name(axis), name(other));
+                let text = format!(
+                    "{own} is coupled with {theirs}: the model needs {own} {sign} {theirs}"
+                );
+                if !advice {
+                    return text;
+                }
+                let turned = if e.reversed.contains(&axis) {
+                    1.0
+                } else {
+                    -1.0
+                };
+                format!(
+                    "{text} (write in the section [controller], at {own}: coupled = [{{ joint = \"{}\", ratio = {} }}])",
+                    self.joints[other],
+                    joints::plain(turned * share * self.axes[other].ratio)
+                )
+            }
+            Coupling::Reversed { axis, other } => {
+                let text = format!(
+                    "the coupling of {} with '{}' has the wrong sign",
+                    name(axis),
+                    self.joints[other]
+                );
+                if !advice {
+                    return text;
+                }
+                format!(
+                    "{text} (in the section [controller], in 'coupled' of {}, write for '{}'{})",
+                    name(axis),
+                    self.joints[other],
+                    ratio(axis, other, -share_of(axis, other))
+                )
+            }
+            Coupling::Absent { axis, other } => {
+                let text = format!(
+                    "{} is declared to be coupled with '{}', but the pendant shows it without",
+                    name(axis),
+                    self.joints[other]
+                );
+                if !advice {
+                    return text;
+                }
+                format!(
+                    "{text} (in the section [controller], remove '{}' from 'coupled' of {})",
+                    self.joints[other],
+                    name(axis)
+                )
+            }
+        }
+    }
 }
 
 fn place(pose: &Pose) -> String {

@@ -48,28 +48,78 @@ pub(crate) enum Frame {
     Tool(Pose),
 }
 
+/// An axis of the pendant, as the file declares it; m and rad.
+#[derive(Clone, Debug)]
+pub(crate) struct Axis {
+    pub(crate) turns: bool,
+    /// What it shows while the model's joints are at zero.
+    pub(crate) zero: f64,
+    /// What it shows per unit of its own joint.
+    pub(crate) ratio: f64,
+    /// Axes whose joints it shows too, with what it shows per unit of theirs. Only axes that show
+    /// nothing but their own joint.
+    pub(crate) coupled: Vec<(usize, f64)>,
+}
+
+/// What is taken to be wrong about the coupling of an axis with the joint of another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Coupling {
+    /// None is declared; to what is shown the other axis' joint has to be added, `share` times.
+    Missing {
+        axis: usize,
+        other: usize,
+        share: f64,
+    },
+    /// Declared, and the machine has it with the other sign.
+    Reversed { axis: usize, other: usize },
+    /// Declared, and the machine has none.
+    Absent { axis: usize, other: usize },
+}
+
 /// What the pendant is taken to show instead: `s x + o`, one axis with a share of another; and a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Explanation {
     pub(crate) reversed: Vec<usize>,
     /// Axis and offset, m or rad.
     pub(crate) offsets: Vec<(usize, f64)>,
-    /// Axis, other axis, share: +1 or -1.
-    pub(crate) coupling: Option<(usize, usize, f64)>,
+    pub(crate) coupling: Option<Coupling>,
     pub(crate) frame: Option<Frame>,
 }
 
 impl Explanation {
-    fn applied(&self, joints: &[f64]) -> Vec<f64> {
+    /// What the pendant would show if the machine were as the file declares it. The machine shows
+    /// `x = s a q + k c p + z` for its joint `q` and the coupled joint `p`, the file says
+    /// `a q + c p + z`: that is `s (x - z) + z + (1 - s k) c p`.
+    fn applied(&self, joints: &[f64], axes: &[Axis]) -> Vec<f64> {
         let mut out = joints.to_vec();
         for &i in &self.reversed {
-            out[i] = -joints[i];
+            out[i] = 2.0 * axes[i].zero - joints[i];
         }
         for &(i, by) in &self.offsets {
             out[i] += by;
         }
-        if let Some((i, j, share)) = self.coupling {
-            out[i] += share * joints[j];
+        // Only axes without a coupling of their own are read here: they are done already.
+        let joint = |out: &[f64], j: usize| (out[j] - axes[j].zero) / axes[j].ratio;
+        for (i, axis) in axes.iter().enumerate() {
+            for &(j, ratio) in &axis.coupled {
+                let sign = if self.reversed.contains(&i) {
+                    -1.0
+                } else {
+                    1.0
+                };
+                let has = match self.coupling {
+                    Some(Coupling::Reversed { axis, other }) if (axis, other) == (i, j) => -1.0,
+                    Some(Coupling::Absent { axis, other }) if (axis, other) == (i, j) => 0.0,
+                    _ => 1.0,
+                };
+                let missing = 1.0 - sign * has;
+                if missing != 0.0 {
+                    out[i] += missing * ratio * joint(&out, j);
+                }
+            }
+        }
+        if let Some(Coupling::Missing { axis, other, share }) = self.coupling {
+            out[axis] += share * (out[other] - axes[other].zero);
         }
         out
     }
@@ -119,9 +169,14 @@ pub(crate) fn gap(measured: &Jogged, computed: &Pose) -> Gap {
 }
 
 /// The differences that an explanation leaves; `None` where the machine cannot stand there.
-pub(crate) fn left(forward: &Forward<'_>, rows: &[Jogged], e: &Explanation) -> Option<Vec<Gap>> {
+pub(crate) fn left(
+    forward: &Forward<'_>,
+    rows: &[Jogged],
+    axes: &[Axis],
+    e: &Explanation,
+) -> Option<Vec<Gap>> {
     let each = rows.iter().map(|row| {
-        let computed = forward(&e.applied(&row.joints))?;
+        let computed = forward(&e.applied(&row.joints, axes))?;
         Some(gap(
             row,
             &match e.frame {
@@ -137,12 +192,12 @@ pub(crate) fn left(forward: &Forward<'_>, rows: &[Jogged], e: &Explanation) -> O
 /// Rows that screen an explanation before all are asked.
 const SCREEN: usize = 8;
 
-/// Tries explanations; `turns` says which axes turn, `quick` that the machine is a plain product, so
+/// Tries explanations; `quick` says that the machine is a plain product, so
 /// that thousands can be tried.
 pub(crate) fn explain(
     forward: &Forward<'_>,
     rows: &[Jogged],
-    turns: &[bool],
+    axes: &[Axis],
     quick: bool,
     tolerance: Tolerance,
 ) -> Explained {
@@ -153,7 +208,7 @@ pub(crate) fn explain(
     let screen = &rows[..rows.len().min(SCREEN)];
     let mut nearest: Option<(f64, Explanation)> = None;
     let mut least = usize::MAX;
-    let mut tries = changes(turns, quick);
+    let mut tries = changes(axes, quick);
     // Stable: the order of the list decides between equals.
     tries.sort_by_key(Explanation::cost);
     for change in &tries {
@@ -162,7 +217,7 @@ pub(crate) fn explain(
         }
         let computed: Option<Vec<Pose>> = screen
             .iter()
-            .map(|row| forward(&change.applied(&row.joints)))
+            .map(|row| forward(&change.applied(&row.joints, axes)))
             .collect();
         let Some(computed) = computed else { continue };
         let mut candidates = vec![change.clone()];
@@ -173,18 +228,18 @@ pub(crate) fn explain(
             }));
         }
         if quick || change.cost() == 0 {
-            candidates.extend(fitted(forward, screen, change, turns));
+            candidates.extend(fitted(forward, screen, change, axes));
         }
         for candidate in candidates {
             if candidate.cost() > least {
                 continue;
             }
-            let Some(gaps) = left(forward, screen, &candidate) else {
+            let Some(gaps) = left(forward, screen, axes, &candidate) else {
                 continue;
             };
             let worst = gaps.iter().map(|g| tolerance.share(g)).fold(0.0, f64::max);
             let whole = worst <= 1.0
-                && left(forward, rows, &candidate)
+                && left(forward, rows, axes, &candidate)
                     .is_some_and(|all| all.iter().all(|g| tolerance.share(g) <= 1.0));
             if whole {
                 if candidate.cost() < least {
@@ -204,7 +259,7 @@ pub(crate) fn explain(
     }
     if found.fitting.is_empty() {
         found.nearest = nearest.and_then(|(_, e)| {
-            let gaps = left(forward, rows, &e)?;
+            let gaps = left(forward, rows, axes, &e)?;
             Some((e, gaps))
         });
     }
@@ -212,8 +267,8 @@ pub(crate) fn explain(
 }
 
 /// Signs, offsets by quarter turns, couplings and their combinations, without numbers to be fitted.
-fn changes(turns: &[bool], quick: bool) -> Vec<Explanation> {
-    let count = turns.len();
+fn changes(axes: &[Axis], quick: bool) -> Vec<Explanation> {
+    let count = axes.len();
     let most_signs = match (quick, count) {
         (true, ..=8) => count,
         (true, _) => 2,
@@ -230,7 +285,7 @@ fn changes(turns: &[bool], quick: bool) -> Vec<Explanation> {
     }
     let quarter = std::f64::consts::FRAC_PI_2;
     let single: Vec<(usize, f64)> = (0..count)
-        .filter(|&i| turns[i])
+        .filter(|&i| axes[i].turns)
         .flat_map(|i| [1.0, -1.0, 2.0].map(|n| (i, n * quarter)))
         .collect();
     let mut extras = vec![Explanation::default()];
@@ -251,14 +306,21 @@ fn changes(turns: &[bool], quick: bool) -> Vec<Explanation> {
             );
         }
     }
-    for i in 0..count {
-        for j in (0..count).filter(|&j| j != i && turns[i] == turns[j]) {
-            extras.extend([1.0, -1.0].map(|share| Explanation {
-                coupling: Some((i, j, share)),
-                ..Explanation::default()
-            }));
+    let mut couplings = Vec::new();
+    for (axis, own) in axes.iter().enumerate() {
+        for (other, theirs) in axes.iter().enumerate() {
+            if own.coupled.iter().any(|c| c.0 == other) {
+                couplings.push(Coupling::Reversed { axis, other });
+                couplings.push(Coupling::Absent { axis, other });
+            } else if other != axis && own.turns == theirs.turns {
+                couplings.extend([1.0, -1.0].map(|share| Coupling::Missing { axis, other, share }));
+            }
         }
     }
+    extras.extend(couplings.into_iter().map(|c| Explanation {
+        coupling: Some(c),
+        ..Explanation::default()
+    }));
     let mut all = Vec::new();
     for reversed in signs {
         for extra in &extras {
@@ -365,7 +427,7 @@ fn fitted(
     forward: &Forward<'_>,
     rows: &[Jogged],
     change: &Explanation,
-    turns: &[bool],
+    axes: &[Axis],
 ) -> Vec<Explanation> {
     if !change.offsets.is_empty() || change.coupling.is_some() || change.reversed.len() > 1 {
         return Vec::new();
@@ -373,7 +435,7 @@ fn fitted(
     let miss = |e: &Explanation| -> Option<DVector<f64>> {
         let mut all = Vec::new();
         for row in rows {
-            let computed = forward(&e.applied(&row.joints))?;
+            let computed = forward(&e.applied(&row.joints, axes))?;
             let turn = row.rotation.unwrap_or(computed.rotation);
             let target = Pose::from_parts(row.position.into(), turn);
             all.extend(pose_residual(&target, &computed).0.iter());
@@ -385,7 +447,7 @@ fn fitted(
         ..change.clone()
     };
     let mut found = Vec::new();
-    for (axis, &turning) in turns.iter().enumerate() {
+    for (axis, turning) in axes.iter().map(|a| a.turns).enumerate() {
         let starts: &[f64] = if turning {
             &[0.1, 1.6, 3.1, -1.6]
         } else {

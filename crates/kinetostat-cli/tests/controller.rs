@@ -262,6 +262,59 @@ fn three_poses_tell_signs_zeros_and_couplings() {
     }
 }
 
+/// The coupling that the file declares may be wrong too: its sign, or that there is one at all.
+#[test]
+fn couplings_that_are_declared_wrongly_are_told_with_what_to_write() {
+    let axes = ["J1", "J2", "J3", "J4", "J5", "J6"];
+    // As FANUC arms count, and as CONTROLLER says.
+    let right: fn([f64; 6]) -> [f64; 6] = |q| [q[0], q[1], q[2] - q[1], -q[3], q[4], q[5]];
+    let other = CONTROLLER.replace("ratio = -1", "ratio = 1");
+    let absent: fn([f64; 6]) -> [f64; 6] = |q| [q[0], q[1], q[2], -q[3], q[4], q[5]];
+    let none = CONTROLLER.replace(", coupled = [{ joint = \"joint_2\", ratio = -1 }]", "");
+    // The coupled joint is itself shown the other way, with a zero, and its sign is wrong as well.
+    let far = CONTROLLER.replace("ratio = -1", "ratio = 1").replace(
+        "joint = \"joint_2\" }",
+        "joint = \"joint_2\", reversed = true, zero_offset_deg = 90 }",
+    );
+    let both: fn([f64; 6]) -> [f64; 6] = |q| [q[0], q[1] + 90.0, q[2] - q[1], -q[3], q[4], q[5]];
+    // Only 'reversed' of the coupled axis is wrong.
+    let turned: fn([f64; 6]) -> [f64; 6] = |q| [q[0], q[1], -q[2] - q[1], -q[3], q[4], q[5]];
+    let cases = [
+        (
+            other.clone(),
+            right,
+            "coupling of J3 with 'joint_2' has the wrong sign (in the section [controller], in 'coupled' of J3, write for 'joint_2' ratio = -1)",
+        ),
+        (
+            CONTROLLER.to_owned(),
+            absent,
+            "J3 is declared to be coupled with 'joint_2', but the pendant shows it without (in the section [controller], remove 'joint_2' from 'coupled' of J3)",
+        ),
+        (
+            none,
+            right,
+            "the model needs J3 + J2 (write in the section [controller], at J3: coupled = [{ joint = \"joint_2\", ratio = -1 }])",
+        ),
+        (
+            far,
+            both,
+            "sign of J2 is reversed; the coupling of J3 with 'joint_2' has the wrong sign",
+        ),
+        (
+            CONTROLLER.to_owned(),
+            turned,
+            "sign of J3 is reversed (change",
+        ),
+    ];
+    for (controller, shown, expected) in cases {
+        let (said, json) = compared(&model(plain, &controller), &table(axes, shown, same));
+        assert_eq!(json["agrees"], false);
+        let found = explanations(&json);
+        assert_eq!(found.len(), 1, "{}", said.err);
+        assert!(found[0].contains(expected), "{expected}: {}", said.err);
+    }
+}
+
 #[test]
 fn frames_that_are_elsewhere_are_told_with_their_place() {
     let base = Isometry3::new(vector![100.0, -50.0, 300.0], vector![0.0, 0.2, 0.4]);
