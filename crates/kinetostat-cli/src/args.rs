@@ -253,8 +253,8 @@ pub(crate) struct UrdfArgs {
     /// Overwrite an existing file
     #[arg(long, help_heading = "Outputs")]
     pub(crate) force_overwrite: bool,
-    /// Print what was imported as JSON; the text goes to the standard error
-    #[arg(long, requires = "out", help_heading = "Outputs")]
+    /// Print what was imported as JSON instead of the model; the text goes to the standard error
+    #[arg(long, help_heading = "Outputs")]
     pub(crate) json: bool,
 }
 

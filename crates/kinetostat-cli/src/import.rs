@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use kinetostat::MotionKind;
 use kinetostat_import::{
     Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf, read_section, read_text,
 };
@@ -81,7 +82,11 @@ fn urdf(args: &UrdfArgs) -> Answer<()> {
         outputs.fill(index, imported.toml.as_bytes())?;
         outputs.commit()?;
     }
-    let told = in_words(&imported, args.out.as_deref());
+    let told = in_words(
+        &imported,
+        &args.file.display().to_string(),
+        args.out.as_deref(),
+    );
     if args.json {
         screen::print(Stream::Err, &told)?;
         return screen::print_bytes(along::json(&summary(&imported, args))?.as_bytes());
@@ -140,8 +145,8 @@ fn options(args: &UrdfArgs, inputs: &mut Vec<std::path::PathBuf>) -> Answer<Urdf
     })
 }
 
-/// `joint_5=30deg`, `rail=1200mm`: rad or m.
-fn home_of(written: &str) -> Answer<(String, f64)> {
+/// `joint_5=30deg`, `rail=1200mm`: an angle in rad or a distance in m.
+fn home_of(written: &str) -> Answer<(String, (MotionKind, f64))> {
     let wrong = || {
         Failure::input(format!(
             "--home: '{written}' is not JOINT=VALUE with a unit; write joint_5=30deg, joint_5=0.5rad, rail=1200mm or rail=1.2m"
@@ -149,20 +154,20 @@ fn home_of(written: &str) -> Answer<(String, f64)> {
     };
     let (joint, value) = written.rsplit_once('=').ok_or_else(wrong)?;
     let units = [
-        ("deg", std::f64::consts::PI / 180.0),
-        ("rad", 1.0),
-        ("mm", 1e-3),
-        ("m", 1.0),
+        ("deg", MotionKind::Revolute, std::f64::consts::PI / 180.0),
+        ("rad", MotionKind::Revolute, 1.0),
+        ("mm", MotionKind::Prismatic, 1e-3),
+        ("m", MotionKind::Prismatic, 1.0),
     ];
-    let (number, factor) = units
+    let (number, kind, factor) = units
         .iter()
-        .find_map(|(unit, factor)| Some((value.trim().strip_suffix(unit)?, factor)))
+        .find_map(|(unit, kind, factor)| Some((value.trim().strip_suffix(unit)?, *kind, factor)))
         .ok_or_else(wrong)?;
     let number: f64 = number.trim().parse().map_err(|_| wrong())?;
     if joint.trim().is_empty() || !number.is_finite() {
         return Err(wrong());
     }
-    Ok((joint.trim().to_owned(), number * factor))
+    Ok((joint.trim().to_owned(), (kind, number * factor)))
 }
 
 fn mass(imported: &Imported) -> f64 {
@@ -211,7 +216,7 @@ fn summary<'a>(imported: &'a Imported, args: &UrdfArgs) -> Summary<'a> {
     }
 }
 
-fn in_words(imported: &Imported, out: Option<&Path>) -> String {
+fn in_words(imported: &Imported, source: &str, out: Option<&Path>) -> String {
     let mut text = wrapped(
         &format!(
             "{}: from '{}' to '{}'",
@@ -253,7 +258,14 @@ fn in_words(imported: &Imported, out: Option<&Path>) -> String {
     if !notices.is_empty() {
         text.push_str("\nNotices\n");
         for n in notices {
-            let place = n.line.map_or(String::new(), |l| format!("line {l}: "));
+            // Lines of the written model beside those of the URDF: the file is named.
+            let file = match imported.notices.iter().any(|own| std::ptr::eq(own, n)) {
+                true if n.file == source => String::new(),
+                true => format!("{}: ", n.file),
+                false => "in the model: ".to_owned(),
+            };
+            let line = n.line.map_or(String::new(), |l| format!("line {l}: "));
+            let place = file + &line;
             let help = match n.help.as_str() {
                 "" => String::new(),
                 help => format!("; {help}"),

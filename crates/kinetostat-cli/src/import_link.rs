@@ -9,6 +9,7 @@ use kinetostat_links::{
     in_n_mm, judge, read_displacements, read_loads, read_matrix, read_nodes, read_superelement,
     stiffness_table, symmetrised, unit_loads,
 };
+use kinetostat_model::doubts_of_link_matrix;
 use nalgebra::{Matrix6, Rotation3, Vector3};
 use serde::Serialize;
 
@@ -163,6 +164,12 @@ fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matri
     }
     symmetry(share, args.symmetrise, told);
     let free = free_test(&element, &nodes, units);
+    if question.fixed.is_empty() && free.is_free() && free.resistance.iter().any(Option::is_some) {
+        return Err(Failure::input(format!(
+            "{}: the body is free: rigid motions meet no resistance, so its end has no stiffness; say which nodes are held at the other end: --fixed NODES",
+            text.name()
+        )));
+    }
     let found = condense(&element, &nodes, &question)?;
     tell_reduction(&element, &found, &free, &question, told);
     let end = found.end * 1e3;
@@ -376,9 +383,13 @@ fn finish(
 ) -> Answer<()> {
     let judged = judge(stiffness, SYMMETRIC_TO);
     refuse_what_is_none(file, &judged)?;
+    let doubts = doubts_of_link_matrix(stiffness, None);
     for finding in &judged.findings {
         told.notices
             .push(format!("{}; {}", finding.message, finding.help));
+    }
+    for (message, help) in doubts {
+        told.notices.push(format!("{message}; {help}"));
     }
     let name = match &table.name {
         Some(name) => name.clone(),

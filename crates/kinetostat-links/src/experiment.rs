@@ -55,6 +55,9 @@ pub struct Identified {
     pub notices: Vec<String>,
 }
 
+/// Share of displacements that are no rigid motion above which noise is the first suspect.
+const NOISY: f64 = 0.3;
+
 /// Identifies the compliance at `end` (m, file's axes).
 ///
 /// # Errors
@@ -121,6 +124,16 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
     });
     let symmetric = 0.5 * (compliance + compliance.transpose());
     let stiffness = invert(&symmetric).ok_or_else(|| {
+        let worst = fits.iter().map(|f| f.not_rigid).fold(0.0, f64::max);
+        if worst > NOISY {
+            return fault(
+                format!(
+                    "the compliance that comes out is singular or has no positive diagonal: noise hides it, up to {:.0} % of the displacements of a case are no rigid motion",
+                    100.0 * worst
+                ),
+                "take larger loads, more nodes or finer measurements, write more digits, and check the unit of the displacements",
+            );
+        }
         fault(
             "the compliance that comes out is singular or has no positive diagonal".into(),
             "check that every case has its own displacements, that loads and displacements have the same axes, and the sign of the loads",

@@ -76,6 +76,7 @@ mod file;
 mod hints;
 mod joint;
 mod limb;
+mod link_matrix;
 mod load;
 mod load_path;
 mod model;
@@ -98,6 +99,7 @@ mod template;
 
 pub use controller::{Controller, ControllerAxis};
 pub use file::read_model;
+pub use link_matrix::doubts_of_link_matrix;
 pub use model::{Model, json_schema};
 pub use presets::{Preset, PresetKind, preset_names, preset_text};
 pub use problem::{ModelError, Problem, Severity};

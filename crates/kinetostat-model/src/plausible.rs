@@ -2,6 +2,7 @@
 
 use kinetostat::{Chain, Mechanism, Pose};
 
+use crate::link_matrix;
 use crate::load_path::frames;
 use crate::problem::{Finding, Place};
 use crate::schema::Document;
@@ -24,6 +25,7 @@ fn tip(chain: &Chain) -> (Pose, f64) {
 pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
     smells::of_numbers(document, warnings);
     smells::of_machine(document, mechanism, warnings);
+    link_matrix::check(document, warnings);
     let root = Place::root();
     let mut warn = |place: &Place, message: String, help: &str| {
         warnings.push(Finding::new(place, message, help));

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use kinetostat::MotionKind;
 use kinetostat_model::schema::Section;
 use kinetostat_model::{Model, ModelError, Problem};
 use nalgebra::Vector3;
@@ -36,9 +37,10 @@ pub struct UrdfOptions {
     pub loops: Option<LoopFile>,
     /// Joints that nothing drives, besides those of the loop file.
     pub passive: Vec<String>,
-    /// Joints that do not stand at zero at home, rad or m, besides those of the loop file. A joint
+    /// Joints that do not stand at zero at home, besides those of the loop file: whether the value
+    /// is an angle (rad) or a distance (m), and the value. The kind must be the joint's. A joint
     /// whose limits leave zero out stands in the middle of them.
-    pub home: BTreeMap<String, f64>,
+    pub home: BTreeMap<String, (MotionKind, f64)>,
     /// Stiffness of the drives.
     pub stiffness: JointStiffness,
     /// Section of all links: straight beams from joint to joint. Rigid if not given.

@@ -264,42 +264,65 @@ pub(crate) fn homes(
     let told = loops
         .home
         .iter()
-        .map(|(at, n, v, turning)| (at.clone(), n.clone(), *v, Some(*turning)))
+        .map(|(at, n, v, turning)| (Some(at), n, *v, *turning))
         .chain(
             options
                 .home
                 .iter()
-                .map(|(n, v)| (robot.at.clone(), n.clone(), *v, None)),
+                .map(|(n, (kind, v))| (None, n, *v, *kind == MotionKind::Revolute)),
         );
-    for (at, name, value, turning) in told {
-        let Some(joint) = robot.joints.iter().position(|j| j.name == name) else {
+    for (written, name, value, turning) in told {
+        let from_file = written.is_some();
+        let at = written.unwrap_or(&robot.at);
+        let Some(joint) = robot.joints.iter().position(|j| j.name == *name) else {
             log.error(
-                &at,
+                at,
                 format!("home: there is no joint '{name}'"),
-                suggestion(&name, robot.joints.iter().map(|j| j.name.as_str())),
+                suggestion(name, robot.joints.iter().map(|j| j.name.as_str())),
             );
             continue;
         };
         let j = &robot.joints[joint];
+        // An option has no place of its own: the joint's line tells more.
+        let at = if from_file { at } else { &j.at };
         if j.mimic.is_some() || !matches!(j.kind, JointType::Moving(_)) {
             log.error(
-                &at,
+                at,
                 format!("home: the joint '{name}' does not move by itself"),
                 "name the joint that it follows",
             );
-        } else if turning.is_some_and(|t| t != (variables[joint].kind == MotionKind::Revolute)) {
+        } else if turning != (variables[joint].kind == MotionKind::Revolute) {
             log.error(
-                &at,
-                format!("home: the joint '{name}' is {}", j.word),
-                "turning joints go under home_rad, sliding ones under home_m",
+                at,
+                format!(
+                    "home: the joint '{name}' is {}, the value is {}",
+                    j.word,
+                    if turning { "an angle" } else { "a distance" }
+                ),
+                match (from_file, turning) {
+                    (true, _) => "turning joints go under home_rad, sliding ones under home_m",
+                    (false, true) => "a joint that slides needs mm or m",
+                    (false, false) => "a joint that turns needs deg or rad",
+                },
             );
         } else if !value.is_finite()
             || j.limits
                 .is_some_and(|(low, high)| !(low <= value && value <= high))
         {
+            let (low, high) = j.limits.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+            let (factor, unit) = match turning {
+                true => (180.0 / std::f64::consts::PI, "deg"),
+                false => (1e3, "mm"),
+            };
+            let shown = |x: f64| tidy(x * factor);
             log.error(
-                &at,
-                format!("home: {value} is outside the limits of the joint '{name}'"),
+                at,
+                format!(
+                    "home: {} {unit} is outside the limits of the joint '{name}', {} to {} {unit}",
+                    shown(value),
+                    shown(low),
+                    shown(high)
+                ),
                 "choose a value within them",
             );
         } else {
@@ -307,6 +330,15 @@ pub(crate) fn homes(
         }
     }
     home
+}
+
+/// A number for people: at most four digits after the point.
+fn tidy(x: f64) -> String {
+    if x.abs() >= 1e9 {
+        return format!("{x:.3e}");
+    }
+    let text = format!("{x:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Closes the loops at home by the passive joints.
@@ -412,7 +444,19 @@ pub(crate) fn known_stiffnesses(
                 format!("the joint '{name}' is passive: nothing drives it"),
                 "take it off the table, or off the list of passive joints",
             );
-        } else if !variables[joint].moves && robot.joints[joint].mimic.is_none() {
+        } else if let Some(mimic) = &robot.joints[joint].mimic {
+            log.error(
+                at,
+                format!(
+                    "the joint '{name}' follows the joint '{}' (<mimic>): it has no drive of its own",
+                    mimic.joint
+                ),
+                format!(
+                    "take it off the table, and give the stiffness of '{}'",
+                    mimic.joint
+                ),
+            );
+        } else if !variables[joint].moves {
             log.notice(
                 at,
                 format!(

@@ -109,7 +109,7 @@ impl Reader<'_> {
         match text.parse::<f64>() {
             Ok(x) if x.is_finite() && x.abs() <= 1e15 => Some(x),
             Ok(x) => {
-                self.log.error(at, format!("the value is {x}"), help);
+                self.log.error(at, format!("the value is {x:?}"), help);
                 None
             }
             Err(_) => {

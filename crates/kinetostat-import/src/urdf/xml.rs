@@ -149,7 +149,7 @@ pub(crate) fn parse<'a>(
                 format!("</{found}> stands where </{wanted}> is needed"),
                 "close every element in the reverse order of opening",
             ),
-            E::UnclosedRootNode => (
+            E::UnclosedRootNode | E::UnexpectedEndOfStream => (
                 "the file ends before <robot> is closed".to_owned(),
                 "is the file complete?",
             ),
@@ -172,7 +172,7 @@ pub(crate) fn parse<'a>(
         };
         // The message of a truncated file belongs to its end, where no position is known.
         let place = match e {
-            E::UnclosedRootNode => text.len().saturating_sub(1),
+            E::UnclosedRootNode | E::UnexpectedEndOfStream => last(text),
             E::DtdDetected => text.find("<!DOCTYPE").unwrap_or(0),
             _ => offset(text, e.pos()),
         };
@@ -182,6 +182,12 @@ pub(crate) fn parse<'a>(
             Ok(()) => refusal(name, "this is not well-formed XML", "export it again"),
         }
     })
+}
+
+/// Byte of the last character that is no white space.
+fn last(text: &str) -> usize {
+    let end = text.trim_end();
+    end.char_indices().next_back().map_or(0, |(i, _)| i)
 }
 
 /// Byte of a row and a column (characters, from 1).

@@ -2,7 +2,7 @@
 //! IRB 8700: the lower arm is pushed by a linear actuator, the upper arm is led by a bar from a crank
 //! beside the shoulder, and the crank carries a counterweight. Lengths and masses are made up.
 
-use kinetostat::{LimbPosture, MechanismEquilibrium, Wrench};
+use kinetostat::{LimbPosture, MechanismEquilibrium, MotionKind, Wrench};
 use kinetostat_import::{Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf};
 use kinetostat_model::schema::{Section, Tube};
 
@@ -205,7 +205,7 @@ fn the_constraint_element_says_the_same_as_the_loop_file() {
     let given = UrdfOptions {
         loops: None,
         passive: passive.map(str::to_owned).to_vec(),
-        home: [("screw".to_owned(), 0.3)].into(),
+        home: [("screw".to_owned(), (MotionKind::Prismatic, 0.3))].into(),
         ..options()
     };
     let by_element = import(&urdf, &given);
@@ -364,7 +364,9 @@ fn five_bar_options() -> UrdfOptions {
         tip: Some("tool".into()),
         loops: None,
         passive: vec!["left_elbow".into(), "right_elbow".into()],
-        home: [("one".to_owned(), -1.9), ("two".to_owned(), -1.2)].into(),
+        home: [("one", -1.9), ("two", -1.2)]
+            .map(|(name, angle)| (name.to_owned(), (MotionKind::Revolute, angle)))
+            .into(),
         stiffness: JointStiffness::All(1e6),
         ..options()
     }

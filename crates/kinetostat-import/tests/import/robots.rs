@@ -151,7 +151,11 @@ fn placeholders_of_real_files_are_noticed() {
 fn a_robot_with_stiffnesses_bends() {
     let options = UrdfOptions {
         stiffness: JointStiffness::All(2e6),
-        home: [("joint_5".to_owned(), 0.6)].into(),
+        home: [(
+            "joint_5".to_owned(),
+            (kinetostat::MotionKind::Revolute, 0.6),
+        )]
+        .into(),
         ..UrdfOptions::default()
     };
     let Some((_, imported)) = robot("fanuc_m900ib700", options) else {

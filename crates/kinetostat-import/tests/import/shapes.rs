@@ -1,6 +1,7 @@
 //! Choices of the import: stiffnesses, sections, bases inside the tree, joints beside the way.
 
-use kinetostat_import::{JointStiffness, UrdfOptions};
+use kinetostat::MotionKind;
+use kinetostat_import::{JointStiffness, UrdfOptions, import_urdf};
 use kinetostat_model::schema::{Element, Section, Tube};
 
 use crate::agreement::{TREE, with_oracle};
@@ -140,7 +141,7 @@ fn names_of_a_file_cannot_write_toml() {
 fn passive_joints_and_homes_can_be_named() {
     let options = UrdfOptions {
         passive: vec!["three".into()],
-        home: [("one".to_owned(), 0.5)].into(),
+        home: [("one".to_owned(), (MotionKind::Revolute, 0.5))].into(),
         ..between("a", "e")
     };
     let imported = import(CHAIN, &options);
@@ -150,4 +151,66 @@ fn passive_joints_and_homes_can_be_named() {
         imported.model.mechanism.limbs()[0].nominal.home_commands()[0],
         0.5
     );
+}
+
+#[test]
+fn a_home_of_the_wrong_kind_is_refused() {
+    for (joint, kind, value, needle) in [
+        ("two", MotionKind::Revolute, 0.3, "needs mm or m"),
+        ("one", MotionKind::Prismatic, 0.2, "needs deg or rad"),
+        ("one", MotionKind::Revolute, 2.5, "143.2394 deg is outside"),
+        (
+            "two",
+            MotionKind::Prismatic,
+            1.2,
+            "1200 mm is outside the limits of the joint 'two', 0 to 1000 mm",
+        ),
+    ] {
+        let options = UrdfOptions {
+            home: [(joint.to_owned(), (kind, value))].into(),
+            ..between("a", "e")
+        };
+        let said = import_urdf(CHAIN, "chain.urdf", &options)
+            .expect_err("refused")
+            .to_string();
+        assert!(said.contains(needle), "{needle}: {said}");
+        assert!(!said.contains("urdf:1:1"), "{said}");
+    }
+}
+
+#[test]
+fn a_stiffness_of_a_follower_is_refused() {
+    let urdf = CHAIN.replace(
+        "<axis xyz=\"0 1 0\"/></joint>",
+        "<axis xyz=\"0 1 0\"/><mimic joint=\"one\"/></joint>",
+    );
+    let options = UrdfOptions {
+        stiffness: JointStiffness::Table {
+            file: "k.csv".into(),
+            text: "name,value,unit\nthree,1e6,N m/rad\n".into(),
+        },
+        ..between("a", "e")
+    };
+    let said = import_urdf(&urdf, "chain.urdf", &options)
+        .expect_err("refused")
+        .to_string();
+    assert!(
+        said.contains("follows the joint 'one'") && said.contains("k.csv:2"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_truncated_file_is_reported_where_it_ends() {
+    let short = &CHAIN[..CHAIN.find("xyz=\"0.6").expect("there")];
+    let line = short.lines().count();
+    let said = import_urdf(short, "short.urdf", &between("a", "e"))
+        .expect_err("refused")
+        .to_string();
+    assert!(said.contains(&format!("short.urdf:{line}:")), "{said}");
+    let far = CHAIN.replace("0.6 0 0", "1e300 0 0");
+    let said = import_urdf(&far, "far.urdf", &between("a", "e"))
+        .expect_err("refused")
+        .to_string();
+    assert!(said.contains("the value is 1e300"), "{said}");
 }
