@@ -19,6 +19,9 @@ const SMALL: f64 = 0.01;
 /// From here on the load is not even tried.
 const TOO_MUCH: f64 = 0.2;
 
+/// From this share of the way to buckling on the stiffness changes noticeably.
+pub(crate) const NOTICEABLE: f64 = 0.1;
+
 /// What was found about the assumptions, at home.
 #[derive(Serialize)]
 pub(crate) struct AssumptionsFinding {
@@ -43,6 +46,8 @@ pub(crate) struct AssumptionsFinding {
     pub(crate) largest_buckling_margin: Option<f64>,
     /// Largest compression of a link as a share of its Euler load.
     pub(crate) largest_share_of_euler_load: Option<f64>,
+    /// How near the loads bring the machine with its tool free to instability, 1 is there.
+    pub(crate) largest_share_to_instability_of_free_machine: Option<f64>,
     /// The nearest singular posture, where one is near.
     pub(crate) near_singularity: Option<NearSingular>,
     /// All of it in sentences.
@@ -72,6 +77,7 @@ pub(crate) fn assumptions(
         small_up_to_n: None,
         largest_buckling_margin: None,
         largest_share_of_euler_load: None,
+        largest_share_to_instability_of_free_machine: None,
         near_singularity: near_singular(posture),
         in_words: Vec::new(),
         warnings: Vec::new(),
@@ -79,7 +85,7 @@ pub(crate) fn assumptions(
     found.scale(rest);
     found.without_load();
     let loaded = found.under(posture, rest, force);
-    found.buckling(rest, loaded.as_ref());
+    found.buckling(posture, rest, loaded.as_ref());
     found.singular(length);
     found
 }
@@ -251,7 +257,12 @@ impl AssumptionsFinding {
         ));
     }
 
-    fn buckling(&mut self, rest: &MechanismEquilibrium, loaded: Option<&MechanismEquilibrium>) {
+    fn buckling(
+        &mut self,
+        posture: &Posture<'_>,
+        rest: &MechanismEquilibrium,
+        loaded: Option<&MechanismEquilibrium>,
+    ) {
         let states = || std::iter::once(rest).chain(loaded);
         let limbs = || states().flat_map(|e| &e.limbs);
         let margin = limbs()
@@ -288,12 +299,28 @@ impl AssumptionsFinding {
                 number(100.0 * share, 2)
             ));
         }
+        let free = states().filter_map(|e| crate::free_machine::share(posture, e));
+        let free = free.max_by(f64::total_cmp);
+        self.largest_share_to_instability_of_free_machine = free;
+        if let Some(share) = free.filter(|s| *s > NOTICEABLE) {
+            let joint = if text.is_empty() { "" } else { "; " };
+            let nearest = if share > most {
+                ", which is nearest to instability,"
+            } else {
+                ""
+            };
+            text.push_str(&format!(
+                "{joint}the machine with its tool free{nearest} goes {} % of the way",
+                number(100.0 * share, 3)
+            ));
+            most = most.max(share);
+        }
         if text.is_empty() {
             text = "no limb has anything that could buckle".to_owned();
         }
         let judged = if most > 0.5 {
             ": NEAR BUCKLING"
-        } else if most > 0.1 {
+        } else if most > NOTICEABLE {
             ": stiffness changes noticeably with the load"
         } else {
             ": far from buckling"

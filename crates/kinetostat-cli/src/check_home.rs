@@ -201,7 +201,15 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
     )));
     out.push_str(&fights(&h.over_constraints));
     out.push_str(&redundant(h));
+    let all_rigid = h
+        .principal_directions
+        .iter()
+        .all(|p| p.kind == DirectionKind::Rigid);
     out.push_str(&item(&match h.stiffness_rank {
+        6 if all_rigid => {
+            "rank 6: the tool is held in all directions, rigidly: the model has no springs there"
+                .to_owned()
+        }
         6 => "rank 6: springs hold the tool in all directions".to_owned(),
         rank => format!(
             "rank {rank}: no spring holds the tool in {} of 6 directions (see the table below)",

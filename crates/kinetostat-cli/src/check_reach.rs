@@ -12,7 +12,8 @@ use crate::screen::{item, number, triple};
 /// Reach of a machine.
 #[derive(Serialize)]
 pub(crate) struct ReachFinding {
-    /// Of an arm: farthest the tool's reference point gets from the base's origin, mm.
+    /// Farthest the tool's reference point gets from the base's origin, mm: of an arm, and of a machine
+    /// that moves only while its tool turns.
     pub(crate) from_base_mm: Option<f64>,
     /// Of an arm whose first actuator turns: farthest it gets from that axis, mm.
     pub(crate) from_first_axis_mm: Option<f64>,
@@ -22,6 +23,9 @@ pub(crate) struct ReachFinding {
     pub(crate) ends: Option<[[String; 2]; 3]>,
     /// A box around home of which corners, edges and faces were reached, mm.
     pub(crate) box_mm: Option<[[f64; 3]; 2]>,
+    /// Of a machine that moves only while its tool turns: smallest and largest coordinates of the
+    /// tool's reference point, mm.
+    pub(crate) positions_span_mm: Option<[[f64; 3]; 2]>,
     /// How all this was found.
     pub(crate) how: String,
 }
@@ -34,6 +38,7 @@ impl ReachFinding {
             along_axes_mm: None,
             ends: None,
             box_mm: None,
+            positions_span_mm: None,
             how: how.into(),
         }
     }
@@ -133,9 +138,15 @@ fn of_arm(m: &Mechanism, limb: &Limb) -> ReachFinding {
             .translation
             .vector
     };
-    let from_base = farthest(limb, &joints, &|u, q| point(u, q).norm());
+    let (from_base, starts) = farthest(limb, &joints, &|u, q| point(u, q).norm());
     let first = chain.elements().iter().find_map(|e| match e {
-        Element::Motion(motion) if motion.command.is_some() || motion.coordinate.is_some() => {
+        // Springs of a link before the first axis are no axis.
+        Element::Motion(motion)
+            if motion.command.is_some()
+                || motion
+                    .coordinate
+                    .is_some_and(|d| chain.coordinates()[d.index].role == Role::Passive) =>
+        {
             Some(motion)
         }
         _ => None,
@@ -157,18 +168,20 @@ fn of_arm(m: &Mechanism, limb: &Limb) -> ReachFinding {
             let arm = point(u, q) - origin;
             (arm - axis.into_inner() * arm.dot(&axis)).norm()
         })
+        .0
     });
     let passive = joints.iter().any(|j| !j.command);
     ReachFinding {
         from_base_mm: Some(1e3 * from_base),
         from_first_axis_mm: from_axis.map(|r| 1e3 * r),
         how: format!(
-            "the largest distance found by a search over the ranges of {}, from {STARTS} starts; collisions are not looked at",
+            "the largest distance found by a search over the ranges of {}, from {starts} start{}; collisions are not looked at",
             if passive {
                 "all joints, the passive ones too"
             } else {
                 "its actuators"
-            }
+            },
+            if starts == 1 { "" } else { "s" }
         ),
         ..ReachFinding::none("")
     }
@@ -177,11 +190,21 @@ fn of_arm(m: &Mechanism, limb: &Limb) -> ReachFinding {
 /// Starts of the search.
 const STARTS: usize = 16;
 
-/// Largest value over the joints' ranges: one joint after the other, from evenly spread starts.
-fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64) -> f64 {
+/// Most elements that one search walks over: an arm of six joints needs far less, a chain of ninety
+/// is not searched from all starts.
+const MOST_STEPS: usize = 25_000_000;
+
+/// Largest value over the joints' ranges: one joint after the other, from evenly spread starts; and
+/// the number of starts.
+fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64) -> (f64, usize) {
     let chain = &limb.nominal;
     let mut best = 0.0_f64;
+    let sweep = joints.len() * VALUES * chain.elements().len();
+    let mut steps = 0;
     for start in 0..STARTS {
+        if start > 0 && steps > MOST_STEPS {
+            return (best, start);
+        }
         let mut commands = chain.home_commands();
         let mut coordinates = chain.home_coordinates();
         let at = |joint: &Joint, x: f64, commands: &mut [f64], coordinates: &mut [f64]| {
@@ -207,6 +230,7 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
         let mut reached = value(&commands, &coordinates);
         for _ in 0..30 {
             let before = reached;
+            steps += sweep;
             for joint in joints {
                 let here = if joint.command {
                     commands[joint.index]
@@ -217,14 +241,17 @@ fn farthest(limb: &Limb, joints: &[Joint], value: &dyn Fn(&[f64], &[f64]) -> f64
                 let found = along(joint.range, here, &mut f);
                 reached = f(found);
             }
-            if reached <= before * (1.0 + 1e-10) {
+            if reached <= before * (1.0 + 1e-10) || steps > MOST_STEPS {
                 break;
             }
         }
         best = best.max(reached);
     }
-    best
+    (best, STARTS)
 }
+
+/// Values that one joint's turn takes, about.
+const VALUES: usize = 98;
 
 /// Where a smooth function is largest in a range: samples, then thirds around the best of them.
 fn along((low, high): (f64, f64), here: f64, f: &mut dyn FnMut(f64) -> f64) -> f64 {
@@ -282,7 +309,13 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
         );
     }
     let filled = filled(home, &along);
+    let turning = ends.iter().flatten().any(|end| end == ONLY_TURNING);
+    let free = turning.then(|| crate::check_reach_commands::search(m).ok());
+    let free = free.flatten();
+    let mm = |v: Vector3<f64>| <[f64; 3]>::from(v * 1e3);
     ReachFinding {
+        from_base_mm: free.as_ref().map(|f| 1e3 * f.from_base),
+        positions_span_mm: free.as_ref().map(|f| f.span.map(mm)),
         along_axes_mm: Some(along),
         ends: Some(ends),
         box_mm: filled,
@@ -411,7 +444,7 @@ fn filled(home: &Posture<'_>, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
 pub(crate) fn in_words(reach: &ReachFinding) -> String {
     let mut out = String::new();
     let rounded = |x: f64| short((10.0 * x).round() / 10.0);
-    if let Some(far) = reach.from_base_mm {
+    if let (Some(far), None) = (reach.from_base_mm, reach.along_axes_mm) {
         let axis = reach.from_first_axis_mm.map_or_else(String::new, |r| {
             format!(", and up to {} mm from its first axis", rounded(r))
         });
@@ -468,5 +501,13 @@ pub(crate) fn in_words(reach: &ReachFinding) -> String {
         what => format!("; what ends it: {what}"),
     };
     out.push_str(&item(&format!("found {}{end}", reach.how)));
+    if let (Some(far), Some([low, high])) = (reach.from_base_mm, reach.positions_span_mm) {
+        out.push_str(&item(&format!(
+            "reach while the tool turns as the machine turns it: up to {} mm from the base's origin; its positions lie between {} and {} mm (the farthest found by a search over the ranges of the actuators)",
+            rounded(far),
+            triple(low, rounded),
+            triple(high, rounded)
+        )));
+    }
     out
 }

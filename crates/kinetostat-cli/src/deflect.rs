@@ -113,6 +113,8 @@ struct Deflection {
     negative_directions: Vec<String>,
     /// The tool stays where it is.
     platform_stable: bool,
+    /// How near the load brings the machine with its tool free to instability, 1 is there.
+    share_to_instability_of_free_machine: Option<f64>,
     /// Every limb keeps its shape while the tool is held.
     shapes_stable: bool,
     /// Both.
@@ -262,6 +264,13 @@ fn answer(
             loaded.platform.free
         ));
     }
+    let free_share = crate::free_machine::share(posture, loaded);
+    if let Some(share) = free_share.filter(|s| *s > 0.5 && loaded.platform.stable) {
+        warnings.push(format!(
+            "the machine with its tool free is {} % of the way to instability under this load: NEAR BUCKLING",
+            number(100.0 * share, 3)
+        ));
+    }
     let length = spot
         .mechanism
         .limbs()
@@ -323,6 +332,7 @@ fn answer(
             .map(motion_in_words)
             .collect(),
         platform_stable: loaded.platform.stable,
+        share_to_instability_of_free_machine: free_share,
         shapes_stable: loaded.shapes_stable(),
         stable: loaded.stable(),
         overcome_joints: overcome(posture, loaded, &spot.load_names),
@@ -450,6 +460,14 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         )
     };
     out.push_str(&screen::item(&platform));
+    let noticeable = crate::check_assumptions::NOTICEABLE;
+    let share = a.share_to_instability_of_free_machine;
+    if let Some(share) = share.filter(|s| *s > noticeable && a.platform_stable) {
+        out.push_str(&screen::item(&format!(
+            "the machine with its tool free is {} % of the way to instability",
+            number(100.0 * share, 3)
+        )));
+    }
     for joint in &a.overcome_joints {
         out.push_str(&screen::item(&joint.in_words()));
     }

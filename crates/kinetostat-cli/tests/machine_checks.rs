@@ -505,6 +505,30 @@ fn figure_wrong_units_smell_and_the_line_is_named() {
             "youngs_modulus_pa",
         ),
         (
+            MODEL,
+            &[("youngs_modulus_gpa = 70", "youngs_modulus_mpa = 210")],
+            "a Young's modulus of 2.100e8 Pa is no usual solid",
+            "youngs_modulus_mpa",
+        ),
+        (
+            COLUMN,
+            &[(
+                "round = { diameter_mm = 10 }",
+                "values = { area_mm2 = 1000, second_moment_y_m4 = 1e2, second_moment_z_mm4 = 1e6, torsion_constant_mm4 = 2e6 }",
+            )],
+            "a second moment of 1.000e2 m^4",
+            "second_moment_y_m4",
+        ),
+        (
+            HEAVY_6R,
+            &[(
+                "stiffness_n_m_per_rad = 6.6e6",
+                "stiffness_n_m_per_rad = 1.15e5",
+            )],
+            "the drive 'joint 2' is 34 times softer than 'joint 3' behind it",
+            "joint 2",
+        ),
+        (
             ARM,
             &[("length_mm = 500", "length_m = 500")],
             "a length of 500 m",
@@ -690,6 +714,122 @@ fn figure_wrong_units_smell_and_the_line_is_named() {
         named,
         15,
     );
+}
+
+const HEAVY_6R: &str = include_str!("../../kinetostat-model/models/heavy_6r.toml");
+
+#[test]
+fn no_springs_are_named_where_there_are_none() {
+    let text = edited(
+        COLUMN,
+        &[(
+            r#"{ link = "rod", name = "rod", length_mm = 1000, segments = 4 }"#,
+            "{ rigid = { translation_mm = [1000, 0, 0] } }",
+        )],
+    );
+    let (_, words) = checked(&text, &[]);
+    assert!(!flat(&words).contains("springs hold the tool"), "{words}");
+}
+
+/// A rod along x that stands on a drive turning about y.
+fn standing_rod(diameter_mm: f64, drive: &str) -> String {
+    format!(
+        r#"schema = 1
+[mechanism]
+name = "standing rod"
+[section.rod]
+round = {{ diameter_mm = {diameter_mm} }}
+youngs_modulus_gpa = 210
+poissons_ratio = 0.3
+[[platform]]
+name = "tool"
+home = {{ position_mm = [1000, 0, 0] }}
+[chain.arm]
+elements = [
+  {{ actuator = "revolute", name = "foot", axis = "y", {drive} }},
+  {{ link = "rod", name = "rod", length_mm = 1000, segments = 8 }},
+]
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#
+    )
+}
+
+/// `x tan x = k L / (E I)` between 0 and a right angle.
+fn root_of_hinge(ratio: f64) -> f64 {
+    let (mut low, mut high) = (0.0, std::f64::consts::FRAC_PI_2);
+    for _ in 0..100 {
+        let x = 0.5 * (low + high);
+        if x * x.tan() < ratio {
+            low = x;
+        } else {
+            high = x;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[test]
+fn a_free_machine_near_buckling_is_told_against_closed_forms() {
+    let rigidity = |d: f64| 210e9 * std::f64::consts::PI * d.powi(4) / 64.0;
+    // Held fast at its foot, by pi^2 E I / (4 L^2); on a drive that gives way.
+    let fast = rigidity(0.02) * std::f64::consts::FRAC_PI_2.powi(2);
+    let hinged = rigidity(0.12) * root_of_hinge(1e5 / rigidity(0.12)).powi(2);
+    for (text, critical) in [
+        (standing_rod(20.0, "rigid_drive = true"), fast),
+        (standing_rod(120.0, "stiffness_n_m_per_rad = 1e5"), hinged),
+    ] {
+        for share in [0.2, 0.9, 0.99] {
+            let load = format!("{}", -share * critical);
+            let (found, words) = checked(&text, &["--force", &load, "0", "0"]);
+            let a = &found["assumptions"];
+            let told = a["largest_share_to_instability_of_free_machine"]
+                .as_f64()
+                .expect("a share");
+            // Links of eight pieces, and a share that is nearly straight in the load.
+            assert!((told - share).abs() < 0.01, "{told}, exact {share}");
+            let near = texts(&found["warnings"])
+                .iter()
+                .any(|w| w.contains("nearest to instability") && w.contains("NEAR BUCKLING"));
+            assert_eq!(near, share > 0.5, "{words}");
+            assert!(!words.contains("far from buckling"), "{words}");
+        }
+        let (found, _) = checked(&text, &["--force", &format!("{critical}"), "0", "0"]);
+        let a = &found["assumptions"];
+        let told = a["largest_share_to_instability_of_free_machine"].as_f64();
+        assert!(told < Some(0.01), "a pull is no danger: {told:?}");
+    }
+}
+
+#[test]
+fn a_machine_that_moves_only_while_it_turns_has_a_reach() {
+    let (found, text) = preset("prs3", &[]);
+    let reach = &found["reach"];
+    let far = reach["from_base_mm"].as_f64().expect("mm");
+    let [low, high] = [0, 1]
+        .map(|side| [0, 1, 2].map(|k| reach["positions_span_mm"][side][k].as_f64().expect("mm")));
+    // Straight down and up it slides with its legs; aside it gets only while it tilts.
+    let straight = [0, 1].map(|k| reach["box_mm"][k][2].as_f64().expect("mm"));
+    assert!(low[2] <= straight[0] + 0.1 && high[2] >= straight[1] - 0.1);
+    assert!(low[0] < -10.0 && high[0] > 10.0, "{reach}");
+    assert!(far >= -low[2] - 1e-6, "{reach}");
+    assert!(flat(&text).contains("reach while the tool turns"), "{text}");
+}
+
+#[test]
+fn a_link_before_the_first_axis_keeps_the_reach_from_that_axis() {
+    let text = standing_rod(20.0, "rigid_drive = true")
+        .replace(
+            "elements = [",
+            "elements = [\n  { link = \"rod\", name = \"foot link\", length_mm = 400 },",
+        )
+        .replace("[1000, 0, 0]", "[1400, 0, 0]");
+    let (found, _) = checked(&text, &[]);
+    let from_axis = found["reach"]["from_first_axis_mm"].as_f64().expect("mm");
+    assert!((from_axis - 1000.0).abs() < 1e-3, "{from_axis}");
 }
 
 /// Prints a figure and holds it.

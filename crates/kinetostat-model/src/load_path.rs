@@ -50,21 +50,31 @@ pub(crate) fn size_of(mechanism: &Mechanism) -> f64 {
     limbs.map(|l| length(&l.nominal)).fold(0.0, f64::max)
 }
 
-/// The body farthest from the frame of its neighbours, and that distance, m.
+/// The body whose centre of mass is farthest from the nearest joint or end of its limb, and that
+/// distance, m.
 pub(crate) fn farthest(chain: &Chain) -> Option<(String, f64)> {
     let frames = frames(chain);
-    let tip = frames.last()?.translation.vector;
+    let ends = [frames.first()?, frames.last()?];
+    let joints = chain.elements().iter().zip(&frames);
+    let joints = joints.filter(|(e, _)| matches!(e, Element::Motion(_)));
+    let near: Vec<Vector3<f64>> = joints
+        .map(|(_, f)| f)
+        .chain(ends)
+        .map(|f| f.translation.vector)
+        .collect();
     let at = |node: usize| {
-        let index = chain
-            .elements()
-            .iter()
-            .position(|e| matches!(e, Element::Node(n) if *n == node))?;
+        let own = |e: &Element| matches!(e, Element::Node(n) if *n == node);
+        let index = chain.elements().iter().position(own)?;
         Some(frames[index].translation.vector)
     };
     chain
         .bodies()
         .iter()
-        .filter_map(|b| Some((b.name.clone(), (at(b.node)? - tip).norm())))
+        .filter_map(|b| {
+            let centre = at(b.node)?;
+            let away = near.iter().map(|p| (centre - p).norm());
+            Some((b.name.clone(), away.fold(f64::INFINITY, f64::min)))
+        })
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 

@@ -13,7 +13,7 @@ fn modulus(
     warnings: &mut Vec<Finding>,
 ) -> Found<f64> {
     let given = positive(place, what, choices)?;
-    if !(1e8..=2e12).contains(&given.value) {
+    if !(5e8..=2e12).contains(&given.value) {
         warnings.push(Finding::new(
             &place.key(given.key),
             format!("a {what} of {:.3e} Pa is no usual solid", given.value),

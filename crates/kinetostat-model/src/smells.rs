@@ -68,6 +68,18 @@ fn smell(key: &str, x: f64) -> Option<(String, &'static str)> {
             "this looks like radians: write the key with _rad",
         ));
     }
+    let moment = key.starts_with("second_moment") || key.starts_with("torsion_constant");
+    let moment = moment.then(|| match key.strip_suffix("_mm4") {
+        Some(_) => 1e-12 * x,
+        None => x,
+    });
+    // Of a section 2 m wide.
+    if let Some(m4) = moment.filter(|m4| *m4 > 1.0) {
+        return Some((
+            format!("a second moment of {m4:.3e} m^4"),
+            "no part of a robot has sections of metres; check the unit in the key: _mm4 or _m4",
+        ));
+    }
     let (name, metres) = match (key.strip_suffix("_mm"), key.strip_suffix("_m")) {
         (Some(name), _) => (name, 1e-3 * x),
         (None, Some(name)) => (name, x),
@@ -145,6 +157,9 @@ pub(crate) fn of_machine(document: &Document, mechanism: &Mechanism, warnings: &
     deviations(document, size, warnings);
 }
 
+/// A drive that is softer than the next one by this was given per degree (57.3) or is odd anyhow.
+const PER_DEGREE: f64 = 20.0;
+
 /// One limb of a machine.
 struct Look<'a> {
     document: &'a Document,
@@ -204,6 +219,22 @@ impl Look<'_> {
             "stiffness_n_m_per_rad",
             "stiffness_n_mm_per_rad",
         ];
+        // Drives nearer to the base carry more and are stiffer.
+        for pair in drives.windows(2) {
+            let [(name, kind, k), (next, of_next, behind)] = pair else {
+                continue;
+            };
+            if *kind == MotionKind::Revolute && kind == of_next && *behind > PER_DEGREE * k {
+                warnings.push(Finding::new(
+                    &self.place(name, &KEYS),
+                    format!(
+                        "the drive '{name}' is {:.0} times softer than '{next}' behind it, which carries less",
+                        behind / k
+                    ),
+                    "check the unit: per radian, which is 57.3 times the figure per degree",
+                ));
+            }
+        }
         for (name, kind, k) in &drives {
             let (low, high, unit, mistake) = match kind {
                 MotionKind::Prismatic => (2e4, 1e12, "N/m", "_n_per_mm or _n_per_m"),
@@ -370,12 +401,12 @@ impl Look<'_> {
             }
         }
         if let Some((body, centre)) = farthest(chain)
-            && centre > 10.0 * self.size
+            && centre > self.size.max(0.3)
         {
             warnings.push(Finding::new(
                 &self.place(&body, &["centre_of_mass_mm", "centre_of_mass_m"]),
                 format!(
-                    "the centre of mass of the body '{body}' is {} m away, in a machine of {} m",
+                    "the centre of mass of the body '{body}' is {} m away from any joint of its limb, in a machine of {} m",
                     tidy(centre),
                     tidy(self.size)
                 ),
@@ -418,7 +449,7 @@ impl Look<'_> {
                     tidy(bodies),
                     tidy(links)
                 ),
-                "check the density behind the masses (steel: 7850 kg/m^3), and the sections",
+                "check the density behind the masses (steel: 7850 kg/m^3), and the moduli and sizes of the sections",
             ));
         }
     }

@@ -137,7 +137,7 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
     one_limb_each(&robot, &variables, &chains, &mut log);
     log.stop()?;
     left_out(&robot, &placed, &mut log);
-    let reach = reach(&graph);
+    let reach = reach(&graph, base);
     in_metres(&robot, reach, &mut log);
     log.stop()?;
     inertial::look(&robot, &moving, reach, &mut log);

@@ -1,6 +1,6 @@
 //! What there is to say about a robot that can be imported.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use kinetostat::{Pose, pose_residual};
 use nalgebra::{DMatrix, Vector3};
@@ -39,28 +39,41 @@ pub(crate) fn one_limb_each(
     }
 }
 
-/// Length of the longest way from its second joint on, m: the first one only turns the arm about its
-/// foot.
-pub(crate) fn reach(graph: &Graph) -> f64 {
-    let length = |steps: &[Step]| {
-        let mut joints = 0;
-        let mut sum = 0.0;
-        for step in steps {
-            match step {
-                Step::Move { .. } => joints += 1,
-                Step::Offset { origin, .. } if joints >= 2 => {
-                    sum += Vector3::from(origin.xyz).norm();
+/// Length of the arm from its second joint on, m: the first one only turns it about its foot. Of a
+/// machine with loops, along the fewest limbs from the base to the tip, the longest of those paths.
+pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
+    // Length and number of joints of the path to each link known so far.
+    let mut known: HashMap<usize, (f64, usize)> = HashMap::from([(base, (0.0, 0))]);
+    for _ in &graph.platforms {
+        let before = known.clone();
+        for way in &graph.ways {
+            for (from, to, backward) in [(way.from, way.to, false), (way.to, way.from, true)] {
+                let Some(&(mut sum, mut joints)) = before.get(&from) else {
+                    continue;
+                };
+                if before.contains_key(&to) {
+                    continue;
                 }
-                _ => {}
+                let mut step = |step: &Step| match step {
+                    Step::Move { .. } => joints += 1,
+                    Step::Offset { origin, .. } if joints >= 2 => {
+                        sum += Vector3::from(origin.xyz).norm();
+                    }
+                    _ => {}
+                };
+                if backward {
+                    way.steps.iter().rev().for_each(&mut step);
+                } else {
+                    way.steps.iter().for_each(&mut step);
+                }
+                if known.get(&to).is_none_or(|(other, _)| sum > *other) {
+                    known.insert(to, (sum, joints));
+                }
             }
         }
-        sum
-    };
-    graph
-        .ways
-        .iter()
-        .map(|w| length(&w.steps))
-        .fold(0.0, f64::max)
+    }
+    let tip = graph.platforms.last().and_then(|tip| known.get(tip));
+    tip.map_or(0.0, |(sum, _)| *sum)
 }
 
 /// No arm is as long as this, m.
