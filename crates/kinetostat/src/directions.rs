@@ -141,10 +141,12 @@ pub(crate) fn shares(chain: &Chain, prefix: &str, motion: &[f64]) -> Vec<Share> 
     list
 }
 
-/// The largest shares of all that move, in falling order, adding up to one.
+/// The largest shares of all that move, in falling order, adding up to one. Shares that rounding
+/// alone tells apart stay in the order of the chain.
 pub(crate) fn largest(mut list: Vec<Share>) -> Vec<Share> {
     list.retain(|s| s.share > 1e-3);
-    list.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let rounded = |s: &Share| (s.share * 1e9).round();
+    list.sort_by(|a, b| rounded(b).total_cmp(&rounded(a)));
     list
 }
 
