@@ -23,6 +23,9 @@ const LARGEST_TURN: f64 = 3.0;
 /// Steps by which a tool is led, at most.
 const STEPS: usize = 2000;
 
+/// A limit below this share of the load is none.
+const LEAST_SHARE: f64 = 1e-9;
+
 /// Secant and tangent compliances along a load that differ less belong to one smooth branch.
 const SMOOTH: f64 = 2.0;
 
@@ -40,10 +43,10 @@ pub struct LoadLimit {
 enum Led {
     /// No hand is needed any more.
     Rest(MechanismState),
-    /// The load pushes on as far as one can follow.
+    /// The load pushes on however far one follows.
     Endless,
-    /// No neighbour was found.
-    Lost,
+    /// No neighbour was found; whether the load still pushed nearly as at the start.
+    Lost(bool),
 }
 
 impl<'m> Posture<'m> {
@@ -80,7 +83,7 @@ impl<'m> Posture<'m> {
         wrench: &Wrench,
         error: Error,
     ) -> Result<(PlatformSolver<'m>, Residual)> {
-        let mut endless = None;
+        let mut pushed = None;
         for way in self.costless_ways(wrench) {
             match self.led(&way, wrench) {
                 Led::Rest(state) => {
@@ -88,12 +91,10 @@ impl<'m> Posture<'m> {
                         return Ok(found);
                     }
                 }
-                Led::Endless => endless = endless.or(Some(way)),
-                Led::Lost => {}
+                Led::Endless => return Err(self.free_direction(&way, wrench)),
+                Led::Lost(true) => pushed = pushed.or(Some(way)),
+                Led::Lost(false) => {}
             }
-        }
-        if let Some(way) = endless {
-            return Err(self.free_direction(&way, wrench));
         }
         if wrench.0.norm() > 0.0
             && let Ok((state, limit)) = self.under_growing_load(wrench)
@@ -105,7 +106,10 @@ impl<'m> Posture<'m> {
                 return Err(error.at_limit(limit));
             }
         }
-        Err(error)
+        Err(match pushed {
+            Some(way) => self.free_direction(&way, wrench),
+            None => error,
+        })
     }
 
     /// Newton from a state near the equilibrium.
@@ -136,7 +140,9 @@ impl<'m> Posture<'m> {
         let limit = path
             .specials
             .iter()
-            .find(|s| s.kind == PathSpecialKind::LoadLimit && s.ends[1]);
+            .filter(|s| s.kind == PathSpecialKind::LoadLimit && s.ends[1])
+            // Motions that cost nothing have no limit but rounding.
+            .find(|s| s.point.parameter > LEAST_SHARE);
         let limit = limit.map(|s| LoadLimit {
             share: s.point.parameter,
             displacement: s.point.equilibrium.displacement,
@@ -186,10 +192,11 @@ impl<'m> Posture<'m> {
     fn led(&self, way: &Twist, wrench: &Wrench) -> Led {
         let path = Path::along(self, way, wrench);
         let Ok(start) = path.first(0.0) else {
-            return Led::Lost;
+            return Led::Lost(false);
         };
         let hand = start.conjugate;
-        if hand == 0.0 {
+        let size = wrench.force().norm() + wrench.moment().norm() / path.length;
+        if hand.abs() <= 1e-12 * size {
             return Led::Rest(start.equilibrium.state);
         }
         let length = path.length;
@@ -200,7 +207,7 @@ impl<'m> Posture<'m> {
             let Some(next) = path.step(&here, step) else {
                 by *= 0.5;
                 if by < 1e-7 * length {
-                    return Led::Lost;
+                    return Led::Lost(here.conjugate.abs() > 0.5 * hand.abs());
                 }
                 continue;
             };
@@ -216,7 +223,7 @@ impl<'m> Posture<'m> {
             by = (1.5 * by).min(0.1 * length);
             here = next;
         }
-        Led::Lost
+        Led::Lost(false)
     }
 
     fn free_direction(&self, way: &Twist, wrench: &Wrench) -> Error {
@@ -224,7 +231,7 @@ impl<'m> Posture<'m> {
         Error::FreeDirection {
             place: format!("mechanism '{}'", self.mechanism.name),
             reason: format!(
-                "the motion [{:.3} {:.3} {:.3}] m with rotation [{:.3} {:.3} {:.3}] rad costs no force, and the load pushes on however far it goes",
+                "the motion [{:.3} {:.3} {:.3}] m with rotation [{:.3} {:.3} {:.3}] rad costs no force, and the load pushes on as far as it could be followed",
                 t[0], t[1], t[2], t[3], t[4], t[5]
             ),
             wrench: Box::new(*wrench),

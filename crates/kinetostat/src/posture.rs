@@ -518,7 +518,7 @@ impl<'m> Posture<'m> {
     /// # Errors
     /// [`Error::NotConverged`] with the last state and share of the load, and the limit point if
     /// one is on the way; [`Error::FreeDirection`] where the load pushes on along a motion that
-    /// nothing holds, however far it goes.
+    /// nothing holds, as far as it can be followed.
     pub fn deflected_by(&self, wrench: &Wrench) -> Result<MechanismEquilibrium> {
         self.deflected_from(wrench, self.rest_state())
     }

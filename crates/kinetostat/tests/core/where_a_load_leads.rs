@@ -47,7 +47,7 @@ fn a_pushed_pendulum_hangs_along_its_load() {
     let home = machine.platforms()[machine.tool()].home;
     let posture = machine.posture(&home).unwrap();
     let weight = 9.81 * mass;
-    for push in [0.5, 50.0, -50.0, 5000.0] {
+    for push in [0.5_f64, 50.0, -50.0, 5000.0] {
         let e = posture.deflected_by(&force(push, 0.0, 0.0)).unwrap();
         assert_equilibrium(&posture, &e);
         let angle = f64::atan2(push, weight);
@@ -74,7 +74,7 @@ fn a_bar_without_weight_turns_until_the_load_pulls_along_it() {
     let home = machine.platforms()[machine.tool()].home;
     let posture = machine.posture(&home).unwrap();
     assert!(posture.stiffness().unwrap().rank() < 6);
-    for push in [0.01, 30.0, 300.0] {
+    for push in [0.01_f64, 30.0, 300.0] {
         let pull = push * vector![0.6, 0.0, -0.8];
         let e = posture.deflected_by(&force(pull.x, 0.0, pull.z)).unwrap();
         assert_equilibrium(&posture, &e);
@@ -108,7 +108,7 @@ fn a_flat_truss_sags_by_the_third_root_of_its_load() {
     let (b, k) = (0.5, 1e5);
     let machine = truss(b, 0.0, k);
     let posture = machine.posture(&Pose::identity()).unwrap();
-    for push in [-1e-3, -0.05, -1.0, 40.0] {
+    for push in [-1e-3_f64, -0.05, -1.0, 40.0] {
         let e = posture.deflected_by(&force(0.0, 0.0, push)).unwrap();
         assert_equilibrium(&posture, &e);
         let z = e.displacement.linear().z;
@@ -197,7 +197,7 @@ fn a_load_beyond_a_limit_point_is_told_with_the_limit() {
 #[test]
 fn an_answer_behind_a_limit_point_is_recognised() {
     let (b, k) = (0.5, 1e5);
-    for (h, push) in [(1e-4, 1e-3), (1e-3, 0.02), (1e-3, 1.0)] {
+    for (h, push) in [(1e-4_f64, 1e-3_f64), (1e-3, 0.02), (1e-3, 1.0)] {
         let machine = truss(b, h, k);
         let posture = machine.posture(&Pose::translation(0.0, 0.0, h)).unwrap();
         let rest = posture.deflected_by(&Wrench::zero()).unwrap();
