@@ -90,6 +90,9 @@ pub(crate) fn assumptions(
     found
 }
 
+/// Compliances below this share of the largest, rotations at the natural length, are rounding.
+const NO_MOTION: f64 = 1e-12;
+
 /// Stiffnesses behind a block of a compliance, the softest and the stiffest, N/m or N m/rad.
 fn range(block: &Matrix3<f64>) -> Option<[f64; 2]> {
     let values = block.symmetric_eigenvalues();
@@ -106,8 +109,15 @@ impl AssumptionsFinding {
         if rest.platform.free == 0 {
             let force: Matrix3<f64> = c.fixed_view::<3, 3>(0, 0).into_owned();
             let moment: Matrix3<f64> = c.fixed_view::<3, 3>(3, 3).into_owned();
-            self.against_force_n_per_mm = range(&force).map(|r| r.map(|k| 1e-3 * k));
-            self.against_moment_n_m_per_rad = range(&moment);
+            // One block beside which the other is rounding has no motion at all.
+            let (moves, turns) = (force.amax(), moment.amax() * rest.length.powi(2));
+            let nothing = NO_MOTION * moves.max(turns);
+            if moves > nothing {
+                self.against_force_n_per_mm = range(&force).map(|r| r.map(|k| 1e-3 * k));
+            }
+            if turns > nothing {
+                self.against_moment_n_m_per_rad = range(&moment);
+            }
         }
         self.small_up_to_n = self
             .against_force_n_per_mm
@@ -370,7 +380,11 @@ pub(crate) fn in_words(a: &AssumptionsFinding, force_given: bool) -> String {
         ));
     }
     if let Some(k) = a.against_moment_n_m_per_rad {
-        text.push_str(&format!(", against a moment with {} N m/rad", span(k)));
+        let verb = match a.against_force_n_per_mm {
+            Some(_) => ", against a moment with",
+            None => "; against a moment the tool is stiff with",
+        };
+        text.push_str(&format!("{verb} {} N m/rad", span(k)));
     }
     out.push_str(&item(&text));
     for line in &a.in_words {

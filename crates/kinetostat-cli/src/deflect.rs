@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench};
+use kinetostat::{
+    DirectionKind, LoadLimit, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench,
+};
 use kinetostat_machining::NearSingular;
 use serde::Serialize;
 
@@ -106,7 +108,7 @@ struct Deflection {
     /// What the controller shows, in the order of its axes; empty without a section `controller`.
     pendant: Vec<JointValue>,
     limbs: Vec<LimbAnswer>,
-    /// Against a force in the softest direction, the tool free to turn.
+    /// Against a force in the softest direction, the tool free to turn; none if no force moves it.
     smallest_stiffness_n_per_mm: f64,
     free_directions: usize,
     /// Motions by which the tool runs away by itself: `turns about z by arm: q`.
@@ -196,7 +198,9 @@ fn at_place(args: &DeflectArgs) -> Answer<()> {
     let posture = spot.posture()?;
     let loaded = posture.deflected_by(&spot.wrench)?;
     let rest = posture.deflected_by(&Wrench::zero())?;
-    let answer = answer(&spot, &posture, &loaded, &rest);
+    let mut answer = answer(&spot, &posture, &loaded, &rest);
+    let limit = posture.snaps_on_the_way(&rest, &loaded)?;
+    answer.warnings.extend(limit.as_ref().map(snaps));
     let text = in_words(&spot, &answer);
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     let mut paths = Vec::new();
@@ -218,6 +222,16 @@ const SLOW: f64 = 0.2;
 
 /// A displacement by this share of the machine's size is no deflection any more.
 const LARGE: f64 = 0.05;
+
+/// The answer lies beyond a limit point of the load.
+fn snaps(limit: &LoadLimit) -> String {
+    let d = 1e3 * limit.displacement.linear();
+    format!(
+        "the machine SNAPS on the way to this load: from rest it carries only {} of it, up to a limit point of the load at {} mm; what is told here is another equilibrium behind it. `kinetostat curve` shows the way, `kinetostat equilibria` all of them",
+        number(limit.share, 4),
+        triple(d.into(), |x| fixed(x, 4))
+    )
+}
 
 /// Options that say something about a program are not dropped silently.
 fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
@@ -454,10 +468,13 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
             a.free_directions
         )
     } else {
-        format!(
-            "the platform stays; a force in the softest direction meets {} N/mm",
-            number(a.smallest_stiffness_n_per_mm, 4)
-        )
+        match a.smallest_stiffness_n_per_mm.is_finite() {
+            true => format!(
+                "the platform stays; a force in the softest direction meets {} N/mm",
+                number(a.smallest_stiffness_n_per_mm, 4)
+            ),
+            false => "the platform stays; no force moves it".to_owned(),
+        }
     };
     out.push_str(&screen::item(&platform));
     let noticeable = crate::check_assumptions::NOTICEABLE;

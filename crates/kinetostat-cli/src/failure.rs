@@ -93,6 +93,9 @@ impl From<kinetostat::Error> for Failure {
             kinetostat::Error::Unreachable { .. } | kinetostat::Error::OutsideLimits { .. } => {
                 "; choose a place inside the workspace, or check the model's limits and the tool's length"
             }
+            kinetostat::Error::NotConverged { limit: Some(_), .. } => {
+                "; `kinetostat curve` shows how, `kinetostat equilibria` finds the others"
+            }
             kinetostat::Error::NotConverged { .. } => {
                 "; the load may be beyond what the machine can carry here: try a part of it"
             }

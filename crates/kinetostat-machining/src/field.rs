@@ -61,6 +61,9 @@ pub(crate) fn in_words(error: &Error) -> String {
         Error::Unreachable { .. } | Error::OutsideLimits { .. } => {
             "; move the part (placement) or check the model's limits"
         }
+        Error::NotConverged { limit: Some(_), .. } => {
+            "; `kinetostat curve` shows how, `kinetostat equilibria` finds the others"
+        }
         Error::NotConverged { .. } => {
             "; the load may be beyond what the machine can carry here: check force and moment, or look at `kinetostat deflect` with a part of it"
         }

@@ -142,9 +142,11 @@ fn solve_target<'m>(
         None => match fixed_point(&mut solver, desired, directions) {
             Ok(residual) => residual,
             Err(error) => {
-                return Err(near
-                    .free_push(wrench, mechanism.scale().length)
-                    .unwrap_or(error));
+                // Where nothing holds the tool, no target helps.
+                return Err(match near.rest_under(wrench, near.rest_state()) {
+                    Err(free @ Error::FreeDirection { .. }) => free,
+                    _ => error,
+                });
             }
         },
     };
@@ -235,5 +237,6 @@ fn fixed_point(
         residual_torque: 0.0,
         load_factor: 1.0,
         last: solver.state.coordinates.concat(),
+        limit: None,
     })
 }

@@ -636,6 +636,7 @@ pub(crate) fn solve_along(
             / failure.balance.loads.max(LEAST_LOAD * natural(chain)),
         load_factor: failure.share,
         last: failure.last,
+        limit: None,
     })
 }
 

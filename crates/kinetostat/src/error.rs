@@ -2,6 +2,7 @@
 //! finding (singular, unstable, redundant) is a field of a result.
 
 use crate::chain::MotionKind;
+use crate::load_way::LoadLimit;
 use crate::spatial::{Pose, Wrench};
 
 /// Joint values in the unit that people read; the unit comes once, at the end.
@@ -16,6 +17,37 @@ fn in_words<const N: usize>(kind: MotionKind, values: [f64; N]) -> String {
     };
     let numbers: Vec<String> = values.iter().map(number).collect();
     format!("{} {unit}", numbers.join(" .. "))
+}
+
+/// No equilibrium was found: beyond a limit point there is none on the branch, else one says how
+/// far the iteration came.
+fn not_converged(
+    place: &str,
+    iterations: usize,
+    [closure, torque]: [f64; 2],
+    share: f64,
+    limit: Option<&LoadLimit>,
+) -> String {
+    match limit {
+        Some(limit) => {
+            // Rounded before it is printed, so that there is no minus zero.
+            let d = limit
+                .displacement
+                .linear()
+                .map(|x| (x * 1e7).round() * 1e-4 + 0.0);
+            let share = match limit.share < 0.01 {
+                true => format!("{:.3e}", limit.share),
+                false => format!("{:.4}", limit.share),
+            };
+            format!(
+                "{place}: from rest it carries only {share} of this load: a limit point of the load lies at the displacement [{:.4} {:.4} {:.4}] mm, and there it snaps to another equilibrium",
+                d.x, d.y, d.z
+            )
+        }
+        None => format!(
+            "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a gap of {closure:.3e} m, and torques of {torque:.3e} times the largest without balance)"
+        ),
+    }
 }
 
 /// Result of this crate.
@@ -68,9 +100,7 @@ pub enum Error {
         value: f64,
     },
     /// An iteration did not converge; carries its last state so that it can be looked at.
-    #[error(
-        "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {load_factor:.3}; the last try left a gap of {residual_position_m:.3e} m, and torques of {residual_torque:.3e} times the largest without balance)"
-    )]
+    #[error("{}", not_converged(place, *iterations, [*residual_position_m, *residual_torque], *load_factor, limit.as_deref()))]
     NotConverged {
         /// Chain or mechanism.
         place: String,
@@ -84,6 +114,8 @@ pub enum Error {
         load_factor: f64,
         /// Last iterate of all coordinates.
         last: Vec<f64>,
+        /// The limit point of the load at which the branch from rest ends, if there is one.
+        limit: Option<Box<LoadLimit>>,
     },
     /// The actuators cannot bring the end there.
     #[error(
@@ -150,6 +182,18 @@ impl Error {
             place: place.into(),
             reason: reason.into(),
         }
+    }
+
+    /// The same failure, told to be beyond a limit point of the load.
+    pub(crate) fn at_limit(mut self, found: LoadLimit) -> Self {
+        if let Self::NotConverged {
+            load_factor, limit, ..
+        } = &mut self
+        {
+            *load_factor = found.share;
+            *limit = Some(Box::new(found));
+        }
+        self
     }
 
     /// The variants that mean "could not be answered" rather than "wrong input".

@@ -535,6 +535,7 @@ impl<'m> PlatformSolver<'m> {
             residual_torque: residual.torque,
             load_factor: share,
             last: self.state.coordinates.concat(),
+            limit: None,
         }
     }
 

@@ -98,21 +98,21 @@ pub struct MachinePath {
 
 /// The question in numbers.
 pub(crate) struct Path<'p, 'm> {
-    posture: &'p Posture<'m>,
-    settings: CurveSettings,
+    pub(crate) posture: &'p Posture<'m>,
+    pub(crate) settings: CurveSettings,
     /// Wrench on the tool by the factor.
-    pattern: Wrench,
-    dead: Wrench,
+    pub(crate) pattern: Wrench,
+    pub(crate) dead: Wrench,
     /// The displacement is the parameter, not the factor.
-    by_motion: bool,
+    pub(crate) by_motion: bool,
     /// Motions of the tool: those that are free, and the driven one, balanced, orthonormal.
-    motions: DMatrix<f64>,
+    pub(crate) motions: DMatrix<f64>,
     /// Those that are free, balanced.
-    free: DMatrix<f64>,
+    pub(crate) free: DMatrix<f64>,
     /// Directions in which the tool is held, base axes, columns.
-    held: DMatrix<f64>,
+    pub(crate) held: DMatrix<f64>,
     /// Where it is held there, from the nominal target.
-    held_at: Vector6<f64>,
+    pub(crate) held_at: Vector6<f64>,
     pub(crate) length: f64,
 }
 
@@ -382,7 +382,7 @@ impl<'p, 'm> Path<'p, 'm> {
         Ok((e, factor))
     }
 
-    fn first(&self, value: f64) -> Result<PathPoint> {
+    pub(crate) fn first(&self, value: f64) -> Result<PathPoint> {
         let mut state = self.posture.rest_state();
         let tool = self.posture.mechanism.tool;
         let (wrench, guide) = if self.by_motion {
@@ -393,13 +393,14 @@ impl<'p, 'm> Path<'p, 'm> {
         } else {
             (self.dead + self.pattern * value, self.guide(None))
         };
-        let settled = self.settle(state, wrench, guide, true);
-        let (e, factor) = settled.map_err(|error| {
-            let free = self.held.ncols() == 0 && wrench.0.norm() > 0.0;
-            free.then(|| self.posture.free_push(&wrench, self.length))
-                .flatten()
-                .unwrap_or(error)
-        })?;
+        let (e, factor) = match self.by_motion || self.held.ncols() > 0 {
+            true => self.settle(state, wrench, guide, true)?,
+            // What nothing holds has more ways to its rest.
+            false => {
+                let rest = self.posture.rest_under(&wrench, state)?;
+                self.settle(rest, wrench, guide, false)?
+            }
+        };
         let mut ahead = Vector6::zeros();
         if self.by_motion {
             ahead = self.pattern.0;
@@ -516,7 +517,7 @@ impl<'p, 'm> Path<'p, 'm> {
         let unit = stiff / push;
         let mut rows = DMatrix::zeros(n + 1, n + 1);
         rows.view_mut((0, 0), (n, n)).copy_from(&(k / stiff));
-        rows.view_mut((0, n), (n, 1)).copy_from(&(-load / push));
+        rows.view_mut((0, n), (n, 1)).copy_from(&(-&load / push));
         let svd = rows.svd(false, true);
         let Some(v) = svd.v_t else {
             return *before;
@@ -534,6 +535,18 @@ impl<'p, 'm> Path<'p, 'm> {
                 next += own * share;
             }
         }
+        if next.norm() <= 1e-9 * was.norm() {
+            // A flat posture: the load starts to move the tool where nothing holds it yet.
+            let push = load.normalize();
+            next.fill(0.0);
+            for (i, value) in svd.singular_values.iter().enumerate() {
+                if *value <= 1e-9 * most {
+                    let own = v.row(i).transpose();
+                    next += &own * own.rows(0, n).dot(&push);
+                }
+            }
+            next[n] = 0.0;
+        }
         let motion = &possible * next.rows(0, n);
         let size = motion.norm();
         if size == 0.0 {
@@ -544,7 +557,7 @@ impl<'p, 'm> Path<'p, 'm> {
     }
 
     /// The equilibrium a step `by` (m, balanced) along the path from a point.
-    fn step(&self, from: &PathPoint, by: f64) -> Option<PathPoint> {
+    pub(crate) fn step(&self, from: &PathPoint, by: f64) -> Option<PathPoint> {
         let (way, rate) = &from.tangent;
         let mut state = from.equilibrium.state.clone();
         let tool = self.posture.mechanism.tool;
@@ -587,10 +600,14 @@ impl<'p, 'm> Path<'p, 'm> {
             by.abs()
         };
         let edge = if sign > 0.0 { high } else { low };
-        if start.parameter == edge || rate(start) == 0.0 {
+        if start.parameter == edge || start.tangent.0.norm() == 0.0 {
             return (Vec::new(), BranchEnd::Range);
         }
-        let largest = change / rate(start);
+        // Where the load starts without any, the machine's size tells how far a step goes.
+        let largest = match rate(start) * self.length > 1e-9 * change {
+            true => change / rate(start),
+            false => 0.02 * self.length,
+        };
         let least_step = self.settings.smallest_step * largest.min(self.length);
         // Turns of the tangent are seen in units in which it starts at 45 degrees, if it has any
         // stiffness to speak of.
@@ -602,6 +619,15 @@ impl<'p, 'm> Path<'p, 'm> {
             let size = |t: &(Vector6<f64>, f64)| (1.0 + (t.1 / unit).powi(2)).sqrt();
             (dot / (size(x) * size(y))).clamp(-1.0, 1.0).acos()
         };
+        // Below these units a limit of the load would be passed unseen: there the load that a step
+        // gained must be that of its tangents.
+        let nothing = 1e-6 * soft;
+        let resolved = |a: &PathPoint, b: &PathPoint, by: f64| {
+            let (x, y) = (a.tangent.1, b.tangent.1);
+            let most = x.abs().max(y.abs());
+            let apart = (b.factor - a.factor) / by - 0.5 * (x + y);
+            x == 0.0 || most > soft || most < nothing || apart.abs() < 0.1 * most
+        };
         let mut points: Vec<PathPoint> = Vec::new();
         let mut by = largest;
         let mut here = start.clone();
@@ -612,7 +638,7 @@ impl<'p, 'm> Path<'p, 'm> {
             by = by.min(change / rate(&here).max(1e-300)).min(4.0 * largest);
             let next = self
                 .step(&here, sign * by)
-                .filter(|p| angle(&here, p) < 0.35);
+                .filter(|p| angle(&here, p) < 0.35 && resolved(&here, p, sign * by));
             let Some(next) = next else {
                 by *= 0.5;
                 if by < least_step {
@@ -639,7 +665,7 @@ impl<'p, 'm> Path<'p, 'm> {
     }
 
     /// Zero of a quantity between a point and the one a step ahead.
-    fn between(
+    pub(crate) fn between(
         &self,
         from: &PathPoint,
         step: f64,
@@ -723,6 +749,10 @@ impl<'p, 'm> Path<'p, 'm> {
             );
             let way = &a.tangent.0;
             let step = (0..6).map(|k| way[k] * (y[k] - x[k]) * self.unit(k)).sum();
+            // Among motions that cost nothing, neighbours may lie across the way: nothing is told.
+            if step * sign < 0.0 {
+                continue;
+            }
             let load = |p: &PathPoint| p.tangent.1;
             let moves = |p: &PathPoint| self.displacement(&self.unbalanced(&p.tangent.0));
             let verdict = |p: &PathPoint| [p.held, p.dead];
@@ -761,7 +791,6 @@ impl<'p, 'm> Path<'p, 'm> {
                     ends: open,
                 });
             }
-            debug_assert!(step * sign >= 0.0, "a step goes on as the path goes");
         }
         list
     }

@@ -3,7 +3,7 @@
 //!
 //! The thing right of the bar is a [`Posture`]; the thing left of it is an argument.
 
-use nalgebra::{DMatrix, Matrix3, Matrix6};
+use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 use crate::chain::MotionKind;
@@ -20,12 +20,14 @@ use crate::machine_directions::{
 use crate::mechanism::Mechanism;
 use crate::network::Network;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
-use crate::saddle::pseudo_inverse;
 use crate::settings::Settings;
 use crate::sparse::RigidRows;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 use crate::stability::{ShapeStability, shape_stability};
 use crate::stiffness::{ChainStiffness, Direction, DirectionKind, chain_stiffness};
+
+/// Compliances below this share of the largest, rotations at the natural length, are rounding.
+const NO_MOTION: f64 = 1e-12;
 
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
 #[derive(Clone, Debug)]
@@ -147,26 +149,24 @@ impl MechanismEquilibrium {
 
     /// Force (N) that moves the tool's origin by 1 m in its softest direction while the tool may
     /// turn as it likes: what a person who pushes the tool feels. Zero if a direction is free,
-    /// negative if the tool runs away by itself.
+    /// negative if the tool runs away by itself, infinite if no force moves it.
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
         if self.platform.free > 0 {
             return 0.0;
         }
-        // Balanced by its own diagonal; rigid directions have none and yield nothing.
-        let k = self.stiffness.symmetric();
-        let unit = |i: usize| {
-            let d = k[(i, i)].abs().sqrt();
-            if d > 0.0 { 1.0 / d } else { 1.0 }
-        };
-        let balanced = DMatrix::from_fn(6, 6, |i, j| k[(i, j)] * unit(i) * unit(j));
-        let (inverse, _) = pseudo_inverse(&balanced);
-        let moves = Matrix3::from_fn(|i, j| inverse[(i, j)] * unit(i) * unit(j));
-        let eigenvalues = moves.symmetric_eigenvalues();
-        if eigenvalues.min() < 0.0 {
-            1.0 / eigenvalues.min()
+        let own = self.stiffness.symmetric();
+        let moves = CartesianCompliance::of(&own, &self.directions, self.length).springs;
+        let unit = |i: usize| if i < 3 { 1.0 } else { self.length };
+        let most = Matrix6::from_fn(|i, j| moves[(i, j)] * unit(i) * unit(j)).amax();
+        let eigenvalues = moves.fixed_view::<3, 3>(0, 0).symmetric_eigenvalues();
+        let (least, largest) = (eigenvalues.min(), eigenvalues.max());
+        if least < -NO_MOTION * most {
+            1.0 / least
+        } else if largest > NO_MOTION * most {
+            1.0 / largest
         } else {
-            1.0 / eigenvalues.max()
+            f64::INFINITY
         }
     }
 
@@ -516,8 +516,9 @@ impl<'m> Posture<'m> {
     /// gravity, preloads and assembly errors of the model.
     ///
     /// # Errors
-    /// [`Error::NotConverged`] with the last state and share of the load;
-    /// [`Error::FreeDirection`] where the wrench pushes in a direction that nothing holds.
+    /// [`Error::NotConverged`] with the last state and share of the load, and the limit point if
+    /// one is on the way; [`Error::FreeDirection`] where the load pushes on along a motion that
+    /// nothing holds, as far as it can be followed.
     pub fn deflected_by(&self, wrench: &Wrench) -> Result<MechanismEquilibrium> {
         self.deflected_from(wrench, self.rest_state())
     }
@@ -569,29 +570,8 @@ impl<'m> Posture<'m> {
         solver.wrench = *wrench;
         match solver.solve_robustly() {
             Ok(residual) => Ok((solver, residual)),
-            Err(error) => Err(self
-                .free_push(wrench, solver.mechanism.scale().length)
-                .unwrap_or(error)),
+            Err(error) => self.found_otherwise(wrench, error),
         }
-    }
-
-    /// The reason why no equilibrium exists, if it is a wrench along a free direction.
-    pub(crate) fn free_push(&self, wrench: &Wrench, length: f64) -> Option<Error> {
-        let size = wrench.force().norm() + wrench.moment().norm() / length;
-        let own = self.stiffness().ok()?;
-        let pushed = own
-            .directions
-            .iter()
-            .find(|d| d.kind == DirectionKind::Free && d.twist.dot(wrench).abs() > 1e-9 * size)?;
-        let t = pushed.twist.0;
-        Some(Error::FreeDirection {
-            place: format!("mechanism '{}'", self.mechanism.name),
-            reason: format!(
-                "the motion [{:.3} {:.3} {:.3}] m with rotation [{:.3} {:.3} {:.3}] rad costs no force",
-                t[0], t[1], t[2], t[3], t[4], t[5]
-            ),
-            wrench: Box::new(*wrench),
-        })
     }
 
     /// `f(t | t0)`: the wrench that holds the tool at `pose` [R 6.21].

@@ -205,6 +205,7 @@ impl Tracer<'_, '_, '_> {
                 residual_torque: balance.torque / balance.loads.max(1e-9),
                 load_factor: 0.0,
                 last: self.reduced.coordinates(&z),
+                limit: None,
             });
         };
         if t[m] < 0.0 {

@@ -54,3 +54,4 @@ mod stored_stiffness_is_the_derivative_of_the_wrench;
 mod three_ways_to_a_stiffness;
 mod two_link_chain_4_31;
 mod what_goes_wrong_says_why;
+mod where_a_load_leads;

@@ -1,0 +1,185 @@
+//! `kinetostat deflect` of machines that swing, sag or snap under their load.
+
+mod common;
+
+use common::{Said, run};
+
+const PENDULUM: &str = r#"schema = 1
+
+[mechanism]
+name = "pendulum"
+gravity_m_per_s2 = [0, 0, -9.81]
+
+[chain.bar]
+elements = [
+  { actuator = "prismatic", name = "trolley", axis = "x", stiffness_n_per_mm = 500, home_mm = 0 },
+  { passive = "revolute", name = "pin", axis = "y" },
+  { rigid = { translation_mm = [0, 0, -1000] } },
+]
+
+[[platform]]
+name = "tool"
+home = { position_mm = [0, 0, -1000] }
+mass_kg = 20
+
+[[limb]]
+name = "bar"
+from = "base"
+to = "tool"
+chain = "bar"
+"#;
+
+/// One joint, the tool in its middle.
+const JOINT: &str = r#"schema = 1
+
+[mechanism]
+name = "joint"
+
+[chain.joint]
+elements = [
+  { actuator = "revolute", name = "j", axis = "z", stiffness_n_m_per_rad = 5 },
+]
+
+[[platform]]
+name = "tool"
+home = { position_mm = [0, 0, 0] }
+
+[[limb]]
+name = "joint"
+from = "base"
+to = "tool"
+chain = "joint"
+"#;
+
+/// Two bars of 100 N/mm from the sides to a pin in the middle, 1 m apart; deviation and mass extra.
+fn truss(height: f64, mass: f64, deviation: &str) -> String {
+    let (turn, length) = (500_f64.atan2(height).to_degrees(), 500_f64.hypot(height));
+    let chain = |name: &str, side: f64| {
+        format!(
+            r#"
+[chain.{name}]
+elements = [
+  {{ rigid = {{ translation_mm = [{x:?}, 0, 0] }} }},
+  {{ passive = "revolute", name = "foot", axis = "y", home_deg = {home:?} }},
+  {{ actuator = "prismatic", name = "bar", axis = "z", stiffness_n_per_m = 1e5, home_mm = {length:?} }},
+  {{ passive = "revolute", name = "head", axis = "y", home_deg = {back:?} }},
+]
+
+[[limb]]
+name = "{name}"
+from = "base"
+to = "pin"
+chain = "{name}"
+"#,
+            x = side * 500.0,
+            home = -side * turn,
+            back = side * turn,
+        )
+    };
+    format!(
+        "schema = 1\n\n[mechanism]\nname = \"truss\"\ngravity_m_per_s2 = [0, 0, -9.81]\n\n[[platform]]\nname = \"pin\"\nhome = {{ position_mm = [0, 0, {height:?}] }}\nmass_kg = {mass:?}\n{}{}{deviation}",
+        chain("left", -1.0),
+        chain("right", 1.0)
+    )
+}
+
+fn ask(model: &str, question: &[&str]) -> Said {
+    let here = tempfile::tempdir().expect("a directory");
+    std::fs::write(here.path().join("m.toml"), model).expect("a file");
+    let line: Vec<&str> = question
+        .iter()
+        .map(|word| if *word == "M" { "m.toml" } else { *word })
+        .collect();
+    run(here.path(), &line)
+}
+
+/// What it says, on one line.
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_pendulum_answers_where_it_hangs() {
+    let said = ask(PENDULUM, &["deflect", "M", "--force", "50", "0", "0"]).answered();
+    // sin and 1 - cos of atan(50 / 196.2), and 50 N on the trolley.
+    assert!(said.out.contains("247.049"), "{}", said.out);
+    assert!(said.out.contains("30.9715"), "{}", said.out);
+    let said = ask(PENDULUM, &["deflect", "M", "--force", "0.5", "0", "0"]).answered();
+    assert!(said.out.contains("meets 0.1961 N/mm"), "{}", said.out);
+    let question = [
+        "model", "draw", "M", "--force", "50", "0", "0", "--out", "a.svg",
+    ];
+    let said = ask(PENDULUM, &question).answered();
+    assert!(said.out.contains("247.0491"), "{}", said.out);
+}
+
+#[test]
+fn a_flat_truss_sags_and_goes_together() {
+    let flat = truss(0.0, 0.0, "");
+    let push = ["--force", "0", "0", "-1"];
+    let said = ask(&flat, &[&["deflect", "M"][..], &push].concat()).answered();
+    assert!(said.out.contains("-13.57458"), "{}", said.out);
+    let range = ["--factor", "0", "1"];
+    let said = ask(&flat, &[&["curve", "M"][..], &push, &range].concat()).answered();
+    assert!(said.out.contains("13.57459"), "{}", said.out);
+    assert!(!said.out.contains("limit of the load"), "{}", said.out);
+    let error = "\n[[deviation]]\nlimb = \"right\"\nat = \"start\"\nmoved_by = { translation_mm = [2, 0, 0] }\n";
+    let said = ask(&truss(0.0, 2.0, error), &["assemble", "M"]).answered();
+    assert!(
+        said.out.contains("From the commanded place"),
+        "{}",
+        said.out
+    );
+}
+
+#[test]
+fn a_limit_on_the_way_is_told() {
+    let push = ["--force", "0", "0", "-151"];
+    let said = ask(
+        &truss(100.0, 0.0, ""),
+        &[&["deflect", "M"][..], &push].concat(),
+    );
+    assert_eq!(said.code, 2, "{said:?}");
+    let told = words(&said.err);
+    for part in [
+        "0.9997 of this load",
+        "-42.6428] mm",
+        "snaps",
+        "kinetostat curve",
+        "kinetostat equilibria",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+    let push = ["--force", "0", "0", "-0.001"];
+    let said = ask(
+        &truss(0.1, 0.0, ""),
+        &[&["deflect", "M"][..], &push].concat(),
+    )
+    .answered();
+    let told = words(&said.out);
+    assert!(told.contains("SNAPS on the way to this load"), "{told}");
+    let push = ["--force", "0", "0", "-100"];
+    let said = ask(
+        &truss(100.0, 0.0, ""),
+        &[&["deflect", "M"][..], &push].concat(),
+    )
+    .answered();
+    assert!(!said.out.contains("SNAPS"), "{}", said.out);
+}
+
+#[test]
+fn no_force_moves_a_joint_in_its_middle() {
+    let said = ask(JOINT, &["deflect", "M", "--force", "1", "0", "0"]).answered();
+    assert!(said.out.contains("no force moves it"), "{}", said.out);
+    let said = ask(JOINT, &["check", "M"]).answered();
+    assert!(
+        !words(&said.out).contains("against a force the tool is stiff"),
+        "{}",
+        said.out
+    );
+    assert!(
+        words(&said.out).contains("against a moment the tool is stiff with 5.000 N m/rad"),
+        "{}",
+        said.out
+    );
+}
