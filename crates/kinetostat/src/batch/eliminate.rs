@@ -99,9 +99,7 @@ impl<S: Simd> Eliminated<S> {
         // Away from cancellation.
         let signed = own.where_less(zero, -norm, norm);
         let (mut v, mut u) = ([zero; 6], [zero; 6]);
-        for i in k..d {
-            v[i] = self.r[k][i];
-        }
+        v[k..d].copy_from_slice(&self.r[k][k..d]);
         v[k] = own + signed;
         let scale = Lanes::new(simd, 1.0) / (signed * v[k]);
         for i in k..d {

@@ -109,10 +109,7 @@ impl<S: Simd> Lanes<S> {
     /// `c - self * b`, rounded once.
     #[inline(always)]
     pub fn times_from(self, b: Self, c: Self) -> Self {
-        self.with(
-            self.simd
-                .negate_mul_add_f64s(self.value, b.value, c.value),
-        )
+        self.with(self.simd.negate_mul_add_f64s(self.value, b.value, c.value))
     }
 
     /// Square root.
@@ -161,10 +158,7 @@ impl<S: Simd> Lanes<S> {
     pub fn sin_cos(self) -> (Self, Self) {
         // Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits.
         const ROUND: f64 = 6_755_399_441_055_744.0;
-        let shifted = self.times_plus(
-            self.same(std::f64::consts::FRAC_2_PI),
-            self.same(ROUND),
-        );
+        let shifted = self.times_plus(self.same(std::f64::consts::FRAC_2_PI), self.same(ROUND));
         let quarters = shifted - ROUND;
         let r = quarters.times_from(self.same(std::f64::consts::FRAC_PI_2), self);
         let r = quarters.times_from(self.same(6.123_233_995_736_766e-17), r);
@@ -188,7 +182,7 @@ impl<S: Simd> Lanes<S> {
     pub fn sin_cos_near_zero(self) -> (Self, Self) {
         let z = self * self;
         let sine = z.polynomial(&[
-            1.589_690_995_211_550_1e-10,
+            1.589_690_995_211_55e-10,
             -2.505_076_025_340_686_3e-8,
             2.755_731_370_707_006_8e-6,
             -1.984_126_982_985_795e-4,
@@ -287,11 +281,7 @@ pub(super) fn product_transposed<S: Simd>(a: &Mat3<S>, b: &Mat3<S>) -> Mat3<S> {
 
 /// `R <- R Rot(axis)` with the sine and cosine of the angle: two columns change.
 #[inline(always)]
-pub(super) fn turn_columns<S: Simd, const AXIS: usize>(
-    r: &mut Mat3<S>,
-    s: Lanes<S>,
-    c: Lanes<S>,
-) {
+pub(super) fn turn_columns<S: Simd, const AXIS: usize>(r: &mut Mat3<S>, s: Lanes<S>, c: Lanes<S>) {
     let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
     for i in 0..3 {
         let (a, b) = (r[3 * i + j], r[3 * i + k]);

@@ -336,14 +336,14 @@ impl<S: Simd> LoadedLimb<S> {
     fn moving(&self) -> Lanes<S> {
         let one = Lanes::new(self.simd, 1.0);
         let allowed = self.size * (TOLERANCE * TOLERANCE);
-        allowed.where_less(self.change, one, one - one)
+        allowed.where_less(self.change, one, one.same(0.0))
     }
 
     /// One where every spring turns little enough and all numbers are numbers.
     #[inline(always)]
     pub fn sound(&self, plan: &Plan) -> Lanes<S> {
         let one = Lanes::new(self.simd, 1.0);
-        let mut most = one - one;
+        let mut most = one.same(0.0);
         for step in &plan.steps {
             if let Step::Spring(spring) = step {
                 for own in spring.coordinates[3..].iter().flatten() {
@@ -352,7 +352,9 @@ impl<S: Simd> LoadedLimb<S> {
                 }
             }
         }
-        let within = self.largest.where_less(one * law::MOST_SQUARE, one, one - one);
+        let within = self
+            .largest
+            .where_less(one * law::MOST_SQUARE, one, one.same(0.0));
         (one - most) * within
     }
 }
@@ -521,7 +523,13 @@ fn correction<S: Simd>(
 fn turned<S: Simd>(simd: S, v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
     let z = dot(v, v);
     let a = z.polynomial(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0]);
-    let b = z.polynomial(&[1.0 / 3_628_800.0, -1.0 / 40_320.0, 1.0 / 720.0, -1.0 / 24.0, 0.5]);
+    let b = z.polynomial(&[
+        1.0 / 3_628_800.0,
+        -1.0 / 40_320.0,
+        1.0 / 720.0,
+        -1.0 / 24.0,
+        0.5,
+    ]);
     let mut out = *r;
     let _ = simd;
     for k in 0..3 {

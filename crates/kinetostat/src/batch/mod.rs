@@ -20,6 +20,8 @@ mod run;
 mod symmetric;
 mod table;
 mod tangent;
+#[cfg(test)]
+mod tests;
 mod unloaded;
 
 use rayon::prelude::*;
@@ -159,7 +161,7 @@ impl<'m> Batch<'m> {
             ));
         }
         let each = limbs[0].nominal.actuators().len();
-        if each == 0 || commands.len() % each != 0 {
+        if each == 0 || !commands.len().is_multiple_of(each) {
             return Err(Error::Size {
                 place: place(),
                 what: "commands",
@@ -305,12 +307,7 @@ impl<'m> Batch<'m> {
                     coordinates: limb.nominal.home_coordinates(),
                 };
                 let base = self.mechanism.platforms()[limb.from].home;
-                let tip = unloaded_tip(
-                    &limb.nominal,
-                    &base,
-                    &joints.coordinates,
-                    &joints.commands,
-                );
+                let tip = unloaded_tip(&limb.nominal, &base, &joints.coordinates, &joints.commands);
                 let target = tip * limb.platform_from_tip.inverse();
                 self.mechanism.posture_from_joints(&target, vec![joints])
             }

@@ -71,14 +71,14 @@ pub(super) struct Spring {
 }
 
 /// How a spring of several directions answers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Law {
     /// By its matrix.
     Constant,
     /// A beam segment of this length (m) that shortens as it bends.
     Bowing(f64),
     /// Two bars whose compliance depends on a passive joint (its place among them).
-    Parallelogram(ParallelogramLaw, usize),
+    Parallelogram(Box<ParallelogramLaw>, usize),
 }
 
 /// One factor of the product.
@@ -89,9 +89,12 @@ pub(super) enum Step {
     /// A constant rotation, row by row.
     Rotate([f64; 9]),
     Joint(Joint),
-    Spring(Spring),
+    Spring(Box<Spring>),
     /// A mass (kg) with its centre here (m, axes of the frame reached).
-    Mass { at: [f64; 3], mass: f64 },
+    Mass {
+        at: [f64; 3],
+        mass: f64,
+    },
 }
 
 /// A limb as its steps.
@@ -298,7 +301,7 @@ impl Writer<'_> {
                             coordinate: m.coordinate.map(|d| (d.index, 1.0)),
                             command: None,
                         }));
-                        self.steps.push(Step::Spring(spring));
+                        self.steps.push(Step::Spring(Box::new(spring)));
                     }
                     block => self.joint(motion, block)?,
                 },
@@ -383,7 +386,7 @@ impl Writer<'_> {
             SpringLaw::Bowing(law) => Law::Bowing(law.length),
             SpringLaw::Parallelogram(law) => {
                 match self.passive.iter().position(|i| *i == law.inclination) {
-                    Some(slot) => Law::Parallelogram(**law, slot),
+                    Some(slot) => Law::Parallelogram(law.clone(), slot),
                     None => return refusal("hangs on a redundant joint"),
                 }
             }

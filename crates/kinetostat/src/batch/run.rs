@@ -350,11 +350,7 @@ impl<'a, S: Simd> Machine<'a, S> {
         }
         self.factors.clear();
         let mut sum = Symmetric::zero(simd);
-        for ((plan, joints), (_, walk)) in self
-            .actual
-            .iter()
-            .zip(&self.joints)
-            .zip(&mut self.walks)
+        for ((plan, joints), (_, walk)) in self.actual.iter().zip(&self.joints).zip(&mut self.walks)
         {
             walk.along(
                 plan,

@@ -242,11 +242,7 @@ impl<S: Simd> Walk<S> {
     /// force through the centre is passed on. `arm` leads from the platform's point to the centre, base
     /// axes.
     #[inline(always)]
-    pub fn stiffness_at_sphere(
-        &mut self,
-        plan: &Plan,
-        arm: &Vec3<S>,
-    ) -> LimbStiffness<S> {
+    pub fn stiffness_at_sphere(&mut self, plan: &Plan, arm: &Vec3<S>) -> LimbStiffness<S> {
         let simd = self.simd;
         let compliance = self.compliance.in_base_axes(&self.rotation);
         let mut columns = [[Lanes::new(simd, 0.0); 6]; 6];
