@@ -81,6 +81,7 @@
 //! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
 mod assembly;
+pub mod batch;
 mod beam;
 mod behind;
 mod bifurcation;

@@ -38,7 +38,12 @@ fn no_limb_of_a_preset_points_to_the_eye() {
                 let start = limb_start(limb, &posture.platforms()[limb.from]);
                 let near = |at: &Vector3<f64>| (at - start).norm() < 1e-6 * scene.size;
                 let rail = scene.bars.iter().any(|b| b.limb == Some(i));
-                assert!(rail || scene.blobs.iter().any(|b| near(&b.at)), "{}: nothing of '{}'", preset.name, limb.name);
+                assert!(
+                    rail || scene.blobs.iter().any(|b| near(&b.at)),
+                    "{}: nothing of '{}'",
+                    preset.name,
+                    limb.name
+                );
                 continue;
             }
             assert!(seen > 0.3 * long, "{}: '{}'", preset.name, limb.name);

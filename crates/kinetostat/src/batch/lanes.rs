@@ -1,0 +1,310 @@
+//! Several postures in one number: arithmetic on the lanes of a vector register.
+//!
+//! A kernel written with [`Lanes`] is compiled once for every instruction set that the machine may
+//! have (`pulp` chooses at run time) and once for single numbers. Only additions, multiplications,
+//! divisions, square roots and *fused* multiply-adds are used, all of which IEEE 754 rounds alike
+//! everywhere: a lane's bits depend neither on its neighbours nor on the instruction set.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use pulp::Simd;
+
+/// One number per lane.
+pub(super) struct Lanes<S: Simd> {
+    simd: S,
+    value: S::f64s,
+}
+
+impl<S: Simd> Clone for Lanes<S> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Simd> Copy for Lanes<S> {}
+
+/// Three numbers: a vector in base axes.
+pub(super) type Vec3<S> = [Lanes<S>; 3];
+/// A 3 x 3 matrix, row by row.
+pub(super) type Mat3<S> = [Lanes<S>; 9];
+
+macro_rules! operator {
+    ($trait:ident, $function:ident, $simd:ident) => {
+        impl<S: Simd> $trait for Lanes<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                self.with(self.simd.$simd(self.value, other.value))
+            }
+        }
+        impl<S: Simd> $trait<f64> for Lanes<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $function(self, other: f64) -> Self {
+                self.with(self.simd.$simd(self.value, self.simd.splat_f64s(other)))
+            }
+        }
+    };
+}
+operator!(Add, add, add_f64s);
+operator!(Sub, sub, sub_f64s);
+operator!(Mul, mul, mul_f64s);
+operator!(Div, div, div_f64s);
+
+impl<S: Simd> Neg for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.with(self.simd.neg_f64s(self.value))
+    }
+}
+
+impl<S: Simd> Lanes<S> {
+    /// The same number in all lanes.
+    #[inline(always)]
+    pub fn new(simd: S, value: f64) -> Self {
+        Self {
+            simd,
+            value: simd.splat_f64s(value),
+        }
+    }
+
+    /// The first numbers of a slice, one per lane.
+    #[inline(always)]
+    pub fn load(simd: S, from: &[f64]) -> Self {
+        Self {
+            simd,
+            value: simd.partial_load_f64s(&from[..S::F64_LANES]),
+        }
+    }
+
+    /// Into the first places of a slice.
+    #[inline(always)]
+    pub fn store(self, to: &mut [f64]) {
+        self.simd
+            .partial_store_f64s(&mut to[..S::F64_LANES], self.value);
+    }
+
+    #[inline(always)]
+    fn with(self, value: S::f64s) -> Self {
+        Self {
+            simd: self.simd,
+            value,
+        }
+    }
+
+    /// A constant in all lanes.
+    #[inline(always)]
+    pub fn same(self, value: f64) -> Self {
+        Self::new(self.simd, value)
+    }
+
+    /// `self * b + c`, rounded once.
+    #[inline(always)]
+    pub fn times_plus(self, b: Self, c: Self) -> Self {
+        self.with(self.simd.mul_add_f64s(self.value, b.value, c.value))
+    }
+
+    /// `c - self * b`, rounded once.
+    #[inline(always)]
+    pub fn times_from(self, b: Self, c: Self) -> Self {
+        self.with(self.simd.negate_mul_add_f64s(self.value, b.value, c.value))
+    }
+
+    /// Square root.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        self.with(self.simd.sqrt_f64s(self.value))
+    }
+
+    /// Absolute value.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        self.with(self.simd.abs_f64s(self.value))
+    }
+
+    /// The larger one.
+    #[inline(always)]
+    pub fn max(self, other: Self) -> Self {
+        self.where_less(other, other, self)
+    }
+
+    /// The smaller one, or the lowest number of all where `other` is not a number.
+    #[inline(always)]
+    pub fn least_of(self, other: Self) -> Self {
+        let larger = self.where_less(other, self, other);
+        other.where_less(self.same(f64::INFINITY), larger, self.same(f64::MIN))
+    }
+
+    /// `then` in the lanes where this is less than `than`, `otherwise` elsewhere (where either is
+    /// not a number too).
+    #[inline(always)]
+    pub fn where_less(self, than: Self, then: Self, otherwise: Self) -> Self {
+        let mask = self.simd.less_than_f64s(self.value, than.value);
+        self.with(self.simd.select_f64s(mask, then.value, otherwise.value))
+    }
+
+    /// True if this is less than `than` in every lane.
+    #[inline(always)]
+    pub fn all_less(self, than: f64) -> bool {
+        let not = self.where_less(self.same(than), self.same(0.0), self.same(1.0));
+        self.simd.reduce_max_f64s(not.value) == 0.0
+    }
+
+    /// Sine and cosine, |x| < 1e5 rad, to about one unit in the last place: reduction by multiples
+    /// of a quarter turn in two parts, then the polynomials of Cephes on an eighth of a turn.
+    #[inline(always)]
+    pub fn sin_cos(self) -> (Self, Self) {
+        // Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits.
+        const ROUND: f64 = 6_755_399_441_055_744.0;
+        let shifted = self.times_plus(self.same(std::f64::consts::FRAC_2_PI), self.same(ROUND));
+        let quarters = shifted - ROUND;
+        let r = quarters.times_from(self.same(std::f64::consts::FRAC_PI_2), self);
+        let r = quarters.times_from(self.same(6.123_233_995_736_766e-17), r);
+        let (sine, cosine) = r.sin_cos_near_zero();
+        let simd = self.simd;
+        let bits = simd.transmute_u64s_f64s(shifted.value);
+        let (one, two) = (simd.splat_u64s(1), simd.splat_u64s(2));
+        let has = |x, bit| simd.equal_u64s(simd.and_u64s(x, bit), bit);
+        let odd = has(bits, one);
+        let sine_negative = has(bits, two);
+        let cosine_negative = has(simd.add_u64s(bits, one), two);
+        let s = simd.select_f64s(odd, cosine.value, sine.value);
+        let c = simd.select_f64s(odd, sine.value, cosine.value);
+        let s = simd.select_f64s(sine_negative, simd.neg_f64s(s), s);
+        let c = simd.select_f64s(cosine_negative, simd.neg_f64s(c), c);
+        (self.with(s), self.with(c))
+    }
+
+    /// Sine and cosine of |x| <= pi / 4.
+    #[inline(always)]
+    pub fn sin_cos_near_zero(self) -> (Self, Self) {
+        let z = self * self;
+        let sine = z.polynomial(&[
+            1.589_690_995_211_55e-10,
+            -2.505_076_025_340_686_3e-8,
+            2.755_731_370_707_006_8e-6,
+            -1.984_126_982_985_795e-4,
+            8.333_333_333_322_49e-3,
+            -1.666_666_666_666_663_2e-1,
+        ]);
+        let cosine = z.polynomial(&[
+            -1.135_964_755_778_819_5e-11,
+            2.087_572_321_298_175e-9,
+            -2.755_731_435_139_066_3e-7,
+            2.480_158_728_947_673e-5,
+            -1.388_888_888_887_411e-3,
+            4.166_666_666_666_659_3e-2,
+        ]);
+        let half = z.times_from(self.same(0.5), self.same(1.0));
+        (
+            (self * z).times_plus(sine, self),
+            (z * z).times_plus(cosine, half),
+        )
+    }
+
+    /// Value of a polynomial, highest coefficient first.
+    #[inline(always)]
+    pub fn polynomial<const N: usize>(self, coefficients: &[f64; N]) -> Self {
+        let mut sum = self.same(coefficients[0]);
+        for c in &coefficients[1..] {
+            sum = sum.times_plus(self, self.same(*c));
+        }
+        sum
+    }
+}
+
+/// `a x b`.
+#[inline(always)]
+pub(super) fn cross<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
+    [
+        a[2].times_from(b[1], a[1] * b[2]),
+        a[0].times_from(b[2], a[2] * b[0]),
+        a[1].times_from(b[0], a[0] * b[1]),
+    ]
+}
+
+/// `a . b`.
+#[inline(always)]
+pub(super) fn dot<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Lanes<S> {
+    a[0].times_plus(b[0], a[1].times_plus(b[1], a[2] * b[2]))
+}
+
+/// `a - b`.
+#[inline(always)]
+pub(super) fn minus<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `R v + p`.
+#[inline(always)]
+pub(super) fn carried<S: Simd>(r: &Mat3<S>, v: &Vec3<S>, p: &Vec3<S>) -> Vec3<S> {
+    let row = |i: usize| {
+        r[3 * i].times_plus(
+            v[0],
+            r[3 * i + 1].times_plus(v[1], r[3 * i + 2].times_plus(v[2], p[i])),
+        )
+    };
+    [row(0), row(1), row(2)]
+}
+
+/// `A B`.
+#[inline(always)]
+pub(super) fn product<S: Simd>(a: &Mat3<S>, b: &Mat3<S>) -> Mat3<S> {
+    let mut out = *a;
+    for i in 0..3 {
+        for j in 0..3 {
+            out[3 * i + j] = a[3 * i].times_plus(
+                b[j],
+                a[3 * i + 1].times_plus(b[3 + j], a[3 * i + 2] * b[6 + j]),
+            );
+        }
+    }
+    out
+}
+
+/// `A B^T`.
+#[inline(always)]
+pub(super) fn product_transposed<S: Simd>(a: &Mat3<S>, b: &Mat3<S>) -> Mat3<S> {
+    let mut out = *a;
+    for i in 0..3 {
+        for j in 0..3 {
+            out[3 * i + j] = a[3 * i].times_plus(
+                b[3 * j],
+                a[3 * i + 1].times_plus(b[3 * j + 1], a[3 * i + 2] * b[3 * j + 2]),
+            );
+        }
+    }
+    out
+}
+
+/// `R <- R Rot(axis)` with the sine and cosine of the angle: two columns change.
+#[inline(always)]
+pub(super) fn turn_columns<S: Simd, const AXIS: usize>(r: &mut Mat3<S>, s: Lanes<S>, c: Lanes<S>) {
+    let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
+    for i in 0..3 {
+        let (a, b) = (r[3 * i + j], r[3 * i + k]);
+        r[3 * i + j] = c.times_plus(a, s * b);
+        r[3 * i + k] = s.times_from(a, c * b);
+    }
+}
+
+/// Column of a matrix.
+#[inline(always)]
+pub(super) fn column<S: Simd>(r: &Mat3<S>, k: usize) -> Vec3<S> {
+    [r[k], r[3 + k], r[6 + k]]
+}
+
+/// A constant vector in all lanes.
+#[inline(always)]
+pub(super) fn constant<S: Simd>(simd: S, v: &[f64; 3]) -> Vec3<S> {
+    v.map(|x| Lanes::new(simd, x))
+}
+
+/// The identity.
+#[inline(always)]
+pub(super) fn identity<S: Simd>(simd: S) -> Mat3<S> {
+    let (o, z) = (Lanes::new(simd, 1.0), Lanes::new(simd, 0.0));
+    [o, z, z, z, o, z, z, z, o]
+}

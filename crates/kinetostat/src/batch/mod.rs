@@ -1,0 +1,345 @@
+//! Many postures at once.
+//!
+//! A machine is compiled once into a [`Batch`]: per limb a list of steps with constants folded.
+//! Kernels walk along the steps with several postures in each number, without a branch that
+//! depends on a posture and without allocating; the widest vector instructions of the machine are
+//! chosen at run time. A posture whose lane cannot go on (a singular place, an iteration that does
+//! not contract) is solved once more alone, by the general engine, and so is every posture of a
+//! machine with something that no kernel knows; see [`Batch::alone`].
+//!
+//! The answer of a posture depends on nothing but that posture: not on its neighbours, the number of
+//! threads or the width of the vectors.
+
+mod eliminate;
+mod lanes;
+mod law;
+mod loaded;
+mod plan;
+mod reach;
+mod run;
+mod symmetric;
+mod table;
+mod tangent;
+#[cfg(test)]
+mod tests;
+mod unloaded;
+
+use rayon::prelude::*;
+
+use crate::equilibrium::unloaded_tip;
+use crate::error::{Error, Result};
+use crate::inverse::LimbPosture;
+use crate::mechanism::Mechanism;
+use crate::posture::Posture;
+use crate::spatial::{Pose, Wrench};
+use plan::Plan;
+use run::{Places, Work};
+use table::BLOCK;
+pub use table::Table;
+
+/// Blocks of eight postures that a thread takes at a time.
+const BLOCKS: usize = 32;
+
+/// A machine compiled for many postures.
+#[derive(Clone, Debug)]
+pub struct Batch<'m> {
+    mechanism: &'m Mechanism,
+    /// Of every limb as drawn and as it is, or why there are none.
+    plans: std::result::Result<(Vec<Plan>, Vec<Plan>), String>,
+}
+
+/// How the answer of a posture was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// Together with others.
+    Together,
+    /// Alone, by the general engine.
+    Alone,
+    /// Not at all: the error that the general engine gives for this posture says why. Its numbers
+    /// are not numbers.
+    Not,
+}
+
+/// Unloaded stiffness of many postures.
+#[derive(Clone, Debug)]
+pub struct BatchStiffness {
+    /// Cartesian stiffness of the tool at its origin, base axes, 36 numbers row by row (N/m, N/rad,
+    /// N m/m, N m/rad), as in [`crate::UnloadedStiffness`].
+    pub stiffness: Table,
+    /// Jacobian of a serial machine, 6 x n row by row: twist of the tool (m, rad, base axes, at its
+    /// origin) per unit of every coordinate. Empty unless asked for.
+    pub jacobian: Table,
+    /// How each was found.
+    pub found: Vec<Found>,
+}
+
+/// Loaded equilibrium of many postures.
+#[derive(Clone, Debug)]
+pub struct BatchEquilibrium {
+    /// Pose of the tool, 12 numbers: rotation matrix (base from tool) row by row, position (m).
+    pub tool: Table,
+    /// Coordinates of all limbs (m, rad), limb after limb in their chains' order.
+    pub coordinates: Table,
+    /// Tangent stiffness of the tool, 36 numbers as in [`BatchStiffness`]. Empty unless asked for.
+    pub stiffness: Table,
+    /// How each was found.
+    pub found: Vec<Found>,
+}
+
+impl<'m> Batch<'m> {
+    /// Compiles a machine.
+    #[must_use]
+    pub fn new(mechanism: &'m Mechanism) -> Self {
+        Self {
+            mechanism,
+            plans: compiled(mechanism),
+        }
+    }
+
+    /// Why all postures of this machine are solved alone, if they are.
+    #[must_use]
+    pub fn alone(&self) -> Option<&str> {
+        self.plans.as_ref().err().map(String::as_str)
+    }
+
+    /// Stiffness of the unloaded machine as drawn with the tool at each of the poses.
+    #[must_use]
+    pub fn stiffness(&self, poses: &[Pose]) -> BatchStiffness {
+        self.unloaded(&Places::Poses(poses), false)
+    }
+
+    /// Stiffness, and Jacobian if asked for, of a serial machine with its actuators commanded to
+    /// `commands` (m or rad, one after the other for each posture).
+    ///
+    /// # Errors
+    /// [`Error::Size`] if the numbers are no whole postures, [`Error::Model`] for a machine of
+    /// several limbs or with passive joints.
+    pub fn stiffness_at_joints(&self, commands: &[f64], jacobian: bool) -> Result<BatchStiffness> {
+        Ok(self.unloaded(&self.joints(commands)?, jacobian))
+    }
+
+    /// Equilibrium of the machine as it is, its tool commanded to `poses` and loaded by `wrenches`
+    /// (one of each per posture; base axes, about the tool's origin), with the tangent stiffness if
+    /// asked for.
+    ///
+    /// # Errors
+    /// [`Error::Size`] if there are not as many wrenches as poses.
+    pub fn equilibrium(
+        &self,
+        poses: &[Pose],
+        wrenches: &[Wrench],
+        tangent: bool,
+    ) -> Result<BatchEquilibrium> {
+        self.loaded(&Places::Poses(poses), wrenches, tangent)
+    }
+
+    /// The same for a serial machine with its actuators commanded to `commands`.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness_at_joints`] and [`Self::equilibrium`].
+    pub fn equilibrium_at_joints(
+        &self,
+        commands: &[f64],
+        wrenches: &[Wrench],
+        tangent: bool,
+    ) -> Result<BatchEquilibrium> {
+        self.loaded(&self.joints(commands)?, wrenches, tangent)
+    }
+
+    fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
+        let place = || format!("mechanism '{}'", self.mechanism.name());
+        let limbs = self.mechanism.limbs();
+        let serial = limbs.len() == 1
+            && limbs[0]
+                .nominal
+                .indices_of(crate::chain::Role::Passive)
+                .is_empty();
+        if !serial {
+            return Err(Error::model(
+                place(),
+                "commands alone lead to a pose in a serial machine without passive joints only",
+            ));
+        }
+        let each = limbs[0].nominal.actuators().len();
+        if each == 0 || !commands.len().is_multiple_of(each) {
+            return Err(Error::Size {
+                place: place(),
+                what: "commands",
+                expected: each * commands.len().div_ceil(each.max(1)),
+                found: commands.len(),
+            });
+        }
+        Ok(Places::Joints { commands, each })
+    }
+
+    fn unloaded(&self, places: &Places<'_>, jacobian: bool) -> BatchStiffness {
+        let count = places.len();
+        let coordinates = self.mechanism.limbs()[0].nominal.coordinate_count();
+        let width = if jacobian { 6 * coordinates } else { 0 };
+        let mut out = BatchStiffness {
+            stiffness: Table::new(36, count),
+            jacobian: Table::new(width, count),
+            found: vec![Found::Not; count],
+        };
+        if let Ok((nominal, _)) = &self.plans {
+            let parts = out.stiffness.parts(BLOCKS).into_iter();
+            let works: Vec<Work<'_>> = parts
+                .zip(out.jacobian.parts(BLOCKS))
+                .zip(out.found.chunks_mut(BLOCK * BLOCKS))
+                .enumerate()
+                .map(|(k, ((stiffness, jacobian), found))| Work::Unloaded {
+                    plans: nominal,
+                    places: places.from(k * BLOCKS * BLOCK),
+                    stiffness,
+                    jacobian,
+                    found,
+                })
+                .collect();
+            in_parallel(works);
+        }
+        for i in 0..count {
+            if out.found[i] == Found::Together {
+                continue;
+            }
+            let answer = self.posture(places, i).and_then(|p| p.stiffness());
+            let row = |k: usize| match &answer {
+                Ok(found) => found.cartesian.matrix[(k / 6, k % 6)],
+                Err(_) => f64::NAN,
+            };
+            out.stiffness.set_row(i, row);
+            if answer.is_ok() {
+                out.found[i] = Found::Alone;
+            }
+        }
+        out
+    }
+
+    fn loaded(
+        &self,
+        places: &Places<'_>,
+        wrenches: &[Wrench],
+        tangent: bool,
+    ) -> Result<BatchEquilibrium> {
+        let count = places.len();
+        if wrenches.len() != count {
+            return Err(Error::Size {
+                place: format!("mechanism '{}'", self.mechanism.name()),
+                what: "wrenches",
+                expected: count,
+                found: wrenches.len(),
+            });
+        }
+        let limbs = self.mechanism.limbs();
+        let coordinates = limbs.iter().map(|l| l.actual.coordinate_count()).sum();
+        let mut out = BatchEquilibrium {
+            tool: Table::new(12, count),
+            coordinates: Table::new(coordinates, count),
+            stiffness: Table::new(if tangent { 36 } else { 0 }, count),
+            found: vec![Found::Not; count],
+        };
+        if let Ok((nominal, actual)) = &self.plans
+            && (!tangent || actual.iter().all(Plan::has_tangent) && actual.len() == 1)
+        {
+            let tool = &self.mechanism.platforms()[self.mechanism.tool()];
+            let parts = out.tool.parts(BLOCKS).into_iter();
+            let works: Vec<Work<'_>> = parts
+                .zip(out.coordinates.parts(BLOCKS))
+                .zip(out.stiffness.parts(BLOCKS))
+                .zip(out.found.chunks_mut(BLOCK * BLOCKS))
+                .enumerate()
+                .map(
+                    |(k, (((tool_out, coordinates), stiffness), found))| Work::Loaded {
+                        nominal,
+                        actual,
+                        body: (tool.centre_of_mass.into(), tool.mass),
+                        gravity: self.mechanism.gravity().into(),
+                        places: places.from(k * BLOCKS * BLOCK),
+                        wrenches: &wrenches[k * BLOCKS * BLOCK..],
+                        tool: tool_out,
+                        coordinates,
+                        stiffness,
+                        found,
+                    },
+                )
+                .collect();
+            in_parallel(works);
+        }
+        for i in 0..count {
+            if out.found[i] == Found::Together {
+                continue;
+            }
+            let answer = self
+                .posture(places, i)
+                .and_then(|p| p.deflected_by(&wrenches[i]));
+            match &answer {
+                Ok(found) => {
+                    let r = found.tool.rotation.to_rotation_matrix();
+                    let p = found.tool.translation.vector;
+                    let number = |k: usize| if k < 9 { r[(k / 3, k % 3)] } else { p[k - 9] };
+                    out.tool.set_row(i, number);
+                    let own: Vec<f64> = found
+                        .limbs
+                        .iter()
+                        .flat_map(|l| l.coordinates.iter().copied())
+                        .collect();
+                    out.coordinates.set_row(i, |k| own[k]);
+                    let matrix = &found.stiffness.matrix;
+                    out.stiffness.set_row(i, |k| matrix[(k / 6, k % 6)]);
+                    out.found[i] = Found::Alone;
+                }
+                Err(_) => {
+                    for table in [&mut out.tool, &mut out.coordinates, &mut out.stiffness] {
+                        table.set_row(i, |_| f64::NAN);
+                    }
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture<'m>> {
+        match places {
+            Places::Poses(poses) => self.mechanism.posture(&poses[i]),
+            Places::Joints { commands, each } => {
+                let limb = &self.mechanism.limbs()[0];
+                let joints = LimbPosture {
+                    commands: commands[i * each..(i + 1) * each].to_vec(),
+                    coordinates: limb.nominal.home_coordinates(),
+                };
+                let base = self.mechanism.platforms()[limb.from].home;
+                let tip = unloaded_tip(&limb.nominal, &base, &joints.coordinates, &joints.commands);
+                let target = tip * limb.platform_from_tip.inverse();
+                self.mechanism.posture_from_joints(&target, vec![joints])
+            }
+        }
+    }
+}
+
+fn in_parallel(works: Vec<Work<'_>>) {
+    if works.len() < 2 {
+        works.into_iter().for_each(Work::run);
+    } else {
+        works.into_par_iter().for_each(Work::run);
+    }
+}
+
+/// Plans of all limbs, as drawn and as they are, or why there are none.
+fn compiled(mechanism: &Mechanism) -> std::result::Result<(Vec<Plan>, Vec<Plan>), String> {
+    if mechanism.platforms().len() != 2 {
+        return Err("it has platforms between base and tool".into());
+    }
+    let tool = mechanism.tool();
+    let (mut nominal, mut actual) = (Vec::new(), Vec::new());
+    for (i, limb) in mechanism.limbs().iter().enumerate() {
+        if limb.from != 0 || limb.to != tool {
+            return Err(format!("'{}' does not lead from base to tool", limb.name));
+        }
+        if !mechanism.loads(i).is_empty() {
+            return Err(format!("'{}' bears loads of its own", limb.name));
+        }
+        let end = limb.platform_from_tip.inverse();
+        nominal.push(Plan::new(&limb.nominal, &end)?);
+        actual.push(Plan::new(&limb.actual, &end)?);
+    }
+    Ok((nominal, actual))
+}

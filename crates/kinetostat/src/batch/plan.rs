@@ -1,0 +1,502 @@
+//! A limb compiled once into a list of steps with its constants folded: what the kernels walk along.
+
+use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
+
+use crate::chain::{Chain, Element, Motion, MotionKind, Role};
+use crate::kinematics::Kinematics;
+use crate::parallelogram::ParallelogramLaw;
+use crate::spatial::Pose;
+use crate::spring::{SpringBlock, SpringLaw};
+
+/// How far a motion goes: `fixed + ratio * command + ratio * coordinate`, m or rad.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Amount {
+    pub fixed: f64,
+    pub command: Option<(usize, f64)>,
+    pub coordinate: Option<(usize, f64)>,
+}
+
+/// What holds the coordinate of one motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Held {
+    /// Nothing moves but the command, or the coordinate has a fixed value here.
+    Fixed,
+    /// A passive joint; its place among the plan's passive joints.
+    Passive(usize),
+    /// A spring of this compliance, m/N or rad/(N m).
+    Spring(f64),
+}
+
+/// One motion about or along a coordinate axis of the frame reached.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Joint {
+    pub kind: MotionKind,
+    /// 0, 1, 2: x, y, z.
+    pub axis: usize,
+    pub amount: Amount,
+    pub held: Held,
+    /// Its place in [`Plan::screws`].
+    pub screw: usize,
+}
+
+/// A motion that a coordinate or a command drives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Screw {
+    pub kind: MotionKind,
+    pub coordinate: Option<(usize, f64)>,
+    pub command: Option<(usize, f64)>,
+}
+
+/// Three passive rotations about one point at the end of a limb: they leave its orientation free.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sphere {
+    /// The step of the first of them.
+    pub step: usize,
+    /// From the centre to the platform's point, m, platform axes.
+    pub arm: [f64; 3],
+}
+
+/// A spring of up to six directions at one place, translations before rotations.
+#[derive(Clone, Debug)]
+pub(super) struct Spring {
+    /// Coordinate of each direction `x y z rx ry rz`.
+    pub coordinates: [Option<usize>; 6],
+    /// The first of its places in [`Plan::screws`], one per direction that moves.
+    pub screw: usize,
+    /// Its compliance, row by row; zero where a direction does not move.
+    pub compliance: Box<[f64; 36]>,
+    /// Its stiffness, row by row.
+    pub stiffness: Box<[f64; 36]>,
+    pub law: Law,
+}
+
+/// How a spring of several directions answers.
+#[derive(Clone, Debug)]
+pub(super) enum Law {
+    /// By its matrix.
+    Constant,
+    /// A beam segment of this length (m) that shortens as it bends.
+    Bowing(f64),
+    /// Two bars whose compliance depends on a passive joint (its place among them).
+    Parallelogram(Box<ParallelogramLaw>, usize),
+}
+
+/// One factor of the product.
+#[derive(Clone, Debug)]
+pub(super) enum Step {
+    /// A constant translation, m, axes of the frame reached.
+    Shift([f64; 3]),
+    /// A constant rotation, row by row.
+    Rotate([f64; 9]),
+    Joint(Joint),
+    Spring(Box<Spring>),
+    /// A mass (kg) with its centre here (m, axes of the frame reached).
+    Mass {
+        at: [f64; 3],
+        mass: f64,
+    },
+}
+
+/// A limb as its steps.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub steps: Vec<Step>,
+    /// Motions that a coordinate or a command drives, from the base outwards.
+    pub screws: Vec<Screw>,
+    pub sphere: Option<Sphere>,
+    /// Number of coordinates of the chain.
+    pub coordinates: usize,
+    /// Number of commands.
+    pub commands: usize,
+    /// Coordinate of every passive joint that is not redundant.
+    pub passive: Vec<usize>,
+    /// Of every coordinate: its place among them.
+    slots: Vec<Option<usize>>,
+    pub home: Vec<f64>,
+    pub home_commands: Vec<f64>,
+    /// Natural length, m.
+    pub length: f64,
+}
+
+/// Why a machine is solved posture by posture instead.
+pub(super) type Refusal = String;
+
+impl Plan {
+    /// `end` is the pose of the platform in the frame of the limb's tip.
+    pub fn new(chain: &Chain, end: &Pose) -> Result<Self, Refusal> {
+        let redundant = redundant_passive_joints(chain);
+        let passive: Vec<usize> = chain
+            .indices_of(Role::Passive)
+            .into_iter()
+            .filter(|i| !redundant.contains(i))
+            .collect();
+        if passive.len() > 6 {
+            return Err(format!(
+                "'{}' has more than six passive joints",
+                chain.name()
+            ));
+        }
+        let mut writer = Writer {
+            chain,
+            passive: &passive,
+            steps: Vec::new(),
+            screws: Vec::new(),
+            pending: (Matrix3::identity(), Vector3::zeros()),
+        };
+        writer.chain()?;
+        writer.rigid(end);
+        writer.flush();
+        Ok(Self {
+            sphere: sphere(&writer.steps, &writer.screws),
+            steps: writer.steps,
+            screws: writer.screws,
+            coordinates: chain.coordinate_count(),
+            commands: chain.actuators().len(),
+            home: chain.home_coordinates(),
+            home_commands: chain.home_commands(),
+            length: chain.scale().length,
+            slots: (0..chain.coordinate_count())
+                .map(|i| passive.iter().position(|p| *p == i))
+                .collect(),
+            passive,
+        })
+    }
+}
+
+impl Plan {
+    /// A tangent stiffness under load is compiled: serial, springs of constant matrices.
+    pub fn has_tangent(&self) -> bool {
+        let linear = |step: &Step| match step {
+            Step::Spring(spring) => matches!(spring.law, Law::Constant),
+            _ => true,
+        };
+        self.passive.is_empty() && self.steps.iter().all(linear)
+    }
+
+    /// Place of a coordinate among the passive joints.
+    #[inline(always)]
+    pub fn slot(&self, coordinate: usize) -> Option<usize> {
+        self.slots[coordinate]
+    }
+
+    /// Number of steps and of motions before the spherical joint at the end, or of all.
+    #[inline(always)]
+    pub fn before_sphere(&self) -> (usize, usize) {
+        if let Some(sphere) = &self.sphere
+            && let Step::Joint(joint) = &self.steps[sphere.step]
+        {
+            return (sphere.step, joint.screw);
+        }
+        (self.steps.len(), self.screws.len())
+    }
+}
+
+/// Passive joints whose motion others make as well, in general: locked where they are at home.
+fn redundant_passive_joints(chain: &Chain) -> Vec<usize> {
+    // A posture with nothing special about it.
+    let nudge = |i: usize| 0.3 * ((i + 1) as f64 * 0.618_034).fract() - 0.1;
+    let coordinates: Vec<f64> = chain
+        .home_coordinates()
+        .iter()
+        .enumerate()
+        .map(|(i, x)| match chain.coordinates()[i].role {
+            Role::Passive => x + nudge(i),
+            Role::Spring => *x,
+        })
+        .collect();
+    let at = Kinematics::new(
+        chain,
+        &Pose::identity(),
+        &coordinates,
+        &chain.home_commands(),
+        false,
+    );
+    let jacobian = at.jacobian(chain.tip());
+    let length = chain.scale().length;
+    let mut basis: Vec<nalgebra::DVector<f64>> = Vec::new();
+    let mut redundant = Vec::new();
+    for i in chain.indices_of(Role::Passive) {
+        let mut column = nalgebra::DVector::from_fn(6, |k, _| {
+            jacobian[(k, i)] * if k < 3 { 1.0 } else { length }
+        });
+        let size = column.norm();
+        for _ in 0..2 {
+            for b in &basis {
+                let along = b.dot(&column);
+                column.axpy(-along, b, 1.0);
+            }
+        }
+        let left = column.norm();
+        if left > 1e-9 * size {
+            basis.push(column / left);
+        } else {
+            redundant.push(i);
+        }
+    }
+    redundant
+}
+
+struct Writer<'c> {
+    chain: &'c Chain,
+    passive: &'c [usize],
+    steps: Vec<Step>,
+    screws: Vec<Screw>,
+    /// Constant motion since the last step.
+    pending: (Matrix3<f64>, Vector3<f64>),
+}
+
+impl Writer<'_> {
+    fn rigid(&mut self, pose: &Pose) {
+        let (rotation, translation) = &mut self.pending;
+        *translation += *rotation * pose.translation.vector;
+        if pose.rotation.imag() != Vector3::zeros() {
+            *rotation *= pose.rotation.to_rotation_matrix().matrix();
+        }
+    }
+
+    fn flush(&mut self) {
+        let (rotation, translation) = self.pending;
+        if translation != Vector3::zeros() {
+            self.steps.push(Step::Shift(translation.into()));
+        }
+        if rotation != Matrix3::identity() {
+            let mut rows = [0.0; 9];
+            rows.copy_from_slice(rotation.transpose().as_slice());
+            self.steps.push(Step::Rotate(rows));
+        }
+        self.pending = (Matrix3::identity(), Vector3::zeros());
+    }
+
+    fn chain(&mut self) -> Result<(), Refusal> {
+        let chain = self.chain;
+        let mut elements = chain.elements().iter();
+        while let Some(element) = elements.next() {
+            match element {
+                Element::Rigid(pose) => self.rigid(pose),
+                Element::Node(node) => {
+                    for body in chain.bodies.iter().filter(|b| b.node == *node) {
+                        self.steps.push(Step::Mass {
+                            at: self.pending.1.into(),
+                            mass: body.mass,
+                        });
+                    }
+                }
+                Element::Motion(motion) => match block_of(chain, motion) {
+                    Some(block) if block.len() > 1 => {
+                        self.flush();
+                        let motions = elements
+                            .by_ref()
+                            .take(block.len() - 1)
+                            .map(|e| match e {
+                                Element::Motion(m) => Some(*m),
+                                _ => None,
+                            })
+                            .collect::<Option<Vec<_>>>();
+                        let mut all = vec![*motion];
+                        all.extend(motions.unwrap_or_default());
+                        let mut spring = self.spring(block, &all)?;
+                        spring.screw = self.screws.len();
+                        self.screws.extend(all.iter().map(|m| Screw {
+                            kind: m.kind,
+                            coordinate: m.coordinate.map(|d| (d.index, 1.0)),
+                            command: None,
+                        }));
+                        self.steps.push(Step::Spring(Box::new(spring)));
+                    }
+                    block => self.joint(motion, block)?,
+                },
+            }
+        }
+        Ok(())
+    }
+
+    fn joint(&mut self, motion: &Motion, block: Option<&SpringBlock>) -> Result<(), Refusal> {
+        let name = self.chain.name();
+        let mut amount = Amount {
+            fixed: 0.0,
+            command: motion.command.map(|d| (d.index, d.ratio)),
+            coordinate: motion.coordinate.map(|d| (d.index, d.ratio)),
+        };
+        let mut held = Held::Fixed;
+        if let Some((index, ratio)) = amount.coordinate {
+            let own = &self.chain.coordinates()[index];
+            match (own.role, block) {
+                (Role::Spring, Some(block)) => {
+                    let SpringLaw::Linear(k) = &block.law else {
+                        return Err(format!("'{name}': the law of '{}'", block.name));
+                    };
+                    let drives = self.chain.elements().iter().filter(|e| {
+                        matches!(e, Element::Motion(m) if m.coordinate.is_some_and(|d| d.index == index))
+                    });
+                    if drives.count() > 1 || ratio != 1.0 {
+                        return Err(format!("'{name}': '{}' moves several joints", own.name));
+                    }
+                    if own.home != 0.0 || block.rest[0] != 0.0 {
+                        return Err(format!("'{name}': '{}' is preloaded", own.name));
+                    }
+                    held = Held::Spring(1.0 / k[(0, 0)]);
+                }
+                (Role::Spring, None) => {
+                    return Err(format!("'{name}': '{}' has no law", own.name));
+                }
+                (Role::Passive, _) => {
+                    if let Some(slot) = self.passive.iter().position(|i| *i == index) {
+                        held = Held::Passive(slot);
+                    }
+                }
+            }
+        }
+        let (axis, sign, turned) = along_an_axis(motion);
+        if let Some(turned) = &turned {
+            self.pending.0 *= turned;
+        }
+        self.flush();
+        for (_, ratio) in amount.command.iter_mut().chain(&mut amount.coordinate) {
+            *ratio *= sign;
+        }
+        // A locked joint keeps its value at home.
+        if matches!(held, Held::Fixed)
+            && let Some((index, ratio)) = amount.coordinate.take()
+        {
+            amount.fixed = ratio * self.chain.coordinates()[index].home;
+        }
+        let screw = self.screws.len();
+        self.screws.push(Screw {
+            kind: motion.kind,
+            coordinate: amount.coordinate,
+            command: amount.command,
+        });
+        self.steps.push(Step::Joint(Joint {
+            kind: motion.kind,
+            axis,
+            amount,
+            held,
+            screw,
+        }));
+        if let Some(turned) = turned {
+            self.pending.0 = turned.transpose();
+        }
+        Ok(())
+    }
+
+    fn spring(&self, block: &SpringBlock, motions: &[Motion]) -> Result<Spring, Refusal> {
+        let refusal = |why: &str| Err(format!("'{}': '{}' {why}", self.chain.name(), block.name));
+        let law = match &block.law {
+            SpringLaw::Linear(_) => Law::Constant,
+            SpringLaw::Bowing(law) => Law::Bowing(law.length),
+            SpringLaw::Parallelogram(law) => {
+                match self.passive.iter().position(|i| *i == law.inclination) {
+                    Some(slot) => Law::Parallelogram(law.clone(), slot),
+                    None => return refusal("hangs on a redundant joint"),
+                }
+            }
+            SpringLaw::Logarithm(_) => return refusal("has a law that no kernel knows"),
+        };
+        let k = &block.stiffness_at(&self.chain.home_coordinates());
+        if block.len() > 6 || motions.len() != block.len() {
+            return refusal("is not in one place");
+        }
+        let mut directions = Vec::new();
+        for (i, motion) in motions.iter().enumerate() {
+            let along = (0..3).find(|k| motion.axis[*k] == 1.0);
+            let ours = motion.command.is_none()
+                && motion
+                    .coordinate
+                    .is_some_and(|d| d.index == block.first + i && d.ratio == 1.0);
+            match (along, motion.kind) {
+                (Some(axis), MotionKind::Prismatic) if ours => directions.push(axis),
+                (Some(axis), MotionKind::Revolute) if ours => directions.push(axis + 3),
+                _ => return refusal("is not in one place"),
+            }
+        }
+        if directions.windows(2).any(|w| w[0] >= w[1]) {
+            return refusal("turns before it slides");
+        }
+        let own = block.first..block.first + block.len();
+        let home = &self.chain.coordinates()[own];
+        if block.rest.iter().any(|x| *x != 0.0) || home.iter().any(|c| c.home != 0.0) {
+            return refusal("is preloaded");
+        }
+        let Some(inverse) = k.clone().cholesky().map(|c| c.inverse()) else {
+            return refusal("is singular");
+        };
+        let mut coordinates = [None; 6];
+        for (i, d) in directions.iter().enumerate() {
+            coordinates[*d] = Some(block.first + i);
+        }
+        let spread = |m: &DMatrix<f64>| {
+            let mut full = Box::new([0.0; 36]);
+            for (i, r) in directions.iter().enumerate() {
+                for (j, c) in directions.iter().enumerate() {
+                    full[6 * r + c] = m[(i, j)];
+                }
+            }
+            full
+        };
+        Ok(Spring {
+            coordinates,
+            screw: 0,
+            compliance: spread(&inverse),
+            stiffness: spread(k),
+            law,
+        })
+    }
+}
+
+/// The spring that holds a motion.
+fn block_of<'c>(chain: &'c Chain, motion: &Motion) -> Option<&'c SpringBlock> {
+    let index = motion.coordinate?.index;
+    let mut springs = chain.springs().iter();
+    springs.find(|s| (s.first..s.first + s.len()).contains(&index))
+}
+
+/// Coordinate axis, sense and, for a slanted axis, the rotation that leads z onto it.
+fn along_an_axis(motion: &Motion) -> (usize, f64, Option<Matrix3<f64>>) {
+    for k in 0..3 {
+        if motion.axis[k].abs() == 1.0 {
+            return (k, motion.axis[k], None);
+        }
+    }
+    let turned = Rotation3::rotation_between(&Vector3::z(), &motion.axis)
+        .map_or_else(Matrix3::identity, |r| *r.matrix());
+    (2, 1.0, Some(turned))
+}
+
+/// The spherical joint at the end of a limb, if there is one.
+fn sphere(steps: &[Step], screws: &[Screw]) -> Option<Sphere> {
+    let last = steps.iter().rposition(|s| matches!(s, Step::Joint(_)))?;
+    let first = last.checked_sub(2)?;
+    let mut axes = [false; 3];
+    for step in &steps[first..=last] {
+        let Step::Joint(joint) = step else {
+            return None;
+        };
+        let (Held::Passive(_), Some((own, ratio))) = (joint.held, joint.amount.coordinate) else {
+            return None;
+        };
+        let drives = screws
+            .iter()
+            .filter(|s| s.coordinate.is_some_and(|(c, _)| c == own));
+        if joint.kind != MotionKind::Revolute
+            || joint.amount.command.is_some()
+            || ratio.abs() != 1.0
+            || drives.count() > 1
+        {
+            return None;
+        }
+        axes[joint.axis] = true;
+    }
+    let (mut rotation, mut point) = (Matrix3::identity(), Vector3::zeros());
+    for step in &steps[last + 1..] {
+        match step {
+            Step::Shift(l) => point += rotation * Vector3::from(*l),
+            Step::Rotate(r) => rotation *= Matrix3::from_row_slice(r),
+            Step::Mass { .. } => {}
+            Step::Joint(_) | Step::Spring(_) => return None,
+        }
+    }
+    axes.iter().all(|a| *a).then(|| Sphere {
+        step: first,
+        arm: (rotation.transpose() * point).into(),
+    })
+}

@@ -1,0 +1,384 @@
+//! From lists of postures to lanes and back.
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::Found;
+use super::eliminate::Eliminated;
+use super::lanes::{self, Lanes, identity};
+use super::loaded::{Held6, LoadedLimb, serial};
+use super::plan::Plan;
+use super::reach::{Joints, Target};
+use super::symmetric::Symmetric;
+use super::table::BLOCK;
+use super::tangent;
+use super::unloaded::Walk;
+use crate::spatial::{Pose, Wrench};
+
+/// Below this relative pivot a posture is solved alone: its rank has to be decided.
+const REGULAR: f64 = 1e-9;
+
+/// Where the machine is commanded.
+#[derive(Clone, Copy)]
+pub(super) enum Places<'a> {
+    Poses(&'a [Pose]),
+    Joints { commands: &'a [f64], each: usize },
+}
+
+impl<'a> Places<'a> {
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Poses(poses) => poses.len(),
+            Self::Joints { commands, each } => commands.len() / each,
+        }
+    }
+
+    /// Without the first ones.
+    pub fn from(&self, first: usize) -> Self {
+        match *self {
+            Self::Poses(poses) => Self::Poses(&poses[first..]),
+            Self::Joints { commands, each } => Self::Joints {
+                commands: &commands[first * each..],
+                each,
+            },
+        }
+    }
+}
+
+/// What one thread does at a time: as many postures as `found` has places.
+pub(super) enum Work<'a> {
+    Unloaded {
+        plans: &'a [Plan],
+        places: Places<'a>,
+        stiffness: &'a mut [f64],
+        jacobian: &'a mut [f64],
+        found: &'a mut [Found],
+    },
+    Loaded {
+        nominal: &'a [Plan],
+        actual: &'a [Plan],
+        body: ([f64; 3], f64),
+        gravity: [f64; 3],
+        places: Places<'a>,
+        wrenches: &'a [Wrench],
+        tool: &'a mut [f64],
+        coordinates: &'a mut [f64],
+        stiffness: &'a mut [f64],
+        found: &'a mut [Found],
+    },
+}
+
+impl Work<'_> {
+    pub fn run(self) {
+        Arch::new().dispatch(self);
+    }
+}
+
+impl WithSimd for Work<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        match self {
+            Self::Unloaded {
+                plans,
+                places,
+                stiffness,
+                jacobian,
+                found,
+            } => unloaded(simd, plans, places, stiffness, jacobian, found),
+            Self::Loaded {
+                nominal,
+                actual,
+                body,
+                gravity,
+                places,
+                wrenches,
+                tool,
+                coordinates,
+                stiffness,
+                found,
+            } => {
+                let mut machine = Machine::new(simd, nominal, actual, body, gravity);
+                let count = found.len();
+                for first in (0..count).step_by(S::F64_LANES) {
+                    let group = Group { first, count };
+                    let wrench = group.wrench(simd, wrenches);
+                    let done = machine.settle(simd, &places, &group, &wrench);
+                    let mut good = done;
+                    group.put(tool, machine.rotation.into_iter().chain(machine.point));
+                    let own = machine.limbs.iter().flat_map(|l| &l.coordinates);
+                    group.put(coordinates, own.copied());
+                    if !stiffness.is_empty() {
+                        let (k, regular) =
+                            tangent::stiffness(simd, &actual[0], &machine.limbs[0], &gravity);
+                        good = good.least_of(regular);
+                        group.put(stiffness, k.into_iter().flatten());
+                    }
+                    group.conclude(good, found);
+                }
+            }
+        }
+    }
+}
+
+/// Postures side by side in one register.
+struct Group {
+    first: usize,
+    count: usize,
+}
+
+impl Group {
+    /// Posture in a lane; the last one fills up.
+    #[inline(always)]
+    fn item(&self, lane: usize) -> usize {
+        (self.first + lane).min(self.count - 1)
+    }
+
+    #[inline(always)]
+    fn gather<S: Simd>(&self, simd: S, value: impl Fn(usize) -> f64) -> Lanes<S> {
+        let mut values = [0.0; BLOCK];
+        for (lane, x) in values[..S::F64_LANES].iter_mut().enumerate() {
+            *x = value(self.item(lane));
+        }
+        Lanes::load(simd, &values)
+    }
+
+    #[inline(always)]
+    fn wrench<S: Simd>(&self, simd: S, wrenches: &[Wrench]) -> [Lanes<S>; 6] {
+        [0, 1, 2, 3, 4, 5].map(|k| self.gather(simd, |i| wrenches[i].0[k]))
+    }
+
+    /// Numbers of these postures into their places of a table.
+    #[inline(always)]
+    fn put<S: Simd>(&self, table: &mut [f64], numbers: impl Iterator<Item = Lanes<S>>) {
+        let width = table.len() / self.count.div_ceil(BLOCK) / BLOCK;
+        let block = &mut table[(self.first / BLOCK) * width * BLOCK..];
+        for (place, x) in block.chunks_mut(BLOCK).zip(numbers) {
+            x.store(&mut place[self.first % BLOCK..]);
+        }
+    }
+
+    /// Marks the lanes whose least pivot or other measure of good is well above zero.
+    #[inline(always)]
+    fn conclude<S: Simd>(&self, good: Lanes<S>, found: &mut [Found]) {
+        let mut values = [0.0; BLOCK];
+        good.store(&mut values);
+        for (own, good) in found[self.first..].iter_mut().zip(&values[..S::F64_LANES]) {
+            if *good > REGULAR {
+                *own = Found::Together;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn target<S: Simd>(&self, simd: S, poses: &[Pose]) -> Target<S> {
+        let q = [0, 1, 2, 3].map(|k| self.gather(simd, |i| poses[i].rotation.coords[k]));
+        let point = [0, 1, 2].map(|k| self.gather(simd, |i| poses[i].translation.vector[k]));
+        let [x, y, z, w] = q;
+        let one = Lanes::new(simd, 1.0);
+        let double = |a: Lanes<S>, b: Lanes<S>| a * b * 2.0;
+        Target {
+            rotation: [
+                one - double(y, y) - double(z, z),
+                double(x, y) - double(z, w),
+                double(x, z) + double(y, w),
+                double(x, y) + double(z, w),
+                one - double(x, x) - double(z, z),
+                double(y, z) - double(x, w),
+                double(x, z) - double(y, w),
+                double(y, z) + double(x, w),
+                one - double(x, x) - double(y, y),
+            ],
+            point,
+        }
+    }
+
+    #[inline(always)]
+    fn commands<S: Simd>(&self, simd: S, from: &[f64], each: usize, to: &mut [Lanes<S>]) {
+        for (k, x) in to.iter_mut().enumerate() {
+            *x = self.gather(simd, |i| from[i * each + k]);
+        }
+    }
+}
+
+#[inline(always)]
+fn unloaded<S: Simd>(
+    simd: S,
+    plans: &[Plan],
+    places: Places<'_>,
+    stiffness: &mut [f64],
+    jacobian: &mut [f64],
+    found: &mut [Found],
+) {
+    let zero = Lanes::new(simd, 0.0);
+    let mut limbs: Vec<(Walk<S>, Joints<S>)> = plans
+        .iter()
+        .map(|plan| (Walk::new(simd, plan), Joints::new(simd, plan)))
+        .collect();
+    let n = plans[0].coordinates;
+    let mut columns = vec![zero; if jacobian.is_empty() { 0 } else { 6 * n }];
+    let count = found.len();
+    for first in (0..count).step_by(S::F64_LANES) {
+        let group = Group { first, count };
+        let mut good = Lanes::new(simd, 1.0);
+        let mut sum = Symmetric::zero(simd);
+        match places {
+            Places::Joints { commands, each } => {
+                let (walk, joints) = &mut limbs[0];
+                group.commands(simd, commands, each, &mut joints.commands);
+                let steps = plans[0].steps.len();
+                walk.along(&plans[0], true, steps, &joints.commands, &[]);
+                let own = walk.stiffness(&plans[0]);
+                good = own.regular;
+                sum = own.matrix;
+            }
+            Places::Poses(poses) => {
+                let target = group.target(simd, poses);
+                for (plan, (walk, joints)) in plans.iter().zip(&mut limbs) {
+                    joints.reach(simd, plan, walk, &target, false);
+                    let own = match &plan.sphere {
+                        Some(sphere) => {
+                            let arm = sphere.arm.map(|x| Lanes::new(simd, -x));
+                            let arm = lanes::carried(&target.rotation, &arm, &[zero; 3]);
+                            walk.stiffness_at_sphere(plan, &arm)
+                        }
+                        None => walk.stiffness(plan),
+                    };
+                    sum.add(&own.matrix);
+                    good = good.least_of(own.regular).least_of(joints.reached);
+                }
+            }
+        }
+        let numbers = (0..36).map(|k| sum.get(k / 6, k % 6));
+        // A number that is none spoils the sum.
+        let all = numbers.clone().reduce(|a, b| a + b * 0.0);
+        good = all.map_or(good, |x| good.least_of(x * 0.0 + 1.0));
+        group.put(stiffness, numbers);
+        if !jacobian.is_empty() {
+            let plan = &plans[0];
+            columns.fill(zero);
+            for (k, screw) in plan.screws.iter().enumerate() {
+                let Some((own, ratio)) = screw.coordinate else {
+                    continue;
+                };
+                for (row, x) in limbs[0].0.twist(plan, k).into_iter().enumerate() {
+                    let sum = &mut columns[row * n + own];
+                    *sum = x.times_plus(x.same(ratio), *sum);
+                }
+            }
+            group.put(jacobian, columns.iter().copied());
+        }
+        group.conclude(good, found);
+    }
+}
+
+/// A machine with the buffers of its limbs.
+struct Machine<'a, S: Simd> {
+    nominal: &'a [Plan],
+    actual: &'a [Plan],
+    walks: Vec<(Walk<S>, Walk<S>)>,
+    joints: Vec<Joints<S>>,
+    limbs: Vec<LoadedLimb<S>>,
+    factors: Vec<Eliminated<S>>,
+    body: ([f64; 3], f64),
+    gravity: [f64; 3],
+    rotation: lanes::Mat3<S>,
+    point: lanes::Vec3<S>,
+}
+
+impl<'a, S: Simd> Machine<'a, S> {
+    fn new(
+        simd: S,
+        nominal: &'a [Plan],
+        actual: &'a [Plan],
+        body: ([f64; 3], f64),
+        gravity: [f64; 3],
+    ) -> Self {
+        let plans = || nominal.iter().zip(actual);
+        Self {
+            nominal,
+            actual,
+            walks: plans()
+                .map(|(n, a)| (Walk::new(simd, n), Walk::new(simd, a)))
+                .collect(),
+            joints: nominal.iter().map(|n| Joints::new(simd, n)).collect(),
+            limbs: actual.iter().map(|a| LoadedLimb::new(simd, a)).collect(),
+            factors: Vec::with_capacity(actual.len()),
+            body,
+            gravity,
+            rotation: identity(simd),
+            point: [Lanes::new(simd, 0.0); 3],
+        }
+    }
+
+    /// Commands the machine and lets it settle: one in the lanes that are done.
+    #[inline(always)]
+    fn settle(
+        &mut self,
+        simd: S,
+        places: &Places<'_>,
+        group: &Group,
+        wrench: &[Lanes<S>; 6],
+    ) -> Lanes<S> {
+        let mut good = Lanes::new(simd, 1.0);
+        match *places {
+            Places::Joints { commands, each } => {
+                group.commands(simd, commands, each, &mut self.joints[0].commands);
+            }
+            Places::Poses(poses) => {
+                let target = group.target(simd, poses);
+                for ((plan, joints), (walk, _)) in self
+                    .nominal
+                    .iter()
+                    .zip(&mut self.joints)
+                    .zip(&mut self.walks)
+                {
+                    joints.reach(simd, plan, walk, &target, true);
+                    good = good.least_of(joints.reached);
+                }
+                (self.rotation, self.point) = (target.rotation, target.point);
+            }
+        }
+        for ((limb, plan), joints) in self.limbs.iter_mut().zip(self.actual).zip(&self.joints) {
+            limb.start(plan, &joints.commands, &joints.passive);
+        }
+        if self.actual.len() == 1 && self.actual[0].passive.is_empty() && self.body.1 == 0.0 {
+            let limb = &mut self.limbs[0];
+            let done = serial(simd, &self.actual[0], limb, *wrench, &self.gravity);
+            (self.rotation, self.point) = (limb.rotation, limb.point);
+            return good.least_of(done);
+        }
+        self.factors.clear();
+        let mut sum = Symmetric::zero(simd);
+        for ((plan, joints), (_, walk)) in self.actual.iter().zip(&self.joints).zip(&mut self.walks)
+        {
+            walk.along(
+                plan,
+                true,
+                plan.steps.len(),
+                &joints.commands,
+                &joints.passive,
+            );
+            let factors = walk.eliminated(plan);
+            let length = plan.length;
+            let own = factors.stiffness(simd);
+            sum.add(&own.matrix.scaled(1.0 / (length * length), 1.0 / length));
+            good = good.least_of(own.regular);
+            self.factors.push(factors);
+        }
+        let (compliance, regular) = sum.inverse(simd);
+        let mut held = Held6 {
+            plans: self.actual,
+            limbs: &mut self.limbs,
+            factors: &self.factors,
+            compliance: &compliance,
+            rotation: self.rotation,
+            point: self.point,
+            body: self.body,
+            gravity: self.gravity,
+        };
+        let done = held.settle(simd, wrench);
+        (self.rotation, self.point) = (held.rotation, held.point);
+        good.least_of(regular).least_of(done)
+    }
+}

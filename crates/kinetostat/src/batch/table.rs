@@ -1,0 +1,87 @@
+//! Results of many postures, laid out as the kernels write them.
+
+/// Postures that lie side by side.
+pub(super) const BLOCK: usize = 8;
+
+/// A row of numbers for each of many postures, as a structure of arrays in blocks of eight: the
+/// numbers of eight postures lie side by side, so that a vector register is stored at once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    width: usize,
+    count: usize,
+    data: Vec<f64>,
+}
+
+impl Table {
+    pub(super) fn new(width: usize, count: usize) -> Self {
+        Self {
+            width,
+            count,
+            data: vec![0.0; count.div_ceil(BLOCK) * width * BLOCK],
+        }
+    }
+
+    /// Numbers per posture.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Number of postures.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// True without postures.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// One number of one posture.
+    ///
+    /// # Panics
+    /// If either index is out of range, as for a slice.
+    #[must_use]
+    pub fn get(&self, posture: usize, number: usize) -> f64 {
+        assert!(posture < self.count && number < self.width, "out of range");
+        self.data[self.place(posture, number)]
+    }
+
+    /// The numbers of one posture.
+    ///
+    /// # Panics
+    /// If the index is out of range, as for a slice.
+    pub fn row(&self, posture: usize) -> impl Iterator<Item = f64> + '_ {
+        (0..self.width).map(move |k| self.get(posture, k))
+    }
+
+    /// All numbers: number `k` of posture `i` is at `(i / 8) * 8 * width + 8 * k + i % 8`; the last
+    /// block is filled up.
+    #[must_use]
+    pub fn data(&self) -> &[f64] {
+        &self.data
+    }
+
+    fn place(&self, posture: usize, number: usize) -> usize {
+        (posture / BLOCK) * BLOCK * self.width + BLOCK * number + posture % BLOCK
+    }
+
+    /// Sets the numbers of one posture.
+    pub(super) fn set_row(&mut self, posture: usize, number: impl Fn(usize) -> f64) {
+        for k in 0..self.width {
+            let at = self.place(posture, k);
+            self.data[at] = number(k);
+        }
+    }
+
+    /// The numbers in parts of so many blocks each; a table without columns has as many, all empty.
+    pub(super) fn parts(&mut self, blocks: usize) -> Vec<&mut [f64]> {
+        if self.width == 0 {
+            let parts = self.count.div_ceil(BLOCK * blocks);
+            return (0..parts).map(|_| Default::default()).collect();
+        }
+        self.data.chunks_mut(self.width * BLOCK * blocks).collect()
+    }
+}

@@ -1,0 +1,259 @@
+//! A lane's bits depend on nothing but its own posture.
+
+use nalgebra::{Matrix6, UnitQuaternion, Vector3};
+use pulp::{Scalar, Simd, WithSimd};
+
+use super::lanes::Lanes;
+use super::run::{Places, Work};
+use super::*;
+use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform};
+
+/// Numbers between -1 and 1 with nothing special about them.
+fn irregular(i: usize) -> f64 {
+    2.0 * ((i + 1) as f64 * 0.618_033_988_749_895).fract() - 1.0
+}
+
+fn bar() -> Matrix6<f64> {
+    BeamSection::tube(2.1e11, 8.1e10, 0.02, 0.012).cantilever(0.3)
+}
+
+/// Three sliders with struts between universal joints, one strut longer than drawn.
+fn sliders() -> Mechanism {
+    let mut builder = Mechanism::builder("sliders").gravity(Vector3::new(0.0, 0.0, -9.81));
+    let tool = builder.platform(Platform {
+        mass: 3.0,
+        centre_of_mass: Vector3::new(0.01, -0.02, 0.03),
+        ..Platform::new("tool", Pose::identity())
+    });
+    for i in 0..3 {
+        let axes = UnitQuaternion::from_axis_angle(
+            &nalgebra::Unit::new_normalize(Vector3::new(1.0, 1.0, 1.0)),
+            f64::from(i) * std::f64::consts::TAU / 3.0,
+        );
+        let turned = Pose::from_parts(Vector3::zeros().into(), axes);
+        let leg = |longer: f64| {
+            let slide = ActuatorSpec {
+                home: -0.33,
+                ..ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), 2.8e6)
+            };
+            Chain::builder(format!("leg {i}"))
+                .rigid(turned)
+                .actuator("slide", slide)
+                .spring6("foot", &(bar() * 30.0), [0.0; 6])
+                .passive("q1", MotionKind::Revolute, Vector3::z(), 0.0)
+                .passive("q2", MotionKind::Revolute, Vector3::y(), 0.0)
+                .translation(Vector3::new(0.3 + longer, 0.0, 0.0))
+                .spring6("bar", &bar(), [0.0; 6])
+                .passive("q3", MotionKind::Revolute, Vector3::y(), 0.0)
+                .passive("q4", MotionKind::Revolute, Vector3::z(), 0.0)
+                .translation(Vector3::new(0.03, 0.0, 0.0))
+                .rigid(turned.inverse())
+                .build()
+                .expect("a leg")
+        };
+        builder = builder.limb(Limb {
+            name: format!("leg {i}"),
+            from: 0,
+            to: tool,
+            platform_from_tip: Pose::identity(),
+            nominal: leg(0.0),
+            actual: leg(if i == 1 { 2e-4 } else { 0.0 }),
+        });
+    }
+    builder.build().expect("a machine")
+}
+
+fn poses(count: usize) -> Vec<Pose> {
+    (0..count)
+        .map(|i| {
+            let [x, y, z] = [0, 1, 2].map(|k| 0.06 * irregular(3 * i + k));
+            Pose::translation(x, y, z)
+        })
+        .collect()
+}
+
+fn wrenches(count: usize) -> Vec<Wrench> {
+    let vector = |i: usize| Vector3::new(irregular(i), irregular(i + 1), irregular(i + 2));
+    (0..count)
+        .map(|i| Wrench::new(200.0 * vector(5 * i), 5.0 * vector(7 * i)))
+        .collect()
+}
+
+/// All numbers of equilibria found with one instruction set.
+fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Vec<Found>) {
+    let batch = Batch::new(machine);
+    let (nominal, actual) = batch.plans.as_ref().expect("compiled");
+    let (poses, wrenches) = (poses(count), wrenches(count));
+    let coordinates = machine.limbs().iter().map(|l| l.actual.coordinate_count());
+    let (mut tool, mut own) = (Table::new(12, count), Table::new(coordinates.sum(), count));
+    let mut found = vec![Found::Not; count];
+    let platform = &machine.platforms()[1];
+    Work::Loaded {
+        nominal,
+        actual,
+        body: (platform.centre_of_mass.into(), platform.mass),
+        gravity: machine.gravity().into(),
+        places: Places::Poses(&poses),
+        wrenches: &wrenches,
+        tool: tool.parts(count)[0],
+        coordinates: own.parts(count)[0],
+        stiffness: &mut [],
+        found: &mut found,
+    }
+    .with_simd(simd);
+    let all = (0..count)
+        .flat_map(|i| tool.row(i).chain(own.row(i)).collect::<Vec<_>>())
+        .collect();
+    (all, found)
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    let machine = sliders();
+    let count = 11;
+    let (alone, found) = settled(Scalar, &machine, count);
+    assert!(found.iter().all(|f| *f == Found::Together));
+    #[cfg(target_arch = "x86_64")]
+    {
+        let mut sets = 0;
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            assert_eq!(
+                settled(simd, &machine, count),
+                (alone.clone(), found.clone())
+            );
+            sets += 1;
+        }
+        if let Some(simd) = pulp::x86::V4::try_new() {
+            assert_eq!(
+                settled(simd, &machine, count),
+                (alone.clone(), found.clone())
+            );
+            sets += 1;
+        }
+        println!("{sets} vector instruction sets compared with single numbers");
+    }
+}
+
+#[test]
+fn neighbours_do_not_matter() {
+    let machine = sliders();
+    let batch = Batch::new(&machine);
+    let count = 300;
+    let (mut poses, mut wrenches) = (poses(count), wrenches(count));
+    // One out of reach.
+    poses[17] = Pose::translation(3.0, 0.0, 0.0);
+    let forward = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+    poses.reverse();
+    wrenches.reverse();
+    let backward = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+    for i in 0..count {
+        let mirror = count - 1 - i;
+        assert_eq!(forward.found[i], backward.found[mirror]);
+        if i == 17 {
+            assert_eq!(forward.found[i], Found::Not);
+            assert!(forward.tool.row(i).all(f64::is_nan));
+            continue;
+        }
+        assert_eq!(forward.found[i], Found::Together);
+        assert!(forward.tool.row(i).eq(backward.tool.row(mirror)));
+        assert!(
+            forward
+                .coordinates
+                .row(i)
+                .eq(backward.coordinates.row(mirror))
+        );
+    }
+}
+
+#[test]
+fn together_is_as_alone() {
+    let machine = sliders();
+    let batch = Batch::new(&machine);
+    let count = 24;
+    let (poses, wrenches) = (poses(count), wrenches(count));
+    let all = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+    for i in 0..count {
+        let alone = machine.posture(&poses[i]).expect("reachable");
+        let alone = alone.deflected_by(&wrenches[i]).expect("an equilibrium");
+        let p = Vector3::from_fn(|k, _| all.tool.get(i, 9 + k));
+        assert!((p - alone.tool.translation.vector).norm() < 1e-12);
+        let own = alone.limbs.iter().flat_map(|l| &l.coordinates);
+        for (a, b) in all.coordinates.row(i).zip(own) {
+            assert!((a - b).abs() < 1e-11, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn sines_are_those_of_the_library() {
+    for i in 0..20_000 {
+        let x = irregular(i) * [1.0, 4.0, 100.0, 3e4][i % 4];
+        let mut out = [0.0; 2];
+        let (s, c) = Lanes::new(Scalar, x).sin_cos();
+        s.store(&mut out[..1]);
+        c.store(&mut out[1..]);
+        assert!((out[0] - x.sin()).abs() < 3e-16, "sin {x}");
+        assert!((out[1] - x.cos()).abs() < 3e-16, "cos {x}");
+    }
+}
+
+#[test]
+fn a_serial_arm_has_its_tangent() {
+    let mut chain = Chain::builder("arm");
+    for (i, axis) in [Vector3::z(), Vector3::y(), Vector3::new(0.2, 0.9, -0.3)]
+        .into_iter()
+        .enumerate()
+    {
+        chain = chain
+            .actuator(
+                &format!("j{i}"),
+                ActuatorSpec::new(MotionKind::Revolute, axis, 2e5),
+            )
+            .translation(Vector3::new(0.4, 0.05, 0.3))
+            .spring6(&format!("l{i}"), &(bar() * 20.0), [0.0; 6])
+            .body(
+                &format!("m{i}"),
+                20.0,
+                Vector3::new(-0.2, 0.0, -0.1),
+                nalgebra::Matrix3::zeros(),
+            );
+    }
+    let chain = chain.build().expect("an arm");
+    let gravity = Vector3::new(1.0, 2.0, -9.0);
+    let machine = Mechanism::serial(chain, Pose::identity(), gravity).expect("a machine");
+    let batch = Batch::new(&machine);
+    let count = 16;
+    let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
+    let wrenches = wrenches(count);
+    let all = batch
+        .equilibrium_at_joints(&commands, &wrenches, true)
+        .expect("sizes");
+    let free = batch.stiffness_at_joints(&commands, true).expect("sizes");
+    for i in 0..count {
+        assert_eq!(all.found[i], Found::Together);
+        let joints = Places::Joints {
+            commands: &commands,
+            each: 3,
+        };
+        let posture = batch.posture(&joints, i).expect("a posture");
+        let alone = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
+        let same = |table: &Table, matrix: &Matrix6<f64>| {
+            let own = Matrix6::from_fn(|r, c| table.get(i, 6 * r + c));
+            (own - matrix).amax() / matrix.amax()
+        };
+        assert!(same(&all.stiffness, &alone.stiffness.matrix) < 1e-12);
+        let unloaded = posture.stiffness().expect("a stiffness");
+        assert!(same(&free.stiffness, &unloaded.cartesian.matrix) < 1e-12);
+        let at = crate::Kinematics::new(
+            &machine.limbs()[0].nominal,
+            &Pose::identity(),
+            &[0.0; 21],
+            &commands[3 * i..3 * i + 3],
+            false,
+        );
+        let jacobian = at.jacobian(machine.limbs()[0].nominal.tip());
+        for (k, x) in free.jacobian.row(i).enumerate() {
+            assert!((x - jacobian[(k / 21, k % 21)]).abs() < 1e-14);
+        }
+    }
+}
