@@ -101,6 +101,11 @@ const PRESETS: &[Preset] = &[
     ),
     preset!(
         Parallel,
+        "hexapod_with_screws",
+        "The hexapod with screws between universal joints: length and turn of a leg are coupled"
+    ),
+    preset!(
+        Parallel,
         "cubic_hexapod",
         "Stewart's cube: six legs along its edges, equally stiff in all directions at the centre"
     ),

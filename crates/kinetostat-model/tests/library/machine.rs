@@ -132,7 +132,13 @@ impl Reader<'_> {
                     ActuatorKind::Prismatic => JointKind::Prismatic,
                     ActuatorKind::Revolute => JointKind::Revolute,
                     ActuatorKind::Screw => {
-                        panic!("'{name}': screws are tested against a closed form")
+                        let turn = self.coordinates[format!("{name}.turn").as_str()];
+                        let mm = e.lead_mm_per_turn.map(|l| l * 1e-3);
+                        let lead = e.lead_m_per_turn.or(mm).expect("a lead");
+                        let advance = lead / std::f64::consts::TAU;
+                        let way = value + advance * turn;
+                        self.screw(&axis(&e.axis), way, turn, advance, stiffness);
+                        return;
                     }
                 };
                 self.one(&name, kind, &axis(&e.axis), value, stiffness, rigid);
@@ -253,6 +259,34 @@ impl Reader<'_> {
             self.s.spring(row.clone(), k);
         }
         self.joints.insert(name.to_owned(), Joint { row, value });
+    }
+
+    /// A nut on its screw: it slides as it turns, but for what the drive gives way; m per rad.
+    fn screw(
+        &mut self,
+        along: &Vector3<f64>,
+        way: f64,
+        turn: f64,
+        advance: f64,
+        stiffness: Option<f64>,
+    ) {
+        let (from, axis) = (self.at.node, self.world(along));
+        self.offset(&motion(JointKind::Prismatic, along, way));
+        self.offset(&motion(JointKind::Revolute, along, turn));
+        let at = self.point();
+        let to = self.s.node(at);
+        self.at.node = to;
+        self.s.joint(from, to, &at, &[axis], &[axis]);
+        let slide = self.s.slide(from, to, &at, &axis);
+        let twist = self.s.twist(from, to, &axis);
+        match stiffness {
+            None => self.s.follow(&slide, advance, &twist),
+            Some(k) => {
+                let mut given_way = slide;
+                given_way.extend(twist.into_iter().map(|(i, x)| (i, -advance * x)));
+                self.s.spring(given_way, k);
+            }
+        }
     }
 
     /// Turns about axes through one point, each in the frame that those before it reach.
