@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 pub mod chains;
+pub mod checks;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
