@@ -375,8 +375,8 @@ fn matrix(
         }
     };
     // Six columns within the width of a terminal.
-    let all = || (0..36).map(|k| (k / 6, k % 6));
-    let wide = all().any(|(i, j)| cell(i, j, 5).len() > 10);
+    let width = |j: usize| (0..6).map(|i| cell(i, j, 5).len()).max().unwrap_or(0).max(7);
+    let wide = (0..6).map(|j| width(j) + 2).sum::<usize>() > 70;
     for i in 0..6 {
         let mut row = vec![names[i].to_owned()];
         row.extend((0..6).map(|j| {
