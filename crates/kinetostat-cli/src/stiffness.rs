@@ -375,7 +375,13 @@ fn matrix(
         }
     };
     // Six columns within the width of a terminal.
-    let width = |j: usize| (0..6).map(|i| cell(i, j, 5).len()).max().unwrap_or(0).max(7);
+    let width = |j: usize| {
+        (0..6)
+            .map(|i| cell(i, j, 5).len())
+            .max()
+            .unwrap_or(0)
+            .max(7)
+    };
     let wide = (0..6).map(|j| width(j) + 2).sum::<usize>() > 70;
     for i in 0..6 {
         let mut row = vec![names[i].to_owned()];
