@@ -73,17 +73,14 @@ impl<S: Simd> Lanes<S> {
     /// The first numbers of a slice, one per lane.
     #[inline(always)]
     pub fn load(simd: S, from: &[f64]) -> Self {
-        Self {
-            simd,
-            value: simd.partial_load_f64s(&from[..S::F64_LANES]),
-        }
+        let value = pulp::bytemuck::cast_slice::<f64, S::f64s>(&from[..S::F64_LANES])[0];
+        Self { simd, value }
     }
 
     /// Into the first places of a slice.
     #[inline(always)]
     pub fn store(self, to: &mut [f64]) {
-        self.simd
-            .partial_store_f64s(&mut to[..S::F64_LANES], self.value);
+        pulp::bytemuck::cast_slice_mut::<f64, S::f64s>(&mut to[..S::F64_LANES])[0] = self.value;
     }
 
     #[inline(always)]
@@ -240,13 +237,14 @@ pub(super) fn minus<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
 /// `R v + p`.
 #[inline(always)]
 pub(super) fn carried<S: Simd>(r: &Mat3<S>, v: &Vec3<S>, p: &Vec3<S>) -> Vec3<S> {
-    let row = |i: usize| {
-        r[3 * i].times_plus(
+    let mut out = *p;
+    for i in 0..3 {
+        out[i] = r[3 * i].times_plus(
             v[0],
             r[3 * i + 1].times_plus(v[1], r[3 * i + 2].times_plus(v[2], p[i])),
-        )
-    };
-    [row(0), row(1), row(2)]
+        );
+    }
+    out
 }
 
 /// `A B`.
@@ -299,7 +297,11 @@ pub(super) fn column<S: Simd>(r: &Mat3<S>, k: usize) -> Vec3<S> {
 /// A constant vector in all lanes.
 #[inline(always)]
 pub(super) fn constant<S: Simd>(simd: S, v: &[f64; 3]) -> Vec3<S> {
-    v.map(|x| Lanes::new(simd, x))
+    [
+        Lanes::new(simd, v[0]),
+        Lanes::new(simd, v[1]),
+        Lanes::new(simd, v[2]),
+    ]
 }
 
 /// The identity.

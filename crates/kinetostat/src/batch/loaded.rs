@@ -134,10 +134,11 @@ impl<S: Simd> LoadedLimb<S> {
 
     #[inline(always)]
     fn joint<const AXIS: usize>(&mut self, joint: &Joint) {
-        let amount = amount(self.simd, &joint.amount, &self.commands, || {
-            let (own, _) = joint.amount.coordinate?;
-            Some(self.coordinates[own])
-        });
+        let coordinate = match joint.amount.coordinate {
+            Some((own, _)) => Some(self.coordinates[own]),
+            None => None,
+        };
+        let amount = amount(self.simd, &joint.amount, &self.commands, coordinate);
         let axis = column(&self.rotation, AXIS);
         self.places[joint.screw] = Place {
             axis,

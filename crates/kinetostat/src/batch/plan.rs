@@ -47,6 +47,38 @@ pub(super) struct Screw {
     pub command: Option<(usize, f64)>,
 }
 
+/// A motion that an unknown of a search, or a passive joint, drives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drive {
+    pub unknown: usize,
+    pub screw: usize,
+    pub ratio: f64,
+}
+
+/// Which equations a search solves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rows {
+    Position,
+    Rotation,
+    Both,
+}
+
+/// A search for joints of the unloaded limb: some of the passive joints, then the commands.
+#[derive(Clone, Debug)]
+pub(super) struct Search {
+    pub rows: Rows,
+    /// Passive joints, by their place among the plan's.
+    pub passive: std::ops::Range<usize>,
+    /// Commands: all or none.
+    pub commands: usize,
+    /// Steps to walk along.
+    pub end: usize,
+    /// What each unknown drives.
+    pub drives: Vec<Drive>,
+    /// Largest step of each unknown, m or rad.
+    pub most: [f64; 6],
+}
+
 /// Three passive rotations about one point at the end of a limb: they leave its orientation free.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sphere {
@@ -97,6 +129,26 @@ pub(super) enum Step {
     },
 }
 
+/// Two crossing passive rotations about one point, then a commanded slide along the third axis through
+/// it: where the slide ends says what they are, without a search.
+#[derive(Clone, Debug)]
+pub(super) struct Polar {
+    /// Step of the first rotation; the second is the next one.
+    pub first: usize,
+    /// Their axes.
+    pub axes: [usize; 2],
+    /// Frame of the first rotation as the base sees it: axes by rows, m.
+    pub rotation: [f64; 9],
+    pub point: [f64; 3],
+    /// Length of the slide: `fixed + ratio * command`, m; its sign at home.
+    pub command: usize,
+    pub fixed: f64,
+    pub ratio: f64,
+    pub sign: f64,
+    /// Sines and cosines of the rotations at home.
+    pub home: [(f64, f64); 2],
+}
+
 /// A limb as its steps.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
@@ -104,14 +156,19 @@ pub(super) struct Plan {
     /// Motions that a coordinate or a command drives, from the base outwards.
     pub screws: Vec<Screw>,
     pub sphere: Option<Sphere>,
+    pub polar: Option<Polar>,
     /// Number of coordinates of the chain.
     pub coordinates: usize,
     /// Number of commands.
     pub commands: usize,
     /// Coordinate of every passive joint that is not redundant.
     pub passive: Vec<usize>,
-    /// Of every coordinate: its place among them.
-    slots: Vec<Option<usize>>,
+    /// What the passive joints drive, from the base outwards.
+    pub passive_drives: Vec<Drive>,
+    /// How joints are found, one search after the other.
+    pub searches: Vec<Search>,
+    /// Every coordinate drives one motion, by the ratio of one.
+    pub one_each: bool,
     pub home: Vec<f64>,
     pub home_commands: Vec<f64>,
     /// Natural length, m.
@@ -146,8 +203,75 @@ impl Plan {
         writer.chain()?;
         writer.rigid(end);
         writer.flush();
+        let mut passive_drives = Vec::new();
+        let mut command_drives = Vec::new();
+        let mut driven = vec![0; chain.coordinate_count()];
+        for (screw, own) in writer.screws.iter().enumerate() {
+            if let Some((index, ratio)) = own.coordinate {
+                driven[index] += if ratio == 1.0 { 1 } else { 2 };
+                if let Some(unknown) = passive.iter().position(|p| *p == index) {
+                    passive_drives.push(Drive {
+                        unknown,
+                        screw,
+                        ratio,
+                    });
+                }
+            }
+            if let Some((unknown, ratio)) = own.command {
+                command_drives.push(Drive {
+                    unknown,
+                    screw,
+                    ratio,
+                });
+            }
+        }
+        let sphere = sphere(&writer.steps, &writer.screws);
+        let joints = passive.len();
+        let search = |rows, passive: std::ops::Range<usize>, end| {
+            let mut drives = Vec::new();
+            let mut most = [chain.scale().length; 6];
+            let mut add = |drive: &Drive, unknown: usize| {
+                if unknown < 6 && writer.screws[drive.screw].kind == MotionKind::Revolute {
+                    most[unknown] = 0.5;
+                }
+                drives.push(Drive { unknown, ..*drive });
+            };
+            for drive in &passive_drives {
+                if passive.contains(&drive.unknown) {
+                    add(drive, drive.unknown - passive.start);
+                }
+            }
+            let commands = match rows {
+                Rows::Rotation => 0,
+                Rows::Position | Rows::Both => chain.actuators().len(),
+            };
+            for drive in command_drives.iter().filter(|_| commands > 0) {
+                add(drive, passive.len() + drive.unknown);
+            }
+            Search {
+                rows,
+                passive,
+                commands,
+                end,
+                drives,
+                most,
+            }
+        };
+        let searches = match &sphere {
+            None => vec![search(Rows::Both, 0..joints, writer.steps.len())],
+            Some(sphere) => vec![
+                search(Rows::Position, 0..joints - 3, sphere.step),
+                search(Rows::Rotation, joints - 3..joints, writer.steps.len()),
+            ],
+        };
         Ok(Self {
-            sphere: sphere(&writer.steps, &writer.screws),
+            passive_drives,
+            one_each: driven.iter().all(|n| *n == 1),
+            polar: sphere
+                .as_ref()
+                .and_then(|sphere| polar(&writer.steps[..sphere.step], &searches[0], chain)),
+            searches,
+            sphere,
             steps: writer.steps,
             screws: writer.screws,
             coordinates: chain.coordinate_count(),
@@ -155,9 +279,6 @@ impl Plan {
             home: chain.home_coordinates(),
             home_commands: chain.home_commands(),
             length: chain.scale().length,
-            slots: (0..chain.coordinate_count())
-                .map(|i| passive.iter().position(|p| *p == i))
-                .collect(),
             passive,
         })
     }
@@ -171,23 +292,6 @@ impl Plan {
             _ => true,
         };
         self.passive.is_empty() && self.steps.iter().all(linear)
-    }
-
-    /// Place of a coordinate among the passive joints.
-    #[inline(always)]
-    pub fn slot(&self, coordinate: usize) -> Option<usize> {
-        self.slots[coordinate]
-    }
-
-    /// Number of steps and of motions before the spherical joint at the end, or of all.
-    #[inline(always)]
-    pub fn before_sphere(&self) -> (usize, usize) {
-        if let Some(sphere) = &self.sphere
-            && let Step::Joint(joint) = &self.steps[sphere.step]
-        {
-            return (sphere.step, joint.screw);
-        }
-        (self.steps.len(), self.screws.len())
     }
 }
 
@@ -498,5 +602,69 @@ fn sphere(steps: &[Step], screws: &[Screw]) -> Option<Sphere> {
     axes.iter().all(|a| *a).then(|| Sphere {
         step: first,
         arm: (rotation.transpose() * point).into(),
+    })
+}
+
+/// The polar joints that lead to the centre of a spherical joint, if these steps are that.
+fn polar(steps: &[Step], search: &Search, chain: &Chain) -> Option<Polar> {
+    let first = steps.iter().position(|s| matches!(s, Step::Joint(_)))?;
+    let (Step::Joint(a), Step::Joint(b)) = (&steps[first], steps.get(first + 1)?) else {
+        return None;
+    };
+    if search.drives.len() != 3 || search.passive.len() != 2 || search.commands != 1 {
+        return None;
+    }
+    let (mut rotation, mut point) = (Matrix3::identity(), Vector3::zeros());
+    for step in &steps[..first] {
+        match step {
+            Step::Shift(l) => point += rotation * Vector3::from(*l),
+            Step::Rotate(r) => rotation *= Matrix3::from_row_slice(r),
+            Step::Mass { .. } => {}
+            Step::Joint(_) | Step::Spring(_) => return None,
+        }
+    }
+    let at_home = |joint: &Joint| -> Option<(f64, f64)> {
+        let (index, ratio) = joint.amount.coordinate?;
+        let free = matches!(joint.held, Held::Passive(_));
+        let turns = joint.kind == MotionKind::Revolute && ratio.abs() == 1.0;
+        let home = joint.amount.fixed + ratio * chain.coordinates()[index].home;
+        (free && turns && joint.amount.command.is_none()).then(|| home.sin_cos())
+    };
+    let home = [at_home(a)?, at_home(b)?];
+    if a.axis == b.axis {
+        return None;
+    }
+    let along = 3 - a.axis - b.axis;
+    let (mut fixed, mut slide) = (0.0, None);
+    for step in &steps[first + 2..] {
+        match step {
+            Step::Spring(_) | Step::Mass { .. } => {}
+            Step::Shift(l) if l[a.axis] == 0.0 && l[b.axis] == 0.0 => fixed += l[along],
+            Step::Joint(joint)
+                if joint.kind == MotionKind::Prismatic
+                    && joint.axis == along
+                    && !matches!(joint.held, Held::Passive(_))
+                    && slide.is_none() =>
+            {
+                fixed += joint.amount.fixed;
+                slide = joint.amount.command;
+            }
+            _ => return None,
+        }
+    }
+    let (command, ratio) = slide?;
+    let length = fixed + ratio * chain.home_commands()[command];
+    let mut rows = [0.0; 9];
+    rows.copy_from_slice(rotation.transpose().as_slice());
+    (length != 0.0 && ratio != 0.0).then(|| Polar {
+        first,
+        axes: [a.axis, b.axis],
+        rotation: rows,
+        point: point.into(),
+        command,
+        fixed,
+        ratio,
+        sign: length.signum(),
+        home,
     })
 }

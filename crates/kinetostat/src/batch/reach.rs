@@ -4,10 +4,11 @@
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Mat3, Vec3, carried, cross, dot, minus, product_transposed};
-use super::plan::{Plan, Screw};
-use super::unloaded::Walk;
-use crate::chain::MotionKind;
+use super::lanes::{
+    Lanes, Mat3, Vec3, carried, column, constant, cross, dot, minus, product_transposed,
+};
+use super::plan::{Plan, Polar, Rows, Search};
+use super::unloaded::{Walk, matrix};
 
 /// A limb that is not there after so many steps is left to the search posture by posture.
 const MOST_STEPS: usize = 24;
@@ -25,14 +26,6 @@ pub(super) struct Joints<S: Simd> {
     pub commands: Vec<Lanes<S>>,
     pub passive: Vec<Lanes<S>>,
     pub reached: Lanes<S>,
-}
-
-/// Which equations a search solves.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Rows {
-    Position,
-    Rotation,
-    Both,
 }
 
 impl<S: Simd> Joints<S> {
@@ -62,87 +55,104 @@ impl<S: Simd> Joints<S> {
         for (x, own) in self.passive.iter_mut().zip(&plan.passive) {
             *x = Lanes::new(simd, plan.home[*own]);
         }
-        let joints = plan.passive.len();
         self.reached = Lanes::new(simd, 1.0);
+        walk.known = None;
+        if let (Some(polar), false) = (&plan.polar, all) {
+            self.point_to(simd, polar, walk, target, plan);
+            return;
+        }
+        let searches = if all { plan.searches.len() } else { 1 };
         // One call in one place: the search is large, and every call is a copy of it.
-        let inner = joints.saturating_sub(3);
-        let (first, then) = match &plan.sphere {
-            None => ((Rows::Both, 0..joints), None),
-            Some(_) => {
-                let own = (Rows::Rotation, inner..joints);
-                ((Rows::Position, 0..inner), all.then_some(own))
-            }
-        };
-        for (rows, free) in std::iter::once(first).chain(then) {
-            self.search(simd, plan, walk, target, rows, free);
+        for search in &plan.searches[..searches] {
+            self.search(simd, plan, search, walk, target);
         }
     }
 
-    /// Newton's iteration on some of the passive joints and, where positions count, the commands.
+    /// Polar joints from where they lead. With `u` the direction there in the frame of the first
+    /// rotation, axes `a`, `b` and `c = a x b` or `b x a`: `u_a = +-sin b`, `u_b = -+sin a cos b`,
+    /// `u_c = cos a cos b`. Beyond a right angle from home the branch is the search's to find.
+    #[inline(always)]
+    fn point_to(
+        &mut self,
+        simd: S,
+        polar: &Polar,
+        walk: &mut Walk<S>,
+        target: &Target<S>,
+        plan: &Plan,
+    ) {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let d = minus(
+            &sphere_centre(simd, plan, target),
+            &constant(simd, &polar.point),
+        );
+        let r = matrix(simd, &polar.rotation);
+        let d = [
+            dot(&column(&r, 0), &d),
+            dot(&column(&r, 1), &d),
+            dot(&column(&r, 2), &d),
+        ];
+        let [a, b] = polar.axes;
+        let sense = if (a + 1) % 3 == b { 1.0 } else { -1.0 };
+        let length = dot(&d, &d).sqrt() * polar.sign;
+        let reciprocal = one / length;
+        let (u, v, w) = (
+            d[a] * reciprocal,
+            d[b] * reciprocal,
+            d[3 - a - b] * reciprocal,
+        );
+        let sine = u * sense;
+        let home = polar.home;
+        let cosine = w.times_plus(w, v * v).sqrt() * home[1].1.signum();
+        let over = one / cosine;
+        let first = (v * over * -sense, w * over);
+        for ((s, c), home) in [(first, home[0]), ((sine, cosine), home[1])] {
+            let near = s.times_plus(one * home.0, c * home.1);
+            self.reached = near.where_less(one * 0.1, zero, self.reached);
+        }
+        // Where the length is zero no direction is a number.
+        self.reached = self.reached.least_of(length.abs());
+        walk.known = Some((polar.first, [first, (sine, cosine)]));
+        self.commands[polar.command] = (length - polar.fixed) * (1.0 / polar.ratio);
+        let end = plan.searches[0].end;
+        walk.along(plan, true, end, &self.commands, &self.passive);
+    }
+
+    /// Newton's iteration.
     #[inline(always)]
     fn search(
         &mut self,
         simd: S,
         plan: &Plan,
+        search: &Search,
         walk: &mut Walk<S>,
         target: &Target<S>,
-        rows: Rows,
-        free: std::ops::Range<usize>,
     ) {
-        let commanded = rows != Rows::Rotation;
         let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-        let unknowns = free.len() + if commanded { self.commands.len() } else { 0 };
+        let joints = search.passive.len();
+        let unknowns = joints + search.commands;
         if unknowns > 6 {
             self.reached = zero;
             return;
         }
-        let (end, screws) = match rows {
-            Rows::Position => plan.before_sphere(),
-            Rows::Rotation | Rows::Both => (plan.steps.len(), plan.screws.len()),
-        };
-        let centre = match (&plan.sphere, rows) {
-            (Some(sphere), Rows::Position) => {
-                let arm = sphere.arm.map(|x| Lanes::new(simd, -x));
-                carried(&target.rotation, &arm, &target.point)
-            }
-            _ => target.point,
-        };
-        let place = |s: &Screw| -> Option<(usize, f64)> {
-            match (s.command, s.coordinate) {
-                (Some((index, ratio)), _) => commanded.then_some((free.len() + index, ratio)),
-                (None, Some((own, ratio))) => plan
-                    .slot(own)
-                    .filter(|slot| free.contains(slot))
-                    .map(|slot| (slot - free.start, ratio)),
-                (None, None) => None,
-            }
+        let centre = match search.rows {
+            Rows::Position => sphere_centre(simd, plan, target),
+            Rows::Rotation | Rows::Both => target.point,
         };
         let length = plan.length;
-        let mut most = [length; 6];
-        for screw in &plan.screws {
-            if let (Some((k, _)), MotionKind::Revolute) = (place(screw), screw.kind) {
-                most[k] = 0.5;
-            }
-        }
-        let used = match rows {
-            Rows::Position => 0..3,
-            Rows::Rotation => 3..6,
-            Rows::Both => 0..6,
-        };
         // Lanes that still search.
         let mut active = one;
         for pass in 0..=MOST_STEPS {
             // The last pass only looks where the limb is.
             let done = pass == MOST_STEPS || active.all_less(0.5);
-            walk.along(plan, done, end, &self.commands, &self.passive);
+            walk.along(plan, done, search.end, &self.commands, &self.passive);
             if done {
                 break;
             }
             let mut columns = [[zero; 6]; 6];
-            walk.columns(plan, screws, &mut columns, place);
+            walk.columns(plan, &search.drives, &mut columns);
             let miss = minus(&centre, &walk.point);
             let mut e = [miss[0], miss[1], miss[2], zero, zero, zero];
-            if rows != Rows::Position {
+            if search.rows != Rows::Position {
                 let turn = turn_between(&target.rotation, &walk.rotation);
                 for k in 0..3 {
                     e[3 + k] = turn[k] * length;
@@ -151,31 +161,54 @@ impl<S: Simd> Joints<S> {
                     }
                 }
             }
-            let mut square = zero;
-            for k in used.clone() {
-                square = e[k].times_plus(e[k], square);
-            }
-            let mut step = if rows == Rows::Position && unknowns == 3 {
-                square_step(&columns, &e)
-            } else {
-                least_squares_step(simd, unknowns, used.clone(), &columns, &e)
+            let linear = dot(&miss, &miss);
+            let angular = dot(&[e[3], e[4], e[5]], &[e[3], e[4], e[5]]);
+            let (square, mut step) = match search.rows {
+                Rows::Position if unknowns == 3 => (linear, square_step(&columns, &e)),
+                Rows::Position => (
+                    linear,
+                    least_squares_step::<S, 0, 3>(simd, unknowns, &columns, &e),
+                ),
+                Rows::Rotation => (
+                    angular,
+                    least_squares_step::<S, 3, 6>(simd, unknowns, &columns, &e),
+                ),
+                Rows::Both => (
+                    linear + angular,
+                    least_squares_step::<S, 0, 6>(simd, unknowns, &columns, &e),
+                ),
             };
             let mut share = one;
             for k in 0..unknowns {
-                share = share.least_of(one * most[k] / step[k].abs().max(one * 1e-300));
+                let size = step[k].abs().max(one * 1e-300);
+                share = share.least_of(one * search.most[k] / size);
             }
-            for x in &mut step {
-                *x = active.where_less(one * 0.5, zero, *x * share);
+            for k in 0..unknowns {
+                step[k] = active.where_less(one * 0.5, zero, step[k] * share);
             }
-            let own = self.passive[free.clone()].iter_mut();
-            for (x, dx) in own.chain(&mut self.commands).zip(&step[..unknowns]) {
-                *x = *x + *dx;
+            for k in 0..joints {
+                let x = &mut self.passive[search.passive.start + k];
+                *x = *x + step[k];
+            }
+            for k in 0..search.commands {
+                self.commands[k] = self.commands[k] + step[joints + k];
             }
             let near = NEAR * length;
             active = square.where_less(one * (near * near), zero, active);
         }
         self.reached = active.where_less(one * 0.5, self.reached, zero);
     }
+}
+
+/// Where the centre of the spherical joint at the limb's end shall be; the platform's point without one.
+#[inline(always)]
+fn sphere_centre<S: Simd>(simd: S, plan: &Plan, target: &Target<S>) -> Vec3<S> {
+    let [x, y, z] = match &plan.sphere {
+        Some(sphere) => sphere.arm,
+        None => [0.0; 3],
+    };
+    let arm = constant(simd, &[-x, -y, -z]);
+    carried(&target.rotation, &arm, &target.point)
 }
 
 /// Rotation that leads from `from` to `to` as axis times twice the tangent of half the angle, base
@@ -194,8 +227,8 @@ pub(super) fn turn_between<S: Simd>(to: &Mat3<S>, from: &Mat3<S>) -> Vec3<S> {
 /// Three equations, three unknowns: Cramer's rule.
 #[inline(always)]
 fn square_step<S: Simd>(columns: &[[Lanes<S>; 6]; 6], e: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
-    let vector = |k: usize| -> Vec3<S> { [columns[k][0], columns[k][1], columns[k][2]] };
-    let (a, b, c) = (vector(0), vector(1), vector(2));
+    let [a, b, c, ..] = columns;
+    let (a, b, c) = ([a[0], a[1], a[2]], [b[0], b[1], b[2]], [c[0], c[1], c[2]]);
     let e = [e[0], e[1], e[2]];
     let bc = cross(&b, &c);
     let reciprocal = e[0].same(1.0) / dot(&a, &bc);
@@ -211,41 +244,33 @@ fn square_step<S: Simd>(columns: &[[Lanes<S>; 6]; 6], e: &[Lanes<S>; 6]) -> [Lan
     ]
 }
 
-/// `(J^T J)^-1 J^T e` for the first `unknowns` columns and some of the rows.
+/// `(J^T J)^-1 J^T e` for the first `unknowns` columns and the rows from `FROM` up to `TO`.
 #[inline(always)]
-fn least_squares_step<S: Simd>(
+fn least_squares_step<S: Simd, const FROM: usize, const TO: usize>(
     simd: S,
     unknowns: usize,
-    rows: std::ops::Range<usize>,
     columns: &[[Lanes<S>; 6]; 6],
     e: &[Lanes<S>; 6],
 ) -> [Lanes<S>; 6] {
     let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
     let unknowns = unknowns.min(6);
-    let inner = |a: &[Lanes<S>; 6], b: &[Lanes<S>; 6]| {
-        let mut sum = zero;
-        for k in rows.clone() {
-            sum = a[k].times_plus(b[k], sum);
-        }
-        sum
-    };
     let mut l = [[zero; 6]; 6];
     let mut x = [zero; 6];
     for j in 0..unknowns {
-        let mut pivot = inner(&columns[j], &columns[j]);
+        let mut pivot = inner::<S, FROM, TO>(&columns[j], &columns[j]);
         for k in 0..j {
             pivot = l[j][k].times_from(l[j][k], pivot);
         }
         let r = one / pivot.sqrt();
         l[j][j] = r;
         for i in j + 1..unknowns {
-            let mut y = inner(&columns[i], &columns[j]);
+            let mut y = inner::<S, FROM, TO>(&columns[i], &columns[j]);
             for k in 0..j {
                 y = l[i][k].times_from(l[j][k], y);
             }
             l[i][j] = y * r;
         }
-        let mut y = inner(&columns[j], e);
+        let mut y = inner::<S, FROM, TO>(&columns[j], e);
         for k in 0..j {
             y = l[j][k].times_from(x[k], y);
         }
@@ -259,4 +284,16 @@ fn least_squares_step<S: Simd>(
         x[j] = y * l[j][j];
     }
     x
+}
+
+#[inline(always)]
+fn inner<S: Simd, const FROM: usize, const TO: usize>(
+    a: &[Lanes<S>; 6],
+    b: &[Lanes<S>; 6],
+) -> Lanes<S> {
+    let mut sum = a[FROM] * b[FROM];
+    for k in FROM + 1..TO {
+        sum = a[k].times_plus(b[k], sum);
+    }
+    sum
 }

@@ -105,14 +105,18 @@ impl WithSimd for Work<'_> {
                     let wrench = group.wrench(simd, wrenches);
                     let done = machine.settle(simd, &places, &group, &wrench);
                     let mut good = done;
-                    group.put(tool, machine.rotation.into_iter().chain(machine.point));
-                    let own = machine.limbs.iter().flat_map(|l| &l.coordinates);
-                    group.put(coordinates, own.copied());
+                    group.put(tool, 0, &machine.rotation);
+                    group.put(tool, 9, &machine.point);
+                    let mut from = 0;
+                    for limb in &machine.limbs {
+                        group.put(coordinates, from, &limb.coordinates);
+                        from += limb.coordinates.len();
+                    }
                     if !stiffness.is_empty() {
                         let (k, regular) =
                             tangent::stiffness(simd, &actual[0], &machine.limbs[0], &gravity);
                         good = good.least_of(regular);
-                        group.put(stiffness, k.into_iter().flatten());
+                        group.put(stiffness, 0, k.as_flattened());
                     }
                     group.conclude(good, found);
                 }
@@ -134,27 +138,43 @@ impl Group {
         (self.first + lane).min(self.count - 1)
     }
 
+    /// One number of every posture: `numbers(item)[k]`.
     #[inline(always)]
-    fn gather<S: Simd>(&self, simd: S, value: impl Fn(usize) -> f64) -> Lanes<S> {
-        let mut values = [0.0; BLOCK];
-        for (lane, x) in values[..S::F64_LANES].iter_mut().enumerate() {
-            *x = value(self.item(lane));
+    fn gather<S: Simd, T, const N: usize>(
+        &self,
+        simd: S,
+        items: &[T],
+        numbers: impl Fn(&T) -> [f64; N],
+    ) -> [Lanes<S>; N] {
+        let mut values = [[0.0; BLOCK]; N];
+        for lane in 0..S::F64_LANES {
+            let own = numbers(&items[self.item(lane)]);
+            for k in 0..N {
+                values[k][lane] = own[k];
+            }
         }
-        Lanes::load(simd, &values)
+        let mut out = [Lanes::new(simd, 0.0); N];
+        for k in 0..N {
+            out[k] = Lanes::load(simd, &values[k]);
+        }
+        out
     }
 
     #[inline(always)]
     fn wrench<S: Simd>(&self, simd: S, wrenches: &[Wrench]) -> [Lanes<S>; 6] {
-        [0, 1, 2, 3, 4, 5].map(|k| self.gather(simd, |i| wrenches[i].0[k]))
+        self.gather(simd, wrenches, |w| w.0.into())
     }
 
     /// Numbers of these postures into their places of a table.
     #[inline(always)]
-    fn put<S: Simd>(&self, table: &mut [f64], numbers: impl Iterator<Item = Lanes<S>>) {
+    fn put<S: Simd>(&self, table: &mut [f64], from: usize, numbers: &[Lanes<S>]) {
         let width = table.len() / self.count.div_ceil(BLOCK) / BLOCK;
-        let block = &mut table[(self.first / BLOCK) * width * BLOCK..];
-        for (place, x) in block.chunks_mut(BLOCK).zip(numbers) {
-            x.store(&mut place[self.first % BLOCK..]);
+        let start = ((self.first / BLOCK) * width + from) * BLOCK;
+        let block = &mut table[start..start + numbers.len() * BLOCK];
+        let (places, _) = block.as_chunks_mut::<BLOCK>();
+        let lane = self.first % BLOCK;
+        for k in 0..numbers.len() {
+            numbers[k].store(&mut places[k][lane..]);
         }
     }
 
@@ -172,9 +192,8 @@ impl Group {
 
     #[inline(always)]
     fn target<S: Simd>(&self, simd: S, poses: &[Pose]) -> Target<S> {
-        let q = [0, 1, 2, 3].map(|k| self.gather(simd, |i| poses[i].rotation.coords[k]));
-        let point = [0, 1, 2].map(|k| self.gather(simd, |i| poses[i].translation.vector[k]));
-        let [x, y, z, w] = q;
+        let [x, y, z, w] = self.gather(simd, poses, |p| p.rotation.coords.into());
+        let point = self.gather(simd, poses, |p| p.translation.vector.into());
         let one = Lanes::new(simd, 1.0);
         let double = |a: Lanes<S>, b: Lanes<S>| a * b * 2.0;
         Target {
@@ -196,7 +215,11 @@ impl Group {
     #[inline(always)]
     fn commands<S: Simd>(&self, simd: S, from: &[f64], each: usize, to: &mut [Lanes<S>]) {
         for (k, x) in to.iter_mut().enumerate() {
-            *x = self.gather(simd, |i| from[i * each + k]);
+            let mut values = [0.0; BLOCK];
+            for lane in 0..S::F64_LANES {
+                values[lane] = from[self.item(lane) * each + k];
+            }
+            *x = Lanes::load(simd, &values);
         }
     }
 }
@@ -238,7 +261,8 @@ fn unloaded<S: Simd>(
                     joints.reach(simd, plan, walk, &target, false);
                     let own = match &plan.sphere {
                         Some(sphere) => {
-                            let arm = sphere.arm.map(|x| Lanes::new(simd, -x));
+                            let [x, y, z] = sphere.arm;
+                            let arm = lanes::constant(simd, &[-x, -y, -z]);
                             let arm = lanes::carried(&target.rotation, &arm, &[zero; 3]);
                             walk.stiffness_at_sphere(plan, &arm)
                         }
@@ -249,24 +273,40 @@ fn unloaded<S: Simd>(
                 }
             }
         }
-        let numbers = (0..36).map(|k| sum.get(k / 6, k % 6));
+        let mut numbers = [zero; 36];
+        let mut all = zero;
+        for i in 0..6 {
+            for j in 0..6 {
+                numbers[6 * i + j] = sum.get(i, j);
+                all = sum.get(i, j).times_plus(zero, all);
+            }
+        }
         // A number that is none spoils the sum.
-        let all = numbers.clone().reduce(|a, b| a + b * 0.0);
-        good = all.map_or(good, |x| good.least_of(x * 0.0 + 1.0));
-        group.put(stiffness, numbers);
+        good = good.least_of(all + 1.0);
+        group.put(stiffness, 0, &numbers);
         if !jacobian.is_empty() {
-            let plan = &plans[0];
-            columns.fill(zero);
+            let (plan, walk) = (&plans[0], &limbs[0].0);
+            let sum = !plan.one_each;
+            if sum {
+                columns.fill(zero);
+            }
             for (k, screw) in plan.screws.iter().enumerate() {
                 let Some((own, ratio)) = screw.coordinate else {
                     continue;
                 };
-                for (row, x) in limbs[0].0.twist(plan, k).into_iter().enumerate() {
-                    let sum = &mut columns[row * n + own];
-                    *sum = x.times_plus(x.same(ratio), *sum);
+                let twist = walk.twist(plan, k);
+                for row in 0..6 {
+                    if sum {
+                        let x = &mut columns[row * n + own];
+                        *x = twist[row].times_plus(twist[row].same(ratio), *x);
+                    } else {
+                        group.put(jacobian, row * n + own, &[twist[row]]);
+                    }
                 }
             }
-            group.put(jacobian, columns.iter().copied());
+            if sum {
+                group.put(jacobian, 0, &columns);
+            }
         }
         group.conclude(good, found);
     }

@@ -5,7 +5,7 @@
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Mat3, Vec3, cross, turn_columns};
+use super::lanes::{Lanes, Mat3, Vec3, cross, product, product_transposed, turn_columns};
 
 /// Place of entry (i, j) of a symmetric 3 x 3 matrix among its six numbers.
 pub(super) const AT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
@@ -150,12 +150,15 @@ impl<S: Simd> Symmetric<S> {
                 moved[3 * r + c] = self.b[3 * r + c] + x[r];
             }
         }
-        let row = |m: &Mat3<S>, r: usize| cross(&[m[3 * r], m[3 * r + 1], m[3 * r + 2]], l);
-        let before = [row(&self.b, 0), row(&self.b, 1), row(&self.b, 2)];
-        let after = [row(&moved, 0), row(&moved, 1), row(&moved, 2)];
         for r in 0..3 {
+            let (b, m) = (&self.b, &moved);
+            let before = cross(&[b[3 * r], b[3 * r + 1], b[3 * r + 2]], l);
+            let after = cross(&[m[3 * r], m[3 * r + 1], m[3 * r + 2]], l);
+            for c in 0..=r {
+                self.a[AT[c][r]] = self.a[AT[c][r]] + before[c];
+            }
             for c in r..3 {
-                self.a[AT[r][c]] = self.a[AT[r][c]] + before[c][r] + after[r][c];
+                self.a[AT[r][c]] = self.a[AT[r][c]] + after[c];
             }
         }
         self.b = moved;
@@ -234,21 +237,6 @@ fn turn_block<S: Simd, const AXIS: usize>(m: &mut [Lanes<S>; 6], s: Lanes<S>, c:
     m[AT[k][k]] = s.times_from(x, c * w);
 }
 
-/// `R M`.
-#[inline(always)]
-fn left<S: Simd>(r: &Mat3<S>, m: impl Fn(usize, usize) -> Lanes<S>) -> Mat3<S> {
-    let mut out = *r;
-    for i in 0..3 {
-        for j in 0..3 {
-            out[3 * i + j] = r[3 * i].times_plus(
-                m(0, j),
-                r[3 * i + 1].times_plus(m(1, j), r[3 * i + 2] * m(2, j)),
-            );
-        }
-    }
-    out
-}
-
 /// Entry (i, j) of `M R^T`.
 #[inline(always)]
 fn right<S: Simd>(m: &Mat3<S>, r: &Mat3<S>, i: usize, j: usize) -> Lanes<S> {
@@ -260,7 +248,8 @@ fn right<S: Simd>(m: &Mat3<S>, r: &Mat3<S>, i: usize, j: usize) -> Lanes<S> {
 
 #[inline(always)]
 fn rotated_symmetric<S: Simd>(r: &Mat3<S>, m: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
-    let half = left(r, |i, j| m[AT[i][j]]);
+    let [xx, xy, xz, yy, yz, zz] = *m;
+    let half = product(r, &[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
     let mut out = *m;
     for i in 0..3 {
         for j in i..3 {
@@ -272,12 +261,5 @@ fn rotated_symmetric<S: Simd>(r: &Mat3<S>, m: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
 
 #[inline(always)]
 fn rotated<S: Simd>(r: &Mat3<S>, m: &Mat3<S>) -> Mat3<S> {
-    let half = left(r, |i, j| m[3 * i + j]);
-    let mut out = *m;
-    for i in 0..3 {
-        for j in 0..3 {
-            out[3 * i + j] = right(&half, r, i, j);
-        }
-    }
-    out
+    product_transposed(&product(r, m), r)
 }

@@ -9,10 +9,11 @@ use pulp::Simd;
 
 use super::eliminate::Eliminated;
 use super::lanes::{
-    Lanes, Mat3, Vec3, carried, column, constant, cross, identity, minus, product, turn_columns,
+    Lanes, Mat3, Vec3, carried, column, constant, cross, dot, identity, minus, product,
+    turn_columns,
 };
 use super::law;
-use super::plan::{Amount, Held, Joint, Law, Plan, Step};
+use super::plan::{Amount, Drive, Held, Joint, Law, Plan, Step};
 use super::symmetric::Symmetric;
 use crate::chain::MotionKind;
 
@@ -33,6 +34,8 @@ pub(super) struct Walk<S: Simd> {
     /// Nothing yields yet: the frame's motion does not matter.
     rigid: bool,
     places: Vec<Place<S>>,
+    /// Sines and cosines of two joints that are known already, and the step of the first.
+    pub known: Option<(usize, [(Lanes<S>, Lanes<S>); 2])>,
     simd: S,
 }
 
@@ -56,6 +59,7 @@ impl<S: Simd> Walk<S> {
             compliance: Symmetric::zero(simd),
             rigid: true,
             places: vec![place; plan.screws.len()],
+            known: None,
             simd,
         }
     }
@@ -76,11 +80,11 @@ impl<S: Simd> Walk<S> {
         self.point = [Lanes::new(simd, 0.0); 3];
         self.compliance = Symmetric::zero(simd);
         self.rigid = true;
-        for step in &plan.steps[..end] {
+        for (i, step) in plan.steps[..end].iter().enumerate() {
             match step {
                 Step::Shift(l) => self.shift(&constant(simd, l)),
                 Step::Rotate(r) => {
-                    let r = r.map(|x| Lanes::new(simd, x));
+                    let r = matrix(simd, r);
                     self.rotation = product(&self.rotation, &r);
                     if !self.rigid {
                         let back = [r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]];
@@ -88,14 +92,20 @@ impl<S: Simd> Walk<S> {
                     }
                 }
                 Step::Joint(joint) => {
-                    let amount = amount(simd, &joint.amount, commands, || match joint.held {
+                    let coordinate = match joint.held {
                         Held::Passive(slot) => Some(passive[slot]),
                         _ => None,
-                    });
+                    };
+                    let amount = amount(simd, &joint.amount, commands, coordinate);
+                    let known = match &self.known {
+                        Some((first, known)) if i.wrapping_sub(*first) < 2 => known[i - first],
+                        _ if joint.kind == MotionKind::Revolute => amount.sin_cos(),
+                        _ => (amount, amount),
+                    };
                     match joint.axis {
-                        0 => self.joint::<0>(joint, amount, yields),
-                        1 => self.joint::<1>(joint, amount, yields),
-                        _ => self.joint::<2>(joint, amount, yields),
+                        0 => self.joint::<0>(joint, amount, known, yields),
+                        1 => self.joint::<1>(joint, amount, known, yields),
+                        _ => self.joint::<2>(joint, amount, known, yields),
                     }
                 }
                 Step::Spring(spring) if yields => {
@@ -109,10 +119,15 @@ impl<S: Simd> Walk<S> {
                         }
                     }
                     self.rigid = false;
-                    let moving = (0..6).filter(|d| spring.coordinates[*d].is_some());
-                    for (place, d) in self.places[spring.screw..].iter_mut().zip(moving) {
-                        place.axis = column(&self.rotation, d % 3);
-                        place.origin = self.point;
+                    let mut screw = spring.screw;
+                    for d in 0..6 {
+                        if spring.coordinates[d].is_some() {
+                            self.places[screw] = Place {
+                                axis: column(&self.rotation, d % 3),
+                                origin: self.point,
+                            };
+                            screw += 1;
+                        }
                     }
                 }
                 Step::Spring(_) | Step::Mass { .. } => {}
@@ -129,7 +144,13 @@ impl<S: Simd> Walk<S> {
     }
 
     #[inline(always)]
-    fn joint<const AXIS: usize>(&mut self, joint: &Joint, amount: Lanes<S>, yields: bool) {
+    fn joint<const AXIS: usize>(
+        &mut self,
+        joint: &Joint,
+        amount: Lanes<S>,
+        (s, c): (Lanes<S>, Lanes<S>),
+        yields: bool,
+    ) {
         let axis = column(&self.rotation, AXIS);
         self.places[joint.screw] = Place {
             axis,
@@ -143,7 +164,6 @@ impl<S: Simd> Walk<S> {
             self.rigid = false;
         }
         if revolute {
-            let (s, c) = amount.sin_cos();
             turn_columns::<S, AXIS>(&mut self.rotation, s, c);
             if !self.rigid {
                 self.compliance.turn::<AXIS>(s, c);
@@ -176,23 +196,14 @@ impl<S: Simd> Walk<S> {
         }
     }
 
-    /// Adds the twists of a limb's motions before `screws` to the columns that `place` names:
-    /// a passive joint or a command.
+    /// Sum of the twists of the motions that each of the unknowns drives.
     #[inline(always)]
-    pub fn columns(
-        &self,
-        plan: &Plan,
-        screws: usize,
-        columns: &mut [[Lanes<S>; 6]; 6],
-        place: impl Fn(&super::plan::Screw) -> Option<(usize, f64)>,
-    ) {
-        for (k, screw) in plan.screws[..screws].iter().enumerate() {
-            let Some((slot, ratio)) = place(screw) else {
-                continue;
-            };
-            let twist = self.twist(plan, k);
-            for (sum, x) in columns[slot].iter_mut().zip(twist) {
-                *sum = x.times_plus(x.same(ratio), *sum);
+    pub fn columns(&self, plan: &Plan, drives: &[Drive], columns: &mut [[Lanes<S>; 6]; 6]) {
+        for drive in drives {
+            let twist = self.twist(plan, drive.screw);
+            let column = &mut columns[drive.unknown];
+            for k in 0..6 {
+                column[k] = twist[k].times_plus(twist[k].same(drive.ratio), column[k]);
             }
         }
     }
@@ -224,10 +235,7 @@ impl<S: Simd> Walk<S> {
         let simd = self.simd;
         let compliance = self.compliance.in_base_axes(&self.rotation);
         let mut columns = [[Lanes::new(simd, 0.0); 6]; 6];
-        self.columns(plan, plan.screws.len(), &mut columns, |s| {
-            let (own, ratio) = s.coordinate?;
-            plan.slot(own).map(|slot| (slot, ratio))
-        });
+        self.columns(plan, &plan.passive_drives, &mut columns);
         let length = plan.length;
         for column in &mut columns {
             for x in &mut column[..3] {
@@ -244,19 +252,71 @@ impl<S: Simd> Walk<S> {
     #[inline(always)]
     pub fn stiffness_at_sphere(&mut self, plan: &Plan, arm: &Vec3<S>) -> LimbStiffness<S> {
         let simd = self.simd;
-        let compliance = self.compliance.in_base_axes(&self.rotation);
-        let mut columns = [[Lanes::new(simd, 0.0); 6]; 6];
-        let (_, screws) = plan.before_sphere();
-        self.columns(plan, screws, &mut columns, |s| {
-            let (own, ratio) = s.coordinate?;
-            plan.slot(own).map(|slot| (slot, ratio))
-        });
         // The three of the sphere come last.
         let others = plan.passive.len() - 3;
+        let drives = plan.passive_drives.len() - 3;
+        let drives = &plan.passive_drives[..drives];
+        if others == 2 && drives.len() == 2 {
+            return self.force_along_one_line(plan, drives, arm);
+        }
+        let compliance = self.compliance.in_base_axes(&self.rotation);
+        let mut columns = [[Lanes::new(simd, 0.0); 6]; 6];
+        self.columns(plan, drives, &mut columns);
         let mut found = Eliminated::new(simd, 3, others, &compliance, &columns).stiffness(simd);
         found.matrix.move_force_line(arm);
         found
     }
+
+    /// Two passive joints and a spherical one leave a single direction `n` in which the limb passes on a
+    /// force: `n n^T / (n^T C n)`, the rule for one vector.
+    #[inline(always)]
+    fn force_along_one_line(
+        &self,
+        plan: &Plan,
+        drives: &[Drive],
+        arm: &Vec3<S>,
+    ) -> LimbStiffness<S> {
+        let [ux, uy, uz, ..] = self.twist(plan, drives[0].screw);
+        let [vx, vy, vz, ..] = self.twist(plan, drives[1].screw);
+        let (u, v) = ([ux, uy, uz], [vx, vy, vz]);
+        let n = cross(&u, &v);
+        let regular = dot(&n, &n) / (dot(&u, &u) * dot(&v, &v));
+        // In the frame's axes, where the compliance is.
+        let r = &self.rotation;
+        let own = [
+            dot(&column(r, 0), &n),
+            dot(&column(r, 1), &n),
+            dot(&column(r, 2), &n),
+        ];
+        let [xx, xy, xz, yy, yz, zz] = self.compliance.a;
+        let yields = [
+            dot(&[xx, xy, xz], &own),
+            dot(&[xy, yy, yz], &own),
+            dot(&[xz, yz, zz], &own),
+        ];
+        let k = n[0].same(1.0) / dot(&own, &yields);
+        // The wrench of a unit force through the centre, about the platform's point.
+        let m = cross(arm, &n);
+        let w = [n[0], n[1], n[2], m[0], m[1], m[2]];
+        let mut matrix = Symmetric::zero(self.simd);
+        for i in 0..6 {
+            let own = w[i] * k;
+            for j in i..6 {
+                matrix.set(i, j, own * w[j]);
+            }
+        }
+        LimbStiffness { matrix, regular }
+    }
+}
+
+/// A constant matrix in all lanes.
+#[inline(always)]
+pub(super) fn matrix<S: Simd>(simd: S, r: &[f64; 9]) -> Mat3<S> {
+    let mut out = identity(simd);
+    for k in 0..9 {
+        out[k] = Lanes::new(simd, r[k]);
+    }
+    out
 }
 
 /// `fixed + ratio * command + ratio * coordinate`.
@@ -265,13 +325,13 @@ pub(super) fn amount<S: Simd>(
     simd: S,
     amount: &Amount,
     commands: &[Lanes<S>],
-    coordinate: impl Fn() -> Option<Lanes<S>>,
+    coordinate: Option<Lanes<S>>,
 ) -> Lanes<S> {
     let mut sum = Lanes::new(simd, amount.fixed);
     if let Some((index, ratio)) = amount.command {
         sum = commands[index].times_plus(sum.same(ratio), sum);
     }
-    if let (Some((_, ratio)), Some(value)) = (amount.coordinate, coordinate()) {
+    if let (Some((_, ratio)), Some(value)) = (amount.coordinate, coordinate) {
         sum = value.times_plus(sum.same(ratio), sum);
     }
     sum
