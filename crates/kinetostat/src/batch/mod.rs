@@ -10,7 +10,9 @@
 //! The answer of a posture depends on nothing but that posture: not on its neighbours, the number of
 //! threads or the width of the vectors.
 
+mod actuators;
 mod eliminate;
+mod equilibria;
 mod lanes;
 mod law;
 mod loaded;
@@ -31,7 +33,8 @@ use crate::error::{Error, Result};
 use crate::inverse::LimbPosture;
 use crate::mechanism::Mechanism;
 use crate::posture::Posture;
-use crate::spatial::{Pose, Wrench};
+use crate::spatial::Pose;
+pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};
 use plan::Plan;
 use run::{Places, Work};
 use table::BLOCK;
@@ -73,19 +76,6 @@ pub struct BatchStiffness {
     pub found: Vec<Found>,
 }
 
-/// Loaded equilibrium of many postures.
-#[derive(Clone, Debug)]
-pub struct BatchEquilibrium {
-    /// Pose of the tool, 12 numbers: rotation matrix (base from tool) row by row, position (m).
-    pub tool: Table,
-    /// Coordinates of all limbs (m, rad), limb after limb in their chains' order.
-    pub coordinates: Table,
-    /// Tangent stiffness of the tool, 36 numbers as in [`BatchStiffness`]. Empty unless asked for.
-    pub stiffness: Table,
-    /// How each was found.
-    pub found: Vec<Found>,
-}
-
 impl<'m> Batch<'m> {
     /// Compiles a machine.
     #[must_use]
@@ -116,34 +106,6 @@ impl<'m> Batch<'m> {
     /// several limbs or with passive joints.
     pub fn stiffness_at_joints(&self, commands: &[f64], jacobian: bool) -> Result<BatchStiffness> {
         Ok(self.unloaded(&self.joints(commands)?, jacobian))
-    }
-
-    /// Equilibrium of the machine as it is, its tool commanded to `poses` and loaded by `wrenches`
-    /// (one of each per posture; base axes, about the tool's origin), with the tangent stiffness if
-    /// asked for.
-    ///
-    /// # Errors
-    /// [`Error::Size`] if there are not as many wrenches as poses.
-    pub fn equilibrium(
-        &self,
-        poses: &[Pose],
-        wrenches: &[Wrench],
-        tangent: bool,
-    ) -> Result<BatchEquilibrium> {
-        self.loaded(&Places::Poses(poses), wrenches, tangent)
-    }
-
-    /// The same for a serial machine with its actuators commanded to `commands`.
-    ///
-    /// # Errors
-    /// As [`Self::stiffness_at_joints`] and [`Self::equilibrium`].
-    pub fn equilibrium_at_joints(
-        &self,
-        commands: &[f64],
-        wrenches: &[Wrench],
-        tangent: bool,
-    ) -> Result<BatchEquilibrium> {
-        self.loaded(&self.joints(commands)?, wrenches, tangent)
     }
 
     fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
@@ -212,89 +174,6 @@ impl<'m> Batch<'m> {
             }
         }
         out
-    }
-
-    fn loaded(
-        &self,
-        places: &Places<'_>,
-        wrenches: &[Wrench],
-        tangent: bool,
-    ) -> Result<BatchEquilibrium> {
-        let count = places.len();
-        if wrenches.len() != count {
-            return Err(Error::Size {
-                place: format!("mechanism '{}'", self.mechanism.name()),
-                what: "wrenches",
-                expected: count,
-                found: wrenches.len(),
-            });
-        }
-        let limbs = self.mechanism.limbs();
-        let coordinates = limbs.iter().map(|l| l.actual.coordinate_count()).sum();
-        let mut out = BatchEquilibrium {
-            tool: Table::new(12, count),
-            coordinates: Table::new(coordinates, count),
-            stiffness: Table::new(if tangent { 36 } else { 0 }, count),
-            found: vec![Found::Not; count],
-        };
-        if let Ok((nominal, actual)) = &self.plans
-            && (!tangent || actual.iter().all(Plan::has_tangent) && actual.len() == 1)
-        {
-            let tool = &self.mechanism.platforms()[self.mechanism.tool()];
-            let parts = out.tool.parts(BLOCKS).into_iter();
-            let works: Vec<Work<'_>> = parts
-                .zip(out.coordinates.parts(BLOCKS))
-                .zip(out.stiffness.parts(BLOCKS))
-                .zip(out.found.chunks_mut(BLOCK * BLOCKS))
-                .enumerate()
-                .map(
-                    |(k, (((tool_out, coordinates), stiffness), found))| Work::Loaded {
-                        nominal,
-                        actual,
-                        body: (tool.centre_of_mass.into(), tool.mass),
-                        gravity: self.mechanism.gravity().into(),
-                        places: places.from(k * BLOCKS * BLOCK),
-                        wrenches: &wrenches[k * BLOCKS * BLOCK..],
-                        tool: tool_out,
-                        coordinates,
-                        stiffness,
-                        found,
-                    },
-                )
-                .collect();
-            in_parallel(works);
-        }
-        for i in 0..count {
-            if out.found[i] == Found::Together {
-                continue;
-            }
-            let answer = self
-                .posture(places, i)
-                .and_then(|p| p.deflected_by(&wrenches[i]));
-            match &answer {
-                Ok(found) => {
-                    let r = found.tool.rotation.to_rotation_matrix();
-                    let p = found.tool.translation.vector;
-                    let number = |k: usize| if k < 9 { r[(k / 3, k % 3)] } else { p[k - 9] };
-                    out.tool.set_row(i, number);
-                    let own: Vec<f64> = found
-                        .limbs
-                        .iter()
-                        .flat_map(|l| l.coordinates.iter().copied())
-                        .collect();
-                    out.coordinates.set_row(i, |k| own[k]);
-                    let matrix = &found.stiffness.matrix;
-                    out.stiffness.set_row(i, |k| matrix[(k / 6, k % 6)]);
-                    out.found[i] = Found::Alone;
-                }
-                Err(_) => {
-                    for table in [&mut out.tool, &mut out.coordinates, &mut out.stiffness] {
-                        table.set_row(i, |_| f64::NAN);
-                    }
-                }
-            }
-        }
-        Ok(out)
     }
 
     fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture<'m>> {

@@ -3,6 +3,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::Found;
+use super::actuators;
 use super::eliminate::Eliminated;
 use super::lanes::{self, Lanes, identity};
 use super::loaded::{Held6, LoadedLimb, serial};
@@ -62,6 +63,8 @@ pub(super) enum Work<'a> {
         wrenches: &'a [Wrench],
         tool: &'a mut [f64],
         coordinates: &'a mut [f64],
+        commands: &'a mut [f64],
+        forces: &'a mut [f64],
         stiffness: &'a mut [f64],
         found: &'a mut [Found],
     },
@@ -95,6 +98,8 @@ impl WithSimd for Work<'_> {
                 wrenches,
                 tool,
                 coordinates,
+                commands,
+                forces,
                 stiffness,
                 found,
             } => {
@@ -107,11 +112,15 @@ impl WithSimd for Work<'_> {
                     let mut good = done;
                     group.put(tool, 0, &machine.rotation);
                     group.put(tool, 9, &machine.point);
-                    let mut from = 0;
+                    let (mut from, mut first) = (0, 0);
                     for limb in &machine.limbs {
                         group.put(coordinates, from, &limb.coordinates);
+                        group.put(commands, first, &limb.commands);
                         from += limb.coordinates.len();
+                        first += limb.commands.len();
                     }
+                    machine.actuator_forces(simd);
+                    group.put(forces, 0, &machine.forces);
                     if !stiffness.is_empty() {
                         let (k, regular) =
                             tangent::stiffness(simd, &actual[0], &machine.limbs[0], &gravity);
@@ -324,6 +333,8 @@ struct Machine<'a, S: Simd> {
     gravity: [f64; 3],
     rotation: lanes::Mat3<S>,
     point: lanes::Vec3<S>,
+    /// Of the loads on all actuators, N or N m.
+    forces: Vec<Lanes<S>>,
 }
 
 impl<'a, S: Simd> Machine<'a, S> {
@@ -348,6 +359,18 @@ impl<'a, S: Simd> Machine<'a, S> {
             gravity,
             rotation: identity(simd),
             point: [Lanes::new(simd, 0.0); 3],
+            forces: vec![Lanes::new(simd, 0.0); actual.iter().map(|a| a.commands).sum()],
+        }
+    }
+
+    #[inline(always)]
+    fn actuator_forces(&mut self, simd: S) {
+        self.forces.fill(Lanes::new(simd, 0.0));
+        let mut first = 0;
+        for (limb, plan) in self.limbs.iter().zip(self.actual) {
+            let own = &mut self.forces[first..first + plan.commands];
+            actuators::forces(simd, plan, limb, &self.gravity, own);
+            first += plan.commands;
         }
     }
 

@@ -1,0 +1,162 @@
+//! Every preset under load, many postures at once against the general engine posture by posture:
+//! tangent stiffness, verdicts, forces of the actuators, and compensation.
+
+use kinetostat::batch::{Batch, BatchEquilibrium, Found};
+use kinetostat::{
+    Mechanism, MechanismEquilibrium, Pose, Twist, Wrench, moved, pose_residual, target_under_load,
+};
+use kinetostat_model::{Model, preset_names};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+/// Numbers between -1 and 1 with nothing special about them.
+fn irregular(i: usize) -> f64 {
+    2.0 * ((i + 1) as f64 * 0.618_033_988_749_895).fract() - 1.0
+}
+
+fn length(mechanism: &Mechanism) -> f64 {
+    mechanism.limbs()[0].nominal.scale().length
+}
+
+/// Poses around home, some of them out of reach.
+fn poses(mechanism: &Mechanism, count: usize) -> Vec<Pose> {
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let size = 0.05 * length(mechanism);
+    let shift = |i: usize| {
+        Vector6::from_fn(|k, _| {
+            if k < 3 {
+                size * irregular(6 * i + k)
+            } else {
+                0.0
+            }
+        })
+    };
+    (0..count).map(|i| moved(&home, &Twist(shift(i)))).collect()
+}
+
+fn wrenches(count: usize) -> Vec<Wrench> {
+    let vector =
+        |i: usize, size: f64| size * Vector3::new(irregular(i), irregular(i + 1), irregular(i + 2));
+    (0..count)
+        .map(|i| Wrench::new(vector(5 * i, 200.0), vector(7 * i, 20.0)))
+        .collect()
+}
+
+/// Largest difference as a share of the largest number.
+fn apart(own: &[f64], other: &[f64]) -> f64 {
+    let largest = other.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let difference = own.iter().zip(other).map(|(a, b)| (a - b).abs());
+    difference.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE)
+}
+
+fn together(found: &[Found]) -> usize {
+    found.iter().filter(|f| **f == Found::Together).count()
+}
+
+/// Largest differences of stiffness, forces, softness and margin.
+fn judged(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f64; 4] {
+    let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
+    let matrix = alone.stiffness.matrix;
+    let forces: Vec<f64> = all.actuator_forces.row(i).collect();
+    let verdict = all.verdict(i).expect("asked for");
+    assert_eq!(verdict.stable, alone.stable());
+    let soft = alone.stiffness_against_force();
+    let margin = match (verdict.margin, alone.margin()) {
+        (Some(a), Some(b)) if a == b => 0.0,
+        (Some(a), Some(b)) => (a - b).abs(),
+        (None, None) => 0.0,
+        (a, b) => panic!("{a:?} {b:?}"),
+    };
+    let softness = if verdict.stiffness_against_force == soft {
+        0.0
+    } else {
+        (verdict.stiffness_against_force - soft).abs() / soft.abs()
+    };
+    [
+        (own - matrix).amax() / matrix.amax(),
+        apart(&forces, &alone.actuator_forces()),
+        softness,
+        margin,
+    ]
+}
+
+#[test]
+fn every_preset_is_judged_the_same_alone_and_together() {
+    let count = 11;
+    for preset in preset_names() {
+        let model = Model::preset(preset.name).expect("a preset");
+        let mechanism = &model.mechanism;
+        let batch = Batch::new(mechanism);
+        let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
+        let all = batch.judged_equilibrium(&poses, &wrenches).expect("sizes");
+        let mut worst = [0.0_f64; 4];
+        for i in 0..count {
+            let posture = mechanism.posture(&poses[i]);
+            let alone = posture.and_then(|p| Ok((p.deflected_by(&wrenches[i])?, p.commands())));
+            assert_eq!(alone.is_ok(), all.found[i] != Found::Not, "{}", preset.name);
+            let Ok((alone, commands)) = alone else {
+                assert!(all.verdict(i).is_none());
+                continue;
+            };
+            for (w, x) in worst.iter_mut().zip(judged(&all, i, &alone)) {
+                *w = w.max(x);
+            }
+            let own: Vec<f64> = all.commands.row(i).collect();
+            assert!(apart(&own, &commands) < 1e-11, "{}", preset.name);
+        }
+        let found = together(&all.found);
+        println!(
+            "{}: {found} of {count} together, apart {worst:?}",
+            preset.name
+        );
+        let [stiffness, forces, softness, margin] = worst;
+        assert!(stiffness < 1e-11, "{}: {stiffness:e}", preset.name);
+        assert!(forces < 1e-9, "{}: {forces:e}", preset.name);
+        assert!(softness < 1e-9, "{}: {softness:e}", preset.name);
+        assert!(margin < 1e-9, "{}: {margin:e}", preset.name);
+    }
+}
+
+#[test]
+fn every_preset_is_compensated_the_same_alone_and_together() {
+    let count = 11;
+    for preset in preset_names() {
+        let model = Model::preset(preset.name).expect("a preset");
+        let mechanism = &model.mechanism;
+        let batch = Batch::new(mechanism);
+        let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
+        for directions in [[true, true, true, false, false, false], [true; 6]] {
+            let all = batch
+                .targets_under_load(&poses, &wrenches, directions)
+                .expect("sizes");
+            let (mut worst, mut off) = (0.0_f64, 0.0_f64);
+            for i in 0..count {
+                let alone = mechanism.posture(&poses[i]).and_then(|near| {
+                    let rest = near.rest_state();
+                    target_under_load(&near, &poses[i], &wrenches[i], directions, rest)
+                });
+                assert_eq!(
+                    alone.is_ok(),
+                    all.equilibrium.found[i] != Found::Not,
+                    "{} {i}",
+                    preset.name
+                );
+                let Ok((alone, _)) = alone else { continue };
+                let between = pose_residual(&all.targets[i], alone.target());
+                worst = worst.max(between.linear().norm() / length(mechanism));
+                worst = worst.max(between.angular().norm());
+                let left = pose_residual(&all.equilibrium.tool_pose(i), &poses[i]);
+                off = off.max(left.linear().norm() / length(mechanism));
+                if directions[3] {
+                    off = off.max(left.angular().norm());
+                }
+            }
+            let found = together(&all.equilibrium.found);
+            println!(
+                "{} {directions:?}: {found} of {count} together, apart {worst:.0e}, off {off:.0e}",
+                preset.name
+            );
+            assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
+            assert!(off < 1e-11, "{}: {off:e}", preset.name);
+        }
+    }
+}

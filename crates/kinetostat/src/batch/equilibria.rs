@@ -1,0 +1,371 @@
+//! Loaded postures: what is asked of them, and where the answers go.
+
+use rayon::prelude::*;
+
+use super::run::{Places, Work};
+use super::table::BLOCK;
+use super::{BLOCKS, Batch, Found, Table, in_parallel};
+use crate::compensation::target_under_load;
+use crate::error::{Error, Result};
+use crate::platform::MechanismState;
+use crate::posture::{MechanismEquilibrium, Posture};
+use crate::spatial::{Pose, Wrench};
+use crate::system::System;
+
+/// Loaded equilibrium of many postures.
+#[derive(Clone, Debug)]
+pub struct BatchEquilibrium {
+    /// Pose of the tool, 12 numbers: rotation matrix (base from tool) row by row, position (m).
+    pub tool: Table,
+    /// Coordinates of all limbs (m, rad), limb after limb in their chains' order.
+    pub coordinates: Table,
+    /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`].
+    pub commands: Table,
+    /// Forces (N) or torques (N m) of the loads on all actuators, in the same order, as
+    /// [`MechanismEquilibrium::actuator_forces`].
+    pub actuator_forces: Table,
+    /// Tangent stiffness of the tool, 36 numbers as in [`super::BatchStiffness`]. Empty unless asked for.
+    pub stiffness: Table,
+    /// See [`Self::verdict`]. Empty unless asked for: [`Batch::judged_equilibrium`].
+    pub verdicts: Table,
+    /// How each was found.
+    pub found: Vec<Found>,
+}
+
+/// Whether an equilibrium holds, and how well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// Every limb keeps its shape and the platform its place, as [`MechanismEquilibrium::stable`].
+    pub stable: bool,
+    /// Force (N) per metre in the softest direction with the tool free to turn, as
+    /// [`MechanismEquilibrium::stiffness_against_force`].
+    pub stiffness_against_force: f64,
+    /// Largest buckling margin `mu` of all limbs, below 1 is stable, as
+    /// [`MechanismEquilibrium::margin`].
+    pub margin: Option<f64>,
+}
+
+/// Commanded poses of many postures, with the equilibria that they lead to.
+#[derive(Clone, Debug)]
+pub struct BatchTargets {
+    /// Pose for which the machine is commanded, base from tool; numbers that are none where
+    /// `equilibrium.found` says [`Found::Not`].
+    pub targets: Vec<Pose>,
+    /// The equilibrium of each, without stiffness and verdict.
+    pub equilibrium: BatchEquilibrium,
+}
+
+/// How much is asked of an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Asked {
+    Rest,
+    Tangent,
+    Verdict,
+}
+
+/// The answer of one posture that was solved alone.
+struct Alone {
+    target: Pose,
+    tool: Pose,
+    coordinates: Vec<f64>,
+    commands: Vec<f64>,
+    forces: Vec<f64>,
+    stiffness: Vec<f64>,
+    verdict: Vec<f64>,
+}
+
+impl BatchEquilibrium {
+    fn new(batch: &Batch<'_>, asked: Asked, count: usize) -> Self {
+        let limbs = batch.mechanism.limbs();
+        let coordinates = limbs.iter().map(|l| l.actual.coordinate_count()).sum();
+        let commands = limbs.iter().map(|l| l.actual.actuators().len()).sum();
+        let stiffness = if asked >= Asked::Tangent { 36 } else { 0 };
+        Self {
+            tool: Table::new(12, count),
+            coordinates: Table::new(coordinates, count),
+            commands: Table::new(commands, count),
+            actuator_forces: Table::new(commands, count),
+            stiffness: Table::new(stiffness, count),
+            verdicts: Table::new(if asked == Asked::Verdict { 3 } else { 0 }, count),
+            found: vec![Found::Not; count],
+        }
+    }
+
+    /// The verdict of one posture; `None` if none was asked for or the posture was not found.
+    ///
+    /// # Panics
+    /// If the index is out of range, as for a slice.
+    #[must_use]
+    pub fn verdict(&self, posture: usize) -> Option<Verdict> {
+        if self.verdicts.width() == 0 || self.found[posture] == Found::Not {
+            return None;
+        }
+        let [stable, stiffness, margin] = [0, 1, 2].map(|k| self.verdicts.get(posture, k));
+        Some(Verdict {
+            stable: stable > 0.0,
+            stiffness_against_force: stiffness,
+            margin: (!margin.is_nan()).then_some(margin),
+        })
+    }
+
+    /// Pose of the tool of one posture, base from tool.
+    ///
+    /// # Panics
+    /// If the index is out of range, as for a slice.
+    #[must_use]
+    pub fn tool_pose(&self, posture: usize) -> Pose {
+        let number = |k: usize| self.tool.get(posture, k);
+        let rotation = nalgebra::Matrix3::from_fn(|r, c| number(3 * r + c));
+        let place = nalgebra::Vector3::from_fn(|k, _| number(9 + k));
+        // Rounding of a rotation matrix, not a search for the nearest rotation.
+        let rotation = nalgebra::Rotation3::from_matrix_unchecked(rotation);
+        Pose::from_parts(place.into(), rotation.into())
+    }
+
+    fn set(&mut self, i: usize, answer: Option<&Alone>) {
+        let Some(answer) = answer else {
+            for table in [
+                &mut self.tool,
+                &mut self.coordinates,
+                &mut self.commands,
+                &mut self.actuator_forces,
+                &mut self.stiffness,
+                &mut self.verdicts,
+            ] {
+                table.set_row(i, |_| f64::NAN);
+            }
+            return;
+        };
+        let r = answer.tool.rotation.to_rotation_matrix();
+        let p = answer.tool.translation.vector;
+        let number = |k: usize| if k < 9 { r[(k / 3, k % 3)] } else { p[k - 9] };
+        self.tool.set_row(i, number);
+        self.coordinates.set_row(i, |k| answer.coordinates[k]);
+        self.commands.set_row(i, |k| answer.commands[k]);
+        self.actuator_forces.set_row(i, |k| answer.forces[k]);
+        self.stiffness.set_row(i, |k| answer.stiffness[k]);
+        self.verdicts.set_row(i, |k| answer.verdict[k]);
+        self.found[i] = Found::Alone;
+    }
+}
+
+impl Alone {
+    fn resting(posture: &Posture<'_>, state: &MechanismState) -> Self {
+        let mechanism = posture.mechanism();
+        Self {
+            target: *posture.target(),
+            tool: state.platforms[mechanism.tool()],
+            coordinates: state.coordinates.concat(),
+            commands: posture.commands(),
+            forces: forces(posture, state),
+            stiffness: Vec::new(),
+            verdict: Vec::new(),
+        }
+    }
+
+    fn judged(posture: &Posture<'_>, found: &MechanismEquilibrium) -> Self {
+        let matrix = &found.stiffness.matrix;
+        Self {
+            target: *posture.target(),
+            tool: found.tool,
+            coordinates: found.state.coordinates.concat(),
+            commands: posture.commands(),
+            forces: found.actuator_forces(),
+            stiffness: (0..36).map(|k| matrix[(k / 6, k % 6)]).collect(),
+            verdict: vec![
+                f64::from(u8::from(found.stable())),
+                found.stiffness_against_force(),
+                found.margin().unwrap_or(f64::NAN),
+            ],
+        }
+    }
+}
+
+/// Forces of the loads on the actuators at a state.
+fn forces(posture: &Posture<'_>, state: &MechanismState) -> Vec<f64> {
+    let mechanism = posture.mechanism();
+    let limbs = mechanism.limbs().iter().enumerate();
+    let own = limbs.flat_map(|(i, limb)| {
+        let joints = &posture.limbs()[i];
+        let base = &state.platforms[limb.from];
+        let (at, commands) = (&joints.coordinates, &joints.commands);
+        let mut system = System::new(&limb.actual, base, at, commands, limb.from != 0);
+        system.evaluate(
+            &limb.actual,
+            base,
+            at,
+            commands,
+            &mechanism.acting(i),
+            &state.coordinates[i],
+            &state.wrenches[i],
+            1.0,
+        );
+        let first = limb.actual.coordinate_count();
+        system.torque[first..first + limb.actual.actuators().len()].to_vec()
+    });
+    own.collect()
+}
+
+impl<'m> Batch<'m> {
+    /// Equilibrium of the machine as it is, its tool commanded to `poses` and loaded by `wrenches`
+    /// (one of each per posture; base axes, about the tool's origin), with the tangent stiffness if
+    /// asked for.
+    ///
+    /// # Errors
+    /// [`Error::Size`] if there are not as many wrenches as poses.
+    pub fn equilibrium(
+        &self,
+        poses: &[Pose],
+        wrenches: &[Wrench],
+        tangent: bool,
+    ) -> Result<BatchEquilibrium> {
+        self.loaded(&Places::Poses(poses), wrenches, asked(tangent))
+    }
+
+    /// The same for a serial machine with its actuators commanded to `commands`.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness_at_joints`] and [`Self::equilibrium`].
+    pub fn equilibrium_at_joints(
+        &self,
+        commands: &[f64],
+        wrenches: &[Wrench],
+        tangent: bool,
+    ) -> Result<BatchEquilibrium> {
+        self.loaded(&self.joints(commands)?, wrenches, asked(tangent))
+    }
+
+    /// As [`Self::equilibrium`] with tangent stiffness and verdicts: what [`Posture::deflected_by`]
+    /// tells of stability.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`].
+    pub fn judged_equilibrium(
+        &self,
+        poses: &[Pose],
+        wrenches: &[Wrench],
+    ) -> Result<BatchEquilibrium> {
+        self.loaded(&Places::Poses(poses), wrenches, Asked::Verdict)
+    }
+
+    /// Compensation [R 7.7-7.13]: the poses to command so that the tool is at `poses` under
+    /// `wrenches`, in the `directions` (base axes `x y z rx ry rz`) that are corrected, as
+    /// [`target_under_load`] does; and where the tool is then.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`].
+    pub fn targets_under_load(
+        &self,
+        poses: &[Pose],
+        wrenches: &[Wrench],
+        directions: [bool; 6],
+    ) -> Result<BatchTargets> {
+        let places = Places::Poses(poses);
+        self.as_many(&places, wrenches)?;
+        let mut equilibrium = BatchEquilibrium::new(self, Asked::Rest, poses.len());
+        let mut targets = poses.to_vec();
+        let alone = |i: usize| {
+            let near = self.posture(&places, i)?;
+            let state = near.rest_state();
+            let (posture, state) =
+                target_under_load(&near, &poses[i], &wrenches[i], directions, state)?;
+            Ok(Alone::resting(&posture, &state))
+        };
+        for (i, answer) in left(&equilibrium.found, alone) {
+            equilibrium.set(i, answer.as_ref());
+            targets[i] = answer.map_or_else(
+                || Pose::translation(f64::NAN, f64::NAN, f64::NAN),
+                |a| a.target,
+            );
+        }
+        Ok(BatchTargets {
+            targets,
+            equilibrium,
+        })
+    }
+
+    fn as_many(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<()> {
+        if wrenches.len() == places.len() {
+            return Ok(());
+        }
+        Err(Error::Size {
+            place: format!("mechanism '{}'", self.mechanism.name()),
+            what: "wrenches",
+            expected: places.len(),
+            found: wrenches.len(),
+        })
+    }
+
+    fn loaded(
+        &self,
+        places: &Places<'_>,
+        wrenches: &[Wrench],
+        asked: Asked,
+    ) -> Result<BatchEquilibrium> {
+        self.as_many(places, wrenches)?;
+        let mut out = BatchEquilibrium::new(self, asked, places.len());
+        let tangent = asked >= Asked::Tangent;
+        if let Ok((nominal, actual)) = &self.plans
+            && asked != Asked::Verdict
+            && (!tangent || actual.iter().all(super::Plan::has_tangent) && actual.len() == 1)
+        {
+            let tool = &self.mechanism.platforms()[self.mechanism.tool()];
+            let parts = out.tool.parts(BLOCKS).into_iter();
+            let works: Vec<Work<'_>> = parts
+                .zip(out.coordinates.parts(BLOCKS))
+                .zip(out.commands.parts(BLOCKS))
+                .zip(out.actuator_forces.parts(BLOCKS))
+                .zip(out.stiffness.parts(BLOCKS))
+                .zip(out.found.chunks_mut(BLOCK * BLOCKS))
+                .enumerate()
+                .map(
+                    |(k, (((((tool_out, coordinates), commands), forces), stiffness), found))| {
+                        Work::Loaded {
+                            nominal,
+                            actual,
+                            body: (tool.centre_of_mass.into(), tool.mass),
+                            gravity: self.mechanism.gravity().into(),
+                            places: places.from(k * BLOCKS * BLOCK),
+                            wrenches: &wrenches[k * BLOCKS * BLOCK..],
+                            tool: tool_out,
+                            coordinates,
+                            commands,
+                            forces,
+                            stiffness,
+                            found,
+                        }
+                    },
+                )
+                .collect();
+            in_parallel(works);
+        }
+        let alone = |i: usize| {
+            let posture = self.posture(places, i)?;
+            if asked == Asked::Rest {
+                let state = posture.rest_under(&wrenches[i], posture.rest_state())?;
+                return Ok(Alone::resting(&posture, &state));
+            }
+            let found = posture.deflected_by(&wrenches[i])?;
+            Ok(Alone::judged(&posture, &found))
+        };
+        for (i, answer) in left(&out.found, alone) {
+            out.set(i, answer.as_ref());
+        }
+        Ok(out)
+    }
+}
+
+fn asked(tangent: bool) -> Asked {
+    if tangent { Asked::Tangent } else { Asked::Rest }
+}
+
+/// Answers of those that were not found together; `None` where there is none.
+fn left(
+    found: &[Found],
+    alone: impl Fn(usize) -> Result<Alone> + Sync,
+) -> Vec<(usize, Option<Alone>)> {
+    let left: Vec<usize> = (0..found.len())
+        .filter(|i| found[*i] != Found::Together)
+        .collect();
+    left.into_par_iter().map(|i| (i, alone(i).ok())).collect()
+}
