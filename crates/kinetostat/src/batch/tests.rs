@@ -6,7 +6,7 @@ use pulp::{Scalar, Simd, WithSimd};
 use super::lanes::Lanes;
 use super::run::{Places, Work};
 use super::*;
-use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform};
+use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench};
 
 /// Numbers between -1 and 1 with nothing special about them.
 fn irregular(i: usize) -> f64 {
@@ -86,6 +86,8 @@ fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Ve
     let (poses, wrenches) = (poses(count), wrenches(count));
     let coordinates = machine.limbs().iter().map(|l| l.actual.coordinate_count());
     let (mut tool, mut own) = (Table::new(12, count), Table::new(coordinates.sum(), count));
+    let actuators = machine.actuator_names().len();
+    let (mut commands, mut forces) = (Table::new(actuators, count), Table::new(actuators, count));
     let mut found = vec![Found::Not; count];
     let platform = &machine.platforms()[1];
     Work::Loaded {
@@ -97,12 +99,15 @@ fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Ve
         wrenches: &wrenches,
         tool: tool.parts(count)[0],
         coordinates: own.parts(count)[0],
+        commands: commands.parts(count)[0],
+        forces: forces.parts(count)[0],
         stiffness: &mut [],
         found: &mut found,
     }
     .with_simd(simd);
+    let tables = [tool, own, commands, forces];
     let all = (0..count)
-        .flat_map(|i| tool.row(i).chain(own.row(i)).collect::<Vec<_>>())
+        .flat_map(|i| tables.iter().flat_map(move |t| t.row(i)))
         .collect();
     (all, found)
 }
