@@ -13,7 +13,7 @@ use crate::spatial::{Pose, Wrench};
 use crate::system::System;
 
 /// Loaded equilibrium of many postures.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct BatchEquilibrium {
     /// Pose of the tool, 12 numbers: rotation matrix (base from tool) row by row, position (m).
     pub tool: Table,
@@ -75,20 +75,21 @@ struct Alone {
 }
 
 impl BatchEquilibrium {
-    fn new(batch: &Batch<'_>, asked: Asked, count: usize) -> Self {
+    /// Room for so many postures; old numbers stay until they are written over.
+    fn reset(&mut self, batch: &Batch<'_>, asked: Asked, count: usize) {
         let limbs = batch.mechanism.limbs();
         let coordinates = limbs.iter().map(|l| l.actual.coordinate_count()).sum();
         let commands = limbs.iter().map(|l| l.actual.actuators().len()).sum();
         let stiffness = if asked >= Asked::Tangent { 36 } else { 0 };
-        Self {
-            tool: Table::new(12, count),
-            coordinates: Table::new(coordinates, count),
-            commands: Table::new(commands, count),
-            actuator_forces: Table::new(commands, count),
-            stiffness: Table::new(stiffness, count),
-            verdicts: Table::new(if asked == Asked::Verdict { 3 } else { 0 }, count),
-            found: vec![Found::Not; count],
-        }
+        self.tool.reset(12, count);
+        self.coordinates.reset(coordinates, count);
+        self.commands.reset(commands, count);
+        self.actuator_forces.reset(commands, count);
+        self.stiffness.reset(stiffness, count);
+        let verdict = if asked == Asked::Verdict { 3 } else { 0 };
+        self.verdicts.reset(verdict, count);
+        self.found.clear();
+        self.found.resize(count, Found::Not);
     }
 
     /// The verdict of one posture; `None` if none was asked for or the posture was not found.
@@ -219,7 +220,23 @@ impl<'m> Batch<'m> {
         wrenches: &[Wrench],
         tangent: bool,
     ) -> Result<BatchEquilibrium> {
-        self.loaded(&Places::Poses(poses), wrenches, asked(tangent))
+        let mut out = BatchEquilibrium::default();
+        self.equilibrium_into(poses, wrenches, tangent, &mut out)?;
+        Ok(out)
+    }
+
+    /// The same into a result that is written over: a loop over blocks of postures allocates once.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium`].
+    pub fn equilibrium_into(
+        &self,
+        poses: &[Pose],
+        wrenches: &[Wrench],
+        tangent: bool,
+        out: &mut BatchEquilibrium,
+    ) -> Result<()> {
+        self.loaded(&Places::Poses(poses), wrenches, asked(tangent), out)
     }
 
     /// The same for a serial machine with its actuators commanded to `commands`.
@@ -232,7 +249,23 @@ impl<'m> Batch<'m> {
         wrenches: &[Wrench],
         tangent: bool,
     ) -> Result<BatchEquilibrium> {
-        self.loaded(&self.joints(commands)?, wrenches, asked(tangent))
+        let mut out = BatchEquilibrium::default();
+        self.equilibrium_at_joints_into(commands, wrenches, tangent, &mut out)?;
+        Ok(out)
+    }
+
+    /// The same into a result that is written over.
+    ///
+    /// # Errors
+    /// As [`Self::equilibrium_at_joints`].
+    pub fn equilibrium_at_joints_into(
+        &self,
+        commands: &[f64],
+        wrenches: &[Wrench],
+        tangent: bool,
+        out: &mut BatchEquilibrium,
+    ) -> Result<()> {
+        self.loaded(&self.joints(commands)?, wrenches, asked(tangent), out)
     }
 
     /// As [`Self::equilibrium`] with tangent stiffness and verdicts: what [`Posture::deflected_by`]
@@ -245,7 +278,9 @@ impl<'m> Batch<'m> {
         poses: &[Pose],
         wrenches: &[Wrench],
     ) -> Result<BatchEquilibrium> {
-        self.loaded(&Places::Poses(poses), wrenches, Asked::Verdict)
+        let mut out = BatchEquilibrium::default();
+        self.loaded(&Places::Poses(poses), wrenches, Asked::Verdict, &mut out)?;
+        Ok(out)
     }
 
     /// Compensation [R 7.7-7.13]: the poses to command so that the tool is at `poses` under
@@ -262,7 +297,8 @@ impl<'m> Batch<'m> {
     ) -> Result<BatchTargets> {
         let places = Places::Poses(poses);
         self.as_many(&places, wrenches)?;
-        let mut equilibrium = BatchEquilibrium::new(self, Asked::Rest, poses.len());
+        let mut equilibrium = BatchEquilibrium::default();
+        equilibrium.reset(self, Asked::Rest, poses.len());
         let mut targets = poses.to_vec();
         let alone = |i: usize| {
             let near = self.posture(&places, i)?;
@@ -301,17 +337,18 @@ impl<'m> Batch<'m> {
         places: &Places<'_>,
         wrenches: &[Wrench],
         asked: Asked,
-    ) -> Result<BatchEquilibrium> {
+        out: &mut BatchEquilibrium,
+    ) -> Result<()> {
         self.as_many(places, wrenches)?;
-        let mut out = BatchEquilibrium::new(self, asked, places.len());
+        out.reset(self, asked, places.len());
         let tangent = asked >= Asked::Tangent;
         if let Ok((nominal, actual)) = &self.plans
             && asked != Asked::Verdict
             && (!tangent || actual.iter().all(super::Plan::has_tangent) && actual.len() == 1)
         {
             let tool = &self.mechanism.platforms()[self.mechanism.tool()];
-            let parts = out.tool.parts(BLOCKS).into_iter();
-            let works: Vec<Work<'_>> = parts
+            let parts = out.tool.parts(BLOCKS);
+            let works = parts
                 .zip(out.coordinates.parts(BLOCKS))
                 .zip(out.commands.parts(BLOCKS))
                 .zip(out.actuator_forces.parts(BLOCKS))
@@ -335,9 +372,8 @@ impl<'m> Batch<'m> {
                             found,
                         }
                     },
-                )
-                .collect();
-            in_parallel(works);
+                );
+            in_parallel(works, places.len());
         }
         let alone = |i: usize| {
             let posture = self.posture(places, i)?;
@@ -351,7 +387,7 @@ impl<'m> Batch<'m> {
         for (i, answer) in left(&out.found, alone) {
             out.set(i, answer.as_ref());
         }
-        Ok(out)
+        Ok(())
     }
 }
 

@@ -31,6 +31,7 @@ use rayon::prelude::*;
 use crate::equilibrium::unloaded_tip;
 use crate::error::{Error, Result};
 use crate::inverse::LimbPosture;
+use crate::kinematics::Kinematics;
 use crate::mechanism::Mechanism;
 use crate::posture::Posture;
 use crate::spatial::Pose;
@@ -64,7 +65,7 @@ pub enum Found {
 }
 
 /// Unloaded stiffness of many postures.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct BatchStiffness {
     /// Cartesian stiffness of the tool at its origin, base axes, 36 numbers row by row (N/m, N/rad,
     /// N m/m, N m/rad), as in [`crate::UnloadedStiffness`].
@@ -95,7 +96,14 @@ impl<'m> Batch<'m> {
     /// Stiffness of the unloaded machine as drawn with the tool at each of the poses.
     #[must_use]
     pub fn stiffness(&self, poses: &[Pose]) -> BatchStiffness {
-        self.unloaded(&Places::Poses(poses), false)
+        let mut out = BatchStiffness::default();
+        self.stiffness_into(poses, &mut out);
+        out
+    }
+
+    /// The same into a result that is written over: a loop over blocks of postures allocates once.
+    pub fn stiffness_into(&self, poses: &[Pose], out: &mut BatchStiffness) {
+        self.unloaded(&Places::Poses(poses), false, out);
     }
 
     /// Stiffness, and Jacobian if asked for, of a serial machine with its actuators commanded to
@@ -105,7 +113,23 @@ impl<'m> Batch<'m> {
     /// [`Error::Size`] if the numbers are no whole postures, [`Error::Model`] for a machine of
     /// several limbs or with passive joints.
     pub fn stiffness_at_joints(&self, commands: &[f64], jacobian: bool) -> Result<BatchStiffness> {
-        Ok(self.unloaded(&self.joints(commands)?, jacobian))
+        let mut out = BatchStiffness::default();
+        self.stiffness_at_joints_into(commands, jacobian, &mut out)?;
+        Ok(out)
+    }
+
+    /// The same into a result that is written over.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness_at_joints`].
+    pub fn stiffness_at_joints_into(
+        &self,
+        commands: &[f64],
+        jacobian: bool,
+        out: &mut BatchStiffness,
+    ) -> Result<()> {
+        self.unloaded(&self.joints(commands)?, jacobian, out);
+        Ok(())
     }
 
     fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
@@ -134,18 +158,17 @@ impl<'m> Batch<'m> {
         Ok(Places::Joints { commands, each })
     }
 
-    fn unloaded(&self, places: &Places<'_>, jacobian: bool) -> BatchStiffness {
+    fn unloaded(&self, places: &Places<'_>, jacobian: bool, out: &mut BatchStiffness) {
         let count = places.len();
         let coordinates = self.mechanism.limbs()[0].nominal.coordinate_count();
         let width = if jacobian { 6 * coordinates } else { 0 };
-        let mut out = BatchStiffness {
-            stiffness: Table::new(36, count),
-            jacobian: Table::new(width, count),
-            found: vec![Found::Not; count],
-        };
+        out.stiffness.reset(36, count);
+        out.jacobian.reset(width, count);
+        out.found.clear();
+        out.found.resize(count, Found::Not);
         if let Ok((nominal, _)) = &self.plans {
-            let parts = out.stiffness.parts(BLOCKS).into_iter();
-            let works: Vec<Work<'_>> = parts
+            let parts = out.stiffness.parts(BLOCKS);
+            let works = parts
                 .zip(out.jacobian.parts(BLOCKS))
                 .zip(out.found.chunks_mut(BLOCK * BLOCKS))
                 .enumerate()
@@ -155,25 +178,50 @@ impl<'m> Batch<'m> {
                     stiffness,
                     jacobian,
                     found,
-                })
-                .collect();
-            in_parallel(works);
+                });
+            in_parallel(works, count);
         }
         for i in 0..count {
             if out.found[i] == Found::Together {
                 continue;
             }
-            let answer = self.posture(places, i).and_then(|p| p.stiffness());
-            let row = |k: usize| match &answer {
-                Ok(found) => found.cartesian.matrix[(k / 6, k % 6)],
-                Err(_) => f64::NAN,
+            let posture = self.posture(places, i);
+            let answer = posture.and_then(|p| p.stiffness().map(|found| (found, p)));
+            let Ok((found, posture)) = answer else {
+                out.stiffness.set_row(i, |_| f64::NAN);
+                out.jacobian.set_row(i, |_| f64::NAN);
+                continue;
             };
-            out.stiffness.set_row(i, row);
-            if answer.is_ok() {
-                out.found[i] = Found::Alone;
+            let matrix = &found.cartesian.matrix;
+            out.stiffness.set_row(i, |k| matrix[(k / 6, k % 6)]);
+            if jacobian {
+                let j = self.jacobian(&posture);
+                out.jacobian
+                    .set_row(i, |k| j[(k / coordinates, k % coordinates)]);
             }
+            out.found[i] = Found::Alone;
         }
-        out
+    }
+
+    /// Jacobian of a serial machine as drawn, unloaded, at the tool's origin.
+    fn jacobian(&self, posture: &Posture<'_>) -> nalgebra::Matrix6xX<f64> {
+        let limb = &self.mechanism.limbs()[0];
+        let (base, own) = (
+            &self.mechanism.platforms()[limb.from].home,
+            &posture.limbs()[0],
+        );
+        let (x, commands) = (&own.coordinates, &own.commands);
+        let at = Kinematics::new(&limb.nominal, base, x, commands, false);
+        let mut j = at.jacobian(limb.nominal.tip());
+        let tip = at.tip_pose();
+        let tool = tip * limb.platform_from_tip.inverse();
+        let arm = tool.translation.vector - tip.translation.vector;
+        for mut twist in j.column_iter_mut() {
+            let turn = twist.fixed_rows::<3>(3).into_owned();
+            let mut linear = twist.fixed_rows_mut::<3>(0);
+            linear += turn.cross(&arm);
+        }
+        j
     }
 
     fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture<'m>> {
@@ -194,11 +242,14 @@ impl<'m> Batch<'m> {
     }
 }
 
-fn in_parallel(works: Vec<Work<'_>>) {
-    if works.len() < 2 {
-        works.into_iter().for_each(Work::run);
+fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usize) {
+    if count <= BLOCKS * BLOCK {
+        works.for_each(Work::run);
     } else {
-        works.into_par_iter().for_each(Work::run);
+        works
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .for_each(Work::run);
     }
 }
 

@@ -248,7 +248,8 @@ fn unloaded<S: Simd>(
         .map(|plan| (Walk::new(simd, plan), Joints::new(simd, plan)))
         .collect();
     let n = plans[0].coordinates;
-    let mut columns = vec![zero; if jacobian.is_empty() { 0 } else { 6 * n }];
+    let summed = !jacobian.is_empty() && !plans[0].one_each;
+    let mut columns = vec![zero; if summed { 6 * n } else { 0 }];
     let count = found.len();
     for first in (0..count).step_by(S::F64_LANES) {
         let group = Group { first, count };
@@ -295,17 +296,14 @@ fn unloaded<S: Simd>(
         group.put(stiffness, 0, &numbers);
         if !jacobian.is_empty() {
             let (plan, walk) = (&plans[0], &limbs[0].0);
-            let sum = !plan.one_each;
-            if sum {
-                columns.fill(zero);
-            }
+            columns.fill(zero);
             for (k, screw) in plan.screws.iter().enumerate() {
                 let Some((own, ratio)) = screw.coordinate else {
                     continue;
                 };
                 let twist = walk.twist(plan, k);
                 for row in 0..6 {
-                    if sum {
+                    if summed {
                         let x = &mut columns[row * n + own];
                         *x = twist[row].times_plus(twist[row].same(ratio), *x);
                     } else {
@@ -313,7 +311,7 @@ fn unloaded<S: Simd>(
                     }
                 }
             }
-            if sum {
+            if summed {
                 group.put(jacobian, 0, &columns);
             }
         }

@@ -13,12 +13,10 @@ pub struct Table {
 }
 
 impl Table {
-    pub(super) fn new(width: usize, count: usize) -> Self {
-        Self {
-            width,
-            count,
-            data: vec![0.0; count.div_ceil(BLOCK) * width * BLOCK],
-        }
+    /// Makes room for `count` rows of `width` numbers; old numbers stay until they are written over.
+    pub(super) fn reset(&mut self, width: usize, count: usize) {
+        (self.width, self.count) = (width, count);
+        self.data.resize(count.div_ceil(BLOCK) * width * BLOCK, 0.0);
     }
 
     /// Numbers per posture.
@@ -77,11 +75,14 @@ impl Table {
     }
 
     /// The numbers in parts of so many blocks each; a table without columns has as many, all empty.
-    pub(super) fn parts(&mut self, blocks: usize) -> Vec<&mut [f64]> {
-        if self.width == 0 {
-            let parts = self.count.div_ceil(BLOCK * blocks);
-            return (0..parts).map(|_| Default::default()).collect();
-        }
-        self.data.chunks_mut(self.width * BLOCK * blocks).collect()
+    pub(super) fn parts(&mut self, blocks: usize) -> impl Iterator<Item = &mut [f64]> {
+        let each = self.width * BLOCK * blocks;
+        let mut rest = self.data.as_mut_slice();
+        (0..self.count.div_ceil(BLOCK * blocks)).map(move |_| {
+            let end = each.min(rest.len());
+            let (part, after) = std::mem::take(&mut rest).split_at_mut(end);
+            rest = after;
+            part
+        })
     }
 }

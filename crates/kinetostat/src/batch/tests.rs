@@ -85,9 +85,16 @@ fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Ve
     let (nominal, actual) = batch.plans.as_ref().expect("compiled");
     let (poses, wrenches) = (poses(count), wrenches(count));
     let coordinates = machine.limbs().iter().map(|l| l.actual.coordinate_count());
-    let (mut tool, mut own) = (Table::new(12, count), Table::new(coordinates.sum(), count));
     let actuators = machine.actuator_names().len();
-    let (mut commands, mut forces) = (Table::new(actuators, count), Table::new(actuators, count));
+    let widths = [12, coordinates.sum(), actuators, actuators];
+    let mut tables = widths.map(|width| {
+        let mut table = Table::default();
+        table.reset(width, count);
+        table
+    });
+    let [tool, own, commands, forces] = tables
+        .each_mut()
+        .map(|t| t.parts(count).next().expect("a part"));
     let mut found = vec![Found::Not; count];
     let platform = &machine.platforms()[1];
     Work::Loaded {
@@ -97,15 +104,14 @@ fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Ve
         gravity: machine.gravity().into(),
         places: Places::Poses(&poses),
         wrenches: &wrenches,
-        tool: tool.parts(count)[0],
-        coordinates: own.parts(count)[0],
-        commands: commands.parts(count)[0],
-        forces: forces.parts(count)[0],
+        tool,
+        coordinates: own,
+        commands,
+        forces,
         stiffness: &mut [],
         found: &mut found,
     }
     .with_simd(simd);
-    let tables = [tool, own, commands, forces];
     let all = (0..count)
         .flat_map(|i| tables.iter().flat_map(move |t| t.row(i)))
         .collect();
@@ -202,8 +208,8 @@ fn sines_are_those_of_the_library() {
     }
 }
 
-#[test]
-fn a_serial_arm_has_its_tangent() {
+/// Three joints and three links, one joint's axis slanted.
+fn arm() -> Mechanism {
     let mut chain = Chain::builder("arm");
     for (i, axis) in [Vector3::z(), Vector3::y(), Vector3::new(0.2, 0.9, -0.3)]
         .into_iter()
@@ -225,7 +231,12 @@ fn a_serial_arm_has_its_tangent() {
     }
     let chain = chain.build().expect("an arm");
     let gravity = Vector3::new(1.0, 2.0, -9.0);
-    let machine = Mechanism::serial(chain, Pose::identity(), gravity).expect("a machine");
+    Mechanism::serial(chain, Pose::identity(), gravity).expect("a machine")
+}
+
+#[test]
+fn a_serial_arm_has_its_tangent() {
+    let machine = arm();
     let batch = Batch::new(&machine);
     let count = 16;
     let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
@@ -259,6 +270,38 @@ fn a_serial_arm_has_its_tangent() {
         let jacobian = at.jacobian(machine.limbs()[0].nominal.tip());
         for (k, x) in free.jacobian.row(i).enumerate() {
             assert!((x - jacobian[(k / 21, k % 21)]).abs() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn a_jacobian_alone_is_the_one_together() {
+    let machine = arm();
+    let mut batch = Batch::new(&machine);
+    let commands: Vec<f64> = (0..30).map(irregular).collect();
+    let together = batch.stiffness_at_joints(&commands, true).expect("sizes");
+    batch.plans = Err("asked for alone".into());
+    let mut alone = BatchStiffness::default();
+    // Room for more postures than the second call has.
+    let more: Vec<f64> = (0..300).map(irregular).collect();
+    batch
+        .stiffness_at_joints_into(&more, true, &mut alone)
+        .expect("sizes");
+    batch
+        .stiffness_at_joints_into(&commands, true, &mut alone)
+        .expect("sizes");
+    assert_eq!(alone.found, vec![Found::Alone; alone.found.len()]);
+    assert_eq!(alone.jacobian.len(), together.jacobian.len());
+    for i in 0..alone.found.len() {
+        for (a, b) in alone.jacobian.row(i).zip(together.jacobian.row(i)) {
+            assert!((a - b).abs() < 1e-14, "{a} {b}");
+        }
+        let largest = together
+            .stiffness
+            .row(i)
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        for (a, b) in alone.stiffness.row(i).zip(together.stiffness.row(i)) {
+            assert!((a - b).abs() < 1e-12 * largest, "{a} {b}");
         }
     }
 }
