@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{cargo, root, step};
+use crate::{bench, cargo, root, step};
 
 /// One number.
 #[derive(Debug, Serialize, Deserialize)]
@@ -156,6 +156,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     real_programs(&mut figures)?;
     golden(&mut figures)?;
     cost_growth(&mut figures)?;
+    speed(&mut figures)?;
     if !quick {
         clean_clone(&mut figures)?;
     }
@@ -476,23 +477,38 @@ fn printed(text: &str) -> Result<Vec<Figure>> {
 
 /// How the cost of a chain's equilibrium grows with its length. The tables go to stderr.
 fn cost_growth(figures: &mut Vec<Figure>) -> Result<()> {
+    tables(figures, &["kinetostat", "--example", "cost_growth"])
+}
+
+/// Many postures: beside numpy, one at a time, with two threads, in growing numbers.
+fn speed(figures: &mut Vec<Figure>) -> Result<()> {
+    if let Err(error) = bench::python() {
+        eprintln!("skipped: {error:#}, so speed is not compared with numpy");
+    } else {
+        for (row, (work, least)) in bench::measured()?.iter().zip(bench::WORKS) {
+            let name = format!("{work}: times faster than numpy");
+            figures.push(Figure::at_least(name, row.ratio, least, "times"));
+            let name = format!("{work}: largest relative difference to numpy");
+            let apart = row.max_relative_difference;
+            figures.push(Figure::at_most(name, apart, 1e-9, "1"));
+        }
+    }
+    tables(figures, &["kinetostat-bench", "--bin", "table"])
+}
+
+/// A program of a crate that prints tables, which go to stderr, and figures.
+fn tables(figures: &mut Vec<Figure>, program: &[&str]) -> Result<()> {
+    let name = program.last().unwrap_or(&"");
     let output = cargo()
-        .args([
-            "run",
-            "--release",
-            "--quiet",
-            "-p",
-            "kinetostat",
-            "--example",
-            "cost_growth",
-        ])
+        .args(["run", "--release", "--quiet", "-p"])
+        .args(program)
         .current_dir(root())
         .stderr(Stdio::inherit())
         .output()
-        .context("cannot run the example cost_growth")?;
+        .with_context(|| format!("cannot run {name}"))?;
     let text = String::from_utf8_lossy(&output.stdout);
     if !output.status.success() {
-        bail!("the example cost_growth failed: {text}");
+        bail!("{name} failed: {text}");
     }
     for line in text.lines().filter(|line| !line.starts_with("figure {")) {
         eprintln!("{line}");

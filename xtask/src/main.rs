@@ -1,5 +1,6 @@
 //! Tasks of the project: `cargo xtask test`, `cargo xtask book`, `cargo xtask figures [--json]`.
 
+mod bench;
 mod book;
 mod figures;
 mod fuzz;
@@ -19,7 +20,10 @@ Tasks of the project
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
   cargo xtask figures --quick   without the ones that build from an empty registry cache
   cargo xtask fuzz [--minutes M] [--seed N]   random chains through every question; --case N
-                                repeats one";
+                                repeats one
+  cargo xtask bench-vs-numpy    speed beside vectorised numpy, in one process; needs python3
+  cargo xtask bench-vs-numpy --json   the same as a list of {work, kinetostat_us, numpy_us, ratio,
+                                max_relative_difference}";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -29,6 +33,7 @@ fn main() -> ExitCode {
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         ["fuzz", options @ ..] => fuzz::run(options),
+        ["bench-vs-numpy", options @ ..] => bench::versus_numpy(options),
         _ => {
             eprintln!("{HELP}");
             return ExitCode::FAILURE;

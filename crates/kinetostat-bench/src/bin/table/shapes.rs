@@ -1,0 +1,40 @@
+//! Machines of different shapes in one table, with plain and with bowing links.
+
+use anyhow::Result;
+use kinetostat_bench::Work;
+
+use crate::machines::ALL;
+use crate::{BLOCK, shortest};
+
+const POSTURES: usize = 1024;
+/// A machine whose postures are solved one by one is asked fewer of them.
+const FEW: usize = 16;
+
+pub fn table() -> Result<()> {
+    println!("One thread, blocks of {BLOCK} postures; us per posture, and ns per posture and spring");
+    println!(
+        "{:<34}{:>8}{:>12}{:>8}{:>14}{:>8}{:>16}{:>8}  alone",
+        "machine (and with bowing links)", "springs", "K_C (and J)", "each", "equilibrium", "each", "equil. and K_C", "each"
+    );
+    for machine in &ALL {
+        for bowing in [false, true] {
+            let name = if bowing { "  bowing" } else { machine.what };
+            print!("{name:<34}{:>8}", machine.springs);
+            let works = [machine.unloaded(), Work::Equilibrium, Work::EquilibriumAndStiffness];
+            let mut alone = Vec::new();
+            for (work, width) in works.into_iter().zip([12, 14, 16]) {
+                let probe = machine.task(work, FEW, bowing)?.answers(FEW)?;
+                let lonely = FEW - probe.together;
+                let count = if lonely > FEW / 2 { FEW } else { POSTURES };
+                let task = machine.task(work, count, bowing)?;
+                let time = shortest(&task, BLOCK)?;
+                let each = time * 1e3 / machine.springs as f64;
+                print!("{time:>width$.3}{each:>8.1}");
+                alone.push(count - task.answers(BLOCK)?.together);
+            }
+            println!("  {} {} {} of {POSTURES}", alone[0], alone[1], alone[2]);
+        }
+    }
+    println!();
+    Ok(())
+}

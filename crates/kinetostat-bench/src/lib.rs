@@ -1,0 +1,12 @@
+//! Many postures of a machine from a model file, asked again and again: what is timed.
+//!
+//! The same [`Task`] is used by `cargo xtask bench-vs-numpy` through Python (feature `python`), so that
+//! numpy and this project run in one process, and by the tables of the program `table`.
+
+pub mod sample;
+mod task;
+
+#[cfg(feature = "python")]
+mod python;
+
+pub use task::{Answers, Places, Task, Work};

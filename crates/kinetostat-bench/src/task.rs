@@ -1,0 +1,226 @@
+//! A question for many postures of one machine.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use anyhow::{Context, Result, ensure};
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Found, Table};
+use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat_model::Model;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Work {
+    /// Unloaded stiffness of the tool.
+    Stiffness,
+    /// Unloaded stiffness and Jacobian of a serial machine.
+    StiffnessAndJacobian,
+    /// Equilibrium under the wrenches.
+    Equilibrium,
+    /// Equilibrium and the tangent stiffness there.
+    EquilibriumAndStiffness,
+}
+
+/// Where the machine is commanded.
+#[derive(Clone, Debug)]
+pub enum Places {
+    /// Commands of all actuators (m or rad) of one posture after the other: a serial machine.
+    Joints(Vec<f64>),
+    /// Poses of the tool.
+    Poses(Vec<Pose>),
+}
+
+impl Places {
+    /// From 12 numbers per posture: rotation matrix (base from tool) row by row, position (m).
+    ///
+    /// # Errors
+    /// If the numbers are no whole poses.
+    pub fn from_numbers(numbers: &[f64]) -> Result<Self> {
+        ensure!(
+            numbers.len().is_multiple_of(12),
+            "a pose is 12 numbers, {} are no whole poses",
+            numbers.len()
+        );
+        let pose = |row: &[f64]| {
+            let matrix = Matrix3::from_row_slice(&row[..9]);
+            let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+            Pose::from_parts(Vector3::from_column_slice(&row[9..]).into(), turn)
+        };
+        Ok(Self::Poses(numbers.chunks(12).map(pose).collect()))
+    }
+}
+
+/// A machine, where it is commanded, how it is loaded and what is asked.
+#[derive(Debug)]
+pub struct Task {
+    // Its machine lives as long as the program: a benchmark loads a handful.
+    batch: Batch<'static>,
+    places: Places,
+    wrenches: Vec<Wrench>,
+    work: Work,
+    actuators: usize,
+}
+
+/// Numbers of all postures, row by row.
+#[derive(Clone, Debug, Default)]
+pub struct Answers {
+    /// 12 numbers per posture as in [`Places::from_numbers`]; empty for an unloaded machine.
+    pub tool: Vec<f64>,
+    /// Coordinates of all limbs; empty for an unloaded machine.
+    pub coordinates: Vec<f64>,
+    /// 36 numbers per posture, row by row; empty where not asked for.
+    pub stiffness: Vec<f64>,
+    /// 6 n numbers per posture, row by row; empty where not asked for.
+    pub jacobian: Vec<f64>,
+    /// How many were found together with others.
+    pub together: usize,
+    /// How many were not found at all.
+    pub not_found: usize,
+}
+
+enum Answer {
+    Unloaded(BatchStiffness),
+    Loaded(BatchEquilibrium),
+}
+
+impl Task {
+    /// A task on a model file. Wrenches (N, N m, base axes, about the tool's origin), one per
+    /// posture, are for loaded works only.
+    ///
+    /// # Errors
+    /// If the file is no model or the numbers do not fit the machine.
+    pub fn open(path: &Path, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
+        let model = kinetostat_model::read_model(path)
+            .with_context(|| format!("cannot read the model {}", path.display()))?;
+        Self::of_model(&model, work, places, wrenches)
+    }
+
+    /// The same for a model that is read.
+    ///
+    /// # Errors
+    /// If the numbers do not fit the machine.
+    pub fn of_model(model: &Model, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
+        Self::new(model.mechanism.clone(), work, places, wrenches)
+    }
+
+    /// The same for a machine.
+    ///
+    /// # Errors
+    /// If the numbers do not fit the machine.
+    pub fn new(machine: Mechanism, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
+        let machine: &'static Mechanism = Box::leak(Box::new(machine));
+        let wrenches: Vec<Wrench> = wrenches
+            .chunks_exact(6)
+            .map(|row| Wrench(Vector6::from_column_slice(row)))
+            .collect();
+        let task = Self {
+            batch: Batch::new(machine),
+            places,
+            wrenches,
+            work,
+            actuators: machine.actuator_names().len(),
+        };
+        let loaded = matches!(work, Work::Equilibrium | Work::EquilibriumAndStiffness);
+        let needed = if loaded { task.len() } else { 0 };
+        ensure!(
+            task.wrenches.len() == needed,
+            "'{}': {needed} wrenches are needed, there are {}",
+            machine.name(),
+            task.wrenches.len()
+        );
+        // Says whatever else does not fit.
+        task.ask(0, task.len().min(1))?;
+        Ok(task)
+    }
+
+    /// Number of postures.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match &self.places {
+            Places::Poses(poses) => poses.len(),
+            Places::Joints(commands) => commands.len() / self.actuators.max(1),
+        }
+    }
+
+    /// True without postures.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Why the postures of this machine are solved one by one, if they are.
+    #[must_use]
+    pub fn alone(&self) -> Option<&str> {
+        self.batch.alone()
+    }
+
+    fn ask(&self, from: usize, to: usize) -> Result<Answer> {
+        let wrenches = || &self.wrenches[from..to];
+        let jacobian = self.work == Work::StiffnessAndJacobian;
+        let tangent = self.work == Work::EquilibriumAndStiffness;
+        let loaded = tangent || self.work == Work::Equilibrium;
+        Ok(match &self.places {
+            Places::Joints(commands) => {
+                let own = &commands[from * self.actuators..to * self.actuators];
+                if loaded {
+                    let answer = self.batch.equilibrium_at_joints(own, wrenches(), tangent);
+                    Answer::Loaded(answer?)
+                } else {
+                    Answer::Unloaded(self.batch.stiffness_at_joints(own, jacobian)?)
+                }
+            }
+            Places::Poses(poses) => {
+                let own = &poses[from..to];
+                if loaded {
+                    Answer::Loaded(self.batch.equilibrium(own, wrenches(), tangent)?)
+                } else {
+                    Answer::Unloaded(self.batch.stiffness(own))
+                }
+            }
+        })
+    }
+
+    /// Goes once through all postures, `block` in each call, and drops the answers: what is timed.
+    ///
+    /// # Errors
+    /// What the machine refuses.
+    pub fn run(&self, block: usize) -> Result<()> {
+        let block = block.max(1);
+        for from in (0..self.len()).step_by(block) {
+            black_box(self.ask(from, (from + block).min(self.len()))?);
+        }
+        Ok(())
+    }
+
+    /// The answers of all postures, `block` in each call.
+    ///
+    /// # Errors
+    /// What the machine refuses.
+    pub fn answers(&self, block: usize) -> Result<Answers> {
+        let mut all = Answers::default();
+        let add = |to: &mut Vec<f64>, table: &Table| {
+            (0..table.len()).for_each(|i| to.extend(table.row(i)));
+        };
+        let block = block.max(1);
+        for from in (0..self.len()).step_by(block) {
+            let found = match self.ask(from, (from + block).min(self.len()))? {
+                Answer::Unloaded(answer) => {
+                    add(&mut all.stiffness, &answer.stiffness);
+                    add(&mut all.jacobian, &answer.jacobian);
+                    answer.found
+                }
+                Answer::Loaded(answer) => {
+                    add(&mut all.tool, &answer.tool);
+                    add(&mut all.coordinates, &answer.coordinates);
+                    add(&mut all.stiffness, &answer.stiffness);
+                    answer.found
+                }
+            };
+            let count = |how| found.iter().filter(|f| **f == how).count();
+            all.together += count(Found::Together);
+            all.not_found += count(Found::Not);
+        }
+        Ok(all)
+    }
+}
