@@ -1,6 +1,9 @@
 //! The extension module `kinetostat_bench`: arrays of f64 come and go as their bytes.
 
-#![allow(unsafe_code, reason = "pyo3's macros write it; there is none of our own")]
+#![allow(
+    unsafe_code,
+    reason = "pyo3's macros write it; there is none of our own"
+)]
 
 use pyo3::prelude::*;
 

@@ -26,10 +26,14 @@ pub fn joints(items: Range<usize>, joints: usize, reach: f64) -> Vec<f64> {
 /// about each axis.
 #[must_use]
 pub fn poses(items: Range<usize>, centre: [f64; 3], reach: f64, turn: f64) -> Vec<Pose> {
-    let vector = |i: usize, k: usize| Vector3::new(spread(i, k), spread(i, k + 1), spread(i, k + 2));
+    let vector =
+        |i: usize, k: usize| Vector3::new(spread(i, k), spread(i, k + 1), spread(i, k + 2));
     let pose = |i| {
         let place = Vector3::from(centre) + vector(i, 0) * reach;
-        Pose::from_parts(place.into(), UnitQuaternion::from_scaled_axis(vector(i, 3) * turn))
+        Pose::from_parts(
+            place.into(),
+            UnitQuaternion::from_scaled_axis(vector(i, 3) * turn),
+        )
     };
     items.map(pose).collect()
 }

@@ -44,7 +44,8 @@ impl Places {
         );
         let pose = |row: &[f64]| {
             let matrix = Matrix3::from_row_slice(&row[..9]);
-            let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+            let turn =
+                UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
             Pose::from_parts(Vector3::from_column_slice(&row[9..]).into(), turn)
         };
         Ok(Self::Poses(numbers.chunks(12).map(pose).collect()))
@@ -110,6 +111,7 @@ impl Task {
     /// If the numbers do not fit the machine.
     pub fn new(machine: Mechanism, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
         let machine: &'static Mechanism = Box::leak(Box::new(machine));
+        let numbers = wrenches.len();
         let wrenches: Vec<Wrench> = wrenches
             .chunks_exact(6)
             .map(|row| Wrench(Vector6::from_column_slice(row)))
@@ -122,13 +124,21 @@ impl Task {
             actuators: machine.actuator_names().len(),
         };
         let loaded = matches!(work, Work::Equilibrium | Work::EquilibriumAndStiffness);
-        let needed = if loaded { task.len() } else { 0 };
+        let needed = if loaded { 6 * task.len() } else { 0 };
         ensure!(
-            task.wrenches.len() == needed,
-            "'{}': {needed} wrenches are needed, there are {}",
+            numbers == needed,
+            "'{}': wrenches of {needed} numbers are needed, there are {numbers}",
             machine.name(),
-            task.wrenches.len()
         );
+        if let Places::Joints(commands) = &task.places {
+            ensure!(
+                commands.len() == task.actuators * task.len(),
+                "'{}': {} commands are no whole postures of {} joints",
+                machine.name(),
+                commands.len(),
+                task.actuators
+            );
+        }
         // Says whatever else does not fit.
         task.ask(0, task.len().min(1))?;
         Ok(task)

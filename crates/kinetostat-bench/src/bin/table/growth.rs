@@ -18,14 +18,25 @@ fn cantilever(pieces: usize) -> Result<Mechanism> {
         .segments(pieces)
         .convention(LinkConvention::TranslationsFirst);
     let chain = Chain::builder("beam").link_with("beam", &link).build()?;
-    Ok(Mechanism::serial(chain, Pose::translation(1.0, 0.0, 0.0), Vector3::zeros())?)
+    Ok(Mechanism::serial(
+        chain,
+        Pose::translation(1.0, 0.0, 0.0),
+        Vector3::zeros(),
+    )?)
 }
 
 /// Chains of 6 to 6000 spring coordinates.
 pub fn springs() -> Result<()> {
     println!("Growth with the springs of one chain, us per posture");
-    println!("{:<10}{:>12}{:>14}{:>14}{:>16}", "springs", "J and K_C", "K_C alone", "equilibrium", "equil. and K_C");
-    let works = [Work::Stiffness, Work::Equilibrium, Work::EquilibriumAndStiffness];
+    println!(
+        "{:<10}{:>12}{:>14}{:>14}{:>16}",
+        "springs", "J and K_C", "K_C alone", "equilibrium", "equil. and K_C"
+    );
+    let works = [
+        Work::Stiffness,
+        Work::Equilibrium,
+        Work::EquilibriumAndStiffness,
+    ];
     let mut rows = [const { Vec::new() }; 3];
     for pieces in [1, 3, 10, 30, 100, 300, 1000] {
         let count = (1000 / pieces).clamp(16, 256);
@@ -44,7 +55,13 @@ pub fn springs() -> Result<()> {
         }
         println!();
     }
-    report(&rows, &["K_C", "equilibrium", "equilibrium and K_C"], "springs, 60 to 6000", 2, 1.15);
+    report(
+        &rows,
+        &["K_C", "equilibrium", "equilibrium and K_C"],
+        "springs, 60 to 6000",
+        2,
+        1.15,
+    );
     Ok(())
 }
 
@@ -103,7 +120,10 @@ pub fn limbs() -> Result<()> {
     let mut rows = [const { Vec::new() }; 2];
     for legs in [2, 3, 4, 6, 8, 12] {
         print!("{legs:<10}");
-        for (work, rows) in [Work::Stiffness, Work::Equilibrium].into_iter().zip(&mut rows) {
+        for (work, rows) in [Work::Stiffness, Work::Equilibrium]
+            .into_iter()
+            .zip(&mut rows)
+        {
             let home = Places::Poses(vec![Pose::translation(0.0, 0.0, 1.0); BLOCK]);
             let wrenches = match work {
                 Work::Stiffness => Vec::new(),
@@ -136,6 +156,12 @@ pub fn postures() -> Result<()> {
         }
         println!();
     }
-    report(&rows, &["J and K_C", "equilibrium"], "postures, 1000 to 1e6", 3, 1.05);
+    report(
+        &rows,
+        &["J and K_C", "equilibrium"],
+        "postures, 1000 to 1e6",
+        3,
+        1.05,
+    );
     Ok(())
 }

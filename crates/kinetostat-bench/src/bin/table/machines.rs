@@ -92,7 +92,12 @@ impl Machine {
             false => Vec::new(),
         };
         let places = (self.places)(0..count);
-        Task::open(&path(&format!("{}{end}", self.file)), work, places, &wrenches)
+        Task::open(
+            &path(&format!("{}{end}", self.file)),
+            work,
+            places,
+            &wrenches,
+        )
     }
 
     /// What is asked of an unloaded machine: with its Jacobian where it has one.

@@ -11,16 +11,29 @@ const POSTURES: usize = 1024;
 const FEW: usize = 16;
 
 pub fn table() -> Result<()> {
-    println!("One thread, blocks of {BLOCK} postures; us per posture, and ns per posture and spring");
+    println!(
+        "One thread, blocks of {BLOCK} postures; us per posture, and ns per posture and spring"
+    );
     println!(
         "{:<34}{:>8}{:>12}{:>8}{:>14}{:>8}{:>16}{:>8}  alone",
-        "machine (and with bowing links)", "springs", "K_C (and J)", "each", "equilibrium", "each", "equil. and K_C", "each"
+        "machine (and with bowing links)",
+        "springs",
+        "K_C (and J)",
+        "each",
+        "equilibrium",
+        "each",
+        "equil. and K_C",
+        "each"
     );
     for machine in &ALL {
         for bowing in [false, true] {
             let name = if bowing { "  bowing" } else { machine.what };
             print!("{name:<34}{:>8}", machine.springs);
-            let works = [machine.unloaded(), Work::Equilibrium, Work::EquilibriumAndStiffness];
+            let works = [
+                machine.unloaded(),
+                Work::Equilibrium,
+                Work::EquilibriumAndStiffness,
+            ];
             let mut alone = Vec::new();
             for (work, width) in works.into_iter().zip([12, 14, 16]) {
                 let probe = machine.task(work, FEW, bowing)?.answers(FEW)?;

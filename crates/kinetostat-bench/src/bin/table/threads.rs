@@ -22,7 +22,10 @@ pub fn single() -> Result<()> {
     for (name, machine, work) in &WORKS {
         let task = machine.task(*work, 1024, false)?;
         let (batch, single) = (shortest(&task, BLOCK)?, shortest(&task, 1)?);
-        println!("{name:<8}{batch:>10.3}{single:>10.3}{:>8.2}", single / batch);
+        println!(
+            "{name:<8}{batch:>10.3}{single:>10.3}{:>8.2}",
+            single / batch
+        );
         figures.push((format!("{name}: one posture in each call"), single / batch));
     }
     for (name, ratio) in figures {
@@ -49,7 +52,12 @@ pub fn two() -> Result<()> {
             two = two.min(pools.1.install(|| pass(&task, task.len()))?);
         }
         let us = |seconds: f64| seconds / task.len() as f64 * 1e6;
-        println!("{name:<8}{:>10.3}{:>10.3}{:>8.2}", us(one), us(two), one / two);
+        println!(
+            "{name:<8}{:>10.3}{:>10.3}{:>8.2}",
+            us(one),
+            us(two),
+            one / two
+        );
         figures.push((format!("{name}: two threads"), one / two));
     }
     for (name, ratio) in figures {
