@@ -80,9 +80,11 @@ pub struct Answers {
     pub not_found: usize,
 }
 
-enum Answer {
-    Unloaded(BatchStiffness),
-    Loaded(BatchEquilibrium),
+/// Results that are written over block by block.
+#[derive(Default)]
+struct Results {
+    unloaded: BatchStiffness,
+    loaded: BatchEquilibrium,
 }
 
 impl Task {
@@ -123,8 +125,7 @@ impl Task {
             work,
             actuators: machine.actuator_names().len(),
         };
-        let loaded = matches!(work, Work::Equilibrium | Work::EquilibriumAndStiffness);
-        let needed = if loaded { 6 * task.len() } else { 0 };
+        let needed = if task.loaded() { 6 * task.len() } else { 0 };
         ensure!(
             numbers == needed,
             "'{}': wrenches of {needed} numbers are needed, there are {numbers}",
@@ -140,7 +141,7 @@ impl Task {
             );
         }
         // Says whatever else does not fit.
-        task.ask(0, task.len().min(1))?;
+        task.ask(0, task.len().min(1), &mut Results::default())?;
         Ok(task)
     }
 
@@ -165,40 +166,47 @@ impl Task {
         self.batch.alone()
     }
 
-    fn ask(&self, from: usize, to: usize) -> Result<Answer> {
-        let wrenches = || &self.wrenches[from..to];
+    fn loaded(&self) -> bool {
+        matches!(self.work, Work::Equilibrium | Work::EquilibriumAndStiffness)
+    }
+
+    fn ask(&self, from: usize, to: usize, out: &mut Results) -> Result<()> {
         let jacobian = self.work == Work::StiffnessAndJacobian;
         let tangent = self.work == Work::EquilibriumAndStiffness;
-        let loaded = tangent || self.work == Work::Equilibrium;
-        Ok(match &self.places {
+        let (batch, unloaded, loaded) = (&self.batch, &mut out.unloaded, &mut out.loaded);
+        match &self.places {
             Places::Joints(commands) => {
                 let own = &commands[from * self.actuators..to * self.actuators];
-                if loaded {
-                    let answer = self.batch.equilibrium_at_joints(own, wrenches(), tangent);
-                    Answer::Loaded(answer?)
+                if self.loaded() {
+                    let wrenches = &self.wrenches[from..to];
+                    batch.equilibrium_at_joints_into(own, wrenches, tangent, loaded)?;
                 } else {
-                    Answer::Unloaded(self.batch.stiffness_at_joints(own, jacobian)?)
+                    batch.stiffness_at_joints_into(own, jacobian, unloaded)?;
                 }
             }
             Places::Poses(poses) => {
                 let own = &poses[from..to];
-                if loaded {
-                    Answer::Loaded(self.batch.equilibrium(own, wrenches(), tangent)?)
+                if self.loaded() {
+                    batch.equilibrium_into(own, &self.wrenches[from..to], tangent, loaded)?;
                 } else {
-                    Answer::Unloaded(self.batch.stiffness(own))
+                    batch.stiffness_into(own, unloaded);
                 }
             }
-        })
+        }
+        Ok(())
     }
 
-    /// Goes once through all postures, `block` in each call, and drops the answers: what is timed.
+    /// Goes once through all postures, `block` in each call, and writes the answers of a block over
+    /// those of the last: what is timed.
     ///
     /// # Errors
     /// What the machine refuses.
     pub fn run(&self, block: usize) -> Result<()> {
         let block = block.max(1);
+        let mut results = Results::default();
         for from in (0..self.len()).step_by(block) {
-            black_box(self.ask(from, (from + block).min(self.len()))?);
+            self.ask(from, (from + block).min(self.len()), &mut results)?;
+            black_box(&results);
         }
         Ok(())
     }
@@ -213,20 +221,18 @@ impl Task {
             (0..table.len()).for_each(|i| to.extend(table.row(i)));
         };
         let block = block.max(1);
+        let mut results = Results::default();
         for from in (0..self.len()).step_by(block) {
-            let found = match self.ask(from, (from + block).min(self.len()))? {
-                Answer::Unloaded(answer) => {
-                    add(&mut all.stiffness, &answer.stiffness);
-                    add(&mut all.jacobian, &answer.jacobian);
-                    answer.found
-                }
-                Answer::Loaded(answer) => {
-                    add(&mut all.tool, &answer.tool);
-                    add(&mut all.coordinates, &answer.coordinates);
-                    add(&mut all.stiffness, &answer.stiffness);
-                    answer.found
-                }
+            self.ask(from, (from + block).min(self.len()), &mut results)?;
+            let Results { unloaded, loaded } = &results;
+            add(&mut all.tool, &loaded.tool);
+            add(&mut all.coordinates, &loaded.coordinates);
+            add(&mut all.jacobian, &unloaded.jacobian);
+            let (stiffness, found) = match self.loaded() {
+                true => (&loaded.stiffness, &loaded.found),
+                false => (&unloaded.stiffness, &unloaded.found),
             };
+            add(&mut all.stiffness, stiffness);
             let count = |how| found.iter().filter(|f| **f == how).count();
             all.together += count(Found::Together);
             all.not_found += count(Found::Not);
