@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::run::{Places, Work};
+use super::plan::Plan;
+use super::run::{Answers, Places, Work};
 use super::table::BLOCK;
 use super::{BLOCKS, Batch, Found, Table, in_parallel};
 use crate::compensation::target_under_load;
@@ -115,12 +116,7 @@ impl BatchEquilibrium {
     /// If the index is out of range, as for a slice.
     #[must_use]
     pub fn tool_pose(&self, posture: usize) -> Pose {
-        let number = |k: usize| self.tool.get(posture, k);
-        let rotation = nalgebra::Matrix3::from_fn(|r, c| number(3 * r + c));
-        let place = nalgebra::Vector3::from_fn(|k, _| number(9 + k));
-        // Rounding of a rotation matrix, not a search for the nearest rotation.
-        let rotation = nalgebra::Rotation3::from_matrix_unchecked(rotation);
-        Pose::from_parts(place.into(), rotation.into())
+        pose(&self.tool, posture)
     }
 
     fn set(&mut self, i: usize, answer: Option<&Alone>) {
@@ -299,7 +295,24 @@ impl<'m> Batch<'m> {
         self.as_many(&places, wrenches)?;
         let mut equilibrium = BatchEquilibrium::default();
         equilibrium.reset(self, Asked::Rest, poses.len());
+        let mut table = Table::default();
+        table.reset(12, poses.len());
+        // Rotations about some axes only do not add up: what they lead to depends on the way there.
+        if directions[3..].iter().all(|d| *d == directions[3]) {
+            let wanted = Some(directions);
+            self.together(&places, wrenches, wanted, &mut equilibrium, &mut table);
+        }
         let mut targets = poses.to_vec();
+        for i in 0..poses.len() {
+            if equilibrium.found[i] == Found::Together {
+                if directions[3] {
+                    targets[i] = pose(&table, i);
+                } else {
+                    let place = nalgebra::Vector3::from_fn(|k, _| table.get(i, 9 + k));
+                    targets[i].translation.vector = place;
+                }
+            }
+        }
         let alone = |i: usize| {
             let near = self.posture(&places, i)?;
             let state = near.rest_state();
@@ -307,17 +320,68 @@ impl<'m> Batch<'m> {
                 target_under_load(&near, &poses[i], &wrenches[i], directions, state)?;
             Ok(Alone::resting(&posture, &state))
         };
+        let nowhere = Pose::translation(f64::NAN, f64::NAN, f64::NAN);
         for (i, answer) in left(&equilibrium.found, alone) {
             equilibrium.set(i, answer.as_ref());
-            targets[i] = answer.map_or_else(
-                || Pose::translation(f64::NAN, f64::NAN, f64::NAN),
-                |a| a.target,
-            );
+            targets[i] = answer.map_or(nowhere, |a| a.target);
         }
         Ok(BatchTargets {
             targets,
             equilibrium,
         })
+    }
+
+    fn has_tangent(&self) -> bool {
+        let plans = self.plans.as_ref();
+        plans.is_ok_and(|(_, actual)| actual.len() == 1 && actual.iter().all(Plan::has_tangent))
+    }
+
+    /// Solves those postures that kernels can.
+    fn together(
+        &self,
+        places: &Places<'_>,
+        wrenches: &[Wrench],
+        directions: Option<[bool; 6]>,
+        out: &mut BatchEquilibrium,
+        targets: &mut Table,
+    ) {
+        let Ok((nominal, actual)) = &self.plans else {
+            return;
+        };
+        let tool = &self.mechanism.platforms()[self.mechanism.tool()];
+        let mut tables = [
+            &mut out.tool,
+            &mut out.coordinates,
+            &mut out.commands,
+            &mut out.actuator_forces,
+            &mut out.stiffness,
+            targets,
+        ]
+        .map(|table| table.parts(BLOCKS));
+        let parts = out.found.chunks_mut(BLOCK * BLOCKS).enumerate();
+        let works = parts.map(|(k, found)| {
+            let next = [0, 1, 2, 3, 4, 5].map(|i| tables[i].next().unwrap_or_default());
+            let [tool_out, coordinates, commands, forces, stiffness, targets] = next;
+            Work::Loaded {
+                nominal,
+                actual,
+                body: (tool.centre_of_mass.into(), tool.mass),
+                gravity: self.mechanism.gravity().into(),
+                places: places.from(k * BLOCKS * BLOCK),
+                wrenches: &wrenches[k * BLOCKS * BLOCK..],
+                directions,
+                answers: Answers {
+                    tool: tool_out,
+                    coordinates,
+                    commands,
+                    forces,
+                    stiffness,
+                    targets,
+                    found,
+                },
+            }
+        });
+        in_parallel(works, places.len());
     }
 
     fn as_many(&self, places: &Places<'_>, wrenches: &[Wrench]) -> Result<()> {
@@ -341,39 +405,10 @@ impl<'m> Batch<'m> {
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
         out.reset(self, asked, places.len());
-        let tangent = asked >= Asked::Tangent;
-        if let Ok((nominal, actual)) = &self.plans
-            && asked != Asked::Verdict
-            && (!tangent || actual.iter().all(super::Plan::has_tangent) && actual.len() == 1)
-        {
-            let tool = &self.mechanism.platforms()[self.mechanism.tool()];
-            let parts = out.tool.parts(BLOCKS);
-            let works = parts
-                .zip(out.coordinates.parts(BLOCKS))
-                .zip(out.commands.parts(BLOCKS))
-                .zip(out.actuator_forces.parts(BLOCKS))
-                .zip(out.stiffness.parts(BLOCKS))
-                .zip(out.found.chunks_mut(BLOCK * BLOCKS))
-                .enumerate()
-                .map(
-                    |(k, (((((tool_out, coordinates), commands), forces), stiffness), found))| {
-                        Work::Loaded {
-                            nominal,
-                            actual,
-                            body: (tool.centre_of_mass.into(), tool.mass),
-                            gravity: self.mechanism.gravity().into(),
-                            places: places.from(k * BLOCKS * BLOCK),
-                            wrenches: &wrenches[k * BLOCKS * BLOCK..],
-                            tool: tool_out,
-                            coordinates,
-                            commands,
-                            forces,
-                            stiffness,
-                            found,
-                        }
-                    },
-                );
-            in_parallel(works, places.len());
+        if asked == Asked::Rest || asked == Asked::Tangent && self.has_tangent() {
+            let mut none = Table::default();
+            none.reset(0, places.len());
+            self.together(places, wrenches, None, out, &mut none);
         }
         let alone = |i: usize| {
             let posture = self.posture(places, i)?;
@@ -389,6 +424,15 @@ impl<'m> Batch<'m> {
         }
         Ok(())
     }
+}
+
+/// A pose among 12 numbers each.
+fn pose(table: &Table, i: usize) -> Pose {
+    let rotation = nalgebra::Matrix3::from_fn(|r, c| table.get(i, 3 * r + c));
+    let place = nalgebra::Vector3::from_fn(|k, _| table.get(i, 9 + k));
+    // Rounding of a rotation matrix, not a search for the nearest rotation.
+    let rotation = nalgebra::Rotation3::from_matrix_unchecked(rotation);
+    Pose::from_parts(place.into(), rotation.into())
 }
 
 fn asked(tangent: bool) -> Asked {

@@ -485,7 +485,7 @@ impl<S: Simd> Held6<'_, S> {
 }
 
 #[inline(always)]
-fn select<S: Simd>(active: Lanes<S>, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
+pub(super) fn select<S: Simd>(active: Lanes<S>, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
     active.where_less(active.same(0.5), no, yes)
 }
 
@@ -521,7 +521,7 @@ fn correction<S: Simd>(
 
 /// `exp(hat(v)) R` for a small rotation vector.
 #[inline(always)]
-fn turned<S: Simd>(simd: S, v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
+pub(super) fn turned<S: Simd>(simd: S, v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
     let z = dot(v, v);
     let a = z.polynomial(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0]);
     let b = z.polynomial(&[

@@ -11,6 +11,7 @@
 //! threads or the width of the vectors.
 
 mod actuators;
+mod compensate;
 mod eliminate;
 mod equilibria;
 mod lanes;

@@ -16,6 +16,7 @@ const MOST_STEPS: usize = 24;
 const NEAR: f64 = 1e-8;
 
 /// Where the platform shall be.
+#[derive(Clone, Copy)]
 pub(super) struct Target<S: Simd> {
     pub rotation: Mat3<S>,
     pub point: Vec3<S>,

@@ -4,6 +4,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::Found;
 use super::actuators;
+use super::compensate;
 use super::eliminate::Eliminated;
 use super::lanes::{self, Lanes, identity};
 use super::loaded::{Held6, LoadedLimb, serial};
@@ -16,7 +17,7 @@ use super::unloaded::Walk;
 use crate::spatial::{Pose, Wrench};
 
 /// Below this relative pivot a posture is solved alone: its rank has to be decided.
-const REGULAR: f64 = 1e-9;
+pub(super) const REGULAR: f64 = 1e-9;
 
 /// Where the machine is commanded.
 #[derive(Clone, Copy)]
@@ -61,13 +62,23 @@ pub(super) enum Work<'a> {
         gravity: [f64; 3],
         places: Places<'a>,
         wrenches: &'a [Wrench],
-        tool: &'a mut [f64],
-        coordinates: &'a mut [f64],
-        commands: &'a mut [f64],
-        forces: &'a mut [f64],
-        stiffness: &'a mut [f64],
-        found: &'a mut [Found],
+        /// Directions in which the tool shall be at the places under load, if they are to be
+        /// corrected.
+        directions: Option<[bool; 6]>,
+        answers: Answers<'a>,
     },
+}
+
+/// Where the numbers of loaded postures go, as in [`super::BatchEquilibrium`].
+pub(super) struct Answers<'a> {
+    pub tool: &'a mut [f64],
+    pub coordinates: &'a mut [f64],
+    pub commands: &'a mut [f64],
+    pub forces: &'a mut [f64],
+    pub stiffness: &'a mut [f64],
+    /// Commanded poses, 12 numbers as `tool`.
+    pub targets: &'a mut [f64],
+    pub found: &'a mut [Found],
 }
 
 impl Work<'_> {
@@ -96,38 +107,56 @@ impl WithSimd for Work<'_> {
                 gravity,
                 places,
                 wrenches,
-                tool,
-                coordinates,
-                commands,
-                forces,
-                stiffness,
-                found,
+                directions,
+                answers,
             } => {
                 let mut machine = Machine::new(simd, nominal, actual, body, gravity);
-                let count = found.len();
+                let count = answers.found.len();
                 for first in (0..count).step_by(S::F64_LANES) {
                     let group = Group { first, count };
                     let wrench = group.wrench(simd, wrenches);
-                    let done = machine.settle(simd, &places, &group, &wrench);
-                    let mut good = done;
-                    group.put(tool, 0, &machine.rotation);
-                    group.put(tool, 9, &machine.point);
+                    machine.aim(simd, &places, &group);
+                    let aim = machine.target;
+                    let mut good;
+                    let mut rounds = 0;
+                    loop {
+                        let aimed = matches!(places, Places::Poses(_));
+                        good = machine.settle(simd, aimed, &wrench);
+                        let Some(directions) = directions else {
+                            break;
+                        };
+                        let off = machine.correct(simd, &aim, &directions, good);
+                        rounds += 1;
+                        if off.all_less(0.5) {
+                            break;
+                        }
+                        if rounds == compensate::MOST_ROUNDS {
+                            good = good * (off.same(1.0) - off);
+                            break;
+                        }
+                    }
+                    if !answers.targets.is_empty() {
+                        group.put(answers.targets, 0, &machine.target.rotation);
+                        group.put(answers.targets, 9, &machine.target.point);
+                    }
+                    group.put(answers.tool, 0, &machine.rotation);
+                    group.put(answers.tool, 9, &machine.point);
                     let (mut from, mut first) = (0, 0);
                     for limb in &machine.limbs {
-                        group.put(coordinates, from, &limb.coordinates);
-                        group.put(commands, first, &limb.commands);
+                        group.put(answers.coordinates, from, &limb.coordinates);
+                        group.put(answers.commands, first, &limb.commands);
                         from += limb.coordinates.len();
                         first += limb.commands.len();
                     }
                     machine.actuator_forces(simd);
-                    group.put(forces, 0, &machine.forces);
-                    if !stiffness.is_empty() {
+                    group.put(answers.forces, 0, &machine.forces);
+                    if !answers.stiffness.is_empty() {
                         let (k, regular) =
                             tangent::stiffness(simd, &actual[0], &machine.limbs[0], &gravity);
                         good = good.least_of(regular);
-                        group.put(stiffness, 0, k.as_flattened());
+                        group.put(answers.stiffness, 0, k.as_flattened());
                     }
-                    group.conclude(good, found);
+                    group.conclude(good, answers.found);
                 }
             }
         }
@@ -320,17 +349,20 @@ fn unloaded<S: Simd>(
 }
 
 /// A machine with the buffers of its limbs.
-struct Machine<'a, S: Simd> {
-    nominal: &'a [Plan],
-    actual: &'a [Plan],
+pub(super) struct Machine<'a, S: Simd> {
+    pub nominal: &'a [Plan],
+    pub actual: &'a [Plan],
     walks: Vec<(Walk<S>, Walk<S>)>,
     joints: Vec<Joints<S>>,
     limbs: Vec<LoadedLimb<S>>,
     factors: Vec<Eliminated<S>>,
     body: ([f64; 3], f64),
     gravity: [f64; 3],
-    rotation: lanes::Mat3<S>,
-    point: lanes::Vec3<S>,
+    /// Where the tool is commanded.
+    pub target: Target<S>,
+    /// Where the tool is.
+    pub rotation: lanes::Mat3<S>,
+    pub point: lanes::Vec3<S>,
     /// Of the loads on all actuators, N or N m.
     forces: Vec<Lanes<S>>,
 }
@@ -355,6 +387,10 @@ impl<'a, S: Simd> Machine<'a, S> {
             factors: Vec::with_capacity(actual.len()),
             body,
             gravity,
+            target: Target {
+                rotation: identity(simd),
+                point: [Lanes::new(simd, 0.0); 3],
+            },
             rotation: identity(simd),
             point: [Lanes::new(simd, 0.0); 3],
             forces: vec![Lanes::new(simd, 0.0); actual.iter().map(|a| a.commands).sum()],
@@ -372,33 +408,29 @@ impl<'a, S: Simd> Machine<'a, S> {
         }
     }
 
-    /// Commands the machine and lets it settle: one in the lanes that are done.
+    /// Commands the machine: its joints, or its tool.
     #[inline(always)]
-    fn settle(
-        &mut self,
-        simd: S,
-        places: &Places<'_>,
-        group: &Group,
-        wrench: &[Lanes<S>; 6],
-    ) -> Lanes<S> {
-        let mut good = Lanes::new(simd, 1.0);
+    fn aim(&mut self, simd: S, places: &Places<'_>, group: &Group) {
         match *places {
             Places::Joints { commands, each } => {
                 group.commands(simd, commands, each, &mut self.joints[0].commands);
             }
-            Places::Poses(poses) => {
-                let target = group.target(simd, poses);
-                for ((plan, joints), (walk, _)) in self
-                    .nominal
-                    .iter()
-                    .zip(&mut self.joints)
-                    .zip(&mut self.walks)
-                {
-                    joints.reach(simd, plan, walk, &target, true);
-                    good = good.least_of(joints.reached);
-                }
-                (self.rotation, self.point) = (target.rotation, target.point);
+            Places::Poses(poses) => self.target = group.target(simd, poses),
+        }
+    }
+
+    /// Lets the commanded machine settle, its joints found first if it is `aimed` at a pose of the
+    /// tool: one in the lanes that are done.
+    #[inline(always)]
+    fn settle(&mut self, simd: S, aimed: bool, wrench: &[Lanes<S>; 6]) -> Lanes<S> {
+        let mut good = Lanes::new(simd, 1.0);
+        if aimed {
+            let limbs = self.nominal.iter().zip(&mut self.joints);
+            for ((plan, joints), (walk, _)) in limbs.zip(&mut self.walks) {
+                joints.reach(simd, plan, walk, &self.target, true);
+                good = good.least_of(joints.reached);
             }
+            (self.rotation, self.point) = (self.target.rotation, self.target.point);
         }
         for ((limb, plan), joints) in self.limbs.iter_mut().zip(self.actual).zip(&self.joints) {
             limb.start(plan, &joints.commands, &joints.passive);

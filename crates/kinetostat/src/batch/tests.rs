@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 use pulp::{Scalar, Simd, WithSimd};
 
 use super::lanes::Lanes;
-use super::run::{Places, Work};
+use super::run::{Answers, Places, Work};
 use super::*;
 use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench};
 
@@ -86,13 +86,13 @@ fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Ve
     let (poses, wrenches) = (poses(count), wrenches(count));
     let coordinates = machine.limbs().iter().map(|l| l.actual.coordinate_count());
     let actuators = machine.actuator_names().len();
-    let widths = [12, coordinates.sum(), actuators, actuators];
+    let widths = [12, coordinates.sum(), actuators, actuators, 12];
     let mut tables = widths.map(|width| {
         let mut table = Table::default();
         table.reset(width, count);
         table
     });
-    let [tool, own, commands, forces] = tables
+    let [tool, own, commands, forces, targets] = tables
         .each_mut()
         .map(|t| t.parts(count).next().expect("a part"));
     let mut found = vec![Found::Not; count];
@@ -104,12 +104,16 @@ fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Ve
         gravity: machine.gravity().into(),
         places: Places::Poses(&poses),
         wrenches: &wrenches,
-        tool,
-        coordinates: own,
-        commands,
-        forces,
-        stiffness: &mut [],
-        found: &mut found,
+        directions: Some([true, true, true, false, false, false]),
+        answers: Answers {
+            tool,
+            coordinates: own,
+            commands,
+            forces,
+            stiffness: &mut [],
+            targets,
+            found: &mut found,
+        },
     }
     .with_simd(simd);
     let all = (0..count)
