@@ -9,6 +9,7 @@ use crate::curve_args::{CurveArgs, EquilibriaArgs};
 use crate::draw::DrawArgs;
 use crate::import_link_args::{DisplacementsArgs, MatrixArgs};
 use crate::job::{Axes, BlockDeleteWord, UnitsWord};
+use crate::map_args::MapArgs;
 
 pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
@@ -57,6 +58,7 @@ pub(crate) enum Command {
     Compensate(Box<CompensateArgs>),
     Deflect(Box<DeflectArgs>),
     Stiffness(StiffnessArgs),
+    Map(Box<MapArgs>),
     Assemble(Box<AssembleArgs>),
     Curve(Box<CurveArgs>),
     Equilibria(Box<EquilibriaArgs>),

@@ -1,7 +1,7 @@
 //! The kinetostat command: how far a machine bends along a program, and a program that cuts where
 //! it should.
 //!
-//! One module per command (`demo`, `compensate`, `deflect`, `stiffness`, `curve`,
+//! One module per command (`demo`, `compensate`, `deflect`, `stiffness`, `map`, `curve`,
 //! `equilibria`, `check`, `models`, `shell`);
 //! `job` and `setting` turn files and options into a question, `along` runs it, `output` puts files
 //! in place, `screen` prints, `failure` knows the exit codes.
@@ -56,6 +56,10 @@ mod input;
 mod job;
 mod joints;
 mod machine;
+mod map;
+mod map_answer;
+mod map_args;
+mod map_table;
 mod models;
 mod orientation;
 mod output;
@@ -106,6 +110,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Compensate(args) => compensate::run(*args),
         Command::Deflect(args) => deflect::run(*args),
         Command::Stiffness(args) => stiffness::run(&args),
+        Command::Map(args) => map::run(&args),
         Command::Assemble(args) => assemble::run(&args),
         Command::Curve(args) => curve::run(&args),
         Command::Equilibria(args) => equilibria::run(&args),

@@ -30,6 +30,17 @@ struct Claimed {
     identical: bool,
 }
 
+impl Claimed {
+    fn refused(&self, error: &std::io::Error) -> Failure {
+        Failure::input(format!(
+            "the {} cannot be written to '{}': {}; no output was changed",
+            self.what,
+            self.target.display(),
+            in_words(error)
+        ))
+    }
+}
+
 /// The outputs of one command.
 pub(crate) struct Outputs {
     existing: Existing,
@@ -145,14 +156,6 @@ impl Outputs {
     pub(crate) fn fill(&mut self, index: usize, bytes: &[u8]) -> Answer<()> {
         let existing = self.existing;
         let claimed = &mut self.claimed[index];
-        let refuse = |error: std::io::Error| {
-            Failure::input(format!(
-                "the {} cannot be written to '{}': {}; no output was changed",
-                claimed.what,
-                claimed.target.display(),
-                in_words(&error)
-            ))
-        };
         if existing == Existing::KeepSame {
             match fs::read(&claimed.target) {
                 Ok(present) if present == bytes => claimed.identical = true,
@@ -169,7 +172,22 @@ impl Outputs {
         file.write_all(bytes)
             .and_then(|()| file.flush())
             .and_then(|()| file.sync_all())
-            .map_err(refuse)
+            .map_err(|error| claimed.refused(&error))
+    }
+
+    /// Writes the next bytes of a claimed output beside its target; [`Self::complete`] follows the
+    /// last ones.
+    pub(crate) fn append(&mut self, index: usize, bytes: &[u8]) -> Answer<()> {
+        let claimed = &mut self.claimed[index];
+        let written = claimed.file.as_file_mut().write_all(bytes);
+        written.map_err(|error| claimed.refused(&error))
+    }
+
+    /// All bytes of a claimed output have been appended.
+    pub(crate) fn complete(&mut self, index: usize) -> Answer<()> {
+        let claimed = &mut self.claimed[index];
+        let kept = claimed.file.as_file_mut().sync_all();
+        kept.map_err(|error| claimed.refused(&error))
     }
 
     /// Renames all outputs into place. If one cannot be, those before it are taken back.

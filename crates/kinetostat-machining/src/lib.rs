@@ -1,10 +1,12 @@
 //! From a machining program and a robot model to deflections, corrections and a checked result.
 //!
 //! [`analyse`] tells how far the tool is off along a program; [`compensate_program`] writes one that
-//! cuts where it should and proves it by solving the written program again.
+//! cuts where it should and proves it by solving the written program again. [`map()`] tells stiffness
+//! and deflection on a grid of places.
 
 mod field;
 mod load;
+mod map;
 mod near;
 mod placement;
 mod result;
@@ -14,6 +16,7 @@ mod solve;
 
 pub use field::ModelField;
 pub use load::{CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
+pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use result::{

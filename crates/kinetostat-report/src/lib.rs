@@ -9,7 +9,7 @@
 //! - `verdict` says in plain words what the run means; `facts` collects figures, tables and what was
 //!   asked; `page` fills the template (minijinja with automatic escaping).
 //! - `along` draws what changes along the path, `plan` the path itself with the deviation magnified,
-//!   `preview` the stand-alone picture, `plot` curves over any two quantities. They share `chart`, `axis`, `outline` and `svg`.
+//!   `preview` the stand-alone picture, `plot` curves over any two quantities, `section` a quantity over a plane. They share `chart`, `axis`, `outline` and `svg`.
 //! - `number` and `text` decide how numbers and names look, in one place.
 //!
 //! # Why the plots are drawn here and not by a plotting library
@@ -42,6 +42,7 @@ mod plot;
 mod plot_label;
 mod plot_path;
 mod preview;
+mod section;
 mod svg;
 mod text;
 mod verdict;
@@ -50,6 +51,7 @@ use kinetostat_machining::RunResult;
 
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
 pub use plot::{Plot, PlotLine, PlotMark};
+pub use section::{Cell, Section};
 
 /// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]

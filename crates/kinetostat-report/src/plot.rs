@@ -271,7 +271,7 @@ fn about(span: &Span, length: f64) -> Span {
 }
 
 /// A title in at most two lines; what is longer is cut.
-fn title_lines(title: &str, width: f64) -> Vec<String> {
+pub(crate) fn title_lines(title: &str, width: f64) -> Vec<String> {
     let size = |text: &str| 1.08 * text::width(text, TITLE_SIZE);
     let mut lines = vec![String::new()];
     for word in title.split_whitespace() {

@@ -74,6 +74,9 @@ pub struct BatchStiffness {
     /// Jacobian of a serial machine, 6 x n row by row: twist of the tool (m, rad, base axes, at its
     /// origin) per unit of every coordinate. Empty unless asked for.
     pub jacobian: Table,
+    /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`]. Empty
+    /// where they were given.
+    pub commands: Table,
     /// How each was found.
     pub found: Vec<Found>,
 }
@@ -159,27 +162,43 @@ impl<'m> Batch<'m> {
         Ok(Places::Joints { commands, each })
     }
 
+    /// Number of actuators.
+    fn commands(&self) -> usize {
+        let limbs = self.mechanism.limbs().iter();
+        limbs.map(|l| l.nominal.actuators().len()).sum()
+    }
+
     fn unloaded(&self, places: &Places<'_>, jacobian: bool, out: &mut BatchStiffness) {
         let count = places.len();
         let coordinates = self.mechanism.limbs()[0].nominal.coordinate_count();
         let width = if jacobian { 6 * coordinates } else { 0 };
         out.stiffness.reset(36, count);
         out.jacobian.reset(width, count);
+        // Commands that were given are known.
+        let commands = match places {
+            Places::Poses(_) => self.commands(),
+            Places::Joints { .. } => 0,
+        };
+        out.commands.reset(commands, count);
         out.found.clear();
         out.found.resize(count, Found::Not);
         if let Ok((nominal, _)) = &self.plans {
             let parts = out.stiffness.parts(BLOCKS);
             let works = parts
                 .zip(out.jacobian.parts(BLOCKS))
+                .zip(out.commands.parts(BLOCKS))
                 .zip(out.found.chunks_mut(BLOCK * BLOCKS))
                 .enumerate()
-                .map(|(k, ((stiffness, jacobian), found))| Work::Unloaded {
-                    plans: nominal,
-                    places: places.from(k * BLOCKS * BLOCK),
-                    stiffness,
-                    jacobian,
-                    found,
-                });
+                .map(
+                    |(k, (((stiffness, jacobian), commands), found))| Work::Unloaded {
+                        plans: nominal,
+                        places: places.from(k * BLOCKS * BLOCK),
+                        stiffness,
+                        jacobian,
+                        commands,
+                        found,
+                    },
+                );
             in_parallel(works, count);
         }
         for i in 0..count {
@@ -191,10 +210,13 @@ impl<'m> Batch<'m> {
             let Ok((found, posture)) = answer else {
                 out.stiffness.set_row(i, |_| f64::NAN);
                 out.jacobian.set_row(i, |_| f64::NAN);
+                out.commands.set_row(i, |_| f64::NAN);
                 continue;
             };
             let matrix = &found.cartesian.matrix;
             out.stiffness.set_row(i, |k| matrix[(k / 6, k % 6)]);
+            let own = posture.commands();
+            out.commands.set_row(i, |k| own[k]);
             if jacobian {
                 let j = self.jacobian(&posture);
                 out.jacobian

@@ -53,6 +53,7 @@ pub(super) enum Work<'a> {
         places: Places<'a>,
         stiffness: &'a mut [f64],
         jacobian: &'a mut [f64],
+        commands: &'a mut [f64],
         found: &'a mut [Found],
     },
     Loaded {
@@ -98,8 +99,9 @@ impl WithSimd for Work<'_> {
                 places,
                 stiffness,
                 jacobian,
+                commands,
                 found,
-            } => unloaded(simd, plans, places, stiffness, jacobian, found),
+            } => unloaded(simd, plans, places, [stiffness, jacobian, commands], found),
             Self::Loaded {
                 nominal,
                 actual,
@@ -267,8 +269,7 @@ fn unloaded<S: Simd>(
     simd: S,
     plans: &[Plan],
     places: Places<'_>,
-    stiffness: &mut [f64],
-    jacobian: &mut [f64],
+    [stiffness, jacobian, all_commands]: [&mut [f64]; 3],
     found: &mut [Found],
 ) {
     let zero = Lanes::new(simd, 0.0);
@@ -323,6 +324,13 @@ fn unloaded<S: Simd>(
         // A number that is none spoils the sum.
         good = good.least_of(all + 1.0);
         group.put(stiffness, 0, &numbers);
+        if !all_commands.is_empty() {
+            let mut own = 0;
+            for (_, joints) in &limbs {
+                group.put(all_commands, own, &joints.commands);
+                own += joints.commands.len();
+            }
+        }
         if !jacobian.is_empty() {
             let (plan, walk) = (&plans[0], &limbs[0].0);
             columns.fill(zero);

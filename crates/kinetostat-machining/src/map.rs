@@ -1,0 +1,309 @@
+//! Stiffness on a grid of tool positions, and under a load deflection and stability too: many places
+//! at once, in constant memory.
+
+use kinetostat::batch::{Batch, BatchStiffness, Found};
+use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench};
+use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
+use rayon::prelude::*;
+
+use crate::run::{RunError, Watch};
+
+/// Evenly spaced positions of the tool, base axes, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// First position along x, y and z.
+    pub from_mm: [f64; 3],
+    /// Last position along x, y and z; that of an axis with one place does not count.
+    pub to_mm: [f64; 3],
+    /// Places along x, y and z, at least one each.
+    pub counts: [usize; 3],
+}
+
+impl Grid {
+    /// Number of places.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        let [x, y, z] = self.counts;
+        x.saturating_mul(y).saturating_mul(z)
+    }
+
+    /// True without places.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of a place along each axis: x runs fastest, z slowest.
+    #[must_use]
+    pub fn index(&self, place: usize) -> [usize; 3] {
+        let [x, y, _] = self.counts.map(|n| n.max(1));
+        [place % x, place / x % y, place / x / y]
+    }
+
+    /// Position along one axis (0 to 2), mm.
+    #[must_use]
+    pub fn position_mm(&self, axis: usize, index: usize) -> f64 {
+        let (from, to, count) = (self.from_mm[axis], self.to_mm[axis], self.counts[axis]);
+        match index {
+            0 => from,
+            // Exactly what was asked for.
+            _ if index + 1 == count => to,
+            _ => from + (to - from) * index as f64 / (count - 1) as f64,
+        }
+    }
+}
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct MapTask<'a> {
+    /// Machine with its tool.
+    pub mechanism: &'a Mechanism,
+    /// Where the tool's reference point is put.
+    pub grid: Grid,
+    /// Orientation of the tool everywhere, base from tool.
+    pub orientation: UnitQuaternion<f64>,
+    /// Dead wrench on the tool, base axes, about its reference point. With it, figures are those of
+    /// the machine as it is under this load, its own weight, preloads and deviations; without it, of
+    /// the unloaded machine as drawn.
+    pub load: Option<Wrench>,
+}
+
+/// Whether a place has an answer, and of which kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaceState {
+    /// Every direction is held, and under a load the equilibrium is stable.
+    Regular,
+    /// A direction has no stiffness.
+    Singular,
+    /// The equilibrium under the load is not stable.
+    Unstable,
+    /// An actuator would be outside its limits. Nothing else is told.
+    OutsideLimits,
+    /// The machine cannot put its tool there. Nothing else is told.
+    Unreachable,
+    /// No equilibrium under the load was found. Nothing else is told.
+    Unanswered,
+}
+
+impl PlaceState {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Regular,
+        Self::Singular,
+        Self::Unstable,
+        Self::OutsideLimits,
+        Self::Unreachable,
+        Self::Unanswered,
+    ];
+
+    /// The place has figures.
+    #[must_use]
+    pub fn has_figures(self) -> bool {
+        matches!(self, Self::Regular | Self::Singular | Self::Unstable)
+    }
+}
+
+/// One place of the map. Numbers that do not exist are NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapPlace {
+    /// Number along x, y and z.
+    pub index: [usize; 3],
+    /// Position of the tool's reference point, base axes, mm.
+    pub position_mm: [f64; 3],
+    /// Whether there is an answer.
+    pub state: PlaceState,
+    /// Force that moves the tool's tip by 1 mm in its softest direction while the tool may turn,
+    /// N/mm: zero if a direction is free, negative if the tool runs away.
+    pub softest_n_per_mm: f64,
+    /// The same for a force along x, y and z (base axes), by the motion along it, N/mm.
+    pub stiffness_n_per_mm: [f64; 3],
+    /// From where the tool is commanded to where it goes under the load, base axes, mm.
+    pub displacement_mm: [f64; 3],
+    /// Rotation vector of the tool under the load, base axes, deg.
+    pub rotation_deg: [f64; 3],
+}
+
+/// Places that one thread takes at a time: as many as the batch does on one.
+const BLOCK: usize = 256;
+/// Blocks between two looks at the watch; what is in memory at a time.
+const BLOCKS: usize = 64;
+
+/// Solves all places of a grid in their order. Each block of places is turned into something by
+/// `block`, on any thread; `put` takes these one after the other. No more than a fixed number of
+/// places is kept, whatever the size of the grid, and answers do not depend on the number of threads.
+///
+/// # Errors
+/// [`RunError::Cancelled`], and what `put` returns.
+pub fn map<R: Send, E: From<RunError>>(
+    task: &MapTask<'_>,
+    watch: &dyn Watch,
+    block: impl Fn(&[MapPlace]) -> R + Sync,
+    mut put: impl FnMut(R) -> Result<(), E>,
+) -> Result<(), E> {
+    let batch = Batch::new(task.mechanism);
+    let total = task.grid.len();
+    watch.stage("map", total);
+    for first in (0..total).step_by(BLOCK * BLOCKS) {
+        if watch.cancelled() {
+            return Err(RunError::Cancelled.into());
+        }
+        let end = total.min(first + BLOCK * BLOCKS);
+        let starts: Vec<usize> = (first..end).step_by(BLOCK).collect();
+        let done: Vec<R> = starts
+            .into_par_iter()
+            .map(|start| block(&solved(task, &batch, start..end.min(start + BLOCK))))
+            .collect();
+        done.into_iter().try_for_each(&mut put)?;
+        watch.advance(end);
+    }
+    Ok(())
+}
+
+fn solved(task: &MapTask<'_>, batch: &Batch<'_>, places: std::ops::Range<usize>) -> Vec<MapPlace> {
+    let (mut out, mut poses) = (Vec::new(), Vec::new());
+    for place in places {
+        let index = task.grid.index(place);
+        let position_mm = [0, 1, 2].map(|axis| task.grid.position_mm(axis, index[axis]));
+        out.push(MapPlace {
+            index,
+            position_mm,
+            state: PlaceState::Unanswered,
+            softest_n_per_mm: f64::NAN,
+            stiffness_n_per_mm: [f64::NAN; 3],
+            displacement_mm: [f64::NAN; 3],
+            rotation_deg: [f64::NAN; 3],
+        });
+        let position = Vector3::from(position_mm) * 1e-3;
+        poses.push(Pose::from_parts(position.into(), task.orientation));
+    }
+    match &task.load {
+        None => unloaded(task, batch, &poses, &mut out),
+        Some(wrench) => loaded(task, wrench, &poses, &mut out),
+    }
+    out
+}
+
+fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
+    // What the batch would ask one by one is asked here, once.
+    let together = batch.alone().is_none().then(|| batch.stiffness(poses));
+    for (i, place) in out.iter_mut().enumerate() {
+        let found = together.as_ref().map(|t| (t, t.found[i]));
+        match found {
+            Some((_, Found::Not)) => place.state = PlaceState::Unreachable,
+            Some((t, Found::Together)) => place.take_together(task.mechanism, t, i),
+            Some((_, Found::Alone)) | None => place.take_alone(task.mechanism, &poses[i]),
+        }
+    }
+}
+
+fn loaded(task: &MapTask<'_>, wrench: &Wrench, poses: &[Pose], out: &mut [MapPlace]) {
+    for (place, pose) in out.iter_mut().zip(poses) {
+        let Some(posture) = place.posture(task.mechanism, pose) else {
+            continue;
+        };
+        let Ok(e) = posture.deflected_by(wrench) else {
+            place.state = PlaceState::Unanswered;
+            continue;
+        };
+        place.state = if e.platform.free > 0 {
+            PlaceState::Singular
+        } else if e.stable() {
+            PlaceState::Regular
+        } else {
+            PlaceState::Unstable
+        };
+        let compliance = e.compliance();
+        place.stiffness_n_per_mm = along(&compliance.springs);
+        if e.platform.free > 0 {
+            place.stiffness_n_per_mm = free(&compliance.free, place.stiffness_n_per_mm);
+        }
+        place.softest_n_per_mm = 1e-3 * e.stiffness_against_force();
+        place.displacement_mm = (e.displacement.linear() * 1e3).into();
+        place.rotation_deg = e.displacement.angular().map(f64::to_degrees).into();
+    }
+}
+
+impl MapPlace {
+    /// The machine commanded for the place; none if it cannot be, and the state says why.
+    fn posture<'m>(&mut self, mechanism: &'m Mechanism, pose: &Pose) -> Option<Posture<'m>> {
+        match mechanism
+            .posture(pose)
+            .and_then(|p| p.within_limits().map(|()| p))
+        {
+            Ok(posture) => return Some(posture),
+            Err(Error::OutsideLimits { .. }) => self.state = PlaceState::OutsideLimits,
+            Err(_) => self.state = PlaceState::Unreachable,
+        }
+        None
+    }
+
+    fn take_together(&mut self, mechanism: &Mechanism, found: &BatchStiffness, i: usize) {
+        let actuators = mechanism.limbs().iter().flat_map(|l| l.nominal.actuators());
+        let outside = actuators.zip(found.commands.row(i)).any(|(a, command)| {
+            a.limits
+                .is_some_and(|(low, high)| command < low || command > high)
+        });
+        if outside {
+            self.state = PlaceState::OutsideLimits;
+            return;
+        }
+        let matrix = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
+        let Some(compliance) = matrix.cholesky().map(|c| c.inverse()) else {
+            self.state = PlaceState::Singular;
+            return;
+        };
+        self.state = PlaceState::Regular;
+        self.stiffness_n_per_mm = along(&compliance);
+        self.softest_n_per_mm = softest(&compliance);
+    }
+
+    fn take_alone(&mut self, mechanism: &Mechanism, pose: &Pose) {
+        let Some(posture) = self.posture(mechanism, pose) else {
+            return;
+        };
+        let Ok(stiffness) = posture.stiffness() else {
+            self.state = PlaceState::Unanswered;
+            return;
+        };
+        let compliance = stiffness.compliance();
+        self.stiffness_n_per_mm = along(&compliance.springs);
+        self.softest_n_per_mm = softest(&compliance.springs);
+        self.state = PlaceState::Regular;
+        if !compliance.free.is_empty() {
+            self.state = PlaceState::Singular;
+            self.softest_n_per_mm = 0.0;
+            self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
+        }
+    }
+}
+
+/// Compliances below this share of the largest are rounding.
+const NO_MOTION: f64 = 1e-12;
+
+/// Force per motion along each axis of the base, N/mm; infinite where nothing moves.
+fn along(compliance: &Matrix6<f64>) -> [f64; 3] {
+    let most = compliance.fixed_view::<3, 3>(0, 0).amax();
+    [0, 1, 2].map(|k| {
+        let own = compliance[(k, k)];
+        if own.abs() <= NO_MOTION * most {
+            f64::INFINITY
+        } else {
+            1e-3 / own
+        }
+    })
+}
+
+/// The same where there are free motions: a force along an axis on which one of them moves meets
+/// nothing.
+fn free(motions: &[Twist], held: [f64; 3]) -> [f64; 3] {
+    // The longest part of a free motion is 1 m.
+    let moves = |k: usize| motions.iter().any(|t| t.0[k].abs() > 1e-9);
+    [0, 1, 2].map(|k| if moves(k) { 0.0 } else { held[k] })
+}
+
+/// Force per motion in the softest direction of a force, N/mm; the compliance has no negative
+/// direction.
+fn softest(compliance: &Matrix6<f64>) -> f64 {
+    let forces: Matrix3<f64> = compliance.fixed_view::<3, 3>(0, 0).into();
+    1e-3 / forces.symmetric_eigenvalues().max().max(0.0)
+}

@@ -1,0 +1,323 @@
+//! A quantity over a plane, in coloured bands between round values.
+//!
+//! Cells of one band are one path, so that a section of a hundred thousand cells stays small.
+
+use std::fmt::Write as _;
+
+use crate::axis::{Scale, Span};
+use crate::label::{Frame, TEXT_SIZE};
+use crate::number;
+use crate::plot::title_lines;
+use crate::svg::{Anchor, Svg, pixel};
+use crate::text;
+
+const SIZE: (f64, f64) = (760.0, 560.0);
+
+const STYLE: &str = concat!(
+    include_str!("template/palette.css"),
+    include_str!("template/plot.css"),
+    include_str!("template/section.css")
+);
+
+/// Colours of the style sheet, from low to high.
+const COLOURS: usize = 11;
+/// A span of more than this ratio is divided by ratios.
+const WIDE: f64 = 50.0;
+/// Width of the scale beside the section.
+const BAR: f64 = 18.0;
+
+/// A section through a field.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// What is shown, above the frame.
+    pub title: String,
+    /// Quantity and unit of the horizontal axis, as in `x, mm`.
+    pub x_label: String,
+    /// Quantity and unit of the vertical axis.
+    pub y_label: String,
+    /// Quantity and unit of the colours.
+    pub value_label: String,
+    /// Places along the horizontal axis, evenly spaced.
+    pub x: Vec<f64>,
+    /// Places along the vertical axis, evenly spaced.
+    pub y: Vec<f64>,
+    /// A cell around every place, the horizontal axis running fastest.
+    pub cells: Vec<Cell>,
+    /// Names of cells without a value, at most three kinds.
+    pub others: Vec<String>,
+}
+
+/// What is known at a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell {
+    /// A value; one that is not finite is left blank.
+    Value(f64),
+    /// None, for a reason: its number in [`Section::others`].
+    Other(usize),
+}
+
+impl Section {
+    /// The section as an SVG document with its own style; one unit is as long on both axes.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        self.draw().document(SIZE, &self.title, STYLE)
+    }
+
+    fn draw(&self) -> Svg {
+        let mut svg = Svg::default();
+        svg.rectangle("card", (0.5, 0.5), (SIZE.0 - 1.0, SIZE.1 - 1.0), 10.0);
+        let mut top = 28.0;
+        for line in title_lines(&self.title, SIZE.0 - 36.0) {
+            svg.text("title", (18.0, top), Anchor::Start, &line);
+            top += 18.0;
+        }
+        let (Some(x_span), Some(y_span)) = (edges(&self.x), edges(&self.y)) else {
+            let middle = (0.5 * SIZE.0, 0.5 * SIZE.1);
+            svg.text("name", middle, Anchor::Middle, "no places to show");
+            return svg;
+        };
+        let values = self.cells.iter().filter_map(|c| match c {
+            Cell::Value(x) => number::drawable(*x),
+            Cell::Other(_) => None,
+        });
+        let bands = Bands::of(values);
+        top += self.reasons(&mut svg, top);
+        let y_ticks = y_span.ticks(7);
+        let widest = |labels: &mut dyn Iterator<Item = &str>| {
+            labels
+                .map(|l| text::width(l, TEXT_SIZE))
+                .fold(0.0, f64::max)
+        };
+        let left = widest(&mut y_ticks.iter().map(|t| t.label.as_str())) + 46.0;
+        let scale = widest(&mut bands.labels.iter().map(String::as_str)) + BAR + 54.0;
+        let room = Frame {
+            x: left,
+            y: top,
+            width: SIZE.0 - left - scale - 20.0,
+            height: SIZE.1 - top - 54.0,
+        };
+        let unit = (room.width / x_span.length()).min(room.height / y_span.length());
+        let (width, height) = (unit * x_span.length(), unit * y_span.length());
+        let frame = Frame {
+            x: room.x + 0.5 * (room.width - width),
+            y: room.y + 0.5 * (room.height - height),
+            width,
+            height,
+        };
+        let x = Scale::new(x_span, frame.x, frame.right());
+        let y = Scale::new(y_span, frame.bottom(), frame.y);
+        svg.rectangle("ground", (frame.x, frame.y), (width, height), 0.0);
+        self.fill(&mut svg, &bands, &frame);
+        for tick in &y_ticks {
+            let at = y.at(tick.value);
+            svg.line("axis", (frame.x - 4.0, at), (frame.x, at));
+            svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);
+        }
+        for tick in x_span.ticks((frame.width / 70.0).clamp(2.0, 8.0) as usize) {
+            let at = x.at(tick.value);
+            svg.line("axis", (at, frame.bottom()), (at, frame.bottom() + 4.0));
+            let below = (at, frame.bottom() + 17.0);
+            svg.text("tick", below, Anchor::Middle, &tick.label);
+        }
+        let corner = (frame.x, frame.bottom());
+        svg.line("axis", (frame.x, frame.y), corner);
+        svg.line("axis", corner, (frame.right(), frame.bottom()));
+        let below = (frame.x + 0.5 * width, frame.bottom() + 38.0);
+        svg.text("name", below, Anchor::Middle, &self.x_label);
+        let beside = (frame.x - left + 20.0, frame.y + 0.5 * height);
+        svg.text_upwards("name", beside, &self.y_label);
+        bands.key(&mut svg, frame.right() + 22.0, &room, &self.value_label);
+        svg
+    }
+
+    /// Names of cells without a value; returns the height that they take.
+    fn reasons(&self, svg: &mut Svg, top: f64) -> f64 {
+        let mut at = 18.0;
+        for (kind, name) in self.others.iter().enumerate() {
+            if !self.cells.contains(&Cell::Other(kind)) {
+                continue;
+            }
+            let class = format!("other{kind} swatch");
+            svg.rectangle(&class, (at, top - 6.0), (22.0, 12.0), 0.0);
+            svg.text("name", (at + 28.0, top + 4.0), Anchor::Start, name);
+            at += 46.0 + text::width(name, TEXT_SIZE);
+        }
+        if at > 18.0 { 20.0 } else { 0.0 }
+    }
+
+    /// One path for all cells of a class, runs along the horizontal axis as one rectangle each.
+    fn fill(&self, svg: &mut Svg, bands: &Bands, frame: &Frame) {
+        let (columns, rows) = (self.x.len(), self.y.len());
+        let (wide, high) = (frame.width / columns as f64, frame.height / rows as f64);
+        let class = |cell: &Cell| match cell {
+            Cell::Value(x) => number::drawable(*x).map(|x| bands.class(x)),
+            Cell::Other(kind) => Some(format!("other{kind}")),
+        };
+        let mut paths: std::collections::BTreeMap<String, String> = Default::default();
+        for (row, cells) in self.cells.chunks(columns).take(rows).enumerate() {
+            let bottom = frame.bottom() - high * row as f64;
+            let mut first = 0;
+            let classes: Vec<Option<String>> = cells.iter().map(class).collect();
+            for run in classes.chunk_by(|a, b| a == b) {
+                let (from, to) = (first as f64 * wide, (first + run.len()) as f64 * wide);
+                first += run.len();
+                let Some(class) = &run[0] else { continue };
+                let (left, right) = (pixel(frame.x + from), pixel(frame.x + to));
+                let (low, up) = (pixel(bottom), pixel(bottom - high));
+                let data = paths.entry(class.clone()).or_default();
+                let _ = write!(data, "M{left} {low}H{right}V{up}H{left}Z");
+            }
+        }
+        for (class, data) in paths {
+            svg.path(&class, &data);
+        }
+    }
+}
+
+/// From half a step before the first place to half a step behind the last.
+fn edges(places: &[f64]) -> Option<Span> {
+    let (first, last) = (*places.first()?, *places.last()?);
+    let half = 0.5 * (last - first) / (places.len() as f64 - 1.0);
+    let span = Span {
+        low: first - half,
+        high: last + half,
+    };
+    (span.length().is_finite() && span.length() > 0.0).then_some(span)
+}
+
+/// Round values that divide the colours.
+struct Bands {
+    borders: Vec<f64>,
+    labels: Vec<String>,
+}
+
+impl Bands {
+    fn of(values: impl Iterator<Item = f64>) -> Self {
+        let none = Self {
+            borders: Vec::new(),
+            labels: Vec::new(),
+        };
+        let Some(span) = Span::of(values) else {
+            return none;
+        };
+        if span.low > 0.0 && span.high > WIDE * span.low {
+            return Self::by_ratio(span);
+        }
+        let span = span.widened();
+        let ticks = span.ticks(9);
+        // The lowest and the highest band reach beyond their borders.
+        let inside = |value: f64| value > span.low && value < span.high;
+        let (borders, labels) = ticks
+            .into_iter()
+            .filter(|t| inside(t.value))
+            .map(|t| (t.value, t.label))
+            .unzip();
+        Self { borders, labels }
+    }
+
+    /// 1, 2, 5 times powers of ten, or the powers alone.
+    fn by_ratio(span: Span) -> Self {
+        let decades = span.low.log10().floor() as i32..=span.high.log10().ceil() as i32;
+        let steps: &[f64] = match span.high / span.low {
+            ratio if ratio > 1e4 => &[1.0],
+            _ => &[1.0, 2.0, 5.0],
+        };
+        let borders: Vec<f64> = decades
+            .flat_map(|d| steps.iter().map(move |s| s * 10f64.powi(d)))
+            .filter(|x| *x > span.low && *x < span.high)
+            .collect();
+        let labels = borders
+            .iter()
+            .map(|x| number::significant(*x, 1, number::Rounding::Nearest))
+            .collect();
+        Self { borders, labels }
+    }
+
+    /// Number of the band of a value.
+    fn band(&self, value: f64) -> usize {
+        self.borders.partition_point(|border| *border <= value)
+    }
+
+    fn class(&self, value: f64) -> String {
+        self.colour(self.band(value))
+    }
+
+    fn colour(&self, band: usize) -> String {
+        let most = self.borders.len().max(1);
+        let colour = (band * (COLOURS - 1) + most / 2) / most;
+        format!("f{colour}")
+    }
+
+    /// The scale of colours with its borders.
+    fn key(&self, svg: &mut Svg, left: f64, room: &Frame, label: &str) {
+        if self.borders.is_empty() && self.labels.is_empty() {
+            return;
+        }
+        let bands = self.borders.len() + 1;
+        let height = room.height.min(34.0 * bands as f64) / bands as f64;
+        let bottom = room.y + 0.5 * (room.height + height * bands as f64);
+        for band in 0..bands {
+            let top = bottom - height * (band + 1) as f64;
+            svg.rectangle(&self.colour(band), (left, top), (BAR, height), 0.0);
+        }
+        for (k, text) in self.labels.iter().enumerate() {
+            let at = bottom - height * (k + 1) as f64;
+            svg.line("axis", (left + BAR, at), (left + BAR + 4.0, at));
+            svg.text("tick", (left + BAR + 7.0, at + 4.2), Anchor::Start, text);
+        }
+        let beside = (SIZE.0 - 18.0, room.y + 0.5 * room.height);
+        svg.text_upwards("name", beside, label);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn section(cells: Vec<Cell>) -> Section {
+        Section {
+            title: "softest <direction>".into(),
+            x_label: "x, mm".into(),
+            y_label: "y, mm".into(),
+            value_label: "N/mm".into(),
+            x: vec![0.0, 10.0, 20.0],
+            y: vec![0.0, 10.0],
+            cells,
+            others: vec!["outside limits".into(), "unreachable".into()],
+        }
+    }
+
+    #[test]
+    fn bands_are_round_and_runs_are_one_rectangle() {
+        let cells = [100.0, 101.0, 390.0, 250.0, 250.0, f64::NAN].map(Cell::Value);
+        let svg = section(cells.to_vec()).svg();
+        assert!(svg.contains(">150<") && svg.contains(">350<"), "{svg}");
+        // Two places of one band side by side.
+        let low = svg.split("class=\"f0\" d=\"").nth(1).unwrap();
+        assert_eq!(low.split('"').next().unwrap().matches('M').count(), 1);
+        assert!(!svg.contains("NaN") && !svg.contains("<direction>"));
+        assert!(!svg.contains("unreachable"));
+    }
+
+    #[test]
+    fn what_has_no_value_is_named() {
+        let mut cells = vec![Cell::Value(1.0); 6];
+        cells[4] = Cell::Other(1);
+        let svg = section(cells).svg();
+        assert!(svg.contains(">unreachable<") && !svg.contains(">outside limits<"));
+        let nothing = Section::default().svg();
+        assert!(nothing.contains("no places to show"));
+    }
+
+    #[test]
+    fn a_wide_span_is_divided_by_ratios() {
+        let bands = Bands::of([0.3, 40.0].into_iter());
+        assert_eq!(bands.borders, [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]);
+        assert_eq!((bands.band(0.4), bands.band(40.0)), (0, 6));
+        let classes: Vec<String> = (0..7).map(|b| bands.colour(b)).collect();
+        assert_eq!((classes[0].as_str(), classes[6].as_str()), ("f0", "f10"));
+        // All the same.
+        let flat = Bands::of([7.0, 7.0].into_iter());
+        assert!(flat.borders.len() < 20);
+    }
+}
