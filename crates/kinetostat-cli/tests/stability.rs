@@ -15,6 +15,7 @@ fn every_json_says_its_version_and_who_wrote_it() {
         "check model.toml --json",
         "model compare model.toml model.toml --json",
         "stiffness model.toml --json",
+        "map orthoglide --x -20 20 3 --json",
         "deflect orthoglide --force 1 0 0 --json",
         "deflect orthoglide --program part.ngc --part-origin-mm 0 0 100 --force 1 0 0 --json",
         "compensate job.toml --json",

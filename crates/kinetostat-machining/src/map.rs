@@ -1,11 +1,12 @@
 //! Stiffness on a grid of tool positions, and under a load deflection and stability too: many places
 //! at once, in constant memory.
 
-use kinetostat::batch::{Batch, BatchStiffness, Found};
-use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench};
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Found, Table};
+use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, pose_residual};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
+use crate::near::natural_length;
 use crate::run::{RunError, Watch};
 
 /// Evenly spaced positions of the tool, base axes, mm.
@@ -123,6 +124,8 @@ pub struct MapPlace {
     pub rotation_deg: [f64; 3],
 }
 
+/// Below this relative pivot the rank of a stiffness has to be decided.
+const REGULAR: f64 = 1e-9;
 /// Places that one thread takes at a time: as many as the batch does on one.
 const BLOCK: usize = 256;
 /// Blocks between two looks at the watch; what is in memory at a time.
@@ -178,7 +181,7 @@ fn solved(task: &MapTask<'_>, batch: &Batch<'_>, places: std::ops::Range<usize>)
     }
     match &task.load {
         None => unloaded(task, batch, &poses, &mut out),
-        Some(wrench) => loaded(task, wrench, &poses, &mut out),
+        Some(wrench) => loaded(task, batch, wrench, &poses, &mut out),
     }
     out
 }
@@ -186,40 +189,36 @@ fn solved(task: &MapTask<'_>, batch: &Batch<'_>, places: std::ops::Range<usize>)
 fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
     // What the batch would ask one by one is asked here, once.
     let together = batch.alone().is_none().then(|| batch.stiffness(poses));
+    let length = natural_length(task.mechanism);
     for (i, place) in out.iter_mut().enumerate() {
         let found = together.as_ref().map(|t| (t, t.found[i]));
         match found {
             Some((_, Found::Not)) => place.state = PlaceState::Unreachable,
-            Some((t, Found::Together)) => place.take_together(task.mechanism, t, i),
-            Some((_, Found::Alone)) | None => place.take_alone(task.mechanism, &poses[i]),
+            Some((t, Found::Together)) if place.take_together(task.mechanism, t, i, length) => {}
+            Some(_) | None => place.take_alone(task.mechanism, &poses[i]),
         }
     }
 }
 
-fn loaded(task: &MapTask<'_>, wrench: &Wrench, poses: &[Pose], out: &mut [MapPlace]) {
-    for (place, pose) in out.iter_mut().zip(poses) {
-        let Some(posture) = place.posture(task.mechanism, pose) else {
-            continue;
-        };
-        let Ok(e) = posture.deflected_by(wrench) else {
-            place.state = PlaceState::Unanswered;
-            continue;
-        };
-        place.state = if e.platform.free > 0 {
-            PlaceState::Singular
-        } else if e.stable() {
-            PlaceState::Regular
-        } else {
-            PlaceState::Unstable
-        };
-        let compliance = e.compliance();
-        place.stiffness_n_per_mm = along(&compliance.springs);
-        if e.platform.free > 0 {
-            place.stiffness_n_per_mm = free(&compliance.free, place.stiffness_n_per_mm);
+fn loaded(
+    task: &MapTask<'_>,
+    batch: &Batch<'_>,
+    wrench: &Wrench,
+    poses: &[Pose],
+    out: &mut [MapPlace],
+) {
+    let wrenches = vec![*wrench; poses.len()];
+    let together = match batch.alone() {
+        None => batch.judged_equilibrium(poses, &wrenches).ok(),
+        Some(_) => None,
+    };
+    for (i, place) in out.iter_mut().enumerate() {
+        let taken = together
+            .as_ref()
+            .is_some_and(|found| place.take_equilibrium(task.mechanism, found, i, &poses[i]));
+        if !taken {
+            place.take_equilibrium_alone(task.mechanism, &poses[i], wrench);
         }
-        place.softest_n_per_mm = 1e-3 * e.stiffness_against_force();
-        place.displacement_mm = (e.displacement.linear() * 1e3).into();
-        place.rotation_deg = e.displacement.angular().map(f64::to_degrees).into();
     }
 }
 
@@ -237,24 +236,96 @@ impl MapPlace {
         None
     }
 
-    fn take_together(&mut self, mechanism: &Mechanism, found: &BatchStiffness, i: usize) {
-        let actuators = mechanism.limbs().iter().flat_map(|l| l.nominal.actuators());
-        let outside = actuators.zip(found.commands.row(i)).any(|(a, command)| {
-            a.limits
-                .is_some_and(|(low, high)| command < low || command > high)
-        });
-        if outside {
+    /// Takes a stiffness of the batch; false where it may be singular, which the general engine decides.
+    fn take_together(
+        &mut self,
+        mechanism: &Mechanism,
+        found: &BatchStiffness,
+        i: usize,
+        length: f64,
+    ) -> bool {
+        if outside_limits(mechanism, &found.commands, i) {
             self.state = PlaceState::OutsideLimits;
-            return;
+            return true;
         }
-        let matrix = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
-        let Some(compliance) = matrix.cholesky().map(|c| c.inverse()) else {
-            self.state = PlaceState::Singular;
-            return;
+        // Rotations at the natural length.
+        let unit = |k: usize| if k < 3 { 1.0 } else { length };
+        let balanced =
+            Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c) / (unit(r) * unit(c)));
+        let Some(factors) = balanced.cholesky() else {
+            return false;
         };
+        let least = factors.l_dirty().diagonal().min();
+        if least * least < REGULAR * balanced.diagonal().max() {
+            return false;
+        }
+        let balanced = factors.inverse();
+        let compliance = Matrix6::from_fn(|r, c| balanced[(r, c)] / (unit(r) * unit(c)));
         self.state = PlaceState::Regular;
         self.stiffness_n_per_mm = along(&compliance);
         self.softest_n_per_mm = softest(&compliance);
+        true
+    }
+
+    /// Takes an equilibrium of the batch; false where it has to be asked for alone.
+    fn take_equilibrium(
+        &mut self,
+        mechanism: &Mechanism,
+        found: &BatchEquilibrium,
+        i: usize,
+        pose: &Pose,
+    ) -> bool {
+        let Some(verdict) = found.verdict(i) else {
+            return false;
+        };
+        if outside_limits(mechanism, &found.commands, i) {
+            self.state = PlaceState::OutsideLimits;
+            return true;
+        }
+        let matrix = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
+        // Zero: a direction is free, which the general engine names.
+        let compliance = match verdict.stiffness_against_force == 0.0 {
+            true => None,
+            false => matrix.try_inverse(),
+        };
+        let Some(compliance) = compliance else {
+            return false;
+        };
+        self.state = match verdict.stable {
+            true => PlaceState::Regular,
+            false => PlaceState::Unstable,
+        };
+        self.stiffness_n_per_mm = along(&compliance);
+        self.softest_n_per_mm = 1e-3 * verdict.stiffness_against_force;
+        self.moved(&pose_residual(&found.tool_pose(i), pose));
+        true
+    }
+
+    fn take_equilibrium_alone(&mut self, mechanism: &Mechanism, pose: &Pose, wrench: &Wrench) {
+        let Some(posture) = self.posture(mechanism, pose) else {
+            return;
+        };
+        let Ok(e) = posture.deflected_by(wrench) else {
+            self.state = PlaceState::Unanswered;
+            return;
+        };
+        let compliance = e.compliance();
+        self.stiffness_n_per_mm = along(&compliance.springs);
+        self.softest_n_per_mm = 1e-3 * e.stiffness_against_force();
+        self.moved(&e.displacement);
+        self.state = if e.platform.free > 0 {
+            self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
+            PlaceState::Singular
+        } else if e.stable() {
+            PlaceState::Regular
+        } else {
+            PlaceState::Unstable
+        };
+    }
+
+    fn moved(&mut self, displacement: &Twist) {
+        self.displacement_mm = (displacement.linear() * 1e3).into();
+        self.rotation_deg = displacement.angular().map(f64::to_degrees).into();
     }
 
     fn take_alone(&mut self, mechanism: &Mechanism, pose: &Pose) {
@@ -275,6 +346,18 @@ impl MapPlace {
             self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
         }
     }
+}
+
+/// A command of a posture of the batch lies outside its actuator's limits.
+pub(crate) fn outside_limits(mechanism: &Mechanism, commands: &Table, i: usize) -> bool {
+    let limbs = mechanism.limbs().iter();
+    let mut own = limbs
+        .flat_map(|l| l.nominal.actuators())
+        .zip(commands.row(i));
+    own.any(|(actuator, command)| {
+        let limits = actuator.limits;
+        limits.is_some_and(|(low, high)| command < low || command > high)
+    })
 }
 
 /// Compliances below this share of the largest are rounding.

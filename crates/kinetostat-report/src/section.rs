@@ -204,14 +204,17 @@ impl Bands {
             return Self::by_ratio(span);
         }
         let span = span.widened();
-        let ticks = span.ticks(9);
         // The lowest and the highest band reach beyond their borders.
-        let inside = |value: f64| value > span.low && value < span.high;
-        let (borders, labels) = ticks
-            .into_iter()
-            .filter(|t| inside(t.value))
-            .map(|t| (t.value, t.label))
-            .unzip();
+        let inside = |wanted: usize| -> Vec<_> {
+            let ticks = span.ticks(wanted).into_iter();
+            ticks
+                .filter(|t| t.value > span.low && t.value < span.high)
+                .collect()
+        };
+        // Every band has a colour of its own.
+        let ticks = (1..=COLOURS).rev().map(inside).find(|t| t.len() < COLOURS);
+        let ticks = ticks.into_iter().flatten();
+        let (borders, labels) = ticks.map(|t| (t.value, t.label)).unzip();
         Self { borders, labels }
     }
 
@@ -219,7 +222,7 @@ impl Bands {
     fn by_ratio(span: Span) -> Self {
         let decades = span.low.log10().floor() as i32..=span.high.log10().ceil() as i32;
         let steps: &[f64] = match span.high / span.low {
-            ratio if ratio > 1e4 => &[1.0],
+            ratio if ratio > 1e3 => &[1.0],
             _ => &[1.0, 2.0, 5.0],
         };
         let borders: Vec<f64> = decades
@@ -265,7 +268,11 @@ impl Bands {
             svg.line("axis", (left + BAR, at), (left + BAR + 4.0, at));
             svg.text("tick", (left + BAR + 7.0, at + 4.2), Anchor::Start, text);
         }
-        let beside = (SIZE.0 - 18.0, room.y + 0.5 * room.height);
+        let widest = self.labels.iter().map(|l| text::width(l, TEXT_SIZE));
+        let beside = (
+            left + BAR + 26.0 + widest.fold(0.0, f64::max),
+            room.y + 0.5 * room.height,
+        );
         svg.text_upwards("name", beside, label);
     }
 }
