@@ -1,7 +1,7 @@
 //! The book is whole: what its theory map names exists, its links lead somewhere, and no example
 //! escapes the tests.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -166,7 +166,7 @@ fn the_picture_of_the_readme_is_that_of_the_introduction() {
 fn no_example_escapes_the_tests() {
     let tested = read(&root().join("crates/kinetostat-book/src/lib.rs"));
     let source = root().join("book/src");
-    let (mut wrong, mut counts) = (Vec::new(), HashSet::new());
+    let (mut wrong, mut counts) = (Vec::new(), BTreeSet::new());
     for page in pages() {
         let name = page.strip_prefix(&source).expect("a page");
         let name = name.display().to_string();

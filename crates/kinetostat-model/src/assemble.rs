@@ -1,7 +1,7 @@
 //! From the document to the mechanism: the only module that knows the schema and the core's
 //! builder. Every mistake found on the way is kept with its place, so that one run shows them all.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::{Mechanism, Platform};
 use nalgebra::Vector3;
@@ -155,7 +155,7 @@ pub(crate) fn corners(document: &Document) -> Found<Option<Corners>> {
 }
 
 fn platforms(document: &Document, findings: &mut Findings) -> Vec<Platform> {
-    let mut seen = HashSet::from(["base"]);
+    let mut seen = BTreeSet::from(["base"]);
     let mut platforms = Vec::new();
     // A limb that goes nowhere is reported itself; the platform it misses is not a second mistake.
     let exists = |name: &str| document.platform.iter().any(|p| p.name == name);
@@ -242,7 +242,7 @@ fn weights(document: &Document, findings: &mut Findings) {
 /// Tables that nothing refers to are usually a misspelt name.
 fn unused(document: &Document, findings: &mut Findings) {
     let elements = || document.chain.values().flat_map(|c| &c.elements);
-    let mut names: HashSet<&str> = HashSet::new();
+    let mut names: BTreeSet<&str> = BTreeSet::new();
     let inline = elements().filter_map(|e| match e {
         Element::Spring6(s) => match &s.spring6 {
             Spring6::Inline(inline) => inline.section.as_deref(),
@@ -259,7 +259,7 @@ fn unused(document: &Document, findings: &mut Findings) {
             .values()
             .filter_map(|s| s.section.as_deref()),
     );
-    let used_chains: HashSet<&str> = document.limb.iter().map(|l| l.chain.as_str()).collect();
+    let used_chains: BTreeSet<&str> = document.limb.iter().map(|l| l.chain.as_str()).collect();
     let tables = [
         (
             "section",

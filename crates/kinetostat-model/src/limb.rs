@@ -1,6 +1,6 @@
 //! Limbs: chains between platforms, as drawn and as built.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::{Chain, Limb, Load, Pose};
 use nalgebra::Vector3;
@@ -24,7 +24,7 @@ pub(crate) fn limbs(
     findings: &mut Findings,
 ) -> Vec<(Limb, Vec<Load>)> {
     let mut deviations = deviations(document, findings);
-    let mut seen = HashSet::new();
+    let mut seen = BTreeSet::new();
     let mut size = 0;
     let mut limbs = Vec::new();
     for (i, written) in document.limb.iter().enumerate() {

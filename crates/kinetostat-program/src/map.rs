@@ -1,6 +1,6 @@
 //! A field of corrections from a table: positions on a regular grid and what to add there.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
@@ -92,7 +92,7 @@ impl CorrectionMap {
             values.dedup();
             values
         });
-        let places: [HashMap<u64, usize>; 3] = [0, 1, 2].map(|axis: usize| {
+        let places: [BTreeMap<u64, usize>; 3] = [0, 1, 2].map(|axis: usize| {
             axes[axis]
                 .iter()
                 .enumerate()

@@ -1,6 +1,6 @@
 //! The words from which a chain is written: offsets, actuators, passive joints, springs, links.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
 
@@ -572,7 +572,7 @@ impl ChainBuilder {
             chain.nodes.iter().collect(),
             chain.actuators.iter().map(|a| &a.name).collect(),
         ] {
-            let mut seen = HashSet::new();
+            let mut seen = BTreeSet::new();
             if let Some(twice) = names.into_iter().find(|n| !seen.insert(n.as_str())) {
                 return Err(Error::model(
                     place,

@@ -5,7 +5,7 @@
 //! and the actual one, with its assembly and manufacturing errors, which decides where the machine
 //! goes.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -366,7 +366,7 @@ impl MechanismBuilder {
             m.platforms.iter().map(|p| &p.name).collect::<Vec<_>>(),
             m.limbs.iter().map(|l| &l.name).collect(),
         ] {
-            let mut seen = HashSet::new();
+            let mut seen = BTreeSet::new();
             if let Some(twice) = names.into_iter().find(|n| !seen.insert(n.as_str())) {
                 return fault(format!("the name '{twice}' is used twice"));
             }

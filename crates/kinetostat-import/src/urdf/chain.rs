@@ -1,6 +1,6 @@
 //! A way as the elements of a chain, with the masses that hang on it.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::{MotionKind, Pose};
 use kinetostat_model::schema::{
@@ -63,9 +63,9 @@ pub(crate) struct Written {
     pub(crate) bodies: Vec<(String, f64)>,
     /// Variables by the coordinate that stands for them: its name, and `coordinate = scale * variable
     /// + offset`.
-    defined: HashMap<usize, (String, f64, f64)>,
-    names: HashSet<String>,
-    body_names: HashSet<String>,
+    defined: BTreeMap<usize, (String, f64, f64)>,
+    names: BTreeSet<String>,
+    body_names: BTreeSet<String>,
     comment: String,
 }
 
@@ -84,7 +84,7 @@ impl Written {
 }
 
 /// The name, or the name with a word or a number behind it where it is taken.
-pub(crate) fn unique(taken: &mut HashSet<String>, name: &str, word: &str) -> String {
+pub(crate) fn unique(taken: &mut BTreeSet<String>, name: &str, word: &str) -> String {
     let mut choice = name.to_owned();
     let mut number = 1;
     while !taken.insert(choice.clone()) {

@@ -1,7 +1,7 @@
 //! From the tree and its closing joints to platforms and ways between them: what does not lie
 //! between base and tip is cut away, links that are fixed to each other are one.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeMap, VecDeque};
 
 use crate::log::Log;
 use crate::urdf::robot::{Closure, Constraint, JointType, Robot};
@@ -244,7 +244,7 @@ fn ways(
     kept: &[bool],
     [base, tip]: [usize; 2],
 ) -> Graph {
-    let mut at: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut at: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (i, e) in edges.iter().enumerate().filter(|(i, _)| kept[*i]) {
         for g in e.ends {
             at.entry(g).or_default().push(i);
@@ -253,7 +253,7 @@ fn ways(
     let none = Vec::new();
     let around = |g: usize| at.get(&g).unwrap_or(&none);
     // Groups that are platforms, each with the link that stands for it.
-    let mut stands: HashMap<usize, usize> = HashMap::from([(group[base], base), (group[tip], tip)]);
+    let mut stands: BTreeMap<usize, usize> = BTreeMap::from([(group[base], base), (group[tip], tip)]);
     for (link, g) in group.iter().enumerate() {
         if around(*g).len() >= 3 {
             stands.entry(*g).or_insert(link);

@@ -1,6 +1,6 @@
 //! The whole way from the text of a URDF to the text of a model file.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::MotionKind;
 use kinetostat_model::schema::Section;
@@ -147,8 +147,8 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
     } else if graph.ways.iter().any(|w| w.from != base || w.to != tip) {
         several_platforms(&robot, &graph, &mut log);
     }
-    let mut names = HashSet::from(["base".to_owned()]);
-    let named: HashMap<usize, String> = graph
+    let mut names = BTreeSet::from(["base".to_owned()]);
+    let named: BTreeMap<usize, String> = graph
         .platforms
         .iter()
         .map(|l| (*l, unique(&mut names, &robot.links[*l].name, "link")))
@@ -160,7 +160,7 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
         moving_base(&robot, base, &mut log);
     }
     let one = chains.len() == 1;
-    let mut limb_names = HashSet::new();
+    let mut limb_names = BTreeSet::new();
     let summed = |of: fn(&Written) -> &Vec<String>| -> Vec<String> {
         chains.iter().flat_map(of).cloned().collect()
     };

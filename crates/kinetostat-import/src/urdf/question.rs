@@ -1,7 +1,7 @@
 //! What the options and the loop file ask for, against what the robot has: base and tip, which joints
 //! are passive, where everything stands at home, which stiffnesses there are.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use kinetostat::MotionKind;
 use kinetostat_model::ModelError;
@@ -45,7 +45,7 @@ pub(crate) fn ends(
     let tip = match &options.tip {
         Some(name) => find("--tip", name)?,
         None => {
-            let parents: HashSet<usize> = tree.ends.iter().map(|e| e.0).collect();
+            let parents: BTreeSet<usize> = tree.ends.iter().map(|e| e.0).collect();
             let leaves: Vec<usize> = (0..robot.links.len())
                 .filter(|l| !parents.contains(l) && *l != base)
                 .collect();
@@ -142,7 +142,7 @@ pub(crate) fn variables(
 pub(crate) fn closings(robot: &Robot, log: &mut Log) -> Vec<([usize; 2], Vec<Step>)> {
     let mut closings = Vec::new();
     let mut first = robot.joints.len();
-    let mut names: HashSet<&str> = robot.joints.iter().map(|j| j.name.as_str()).collect();
+    let mut names: BTreeSet<&str> = robot.joints.iter().map(|j| j.name.as_str()).collect();
     for c in &robot.constraints {
         if !names.insert(&c.name) {
             log.error(

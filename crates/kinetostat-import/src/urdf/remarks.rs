@@ -1,6 +1,6 @@
 //! What there is to say about a robot that can be imported.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use kinetostat::{Pose, pose_residual};
 use nalgebra::{DMatrix, Vector3};
@@ -19,7 +19,7 @@ pub(crate) fn one_limb_each(
     chains: &[Written],
     log: &mut Log,
 ) {
-    let mut seen: HashSet<usize> = HashSet::new();
+    let mut seen: BTreeSet<usize> = BTreeSet::new();
     for v in chains.iter().flat_map(Written::variables) {
         if !seen.insert(v) {
             let follower = robot.joints.iter().find(|j| {
@@ -43,7 +43,7 @@ pub(crate) fn one_limb_each(
 /// machine with loops, along the fewest limbs from the base to the tip, the longest of those paths.
 pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
     // Length and number of joints of the path to each link known so far.
-    let mut known: HashMap<usize, (f64, usize)> = HashMap::from([(base, (0.0, 0))]);
+    let mut known: BTreeMap<usize, (f64, usize)> = BTreeMap::from([(base, (0.0, 0))]);
     for _ in &graph.platforms {
         let before = known.clone();
         for way in &graph.ways {

@@ -1,6 +1,6 @@
 //! The tree of links: names resolved, one root, no cycles; and what every joint follows.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use kinetostat::Pose;
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
@@ -252,8 +252,8 @@ fn names<'r>(
     all: impl Iterator<Item = (&'r String, &'r At)>,
     word: &str,
     log: &mut Log,
-) -> HashMap<&'r str, usize> {
-    let mut seen = HashMap::new();
+) -> BTreeMap<&'r str, usize> {
+    let mut seen = BTreeMap::new();
     for (i, (name, at)) in all.enumerate() {
         if seen.insert(name.as_str(), i).is_some() {
             log.error(
@@ -331,7 +331,7 @@ fn one_root(robot: &Robot, above: &[Option<usize>], log: &mut Log) -> Option<usi
 }
 
 /// Mimic joints resolved to the joints that move by themselves.
-fn follows(robot: &Robot, joints: &HashMap<&str, usize>, log: &mut Log) -> Option<Vec<Follow>> {
+fn follows(robot: &Robot, joints: &BTreeMap<&str, usize>, log: &mut Log) -> Option<Vec<Follow>> {
     let mut follows = Vec::with_capacity(robot.joints.len());
     for (i, joint) in robot.joints.iter().enumerate() {
         if joint.kind == JointType::Fixed {
