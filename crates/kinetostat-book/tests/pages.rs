@@ -66,20 +66,26 @@ fn quoted(cell: &str) -> Vec<&str> {
     cell.split('`').skip(1).step_by(2).collect()
 }
 
-#[test]
-fn every_function_and_test_of_the_theory_map_exists() {
-    let text = read(&root().join("book/src/theory-map.md"));
-    let mut tests = String::new();
+/// All source of the workspace, tests included.
+fn source() -> String {
+    let mut all = String::new();
     for krate in fs::read_dir(root().join("crates")).expect("crates") {
         let krate = krate.expect("a crate").path();
         for folder in ["tests", "src"] {
             if krate.join(folder).is_dir() {
                 for file in files(&krate.join(folder), "rs") {
-                    tests.push_str(&read(&file));
+                    all.push_str(&read(&file));
                 }
             }
         }
     }
+    all
+}
+
+#[test]
+fn every_function_and_test_of_the_theory_map_exists() {
+    let text = read(&root().join("book/src/theory-map.md"));
+    let tests = source();
     let (mut rows, mut missing) = (0, Vec::new());
     for line in text.lines().filter(|l| l.starts_with("| ")) {
         let cells: Vec<&str> = line.trim_matches('|').split(" | ").collect();
@@ -117,6 +123,36 @@ fn every_function_and_test_of_the_theory_map_exists() {
     }
     assert!(missing.is_empty(), "{missing:#?}");
     assert!(rows > 50, "only {rows} rows found");
+}
+
+/// A sentence in snake case is the name of a test: four words and more. So are some keys of model files.
+fn names_a_test(word: &str) -> bool {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    word.chars().all(plain) && word.split('_').filter(|w| !w.is_empty()).count() > 3
+}
+
+#[test]
+fn every_test_that_a_page_names_exists() {
+    let source = source();
+    let keys = read(&root().join("crates/kinetostat-model/schema/model.schema.json"));
+    let (mut named, mut missing) = (0, Vec::new());
+    let design = root().join("docs/design.md");
+    for page in pages().into_iter().chain([design]) {
+        let text = read(&page);
+        for line in parted(&text).0 {
+            for word in quoted(line) {
+                if !names_a_test(word) || keys.contains(&format!("\"{word}\"")) {
+                    continue;
+                }
+                named += 1;
+                if !source.contains(&format!("fn {word}(")) {
+                    missing.push(format!("{}: {word}", page.display()));
+                }
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+    assert!(named > 100, "only {named} tests are named");
 }
 
 #[test]
