@@ -253,7 +253,8 @@ fn ways(
     let none = Vec::new();
     let around = |g: usize| at.get(&g).unwrap_or(&none);
     // Groups that are platforms, each with the link that stands for it.
-    let mut stands: BTreeMap<usize, usize> = BTreeMap::from([(group[base], base), (group[tip], tip)]);
+    let mut stands: BTreeMap<usize, usize> =
+        BTreeMap::from([(group[base], base), (group[tip], tip)]);
     for (link, g) in group.iter().enumerate() {
         if around(*g).len() >= 3 {
             stands.entry(*g).or_insert(link);
