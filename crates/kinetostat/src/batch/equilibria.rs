@@ -1,11 +1,9 @@
 //! Loaded postures: what is asked of them, and where the answers go.
 
-use rayon::prelude::*;
-
 use super::plan::Plan;
 use super::run::{Answers, Places, Work};
 use super::table::BLOCK;
-use super::{BLOCKS, Batch, Found, Table, in_parallel};
+use super::{BLOCKS, Batch, Found, Table, in_parallel, left};
 use crate::compensation::target_under_load;
 use crate::error::{Error, Result};
 use crate::platform::MechanismState;
@@ -332,8 +330,8 @@ impl<'m> Batch<'m> {
     }
 
     fn has_tangent(&self) -> bool {
-        let plans = self.plans.as_ref();
-        plans.is_ok_and(|(_, actual)| actual.len() == 1 && actual.iter().all(Plan::has_tangent))
+        let actual = self.actual.as_ref();
+        actual.is_ok_and(|actual| actual.len() == 1 && actual.iter().all(Plan::has_tangent))
     }
 
     /// Solves those postures that kernels can.
@@ -345,7 +343,7 @@ impl<'m> Batch<'m> {
         out: &mut BatchEquilibrium,
         targets: &mut Table,
     ) {
-        let Ok((nominal, actual)) = &self.plans else {
+        let (Ok(nominal), Ok(actual)) = (&self.nominal, &self.actual) else {
             return;
         };
         let tool = &self.mechanism.platforms()[self.mechanism.tool()];
@@ -437,15 +435,4 @@ fn pose(table: &Table, i: usize) -> Pose {
 
 fn asked(tangent: bool) -> Asked {
     if tangent { Asked::Tangent } else { Asked::Rest }
-}
-
-/// Answers of those that were not found together; `None` where there is none.
-fn left(
-    found: &[Found],
-    alone: impl Fn(usize) -> Result<Alone> + Sync,
-) -> Vec<(usize, Option<Alone>)> {
-    let left: Vec<usize> = (0..found.len())
-        .filter(|i| found[*i] != Found::Together)
-        .collect();
-    left.into_par_iter().map(|i| (i, alone(i).ok())).collect()
 }

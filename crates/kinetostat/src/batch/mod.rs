@@ -29,11 +29,12 @@ mod unloaded;
 
 use rayon::prelude::*;
 
+use crate::chain::Chain;
 use crate::equilibrium::unloaded_tip;
 use crate::error::{Error, Result};
 use crate::inverse::LimbPosture;
 use crate::kinematics::Kinematics;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Limb, Mechanism};
 use crate::posture::Posture;
 use crate::spatial::Pose;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};
@@ -49,8 +50,9 @@ const BLOCKS: usize = 32;
 #[derive(Clone, Debug)]
 pub struct Batch<'m> {
     mechanism: &'m Mechanism,
-    /// Of every limb as drawn and as it is, or why there are none.
-    plans: std::result::Result<(Vec<Plan>, Vec<Plan>), String>,
+    /// Of every limb as drawn (unloaded) and as it is (loaded), or why there are none.
+    nominal: std::result::Result<Vec<Plan>, String>,
+    actual: std::result::Result<Vec<Plan>, String>,
 }
 
 /// How the answer of a posture was found.
@@ -87,14 +89,21 @@ impl<'m> Batch<'m> {
     pub fn new(mechanism: &'m Mechanism) -> Self {
         Self {
             mechanism,
-            plans: compiled(mechanism),
+            nominal: compiled(mechanism, |limb| &limb.nominal),
+            actual: unburdened(mechanism).and_then(|()| compiled(mechanism, |limb| &limb.actual)),
         }
     }
 
-    /// Why all postures of this machine are solved alone, if they are.
+    /// Why all loaded postures of this machine are solved alone, if they are.
     #[must_use]
     pub fn alone(&self) -> Option<&str> {
-        self.plans.as_ref().err().map(String::as_str)
+        self.actual.as_ref().err().map(String::as_str)
+    }
+
+    /// Why all unloaded postures of this machine are solved alone, if they are.
+    #[must_use]
+    pub fn alone_unloaded(&self) -> Option<&str> {
+        self.nominal.as_ref().err().map(String::as_str)
     }
 
     /// Stiffness of the unloaded machine as drawn with the tool at each of the poses.
@@ -182,7 +191,7 @@ impl<'m> Batch<'m> {
         out.commands.reset(commands, count);
         out.found.clear();
         out.found.resize(count, Found::Not);
-        if let Ok((nominal, _)) = &self.plans {
+        if let Ok(nominal) = &self.nominal {
             let parts = out.stiffness.parts(BLOCKS);
             let works = parts
                 .zip(out.jacobian.parts(BLOCKS))
@@ -201,24 +210,22 @@ impl<'m> Batch<'m> {
                 );
             in_parallel(works, count);
         }
-        for i in 0..count {
-            if out.found[i] == Found::Together {
-                continue;
-            }
-            let posture = self.posture(places, i);
-            let answer = posture.and_then(|p| p.stiffness().map(|found| (found, p)));
-            let Ok((found, posture)) = answer else {
+        let alone = |i: usize| {
+            let posture = self.posture(places, i)?;
+            let found = posture.stiffness()?;
+            let columns = jacobian.then(|| self.jacobian(&posture));
+            Ok((found.cartesian.matrix, columns, posture.commands()))
+        };
+        for (i, answer) in left(&out.found, alone) {
+            let Some((matrix, columns, own)) = answer else {
                 out.stiffness.set_row(i, |_| f64::NAN);
                 out.jacobian.set_row(i, |_| f64::NAN);
                 out.commands.set_row(i, |_| f64::NAN);
                 continue;
             };
-            let matrix = &found.cartesian.matrix;
             out.stiffness.set_row(i, |k| matrix[(k / 6, k % 6)]);
-            let own = posture.commands();
             out.commands.set_row(i, |k| own[k]);
-            if jacobian {
-                let j = self.jacobian(&posture);
+            if let Some(j) = columns {
                 out.jacobian
                     .set_row(i, |k| j[(k / coordinates, k % coordinates)]);
             }
@@ -276,23 +283,46 @@ fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usize) {
     }
 }
 
-/// Plans of all limbs, as drawn and as they are, or why there are none.
-fn compiled(mechanism: &Mechanism) -> std::result::Result<(Vec<Plan>, Vec<Plan>), String> {
+/// Nothing but weight acts on limbs and platforms, or what else.
+fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), String> {
+    for (i, limb) in mechanism.limbs().iter().enumerate() {
+        if !mechanism.loads(i).is_empty() {
+            return Err(format!("'{}' bears loads of its own", limb.name));
+        }
+    }
+    if !mechanism.platform_loads().is_empty() {
+        return Err("a platform bears loads of its own".into());
+    }
+    Ok(())
+}
+
+/// Plans of all limbs, or why there are none.
+fn compiled(
+    mechanism: &Mechanism,
+    chain: impl Fn(&Limb) -> &Chain,
+) -> std::result::Result<Vec<Plan>, String> {
     if mechanism.platforms().len() != 2 {
         return Err("it has platforms between base and tool".into());
     }
     let tool = mechanism.tool();
-    let (mut nominal, mut actual) = (Vec::new(), Vec::new());
-    for (i, limb) in mechanism.limbs().iter().enumerate() {
-        if limb.from != 0 || limb.to != tool {
-            return Err(format!("'{}' does not lead from base to tool", limb.name));
-        }
-        if !mechanism.loads(i).is_empty() {
-            return Err(format!("'{}' bears loads of its own", limb.name));
-        }
-        let end = limb.platform_from_tip.inverse();
-        nominal.push(Plan::new(&limb.nominal, &end)?);
-        actual.push(Plan::new(&limb.actual, &end)?);
-    }
-    Ok((nominal, actual))
+    let limbs = mechanism.limbs().iter();
+    limbs
+        .map(|limb| {
+            if limb.from != 0 || limb.to != tool {
+                return Err(format!("'{}' does not lead from base to tool", limb.name));
+            }
+            Plan::new(chain(limb), &limb.platform_from_tip.inverse())
+        })
+        .collect()
+}
+
+/// Answers of those that were not found together; `None` where there is none.
+fn left<T: Send>(
+    found: &[Found],
+    alone: impl Fn(usize) -> Result<T> + Sync,
+) -> Vec<(usize, Option<T>)> {
+    let left: Vec<usize> = (0..found.len())
+        .filter(|i| found[*i] != Found::Together)
+        .collect();
+    left.into_par_iter().map(|i| (i, alone(i).ok())).collect()
 }

@@ -82,7 +82,8 @@ fn wrenches(count: usize) -> Vec<Wrench> {
 /// All numbers of equilibria found with one instruction set.
 fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Vec<Found>) {
     let batch = Batch::new(machine);
-    let (nominal, actual) = batch.plans.as_ref().expect("compiled");
+    let nominal = batch.nominal.as_ref().expect("compiled");
+    let actual = batch.actual.as_ref().expect("compiled");
     let (poses, wrenches) = (poses(count), wrenches(count));
     let coordinates = machine.limbs().iter().map(|l| l.actual.coordinate_count());
     let actuators = machine.actuator_names().len();
@@ -284,7 +285,7 @@ fn a_jacobian_alone_is_the_one_together() {
     let mut batch = Batch::new(&machine);
     let commands: Vec<f64> = (0..30).map(irregular).collect();
     let together = batch.stiffness_at_joints(&commands, true).expect("sizes");
-    batch.plans = Err("asked for alone".into());
+    batch.nominal = Err("asked for alone".into());
     let mut alone = BatchStiffness::default();
     // Room for more postures than the second call has.
     let more: Vec<f64> = (0..300).map(irregular).collect();
