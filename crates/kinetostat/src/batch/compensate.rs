@@ -52,7 +52,7 @@ impl<S: Simd> Machine<'_, S> {
             self.target.point[k] = select(off, moved, self.target.point[k]);
         }
         if directions[3] {
-            let rotation = turned(simd, &turn, &self.target.rotation);
+            let rotation = turned(&turn, &self.target.rotation);
             for k in 0..9 {
                 self.target.rotation[k] = select(off, rotation[k], self.target.rotation[k]);
             }

@@ -2,10 +2,12 @@
 //!
 //! The torques of a chain depend on its deflections weakly: `theta <- K^-1 tau(theta)` [R 4.16] contracts by
 //! about the share of the geometric stiffness in the springs', and needs no matrix. One pass walks
-//! out (frames) and back (torques). Where limbs hold a platform together, wrenches, passive joints
+//! out (where the tip is, which way gravity points) and back (torques). On the way back force and moment
+//! are kept in the axes and about the origin of the frame reached, so that the torque on a coordinate is
+//! one of their components. Where limbs hold a platform together, wrenches, passive joints
 //! and the platform are corrected in each pass by the unloaded machine's own compliance, factored
 //! once ([`super::eliminate`]). Contraction is watched: a lane that is not done after
-//! [`MOST_PASSES`] is left to Newton's iteration of the general engine.
+//! [`MOST_PASSES`] is left to Newton's ([`super::newton`]).
 
 use pulp::Simd;
 
@@ -15,18 +17,25 @@ use super::lanes::{
     turn_columns,
 };
 use super::law;
+use super::newton::Newton;
 use super::plan::{Held, Joint, Law, Plan, Spring, Step};
 use super::reach::turn_between;
 use super::symmetric::Symmetric;
-use super::unloaded::{Place, amount};
+use super::unloaded::{Place, amount, matrix};
 use crate::chain::MotionKind;
 
-/// Passes after which a lane is given up. A contraction of 0.4 reaches [`TOLERANCE`] in thirty.
+/// Passes after which a lane is given up. One of [`MOST_CONTRACTION`] is done in thirty.
 pub(super) const MOST_PASSES: usize = 30;
-/// Relative change of the torques at which a lane is done: the next pass would change rounding.
-const TOLERANCE: f64 = 1e-12;
-/// Springs turn less than this, rad: their sines are short polynomials.
-const MOST_TURN: f64 = 0.7;
+/// Relative change of the torques that the next pass would bring when a lane is done: rounding.
+const TOLERANCE: f64 = 1e-13;
+/// And the most that the last pass has brought, however fast the passes contract.
+const LAST_CHANGE: f64 = 1e-10;
+/// Passes that bring more than this share of the one before do not come to an end in time.
+const MOST_CONTRACTION: f64 = 0.4;
+/// Springs turn less than this, rad: see [`sin_cos_small`].
+const MOST_TURN: f64 = 0.1;
+/// And in Newton's iteration: see [`Lanes::sin_cos_near_zero`].
+const MOST_TURN_FAR: f64 = 0.7;
 
 /// A limb on its way to equilibrium.
 pub(super) struct LoadedLimb<S: Simd> {
@@ -37,18 +46,28 @@ pub(super) struct LoadedLimb<S: Simd> {
     pub torque: Vec<Lanes<S>>,
     /// Of the platform on the limb's tip, about the tip, base axes.
     pub wrench: [Lanes<S>; 6],
+    /// Of every motion, where [`Self::frames`] has looked.
     pub places: Vec<Place<S>>,
-    /// Centres of the masses.
+    /// Centres of the masses, where [`Self::frames`] has looked.
     pub masses: Vec<Vec3<S>>,
     pub rotation: Mat3<S>,
     pub point: Vec3<S>,
+    /// Sine and cosine of every rotation, length of every other motion of a joint.
+    pub moved: Vec<[Lanes<S>; 2]>,
+    /// Gravity at every mass, m/s^2, axes of the frame there.
+    pub gravity: Vec<Vec3<S>>,
     /// Of the springs that depend on the commanded posture, in the order of the steps.
     laws: Vec<Symmetric<S>>,
+    /// Springs are deflected. The first pass finds them as they are drawn.
+    pub bent: bool,
+    /// One in the lanes where springs may turn more than [`sin_cos_small`] knows, if there are any.
+    pub far: Option<Lanes<S>>,
     /// Largest square of a rotation of a spring whose law is a series.
     largest: Lanes<S>,
-    /// Squares of the torques and of what the springs lacked in the last pass.
-    change: Lanes<S>,
+    /// Squares of the torques, of their changes in the last pass and in the one before.
     size: Lanes<S>,
+    change: Lanes<S>,
+    before: Lanes<S>,
     simd: S,
 }
 
@@ -60,19 +79,25 @@ impl<S: Simd> LoadedLimb<S> {
             origin: [zero; 3],
         };
         let masses = plan.steps.iter().filter(|s| matches!(s, Step::Mass { .. }));
+        let masses = vec![[zero; 3]; masses.count()];
         Self {
             coordinates: vec![zero; plan.coordinates],
             commands: vec![zero; plan.commands],
             torque: vec![zero; plan.coordinates],
             wrench: [zero; 6],
             places: vec![place; plan.screws.len()],
-            masses: vec![[zero; 3]; masses.count()],
+            gravity: masses.clone(),
+            masses,
             rotation: identity(simd),
             point: [zero; 3],
+            moved: vec![[zero; 2]; plan.screws.len()],
             laws: Vec::new(),
+            bent: false,
+            far: None,
             largest: zero,
-            change: zero,
             size: zero,
+            change: zero,
+            before: zero,
             simd,
         }
     }
@@ -85,6 +110,7 @@ impl<S: Simd> LoadedLimb<S> {
         self.coordinates.fill(zero);
         self.torque.fill(zero);
         self.wrench = [zero; 6];
+        (self.bent, self.far, self.change) = (false, None, zero);
         for (own, x) in plan.passive.iter().zip(passive) {
             self.coordinates[*own] = *x;
         }
@@ -99,92 +125,120 @@ impl<S: Simd> LoadedLimb<S> {
         }
     }
 
-    /// Frames at the present coordinates.
+    /// Where the tip is at the present coordinates, and which way gravity points at the masses.
     #[inline(always)]
-    pub fn outwards(&mut self, plan: &Plan) {
+    pub fn outwards(&mut self, plan: &Plan, gravity: &[f64; 3]) {
+        self.walk::<false>(plan, gravity);
+    }
+
+    /// The same, with the places of all motions and masses.
+    #[inline(always)]
+    pub fn frames(&mut self, plan: &Plan, gravity: &[f64; 3]) {
+        self.walk::<true>(plan, gravity);
+    }
+
+    #[inline(always)]
+    fn walk<const PLACES: bool>(&mut self, plan: &Plan, gravity: &[f64; 3]) {
         let simd = self.simd;
-        {
-            self.rotation = identity(simd);
-            self.point = [Lanes::new(simd, 0.0); 3];
-            let mut mass = 0;
-            for step in &plan.steps {
-                match step {
-                    Step::Shift(l) => {
-                        self.point = carried(&self.rotation, &constant(simd, l), &self.point);
+        let mut r = identity(simd);
+        let mut p = [Lanes::new(simd, 0.0); 3];
+        let mut mass = 0;
+        for step in &plan.steps {
+            match step {
+                Step::Shift(l) => shift(&r, l, &mut p),
+                Step::Rotate(by) => r = product(&r, &matrix(simd, by)),
+                Step::Joint(joint) => {
+                    if PLACES {
+                        self.places[joint.screw] = Place {
+                            axis: column(&r, joint.axis),
+                            origin: p,
+                        };
                     }
-                    Step::Rotate(r) => {
-                        let r = r.map(|x| Lanes::new(simd, x));
-                        self.rotation = product(&self.rotation, &r);
+                    let coordinate = match joint.amount.coordinate {
+                        Some((own, _)) => Some(self.coordinates[own]),
+                        None => None,
+                    };
+                    let amount = amount(simd, &joint.amount, &self.commands, coordinate);
+                    match joint.kind {
+                        MotionKind::Revolute => {
+                            let (s, c) = amount.sin_cos();
+                            self.moved[joint.screw] = [s, c];
+                            match joint.axis {
+                                0 => turn_columns::<S, 0>(&mut r, s, c),
+                                1 => turn_columns::<S, 1>(&mut r, s, c),
+                                _ => turn_columns::<S, 2>(&mut r, s, c),
+                            }
+                        }
+                        MotionKind::Prismatic => {
+                            self.moved[joint.screw][0] = amount;
+                            for k in 0..3 {
+                                p[k] = r[3 * k + joint.axis].times_plus(amount, p[k]);
+                            }
+                        }
                     }
-                    Step::Joint(joint) => match joint.axis {
-                        0 => self.joint::<0>(joint),
-                        1 => self.joint::<1>(joint),
-                        _ => self.joint::<2>(joint),
-                    },
-                    Step::Spring(spring) => self.spring(spring),
-                    Step::Mass { at, .. } => {
-                        self.masses[mass] =
-                            carried(&self.rotation, &constant(simd, at), &self.point);
-                        mass += 1;
+                }
+                Step::Spring(spring) if self.bent || PLACES => {
+                    self.spring::<PLACES>(spring, &mut r, &mut p);
+                }
+                Step::Spring(_) => {}
+                Step::Mass { at, .. } => {
+                    let mut own = [Lanes::new(simd, 0.0); 3];
+                    for k in 0..3 {
+                        if gravity[k] != 0.0 {
+                            let g = Lanes::new(simd, gravity[k]);
+                            for i in 0..3 {
+                                own[i] = r[3 * k + i].times_plus(g, own[i]);
+                            }
+                        }
                     }
+                    self.gravity[mass] = own;
+                    if PLACES {
+                        self.masses[mass] = carried(&r, &constant(simd, at), &p);
+                    }
+                    mass += 1;
                 }
             }
         }
+        (self.rotation, self.point) = (r, p);
     }
 
     #[inline(always)]
-    fn joint<const AXIS: usize>(&mut self, joint: &Joint) {
-        let coordinate = match joint.amount.coordinate {
-            Some((own, _)) => Some(self.coordinates[own]),
-            None => None,
-        };
-        let amount = amount(self.simd, &joint.amount, &self.commands, coordinate);
-        let axis = column(&self.rotation, AXIS);
-        self.places[joint.screw] = Place {
-            axis,
-            origin: self.point,
-        };
-        match joint.kind {
-            MotionKind::Revolute => {
-                let (s, c) = amount.sin_cos();
-                turn_columns::<S, AXIS>(&mut self.rotation, s, c);
-            }
-            MotionKind::Prismatic => {
-                for k in 0..3 {
-                    self.point[k] = axis[k].times_plus(amount, self.point[k]);
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn spring(&mut self, spring: &Spring) {
-        let zero = Lanes::new(self.simd, 0.0);
-        let value = |d: usize| spring.coordinates[d].map_or(zero, |own| self.coordinates[own]);
-        let l = [value(0), value(1), value(2)];
-        let turns = [value(3), value(4), value(5)];
+    fn spring<const PLACES: bool>(&mut self, spring: &Spring, r: &mut Mat3<S>, p: &mut Vec3<S>) {
+        let before = *r;
         let mut screw = spring.screw;
         for k in 0..3 {
-            if spring.coordinates[k].is_some() {
-                self.places[screw].axis = column(&self.rotation, k);
+            if let Some(own) = spring.coordinates[k] {
+                let l = self.coordinates[own];
+                for i in 0..3 {
+                    p[i] = before[3 * i + k].times_plus(l, p[i]);
+                }
+                if PLACES {
+                    self.places[screw].axis = column(&before, k);
+                }
                 screw += 1;
             }
         }
-        self.point = carried(&self.rotation, &l, &self.point);
         for k in 0..3 {
-            if spring.coordinates[3 + k].is_none() {
-                continue;
-            }
-            self.places[screw] = Place {
-                axis: column(&self.rotation, k),
-                origin: self.point,
-            };
-            screw += 1;
-            let (s, c) = turns[k].sin_cos_near_zero();
-            match k {
-                0 => turn_columns::<S, 0>(&mut self.rotation, s, c),
-                1 => turn_columns::<S, 1>(&mut self.rotation, s, c),
-                _ => turn_columns::<S, 2>(&mut self.rotation, s, c),
+            if let Some(own) = spring.coordinates[3 + k] {
+                if PLACES {
+                    self.places[screw] = Place {
+                        axis: column(r, k),
+                        origin: *p,
+                    };
+                }
+                let x = self.coordinates[own];
+                let (mut s, mut c) = sin_cos_small(x);
+                if let Some(far) = self.far {
+                    let (sine, cosine) = x.sin_cos_near_zero();
+                    (s, c) = (select(far, sine, s), select(far, cosine, c));
+                }
+                self.moved[screw] = [s, c];
+                screw += 1;
+                match k {
+                    0 => turn_columns::<S, 0>(r, s, c),
+                    1 => turn_columns::<S, 1>(r, s, c),
+                    _ => turn_columns::<S, 2>(r, s, c),
+                }
             }
         }
     }
@@ -192,57 +246,87 @@ impl<S: Simd> LoadedLimb<S> {
     /// Torques of the wrench at the tip and of the weights, where the limb lies; then the springs
     /// follow in the lanes where `active` is one.
     #[inline(always)]
-    pub fn inwards(&mut self, plan: &Plan, gravity: &[f64; 3], active: Lanes<S>) {
-        let simd = self.simd;
-        {
-            let zero = Lanes::new(simd, 0.0);
-            let gravity = constant(simd, gravity);
-            let [fx, fy, fz, mx, my, mz] = self.wrench;
-            let mut force = [fx, fy, fz];
-            // About the base's origin.
-            let lever = cross(&self.point, &force);
-            let mut moment = [mx + lever[0], my + lever[1], mz + lever[2]];
-            (self.change, self.size, self.largest) = (zero, zero, zero);
-            let (mut mass, mut law) = (self.masses.len(), self.laws.len());
-            for step in plan.steps.iter().rev() {
-                match step {
-                    Step::Mass { mass: m, .. } => {
-                        mass -= 1;
-                        let weight = gravity.map(|g| g * *m);
-                        let own = cross(&self.masses[mass], &weight);
-                        for k in 0..3 {
-                            force[k] = force[k] + weight[k];
-                            moment[k] = moment[k] + own[k];
-                        }
-                    }
-                    Step::Joint(joint) => {
-                        let Some((own, ratio)) = joint.amount.coordinate else {
-                            continue;
-                        };
-                        let Place { axis, origin } = &self.places[joint.screw];
-                        let torque = match joint.kind {
-                            MotionKind::Prismatic => dot(axis, &force),
-                            MotionKind::Revolute => {
-                                dot(axis, &minus(&moment, &cross(origin, &force)))
-                            }
-                        } * ratio;
-                        match joint.held {
-                            Held::Spring(compliance) => {
-                                self.bears(own, torque, self.torque[own], active);
-                                self.follows(own, torque * compliance, active);
-                            }
-                            // Several motions may belong to one passive joint: see `clear`.
-                            _ => self.torque[own] = self.torque[own] + torque,
-                        }
-                    }
-                    Step::Spring(spring) => {
-                        if matches!(spring.law, Law::Parallelogram(..)) {
-                            law -= 1;
-                        }
-                        self.spring_follows(spring, law, &force, &moment, active);
-                    }
-                    Step::Shift(_) | Step::Rotate(_) => {}
+    pub fn inwards(&mut self, plan: &Plan, active: Lanes<S>) {
+        let zero = Lanes::new(self.simd, 0.0);
+        let (mut force, mut moment) = self.at_tip();
+        self.before = self.change;
+        (self.change, self.size, self.largest) = (zero, zero, zero);
+        let (mut mass, mut law) = (self.gravity.len(), self.laws.len());
+        for step in plan.steps.iter().rev() {
+            match step {
+                Step::Mass { at, mass: m } => {
+                    mass -= 1;
+                    self.weight(mass, at, *m, &mut force, &mut moment);
                 }
+                Step::Shift(l) => lever(l, &force, &mut moment),
+                Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
+                Step::Joint(joint) => {
+                    let torque = self.joint_bears(joint, &mut force, &mut moment);
+                    self.joint_follows(joint, torque, active);
+                }
+                Step::Spring(spring) => {
+                    if matches!(spring.law, Law::Parallelogram(..)) {
+                        law -= 1;
+                    }
+                    let torque = self.spring_bears(spring, &mut force, &mut moment);
+                    self.spring_follows(spring, law, torque, active);
+                }
+            }
+        }
+        self.bent = true;
+    }
+
+    /// Force and moment of the platform on the tip, in the axes and about the origin of the frame there.
+    /// The walks back keep what is beyond the place reached in the frame there.
+    #[inline(always)]
+    pub fn at_tip(&self) -> (Vec3<S>, Vec3<S>) {
+        let zero = Lanes::new(self.simd, 0.0);
+        let (mut force, mut moment) = ([zero; 3], [zero; 3]);
+        for k in 0..3 {
+            for i in 0..3 {
+                force[k] = self.rotation[3 * i + k].times_plus(self.wrench[i], force[k]);
+                moment[k] = self.rotation[3 * i + k].times_plus(self.wrench[3 + i], moment[k]);
+            }
+        }
+        (force, moment)
+    }
+
+    /// Adds the weight of a mass with its centre at `at`.
+    #[inline(always)]
+    pub fn weight(
+        &self,
+        mass: usize,
+        at: &[f64; 3],
+        kilograms: f64,
+        force: &mut Vec3<S>,
+        moment: &mut Vec3<S>,
+    ) -> Vec3<S> {
+        let mut weight = self.gravity[mass];
+        for k in 0..3 {
+            weight[k] = weight[k] * kilograms;
+            force[k] = force[k] + weight[k];
+        }
+        lever(at, &weight, moment);
+        weight
+    }
+
+    /// What a joint bears along its motion; force and moment go on to where it begins.
+    #[inline(always)]
+    pub fn joint_bears(
+        &self,
+        joint: &Joint,
+        force: &mut Vec3<S>,
+        moment: &mut Vec3<S>,
+    ) -> Lanes<S> {
+        let [s, c] = self.moved[joint.screw];
+        match joint.kind {
+            MotionKind::Prismatic => {
+                slid(joint.axis, s, force, moment);
+                force[joint.axis]
+            }
+            MotionKind::Revolute => {
+                back(joint.axis, s, c, force, moment);
+                moment[joint.axis]
             }
         }
     }
@@ -255,13 +339,29 @@ impl<S: Simd> LoadedLimb<S> {
         }
     }
 
+    #[inline(always)]
+    fn joint_follows(&mut self, joint: &Joint, torque: Lanes<S>, active: Lanes<S>) {
+        let Some((own, ratio)) = joint.amount.coordinate else {
+            return;
+        };
+        match joint.held {
+            Held::Spring(compliance) => {
+                let torque = torque * ratio;
+                self.bears(own, torque, self.torque[own]);
+                self.follows(own, torque * compliance, active);
+            }
+            // Several motions may belong to one passive joint: see `clear`.
+            _ => self.torque[own] = torque.times_plus(torque.same(ratio), self.torque[own]),
+        }
+    }
+
     /// The torque on a coordinate is `torque` now; its spring bears `borne`.
     #[inline(always)]
-    fn bears(&mut self, own: usize, torque: Lanes<S>, borne: Lanes<S>, active: Lanes<S>) {
+    fn bears(&mut self, own: usize, torque: Lanes<S>, borne: Lanes<S>) {
         let change = torque - borne;
         self.change = change.times_plus(change, self.change);
         self.size = torque.times_plus(torque, self.size);
-        self.torque[own] = select(active, torque, self.torque[own]);
+        self.torque[own] = torque;
     }
 
     #[inline(always)]
@@ -269,39 +369,53 @@ impl<S: Simd> LoadedLimb<S> {
         self.coordinates[own] = select(active, to, self.coordinates[own]);
     }
 
+    /// Torques on a spring; force and moment go on to where it begins.
+    #[inline(always)]
+    pub fn spring_bears(
+        &self,
+        spring: &Spring,
+        force: &mut Vec3<S>,
+        moment: &mut Vec3<S>,
+    ) -> [Lanes<S>; 6] {
+        let zero = Lanes::new(self.simd, 0.0);
+        let mut torque = [zero; 6];
+        let mut screw = spring.screw + spring.moving;
+        for k in [2, 1, 0] {
+            torque[3 + k] = moment[k];
+            if spring.coordinates[3 + k].is_some() && self.bent {
+                screw -= 1;
+                let [s, c] = self.moved[screw];
+                back(k, s, c, force, moment);
+            }
+        }
+        torque[..3].copy_from_slice(force);
+        if self.bent {
+            for k in 0..3 {
+                if let Some(own) = spring.coordinates[k] {
+                    slid(k, self.coordinates[own], force, moment);
+                }
+            }
+        }
+        torque
+    }
+
     #[inline(always)]
     fn spring_follows(
         &mut self,
         spring: &Spring,
         law: usize,
-        force: &Vec3<S>,
-        moment: &Vec3<S>,
+        torque: [Lanes<S>; 6],
         active: Lanes<S>,
     ) {
         let zero = Lanes::new(self.simd, 0.0);
-        let (mut torque, mut from) = ([zero; 6], [zero; 6]);
-        let mut screw = spring.screw;
-        let mut about = None;
-        for d in 0..6 {
-            let Some(own) = spring.coordinates[d] else {
-                continue;
-            };
-            let Place { axis, origin } = &self.places[screw];
-            screw += 1;
-            torque[d] = if d < 3 {
-                dot(axis, force)
-            } else {
-                let m = about.get_or_insert_with(|| minus(moment, &cross(origin, force)));
-                dot(axis, m)
-            };
-            from[d] = self.coordinates[own];
-        }
-        // What the spring bears now, and the step or place that its compliance is multiplied with.
-        let (mut borne, mut lacks) = ([zero; 6], torque);
-        for d in 0..6 {
-            borne[d] = spring.coordinates[d].map_or(zero, |own| self.torque[own]);
-        }
+        // Where the spring is, what it bears there, and what its compliance is multiplied with.
+        let (mut from, mut borne, mut lacks) = ([zero; 6], [zero; 6], torque);
         if let Law::Bowing(length) = spring.law {
+            for d in 0..6 {
+                if let Some(own) = spring.coordinates[d] {
+                    from[d] = self.coordinates[own];
+                }
+            }
             let square;
             (borne, square) = law::bowing(self.simd, &spring.stiffness, length, &from);
             self.largest = self.largest.max(square);
@@ -309,47 +423,47 @@ impl<S: Simd> LoadedLimb<S> {
                 lacks[d] = torque[d] - borne[d];
             }
         } else {
-            from = [zero; 6];
-        }
-        let own = match spring.law {
-            Law::Parallelogram(..) => self.laws[law].times(&lacks),
-            Law::Constant | Law::Bowing(_) => {
-                let mut sums = [zero; 6];
-                for d in 0..6 {
-                    for k in 0..6 {
-                        let c = lacks[k].same(spring.compliance[6 * d + k]);
-                        sums[d] = lacks[k].times_plus(c, sums[d]);
-                    }
+            for d in 0..6 {
+                if let Some(own) = spring.coordinates[d] {
+                    borne[d] = self.torque[own];
                 }
-                sums
             }
+        }
+        let step = match spring.law {
+            Law::Parallelogram(..) => self.laws[law].times(&lacks),
+            Law::Constant | Law::Bowing(_) => times(&spring.compliance, &lacks),
         };
         for d in 0..6 {
-            if let Some(place) = spring.coordinates[d] {
-                self.bears(place, torque[d], borne[d], active);
-                self.follows(place, from[d] + own[d], active);
+            if let Some(own) = spring.coordinates[d] {
+                self.bears(own, torque[d], borne[d]);
+                self.follows(own, from[d] + step[d], active);
             }
         }
     }
 
-    /// One in the lanes where the torques still change.
+    /// One in the lanes where the next pass would still change the torques. If passes contract by a
+    /// ratio, the next change is that ratio times the last one.
     #[inline(always)]
     fn moving(&self) -> Lanes<S> {
         let one = Lanes::new(self.simd, 1.0);
-        let allowed = self.size * (TOLERANCE * TOLERANCE);
-        allowed.where_less(self.change, one, one.same(0.0))
+        let most = self.size * (LAST_CHANGE * LAST_CHANGE);
+        let moving = most.where_less(self.change, one, one.same(0.0));
+        let allowed = self.before * self.size * (TOLERANCE * TOLERANCE);
+        allowed.where_less(self.change * self.change, one, moving)
     }
 
-    /// One where every spring turns little enough and all numbers are numbers.
+    /// One where every spring turns less than so much (rad) and all numbers are numbers.
     #[inline(always)]
-    pub fn sound(&self, plan: &Plan) -> Lanes<S> {
+    pub fn sound(&self, plan: &Plan, turn: f64) -> Lanes<S> {
         let one = Lanes::new(self.simd, 1.0);
         let mut most = one.same(0.0);
         for step in &plan.steps {
             if let Step::Spring(spring) = step {
-                for own in spring.coordinates[3..].iter().flatten() {
-                    let x = self.coordinates[*own].abs();
-                    most = x.where_less(one * MOST_TURN, most, one);
+                for k in 3..6 {
+                    if let Some(own) = spring.coordinates[k] {
+                        let x = self.coordinates[own].abs();
+                        most = x.where_less(one * turn, most, one);
+                    }
                 }
             }
         }
@@ -360,27 +474,143 @@ impl<S: Simd> LoadedLimb<S> {
     }
 }
 
+/// Sine and cosine of |x| <= 0.1 rad to rounding: their series.
+#[inline(always)]
+fn sin_cos_small<S: Simd>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+    let z = x * x;
+    let sine = z.polynomial(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0]);
+    let cosine = z.polynomial(&[1.0 / 40_320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5, 1.0]);
+    ((x * z).times_plus(sine, x), cosine)
+}
+
+/// `p + R l` for a constant `l`, often along an axis.
+#[inline(always)]
+fn shift<S: Simd>(r: &Mat3<S>, l: &[f64; 3], p: &mut Vec3<S>) {
+    for k in 0..3 {
+        if l[k] != 0.0 {
+            for i in 0..3 {
+                p[i] = r[3 * i + k].times_plus(p[i].same(l[k]), p[i]);
+            }
+        }
+    }
+}
+
+/// `m + l x f` for a constant `l`, often along an axis.
+#[inline(always)]
+pub(super) fn lever<S: Simd>(l: &[f64; 3], f: &Vec3<S>, m: &mut Vec3<S>) {
+    for k in 0..3 {
+        if l[k] != 0.0 {
+            slid(k, f[0].same(l[k]), f, m);
+        }
+    }
+}
+
+/// The moment of a force about a point that lies `l` back along an axis: `m + l e x f`.
+#[inline(always)]
+pub(super) fn slid<S: Simd>(axis: usize, l: Lanes<S>, f: &Vec3<S>, m: &mut Vec3<S>) {
+    match axis {
+        0 => slid_along::<S, 0>(l, f, m),
+        1 => slid_along::<S, 1>(l, f, m),
+        _ => slid_along::<S, 2>(l, f, m),
+    }
+}
+
+#[inline(always)]
+fn slid_along<S: Simd, const AXIS: usize>(l: Lanes<S>, f: &Vec3<S>, m: &mut Vec3<S>) {
+    let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
+    m[j] = l.times_from(f[k], m[j]);
+    m[k] = l.times_plus(f[j], m[k]);
+}
+
+/// Force and moment in the axes before a rotation about one of them: `Rot(axis) v`.
+#[inline(always)]
+pub(super) fn back<S: Simd>(
+    axis: usize,
+    s: Lanes<S>,
+    c: Lanes<S>,
+    f: &mut Vec3<S>,
+    m: &mut Vec3<S>,
+) {
+    match axis {
+        0 => {
+            back_about::<S, 0>(s, c, f);
+            back_about::<S, 0>(s, c, m);
+        }
+        1 => {
+            back_about::<S, 1>(s, c, f);
+            back_about::<S, 1>(s, c, m);
+        }
+        _ => {
+            back_about::<S, 2>(s, c, f);
+            back_about::<S, 2>(s, c, m);
+        }
+    }
+}
+
+#[inline(always)]
+fn back_about<S: Simd, const AXIS: usize>(s: Lanes<S>, c: Lanes<S>, v: &mut Vec3<S>) {
+    let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
+    let (a, b) = (v[j], v[k]);
+    v[j] = s.times_from(b, c * a);
+    v[k] = s.times_plus(a, c * b);
+}
+
+/// Force and moment in the axes before a constant rotation.
+#[inline(always)]
+pub(super) fn rotated_back<S: Simd>(simd: S, by: &[f64; 9], f: &mut Vec3<S>, m: &mut Vec3<S>) {
+    let (r, zero) = (matrix(simd, by), Lanes::new(simd, 0.0));
+    *f = carried(&r, f, &[zero; 3]);
+    *m = carried(&r, m, &[zero; 3]);
+}
+
+/// A constant 6 x 6 matrix times six numbers.
+#[inline(always)]
+pub(super) fn times<S: Simd>(matrix: &[f64; 36], x: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
+    let mut out = *x;
+    for i in 0..6 {
+        let mut sum = x[0] * matrix[6 * i];
+        for j in 1..6 {
+            sum = x[j].times_plus(x[j].same(matrix[6 * i + j]), sum);
+        }
+        out[i] = sum;
+    }
+    out
+}
+
 /// Equilibrium of a serial limb under a dead wrench at its tip: one in the lanes that are done.
 #[inline(always)]
 pub(super) fn serial<S: Simd>(
     simd: S,
     plan: &Plan,
     limb: &mut LoadedLimb<S>,
+    newton: &mut Option<Newton<S>>,
     wrench: [Lanes<S>; 6],
     gravity: &[f64; 3],
 ) -> Lanes<S> {
-    let one = Lanes::new(simd, 1.0);
-    let mut active = one;
+    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+    let (mut active, mut lost) = (one, zero);
     limb.wrench = wrench;
     for pass in 0..=MOST_PASSES {
-        limb.outwards(plan);
+        limb.outwards(plan, gravity);
         if pass == MOST_PASSES || active.all_less(0.5) {
             break;
         }
-        limb.inwards(plan, gravity, active);
+        limb.inwards(plan, active);
         active = active * limb.moving();
+        if pass > 0 {
+            let most = limb.before * (MOST_CONTRACTION * MOST_CONTRACTION);
+            lost = select(active, most.where_less(limb.change, one, zero), lost);
+            active = active * (one - lost);
+        }
     }
-    (one - active) * limb.sound(plan)
+    let done = (one - active) * (one - lost) * limb.sound(plan, MOST_TURN);
+    if let Some(newton) = newton
+        && !(one - done).all_less(0.5)
+    {
+        let found = newton.settle(plan, limb, gravity, one - done);
+        return done + found * limb.sound(plan, MOST_TURN_FAR);
+    }
+    done
 }
 
 /// Limbs that hold one platform.
@@ -405,7 +635,7 @@ impl<S: Simd> Held6<'_, S> {
         let one = Lanes::new(simd, 1.0);
         let mut active = one;
         for limb in self.limbs.iter_mut().zip(self.plans) {
-            limb.0.outwards(limb.1);
+            limb.0.outwards(limb.1, &self.gravity);
         }
         for _ in 0..MOST_PASSES {
             active = self.pass(simd, wrench, active);
@@ -414,8 +644,10 @@ impl<S: Simd> Held6<'_, S> {
             }
         }
         let mut done = one - active;
-        for (limb, plan) in self.limbs.iter().zip(self.plans) {
-            done = done * limb.sound(plan);
+        for (limb, plan) in self.limbs.iter_mut().zip(self.plans) {
+            // The last pass has moved the passive joints.
+            limb.outwards(plan, &self.gravity);
+            done = done * limb.sound(plan, MOST_TURN);
         }
         done
     }
@@ -425,7 +657,10 @@ impl<S: Simd> Held6<'_, S> {
         let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
         let mut moving = zero;
         // What the limbs lack, to first order, with the platform where it is.
-        let weight = self.gravity.map(|g| one * (g * self.body.1));
+        let mut weight = constant(simd, &self.gravity);
+        for x in &mut weight {
+            *x = *x * self.body.1;
+        }
         let arm = carried(&self.rotation, &constant(simd, &self.body.0), &[zero; 3]);
         let lever = cross(&arm, &weight);
         let mut lacks = *wrench;
@@ -435,8 +670,8 @@ impl<S: Simd> Held6<'_, S> {
         }
         for ((limb, plan), factors) in self.limbs.iter_mut().zip(self.plans).zip(self.factors) {
             limb.clear(plan);
-            limb.inwards(plan, &self.gravity, active);
-            limb.outwards(plan);
+            limb.inwards(plan, active);
+            limb.outwards(plan, &self.gravity);
             let gap = gap(limb, plan, &self.rotation, &self.point);
             for x in gap {
                 // A share of the natural length, or rad.
@@ -473,7 +708,7 @@ impl<S: Simd> Held6<'_, S> {
                 limb.coordinates[*own] = select(active, x + dq, x);
             }
         }
-        let turned = turned(simd, &[motion[3], motion[4], motion[5]], &self.rotation);
+        let turned = turned(&[motion[3], motion[4], motion[5]], &self.rotation);
         for k in 0..3 {
             self.point[k] = select(active, self.point[k] + motion[k], self.point[k]);
         }
@@ -492,9 +727,10 @@ pub(super) fn select<S: Simd>(active: Lanes<S>, yes: Lanes<S>, no: Lanes<S>) -> 
 /// From a limb's tip to the platform, balanced: share of the natural length, rad.
 #[inline(always)]
 fn gap<S: Simd>(limb: &LoadedLimb<S>, plan: &Plan, to: &Mat3<S>, point: &Vec3<S>) -> [Lanes<S>; 6] {
-    let l = minus(point, &limb.point).map(|x| x * (1.0 / plan.length));
+    let l = minus(point, &limb.point);
     let a = turn_between(to, &limb.rotation);
-    [l[0], l[1], l[2], a[0], a[1], a[2]]
+    let share = 1.0 / plan.length;
+    [l[0] * share, l[1] * share, l[2] * share, a[0], a[1], a[2]]
 }
 
 /// Change of a limb's wrench (N, N m) and of its passive joints that closes a gap and frees the joints of torque.
@@ -521,7 +757,7 @@ fn correction<S: Simd>(
 
 /// `exp(hat(v)) R` for a small rotation vector.
 #[inline(always)]
-pub(super) fn turned<S: Simd>(simd: S, v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
+pub(super) fn turned<S: Simd>(v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
     let z = dot(v, v);
     let a = z.polynomial(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0]);
     let b = z.polynomial(&[
@@ -532,7 +768,6 @@ pub(super) fn turned<S: Simd>(simd: S, v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
         0.5,
     ]);
     let mut out = *r;
-    let _ = simd;
     for k in 0..3 {
         let own = column(r, k);
         let once = cross(v, &own);
@@ -547,15 +782,5 @@ pub(super) fn turned<S: Simd>(simd: S, v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
 /// Twist of a limb's tip per unit of a motion, base axes.
 #[inline(always)]
 pub(super) fn twist<S: Simd>(limb: &LoadedLimb<S>, plan: &Plan, screw: usize) -> [Lanes<S>; 6] {
-    let Place { axis, origin } = &limb.places[screw];
-    match plan.screws[screw].kind {
-        MotionKind::Revolute => {
-            let v = cross(axis, &minus(&limb.point, origin));
-            [v[0], v[1], v[2], axis[0], axis[1], axis[2]]
-        }
-        MotionKind::Prismatic => {
-            let zero = axis[0].same(0.0);
-            [axis[0], axis[1], axis[2], zero, zero, zero]
-        }
-    }
+    limb.places[screw].twist(plan.screws[screw].kind, &limb.point)
 }

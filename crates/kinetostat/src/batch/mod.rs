@@ -17,6 +17,9 @@ mod equilibria;
 mod lanes;
 mod law;
 mod loaded;
+mod newton;
+#[cfg(test)]
+mod newton_tests;
 mod plan;
 mod reach;
 mod run;

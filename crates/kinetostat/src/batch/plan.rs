@@ -95,6 +95,8 @@ pub(super) struct Spring {
     pub coordinates: [Option<usize>; 6],
     /// The first of its places in [`Plan::screws`], one per direction that moves.
     pub screw: usize,
+    /// Number of directions that move.
+    pub moving: usize,
     /// Its compliance, row by row; zero where a direction does not move.
     pub compliance: Box<[f64; 36]>,
     /// Its stiffness, row by row.
@@ -173,6 +175,8 @@ pub(super) struct Plan {
     pub home_commands: Vec<f64>,
     /// Natural length, m.
     pub length: f64,
+    /// Of every coordinate: what makes it a share of the natural length, or an angle.
+    pub units: Vec<f64>,
 }
 
 /// Why a machine is solved posture by posture instead.
@@ -264,7 +268,15 @@ impl Plan {
                 search(Rows::Rotation, joints - 3..joints, writer.steps.len()),
             ],
         };
+        let length = chain.scale().length;
+        let mut units = vec![1.0; chain.coordinate_count()];
+        for screw in &writer.screws {
+            if let (Some((own, _)), MotionKind::Prismatic) = (screw.coordinate, screw.kind) {
+                units[own] = 1.0 / length;
+            }
+        }
         Ok(Self {
+            units,
             passive_drives,
             one_each: driven.iter().all(|n| *n == 1),
             polar: sphere
@@ -278,7 +290,7 @@ impl Plan {
             commands: chain.actuators().len(),
             home: chain.home_coordinates(),
             home_commands: chain.home_commands(),
-            length: chain.scale().length,
+            length,
             passive,
         })
     }
@@ -540,6 +552,7 @@ impl Writer<'_> {
         Ok(Spring {
             coordinates,
             screw: 0,
+            moving: directions.len(),
             compliance: spread(&inverse),
             stiffness: spread(k),
             law,

@@ -8,6 +8,7 @@ use super::compensate;
 use super::eliminate::Eliminated;
 use super::lanes::{self, Lanes, identity};
 use super::loaded::{Held6, LoadedLimb, serial};
+use super::newton::Newton;
 use super::plan::Plan;
 use super::reach::{Joints, Target};
 use super::symmetric::Symmetric;
@@ -83,8 +84,40 @@ pub(super) struct Answers<'a> {
 }
 
 impl Work<'_> {
+    /// In the widest registers that the postures fill at least by half: one posture costs as much in a
+    /// wide register as eight.
     pub fn run(self) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            match self.len() {
+                0..=1 => return Simd::vectorize(simd, One(self)),
+                2..=4 => return Simd::vectorize(simd, self),
+                _ => {}
+            }
+        }
         Arch::new().dispatch(self);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn len(&self) -> usize {
+        match self {
+            Self::Unloaded { found, .. } => found.len(),
+            Self::Loaded { answers, .. } => answers.found.len(),
+        }
+    }
+}
+
+/// In single numbers, with the fused multiply-adds of the instruction set.
+#[cfg(target_arch = "x86_64")]
+struct One<'a>(Work<'a>);
+
+#[cfg(target_arch = "x86_64")]
+impl WithSimd for One<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.with_simd(pulp::Scalar);
     }
 }
 
@@ -153,6 +186,7 @@ impl WithSimd for Work<'_> {
                     machine.actuator_forces(simd);
                     group.put(answers.forces, 0, &machine.forces);
                     if !answers.stiffness.is_empty() {
+                        machine.limbs[0].frames(&actual[0], &gravity);
                         let (k, regular) =
                             tangent::stiffness(simd, &actual[0], &machine.limbs[0], &gravity);
                         good = good.least_of(regular);
@@ -363,6 +397,7 @@ pub(super) struct Machine<'a, S: Simd> {
     walks: Vec<(Walk<S>, Walk<S>)>,
     joints: Vec<Joints<S>>,
     limbs: Vec<LoadedLimb<S>>,
+    newton: Option<Newton<S>>,
     factors: Vec<Eliminated<S>>,
     body: ([f64; 3], f64),
     gravity: [f64; 3],
@@ -392,6 +427,8 @@ impl<'a, S: Simd> Machine<'a, S> {
                 .collect(),
             joints: nominal.iter().map(|n| Joints::new(simd, n)).collect(),
             limbs: actual.iter().map(|a| LoadedLimb::new(simd, a)).collect(),
+            newton: (actual.len() == 1 && actual[0].has_tangent())
+                .then(|| Newton::new(simd, &actual[0])),
             factors: Vec::with_capacity(actual.len()),
             body,
             gravity,
@@ -411,7 +448,7 @@ impl<'a, S: Simd> Machine<'a, S> {
         let mut first = 0;
         for (limb, plan) in self.limbs.iter().zip(self.actual) {
             let own = &mut self.forces[first..first + plan.commands];
-            actuators::forces(simd, plan, limb, &self.gravity, own);
+            actuators::forces(simd, plan, limb, own);
             first += plan.commands;
         }
     }
@@ -445,7 +482,14 @@ impl<'a, S: Simd> Machine<'a, S> {
         }
         if self.actual.len() == 1 && self.actual[0].passive.is_empty() && self.body.1 == 0.0 {
             let limb = &mut self.limbs[0];
-            let done = serial(simd, &self.actual[0], limb, *wrench, &self.gravity);
+            let done = serial(
+                simd,
+                &self.actual[0],
+                limb,
+                &mut self.newton,
+                *wrench,
+                &self.gravity,
+            );
             (self.rotation, self.point) = (limb.rotation, limb.point);
             return good.least_of(done);
         }

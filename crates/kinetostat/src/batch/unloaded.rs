@@ -24,6 +24,24 @@ pub(super) struct Place<S: Simd> {
     pub origin: Vec3<S>,
 }
 
+impl<S: Simd> Place<S> {
+    /// Twist of a body at `point` per unit of the motion, base axes.
+    #[inline(always)]
+    pub fn twist(&self, kind: MotionKind, point: &Vec3<S>) -> [Lanes<S>; 6] {
+        let Self { axis, origin } = self;
+        match kind {
+            MotionKind::Revolute => {
+                let v = cross(axis, &minus(point, origin));
+                [v[0], v[1], v[2], axis[0], axis[1], axis[2]]
+            }
+            MotionKind::Prismatic => {
+                let zero = axis[0].same(0.0);
+                [axis[0], axis[1], axis[2], zero, zero, zero]
+            }
+        }
+    }
+}
+
 /// Where a limb is and what its springs yield: buffers of one walk.
 pub(super) struct Walk<S: Simd> {
     /// Of the frame reached, base axes.
@@ -183,17 +201,7 @@ impl<S: Simd> Walk<S> {
     /// Twist of the frame reached per unit of a motion, base axes.
     #[inline(always)]
     pub fn twist(&self, plan: &Plan, screw: usize) -> [Lanes<S>; 6] {
-        let Place { axis, origin } = &self.places[screw];
-        match plan.screws[screw].kind {
-            MotionKind::Revolute => {
-                let v = cross(axis, &minus(&self.point, origin));
-                [v[0], v[1], v[2], axis[0], axis[1], axis[2]]
-            }
-            MotionKind::Prismatic => {
-                let zero = axis[0].same(0.0);
-                [axis[0], axis[1], axis[2], zero, zero, zero]
-            }
-        }
+        self.places[screw].twist(plan.screws[screw].kind, &self.point)
     }
 
     /// Sum of the twists of the motions that each of the unknowns drives.
