@@ -9,4 +9,4 @@ mod task;
 #[cfg(feature = "python")]
 mod python;
 
-pub use task::{Answers, Places, Task, Work};
+pub use task::{Answers, Places, Results, Task, Work};

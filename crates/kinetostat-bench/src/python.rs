@@ -10,12 +10,13 @@ use pyo3::prelude::*;
 #[pymodule]
 mod kinetostat_bench {
     use std::path::PathBuf;
+    use std::sync::Mutex;
 
     use pyo3::exceptions::PyValueError;
     use pyo3::prelude::*;
     use pyo3::types::{PyBytes, PyDict};
 
-    use crate::{Places, Task as Own, Work};
+    use crate::{Places, Results, Task as Own, Work};
 
     fn refused(error: impl std::fmt::Display) -> PyErr {
         PyValueError::new_err(format!("{error:#}"))
@@ -28,7 +29,7 @@ mod kinetostat_bench {
 
     /// A question for many postures of one machine.
     #[pyclass(frozen)]
-    struct Task(Own);
+    struct Task(Own, Mutex<Results>);
 
     #[pymethods]
     impl Task {
@@ -57,7 +58,7 @@ mod kinetostat_bench {
             };
             let wrenches = wrenches.map(numbers).unwrap_or_default();
             let own = Own::open(&model, work, places, &wrenches).map_err(refused)?;
-            Ok(Self(own))
+            Ok(Self(own, Mutex::default()))
         }
 
         /// Why the postures are solved one by one, or None.
@@ -67,7 +68,8 @@ mod kinetostat_bench {
 
         /// Goes once through all postures, `block` of them in each call: what is timed.
         fn run(&self, block: usize) -> PyResult<()> {
-            self.0.run(block).map_err(refused)
+            let mut results = self.1.lock().map_err(refused)?;
+            self.0.run(block, &mut results).map_err(refused)
         }
 
         /// A dictionary of bytes: tool, coordinates, stiffness, jacobian; and the numbers of postures

@@ -81,8 +81,8 @@ pub struct Answers {
 }
 
 /// Results that are written over block by block.
-#[derive(Default)]
-struct Results {
+#[derive(Debug, Default)]
+pub struct Results {
     unloaded: BatchStiffness,
     loaded: BatchEquilibrium,
 }
@@ -201,14 +201,36 @@ impl Task {
     ///
     /// # Errors
     /// What the machine refuses.
-    pub fn run(&self, block: usize) -> Result<()> {
+    pub fn run(&self, block: usize, results: &mut Results) -> Result<()> {
         let block = block.max(1);
-        let mut results = Results::default();
         for from in (0..self.len()).step_by(block) {
-            self.ask(from, (from + block).min(self.len()), &mut results)?;
-            black_box(&results);
+            self.ask(from, (from + block).min(self.len()), results)?;
+            black_box(&*results);
         }
         Ok(())
+    }
+
+    /// Number of postures that are solved one by one, or not at all.
+    ///
+    /// # Errors
+    /// What the machine refuses.
+    pub fn lonely(&self, block: usize) -> Result<usize> {
+        let block = block.max(1);
+        let mut results = Results::default();
+        let mut count = 0;
+        for from in (0..self.len()).step_by(block) {
+            self.ask(from, (from + block).min(self.len()), &mut results)?;
+            let found = self.found(&results);
+            count += found.iter().filter(|f| **f != Found::Together).count();
+        }
+        Ok(count)
+    }
+
+    fn found<'a>(&self, results: &'a Results) -> &'a [Found] {
+        match self.loaded() {
+            true => &results.loaded.found,
+            false => &results.unloaded.found,
+        }
     }
 
     /// The answers of all postures, `block` in each call.
@@ -228,11 +250,11 @@ impl Task {
             add(&mut all.tool, &loaded.tool);
             add(&mut all.coordinates, &loaded.coordinates);
             add(&mut all.jacobian, &unloaded.jacobian);
-            let (stiffness, found) = match self.loaded() {
-                true => (&loaded.stiffness, &loaded.found),
-                false => (&unloaded.stiffness, &unloaded.found),
-            };
-            add(&mut all.stiffness, stiffness);
+            match self.loaded() {
+                true => add(&mut all.stiffness, &loaded.stiffness),
+                false => add(&mut all.stiffness, &unloaded.stiffness),
+            }
+            let found = self.found(&results);
             let count = |how| found.iter().filter(|f| **f == how).count();
             all.together += count(Found::Together);
             all.not_found += count(Found::Not);

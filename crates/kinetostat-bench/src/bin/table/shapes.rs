@@ -34,18 +34,17 @@ pub fn table() -> Result<()> {
                 Work::Equilibrium,
                 Work::EquilibriumAndStiffness,
             ];
-            let mut alone = Vec::new();
+            let mut lonely = Vec::new();
             for (work, width) in works.into_iter().zip([12, 14, 16]) {
-                let probe = machine.task(work, FEW, bowing)?.answers(FEW)?;
-                let lonely = FEW - probe.together;
-                let count = if lonely > FEW / 2 { FEW } else { POSTURES };
+                let most_alone = machine.task(work, FEW, bowing)?.lonely(BLOCK)? > FEW / 2;
+                let count = if most_alone { FEW } else { POSTURES };
                 let task = machine.task(work, count, bowing)?;
                 let time = shortest(&task, BLOCK)?;
                 let each = time * 1e3 / machine.springs as f64;
                 print!("{time:>width$.3}{each:>8.1}");
-                alone.push(count - task.answers(BLOCK)?.together);
+                lonely.push(format!("{}/{count}", task.lonely(BLOCK)?));
             }
-            println!("  {} {} {} of {POSTURES}", alone[0], alone[1], alone[2]);
+            println!("  {}", lonely.join(" "));
         }
     }
     println!();
