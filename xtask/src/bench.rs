@@ -46,6 +46,13 @@ pub fn versus_numpy(options: &[&str]) -> Result<()> {
             if !status.success() {
                 bail!("the comparison with numpy failed ({status})");
             }
+            eprintln!();
+            step(
+                "many postures",
+                cargo()
+                    .args(["run", "--release", "--quiet", "-p", "kinetostat-bench"])
+                    .args(["--bin", "table"]),
+            )?;
         }
         ["--json"] => show(&measured()?)?,
         [other, ..] => bail!("'{other}' is no option of bench-vs-numpy; --json is"),

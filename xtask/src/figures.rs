@@ -493,12 +493,15 @@ fn speed(figures: &mut Vec<Figure>) -> Result<()> {
             figures.push(Figure::at_most(name, apart, 1e-9, "1"));
         }
     }
-    tables(figures, &["kinetostat-bench", "--bin", "table"])
+    tables(
+        figures,
+        &["kinetostat-bench", "--bin", "table", "--", "--figures"],
+    )
 }
 
 /// A program of a crate that prints tables, which go to stderr, and figures.
 fn tables(figures: &mut Vec<Figure>, program: &[&str]) -> Result<()> {
-    let name = program.last().unwrap_or(&"");
+    let name = program.get(2).unwrap_or(&"");
     let output = cargo()
         .args(["run", "--release", "--quiet", "-p"])
         .args(program)

@@ -1,5 +1,6 @@
 //! Tables of what many postures cost: machines of different shapes, one posture at a time, two threads,
-//! growth with springs, limbs and postures, memory. Figures for `cargo xtask figures` follow each.
+//! growth with springs, limbs and postures, memory. With `--figures`, what `cargo xtask figures` shows
+//! follows each.
 //!
 //! ```sh
 //! cargo run --release -p kinetostat-bench --bin table
@@ -58,8 +59,11 @@ fn shortest(task: &Task, block: usize) -> Result<f64> {
     Ok(best / task.len() as f64 * 1e6)
 }
 
-/// A line that `cargo xtask figures` reads.
+/// A line that `cargo xtask figures` reads; with `--figures` only.
 fn figure(name: &str, measured: f64, asked: &str, unit: &str, holds: bool) {
+    if !std::env::args().any(|word| word == "--figures") {
+        return;
+    }
     let name = name.replace('"', "'");
     println!(
         r#"figure {{"name":"{name}","measured":{measured:e},"asked":"{asked}","unit":"{unit}","holds":{holds}}}"#
