@@ -153,6 +153,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     let mut figures = Vec::new();
     demo(&mut figures)?;
     pocket(&mut figures)?;
+    maps(&mut figures)?;
     real_programs(&mut figures)?;
     golden(&mut figures)?;
     cost_growth(&mut figures)?;
@@ -353,6 +354,54 @@ fn pocket(figures: &mut Vec<Figure>) -> Result<()> {
         again.seconds / used.seconds,
         2.2,
         "times",
+    ));
+    Ok(())
+}
+
+/// A million postures through the command, unloaded.
+fn maps(figures: &mut Vec<Figure>) -> Result<()> {
+    let scratch = Scratch::new("map")?;
+    let name = "map of 1e6 postures on orthoglide, written to a table";
+    let mut tables = Vec::new();
+    for threads in ["1", "2"] {
+        let arguments = [
+            "map",
+            "orthoglide",
+            "--x",
+            "-70",
+            "70",
+            "100",
+            "--y",
+            "-70",
+            "70",
+            "100",
+            "--z",
+            "-60",
+            "60",
+            "100",
+            "--csv",
+            threads,
+            "--threads",
+            threads,
+        ];
+        let used = measure(&scratch.0, &arguments)?;
+        if !used.success {
+            bail!("map failed: {}{}", used.stdout, used.stderr);
+        }
+        if let Some(memory) = used.memory_mb {
+            let name = format!("{name}, threads {threads}: peak memory");
+            figures.push(Figure::at_most(name, memory, 200.0, "MB"));
+        }
+        eprintln!(
+            "   a map of 1e6 postures, threads {threads}: {:.1} s",
+            used.seconds
+        );
+        tables.push(fs::read(scratch.0.join(threads))?);
+    }
+    let same = tables[0] == tables[1];
+    figures.push(Figure::yes(
+        format!("{name}: one thread and two give the same bytes"),
+        same,
     ));
     Ok(())
 }

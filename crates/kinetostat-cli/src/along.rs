@@ -68,8 +68,11 @@ impl Files {
             self.outputs.fill(index, json(&run.result)?.as_bytes())?;
         }
         if let Some(index) = self.points {
-            let table = points_csv::table(&run.result.question, &run.points)?;
-            self.outputs.fill(index, &table)?;
+            let outputs = &mut self.outputs;
+            points_csv::table(&run.result.question, &run.points, |bytes| {
+                outputs.append(index, bytes)
+            })?;
+            outputs.complete(index)?;
         }
         if let Some(index) = self.report {
             let page = kinetostat_report::html(&run.result)

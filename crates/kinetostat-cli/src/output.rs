@@ -154,25 +154,8 @@ impl Outputs {
 
     /// Writes the bytes of a claimed output beside its target.
     pub(crate) fn fill(&mut self, index: usize, bytes: &[u8]) -> Answer<()> {
-        let existing = self.existing;
-        let claimed = &mut self.claimed[index];
-        if existing == Existing::KeepSame {
-            match fs::read(&claimed.target) {
-                Ok(present) if present == bytes => claimed.identical = true,
-                Ok(_) => {
-                    return Err(Failure::input(format!(
-                        "'{}' exists already and differs from what would be written; choose another directory with --out, or allow it with --force-overwrite",
-                        claimed.target.display()
-                    )));
-                }
-                Err(_) => {}
-            }
-        }
-        let file = claimed.file.as_file_mut();
-        file.write_all(bytes)
-            .and_then(|()| file.flush())
-            .and_then(|()| file.sync_all())
-            .map_err(|error| claimed.refused(&error))
+        self.append(index, bytes)?;
+        self.complete(index)
     }
 
     /// Writes the next bytes of a claimed output beside its target; [`Self::complete`] follows the
@@ -183,11 +166,24 @@ impl Outputs {
         written.map_err(|error| claimed.refused(&error))
     }
 
-    /// All bytes of a claimed output have been appended.
+    /// All bytes of a claimed output are there.
     pub(crate) fn complete(&mut self, index: usize) -> Answer<()> {
+        let existing = self.existing;
         let claimed = &mut self.claimed[index];
         let kept = claimed.file.as_file_mut().sync_all();
-        kept.map_err(|error| claimed.refused(&error))
+        kept.map_err(|error| claimed.refused(&error))?;
+        if existing == Existing::KeepSame
+            && let Some(same) = same_bytes(claimed.file.path(), &claimed.target)
+        {
+            claimed.identical = same;
+            if !same {
+                return Err(Failure::input(format!(
+                    "'{}' exists already and differs from what would be written; choose another directory with --out, or allow it with --force-overwrite",
+                    claimed.target.display()
+                )));
+            }
+        }
+        Ok(())
     }
 
     /// Renames all outputs into place. If one cannot be, those before it are taken back.
@@ -253,6 +249,11 @@ impl Outputs {
         }
         Ok(paths)
     }
+}
+
+/// Whether two files hold the same, if both can be read.
+fn same_bytes(one: &Path, other: &Path) -> Option<bool> {
+    Some(fs::read(one).ok()? == fs::read(other).ok()?)
 }
 
 fn parent_of(path: &Path) -> PathBuf {

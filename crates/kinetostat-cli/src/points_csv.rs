@@ -4,9 +4,23 @@ use kinetostat_machining::{PointKind, PointResult, Question};
 
 use crate::failure::{Answer, Failure};
 
-/// The table; it opens in a spreadsheet, and the decimal mark is a point.
-pub(crate) fn table(question: &Question, points: &[PointResult]) -> Answer<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::with_capacity(256 * points.len() + 1024));
+/// Points whose lines are in memory at a time.
+const BLOCK: usize = 4096;
+
+/// The table piece by piece; it opens in a spreadsheet, and the decimal mark is a point.
+pub(crate) fn table(
+    question: &Question,
+    points: &[PointResult],
+    mut put: impl FnMut(&[u8]) -> Answer<()>,
+) -> Answer<()> {
+    put(&header(question)?)?;
+    points
+        .chunks(BLOCK)
+        .try_for_each(|block| put(&lines(block)?))
+}
+
+fn header(question: &Question) -> Answer<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
     let mut header: Vec<String> = ["line", "output_line", "kind", "share", "path_mm"]
         .map(String::from)
         .to_vec();
@@ -33,7 +47,12 @@ pub(crate) fn table(question: &Question, points: &[PointResult]) -> Answer<Vec<u
     }
     header.extend(["smallest_stiffness_n_per_mm", "buckling_margin", "status"].map(String::from));
     writer.write_record(&header).map_err(failed)?;
-    let mut row: Vec<String> = Vec::with_capacity(header.len());
+    bytes(writer)
+}
+
+fn lines(points: &[PointResult]) -> Answer<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::with_capacity(512 * points.len()));
+    let mut row: Vec<String> = Vec::new();
     for point in points {
         row.clear();
         row.push(point.line.to_string());
@@ -69,9 +88,12 @@ pub(crate) fn table(question: &Question, points: &[PointResult]) -> Answer<Vec<u
         row.push(if point.stable { "ok" } else { "unstable" }.into());
         writer.write_record(&row).map_err(failed)?;
     }
-    writer
-        .into_inner()
-        .map_err(|error| failed(csv::Error::from(error.into_error())))
+    bytes(writer)
+}
+
+fn bytes(writer: csv::Writer<Vec<u8>>) -> Answer<Vec<u8>> {
+    let written = writer.into_inner();
+    written.map_err(|error| failed(csv::Error::from(error.into_error())))
 }
 
 /// A text that a spreadsheet would take for a formula is led by an apostrophe.

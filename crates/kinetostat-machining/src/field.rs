@@ -1,12 +1,13 @@
 //! The model as a field of corrections for the program writer.
 
-use kinetostat::{Error, Mechanism, Wrench};
+use kinetostat::{Error, Mechanism, Pose, Wrench};
 use kinetostat_program::{CorrectionField, FieldFailure, Request};
 use nalgebra::Vector3;
 
 use crate::load::LoadAlongPath;
 use crate::placement::Placement;
 use crate::solve::in_chunks;
+use crate::together::Together;
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
 /// under the load of the program.
@@ -41,16 +42,29 @@ impl CorrectionField for ModelField<'_> {
     }
 
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
-        in_chunks(requests, |memory, request| {
-            let pose = self.placement.tool_pose(&request.position_mm);
-            let wrench = self.wrench(request);
-            memory[0]
-                .target(self.mechanism, &pose, &wrench)
-                .map(|posture| {
-                    let shift = posture.target().translation.vector - pose.translation.vector;
-                    self.placement.to_program(&shift)
-                })
-                .map_err(|error| FieldFailure::new(in_words(&error)))
+        let together = Together::new(self.mechanism);
+        in_chunks(requests, |memory, requests| {
+            let poses: Vec<Pose> = requests
+                .iter()
+                .map(|r| self.placement.tool_pose(&r.position_mm))
+                .collect();
+            let wrenches: Vec<Wrench> = requests.iter().map(|r| self.wrench(r)).collect();
+            let correction = |pose: &Pose, target: &Pose| {
+                let shift = target.translation.vector - pose.translation.vector;
+                self.placement.to_program(&shift)
+            };
+            if let Some(targets) = together.targets(&poses, &wrenches) {
+                let both = poses.iter().zip(&targets);
+                return both.map(|(p, t)| Ok(correction(p, t))).collect();
+            }
+            let both = poses.iter().zip(&wrenches);
+            both.map(|(pose, wrench)| {
+                memory[0]
+                    .target(self.mechanism, pose, wrench)
+                    .map(|posture| correction(pose, posture.target()))
+                    .map_err(|error| FieldFailure::new(in_words(&error)))
+            })
+            .collect()
         })
     }
 }

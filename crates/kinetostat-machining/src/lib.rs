@@ -13,6 +13,7 @@ mod result;
 mod run;
 mod sites;
 mod solve;
+mod together;
 
 pub use field::ModelField;
 pub use load::{CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};

@@ -1,7 +1,8 @@
 //! A run over a program: deflections along it, the compensated program, and the proof from the
 //! written bytes.
 
-use kinetostat::{Error, Mechanism, MotionKind, Posture};
+use kinetostat::batch::BatchEquilibrium;
+use kinetostat::{Error, Mechanism, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use kinetostat_program::{
     Corrected, Monitor, MoveKind, Path, Program, ReadOptions, WriteError, WriteOptions,
     verify_written, write_corrected,
@@ -17,7 +18,8 @@ use crate::result::{
     Summary,
 };
 use crate::sites::{Site, of_path, of_written};
-use crate::solve::in_chunks;
+use crate::solve::{Neighbour, in_chunks};
+use crate::together::Together;
 
 /// Everything that decides a run.
 #[derive(Clone, Debug)]
@@ -143,14 +145,10 @@ pub struct Run {
 /// [`RunError`] naming the line.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let load = LoadAlongPath::new(task.load, task.path);
-    let sites = of_path(
-        task.path,
-        &load,
-        &task.placement,
-        20.0 * task.writing.chord_tolerance_mm,
-    );
-    let points = solve(task, &sites, false, watch)?;
-    Ok(conclude(task, &load, &sites, points, None, 0.0))
+    let arc_tolerance_mm = 20.0 * task.writing.chord_tolerance_mm;
+    let sites = || of_path(task.path, &load, &task.placement, arc_tolerance_mm);
+    let (points, _) = solve(task, sites, false, watch)?;
+    Ok(conclude(task, &load, points, None, 0.0))
 }
 
 /// The compensated program, with deflections solved again from its bytes.
@@ -180,17 +178,19 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         &task.reading,
         &task.writing,
     )?;
-    let sites = of_written(task.path, &written, &load, &task.placement);
-    let points = solve(task, &sites, true, watch)?;
+    let sites = || of_written(task.path, &written, &load, &task.placement);
+    let (points, worse) = solve(task, sites, true, watch)?;
     if let Some(point) = points.iter().find(|p| !p.stable) {
         return Err(RunError::Unstable {
             line: point.line,
             position_mm: point.position_mm,
         });
     }
-    refuse_worse(task, &sites, &points)?;
+    if let Some(worse) = worse {
+        return Err(worse);
+    }
     let speed = 100.0 * check.largest_speed_error;
-    Ok(conclude(task, &load, &sites, points, Some(written), speed))
+    Ok(conclude(task, &load, points, Some(written), speed))
 }
 
 /// Everything that bends the machine along a program, in words: cutting load and own weight.
@@ -230,13 +230,16 @@ impl Monitor for Forward<'_> {
 /// Points between two looks at the watch.
 const BATCH: usize = 4096;
 
-fn solve(
+/// All points in their order, and the first of a written program that is worse than before. Sites are
+/// made as they are needed: a long program has many.
+fn solve<S: Iterator<Item = Site>>(
     task: &Task<'_>,
-    sites: &[Site],
+    sites: impl Fn() -> S,
     written: bool,
     watch: &dyn Watch,
-) -> Result<Vec<PointResult>, RunError> {
-    if sites.is_empty() {
+) -> Result<(Vec<PointResult>, Option<RunError>), RunError> {
+    let total = sites().count();
+    if total == 0 {
         return Err(RunError::NoMotion);
     }
     let name = if written {
@@ -244,86 +247,171 @@ fn solve(
     } else {
         "deflections"
     };
-    watch.stage(name, sites.len());
-    let mut points = Vec::with_capacity(sites.len());
-    for batch in sites.chunks(BATCH) {
+    watch.stage(name, total);
+    let mut points: Vec<PointResult> = Vec::with_capacity(total);
+    let mut worse = None;
+    let together = Together::new(task.mechanism);
+    let mut sites = sites();
+    loop {
+        let batch: Vec<Site> = sites.by_ref().take(BATCH).collect();
+        if batch.is_empty() {
+            return Ok((points, worse));
+        }
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
-        for point in in_chunks(batch, |memory, site| point(task, memory, site, written)) {
-            points.push(point?);
+        let solved = in_chunks(&batch, |memory, sites| {
+            chunk(task, &together, memory, sites, written)
+        });
+        for (site, point) in batch.iter().zip(solved) {
+            let point = point?;
+            worse = worse.or_else(|| worse_than_before(task, site, &point));
+            points.push(point);
         }
         watch.advance(points.len());
     }
-    Ok(points)
 }
 
-fn point<'m>(
+/// Points of a chunk, together where the batch can.
+fn chunk<'m>(
     task: &Task<'m>,
-    memory: &mut [crate::solve::Neighbour<'m>; 2],
-    site: &Site,
+    together: &Together<'m>,
+    memory: &mut [Neighbour<'m>; 2],
+    sites: &[Site],
     written: bool,
-) -> Result<PointResult, RunError> {
-    let fail = |cause: Error| RunError::Point {
-        line: site.line,
-        position_mm: site.desired.into(),
-        message: in_words(&cause),
-        cause: Box::new(cause),
-    };
+) -> Vec<Result<PointResult, RunError>> {
     let place = &task.placement;
-    let [before_memory, after_memory] = memory;
-    let wanted = place.tool_pose(&site.desired);
-    let off = |tool: &kinetostat::Pose| -> [f64; 3] {
-        place
-            .to_program(&(tool.translation.vector - wanted.translation.vector))
-            .into()
+    let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
+        sites.iter().map(|s| place.tool_pose(of(s))).collect()
     };
-    let mut result = PointResult {
+    let wanted = poses(|s| &s.desired);
+    let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
+    let before = written.then(|| together.rest(&wanted, &wrenches));
+    let commanded = match written {
+        true => poses(|s| &s.commanded),
+        false => wanted.clone(),
+    };
+    let after = together.judged(&commanded, &wrenches);
+    let [before_memory, after_memory] = memory;
+    // One after the other: each starts from its neighbour.
+    let mut solved = |i: usize| -> Result<PointResult, Error> {
+        let wrench = &wrenches[i];
+        let before = match &before {
+            None => None,
+            Some(Some(found)) => Some((found.commands.row(i).collect(), found.tool_pose(i))),
+            Some(None) => {
+                let (posture, tool) = before_memory.rest(task.mechanism, &wanted[i], wrench)?;
+                Some((posture.commands(), tool))
+            }
+        };
+        let after = match &after {
+            Some(found) => Loaded::of_batch(found, i, &commanded[i]),
+            None => None,
+        };
+        let after = match after {
+            Some(after) => after,
+            None => {
+                let found = after_memory.equilibrium(task.mechanism, &commanded[i], wrench)?;
+                Loaded::of_posture(&found.0, &found.1)
+            }
+        };
+        Ok(point(task, &sites[i], &wanted[i], before, after))
+    };
+    (0..sites.len())
+        .map(|i| {
+            solved(i).map_err(|cause| RunError::Point {
+                line: sites[i].line,
+                position_mm: sites[i].desired.into(),
+                message: in_words(&cause),
+                cause: Box::new(cause),
+            })
+        })
+        .collect()
+}
+
+/// What is told of an equilibrium.
+struct Loaded {
+    tool: Pose,
+    rotation: f64,
+    commands: Vec<f64>,
+    actuator_forces: Vec<f64>,
+    stiffness_against_force: f64,
+    margin: Option<f64>,
+    stable: bool,
+}
+
+impl Loaded {
+    fn of_posture(posture: &Posture<'_>, equilibrium: &MechanismEquilibrium) -> Self {
+        let turned = equilibrium.tool.rotation * posture.target().rotation.inverse();
+        Self {
+            tool: equilibrium.tool,
+            rotation: turned.angle(),
+            commands: posture.commands(),
+            actuator_forces: equilibrium.actuator_forces(),
+            stiffness_against_force: equilibrium.stiffness_against_force(),
+            margin: equilibrium.margin(),
+            stable: equilibrium.stable(),
+        }
+    }
+
+    fn of_batch(found: &BatchEquilibrium, i: usize, commanded: &Pose) -> Option<Self> {
+        let verdict = found.verdict(i)?;
+        let tool = found.tool_pose(i);
+        Some(Self {
+            rotation: (tool.rotation * commanded.rotation.inverse()).angle(),
+            tool,
+            commands: found.commands.row(i).collect(),
+            actuator_forces: found.actuator_forces.row(i).collect(),
+            stiffness_against_force: verdict.stiffness_against_force,
+            margin: verdict.margin,
+            stable: verdict.stable,
+        })
+    }
+}
+
+/// `before`: commands and pose of the tool without compensation, of a written program.
+fn point(
+    task: &Task<'_>,
+    site: &Site,
+    wanted: &Pose,
+    before: Option<(Vec<f64>, Pose)>,
+    after: Loaded,
+) -> PointResult {
+    let place = &task.placement;
+    let off = |tool: &Pose| -> [f64; 3] {
+        let shift = tool.translation.vector - wanted.translation.vector;
+        place.to_program(&shift).into()
+    };
+    let error_after_mm = off(&after.tool);
+    let (error_before_mm, actuator_correction) = match before {
+        Some((nominal, tool)) => {
+            let both = after.commands.iter().zip(&nominal);
+            let correction = both
+                .zip(kinds(task.mechanism))
+                .map(|((after, before), kind)| in_display(kind) * (after - before))
+                .collect();
+            (off(&tool), correction)
+        }
+        None => (error_after_mm, vec![0.0; after.commands.len()]),
+    };
+    PointResult {
         line: site.line,
         output_line: site.output_line,
         kind: site.kind,
         share: site.share,
         path_mm: site.path_mm,
         position_mm: site.desired.into(),
+        error_before_mm,
+        error_after_mm,
         correction_mm: (site.commanded - site.desired).into(),
         force_n: place.to_part_axes(&site.wrench.force()).into(),
-        ..PointResult::default()
-    };
-    let (posture, equilibrium) = if written {
-        let (nominal, tool) = before_memory
-            .rest(task.mechanism, &wanted, &site.wrench)
-            .map_err(fail)?;
-        result.error_before_mm = off(&tool);
-        let commanded = place.tool_pose(&site.commanded);
-        let answer = after_memory
-            .equilibrium(task.mechanism, &commanded, &site.wrench)
-            .map_err(fail)?;
-        result.actuator_correction = answer
-            .0
-            .commands()
-            .iter()
-            .zip(nominal.commands())
-            .zip(kinds(task.mechanism))
-            .map(|((after, before), kind)| in_display(kind) * (after - before))
-            .collect();
-        result.error_after_mm = off(&answer.1.tool);
-        answer
-    } else {
-        let answer = before_memory
-            .equilibrium(task.mechanism, &wanted, &site.wrench)
-            .map_err(fail)?;
-        result.error_before_mm = off(&answer.1.tool);
-        result.error_after_mm = result.error_before_mm;
-        result.actuator_correction = vec![0.0; answer.0.commands().len()];
-        answer
-    };
-    let turned = equilibrium.tool.rotation * posture.target().rotation.inverse();
-    result.residual_rotation_deg = turned.angle().to_degrees();
-    result.actuator_force = equilibrium.actuator_forces();
-    result.smallest_stiffness_n_per_mm = 1e-3 * equilibrium.stiffness_against_force();
-    result.buckling_margin = equilibrium.margin().filter(|mu| mu.is_finite());
-    result.stable = equilibrium.stable();
-    Ok(result)
+        residual_rotation_deg: after.rotation.to_degrees(),
+        actuator_force: after.actuator_forces,
+        actuator_correction,
+        smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
+        buckling_margin: after.margin.filter(|mu| mu.is_finite()),
+        stable: after.stable,
+    }
 }
 
 fn kinds(mechanism: &Mechanism) -> impl Iterator<Item = MotionKind> + '_ {
@@ -346,28 +434,22 @@ fn size(v: &[f64; 3]) -> f64 {
 }
 
 /// No block may end farther off than without compensation, beyond tolerance and rounding.
-fn refuse_worse(task: &Task<'_>, sites: &[Site], points: &[PointResult]) -> Result<(), RunError> {
+fn worse_than_before(task: &Task<'_>, site: &Site, point: &PointResult) -> Option<RunError> {
     let decimals = i32::from(task.writing.decimals.unwrap_or(4));
     let slack =
         task.writing.tolerance_mm + task.writing.chord_tolerance_mm + 10_f64.powi(-decimals);
-    for (site, point) in sites.iter().zip(points) {
-        let last = site.end && site.share >= 1.0;
-        let (before_mm, after_mm) = (size(&point.error_before_mm), size(&point.error_after_mm));
-        if last && after_mm > before_mm + slack {
-            return Err(RunError::Worse {
-                line: site.line,
-                before_mm,
-                after_mm,
-            });
-        }
-    }
-    Ok(())
+    let last = site.end && site.share >= 1.0;
+    let (before_mm, after_mm) = (size(&point.error_before_mm), size(&point.error_after_mm));
+    (last && after_mm > before_mm + slack).then_some(RunError::Worse {
+        line: site.line,
+        before_mm,
+        after_mm,
+    })
 }
 
 fn conclude(
     task: &Task<'_>,
     load: &LoadAlongPath<'_>,
-    sites: &[Site],
     points: Vec<PointResult>,
     written: Option<Corrected>,
     speed_percent: f64,
@@ -395,16 +477,13 @@ fn conclude(
             }
         })
         .collect();
-    let feed: Vec<&Site> = sites
-        .iter()
-        .filter(|s| s.kind != PointKind::Rapid)
-        .collect();
+    let feed = || points.iter().filter(|p| p.kind != PointKind::Rapid);
     for k in 0..3 {
-        let values = || feed.iter().map(|s| s.desired[k]);
+        let values = || feed().map(|p| p.position_mm[k]);
         question.box_min_mm[k] = values().fold(f64::INFINITY, f64::min);
         question.box_max_mm[k] = values().fold(f64::NEG_INFINITY, f64::max);
     }
-    if feed.is_empty() {
+    if feed().next().is_none() {
         (question.box_min_mm, question.box_max_mm) = ([0.0; 3], [0.0; 3]);
     }
 
@@ -429,7 +508,7 @@ fn conclude(
             task.placement.scale
         ));
     }
-    let near_singularity = nearest_singular(task, sites);
+    let near_singularity = nearest_singular(task, &points);
     if let Some(near) = &near_singularity {
         let [x, y, z] = near.position_mm;
         warnings.insert(
@@ -470,13 +549,13 @@ fn conclude(
 
 /// The place nearest to a singular posture: ends of moves and places between them, evenly spread.
 /// Places are compared by the tool's motion, rotations at the natural length.
-fn nearest_singular(task: &Task<'_>, sites: &[Site]) -> Option<NearSingularPlace> {
-    let stride = sites.len().div_ceil(RunResult::MAX_POSTURES).max(1);
+fn nearest_singular(task: &Task<'_>, points: &[PointResult]) -> Option<NearSingularPlace> {
+    let stride = points.len().div_ceil(RunResult::MAX_POSTURES).max(1);
     let length_mm = 1e3 * natural_length(task.mechanism);
     let mut last: Option<Posture<'_>> = None;
     let mut found: Option<(f64, NearSingularPlace)> = None;
-    for site in sites.iter().step_by(stride) {
-        let pose = task.placement.tool_pose(&site.desired);
+    for point in points.iter().step_by(stride) {
+        let pose = task.placement.tool_pose(&point.position_mm.into());
         let posture = match &last {
             Some(near) => task.mechanism.posture_near(&pose, near),
             None => task.mechanism.posture(&pose),
@@ -490,8 +569,8 @@ fn nearest_singular(task: &Task<'_>, sites: &[Site]) -> Option<NearSingularPlace
                 found = Some((
                     far,
                     NearSingularPlace {
-                        line: site.line,
-                        position_mm: site.desired.into(),
+                        line: point.line,
+                        position_mm: point.position_mm,
                         posture: near,
                     },
                 ));

@@ -47,19 +47,19 @@ fn known_length(motion: &Move) -> f64 {
     }
 }
 
-/// Ends and middles of all blocks; arcs at every chord of `arc_tolerance_mm`.
-pub(crate) fn of_path(
-    path: &Path,
-    load: &LoadAlongPath<'_>,
-    placement: &Placement,
+/// Ends and middles of all blocks, one after the other; arcs at every chord of `arc_tolerance_mm`.
+pub(crate) fn of_path<'a>(
+    path: &'a Path,
+    load: &'a LoadAlongPath<'a>,
+    placement: &'a Placement,
     arc_tolerance_mm: f64,
-) -> Vec<Site> {
+) -> impl Iterator<Item = Site> + 'a {
     let starts = starts(path);
-    let mut sites = Vec::new();
-    for (i, motion) in path.moves.iter().enumerate() {
-        let mut push = |share: f64, end: bool| {
+    let moves = path.moves.iter().enumerate();
+    moves.flat_map(move |(i, motion)| {
+        let site = |share: f64, end: bool| {
             let desired = motion.point(share);
-            sites.push(Site {
+            Site {
                 line: motion.line,
                 output_line: 0,
                 kind: kind(motion),
@@ -69,41 +69,39 @@ pub(crate) fn of_path(
                 commanded: desired,
                 wrench: load.wrench(placement, i, share),
                 end,
-            });
+            }
         };
         match (motion.known, motion.kind) {
-            (Knowledge::Nothing, _) => {}
-            (Knowledge::End, _) | (_, MoveKind::Rapid) => push(1.0, true),
-            (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => {}
+            (Knowledge::Nothing, _) => Vec::new(),
+            (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site(1.0, true)],
+            (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
                 let pieces = match &motion.curve {
                     Curve::Line => 1,
                     Curve::Arc(arc) => arc.chords_within(arc_tolerance_mm),
                 };
-                for k in 0..pieces {
-                    let share = |x: f64| (k as f64 + x) / pieces as f64;
-                    push(share(0.5), false);
-                    push(share(1.0), true);
-                }
+                let share = |k: usize, x: f64| (k as f64 + x) / pieces as f64;
+                let both = |k| [site(share(k, 0.5), false), site(share(k, 1.0), true)];
+                (0..pieces).flat_map(both).collect()
             }
         }
-    }
-    sites
+    })
 }
 
-/// Ends and middles of all pieces of a written program.
-pub(crate) fn of_written(
-    path: &Path,
-    written: &Corrected,
-    load: &LoadAlongPath<'_>,
-    placement: &Placement,
-) -> Vec<Site> {
+/// Ends and middles of all pieces of a written program, one after the other.
+pub(crate) fn of_written<'a>(
+    path: &'a Path,
+    written: &'a Corrected,
+    load: &'a LoadAlongPath<'a>,
+    placement: &'a Placement,
+) -> impl Iterator<Item = Site> + 'a {
     let starts = starts(path);
-    let mut sites = Vec::with_capacity(2 * written.pieces.len());
-    for (index, piece) in written.pieces.iter().enumerate() {
+    let pieces = written.pieces.iter().enumerate();
+    pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
+        let mut sites = Vec::new();
         if !piece.corrected || motion.known == Knowledge::Nothing || motion.length_mm() == 0.0 {
-            continue;
+            return sites;
         }
         let mut push = |place: f64, wrench: Wrench, end: bool| {
             let share = piece.share_from + place * (piece.share_to - piece.share_from);
@@ -130,7 +128,7 @@ pub(crate) fn of_written(
                 let to = (piece.move_index, turn.to_share);
                 push(place, load.turning_wrench(placement, from, to, part), end);
             }
-            continue;
+            return sites;
         }
         // Beside a jump of the load inside a move, the load is the one before it or after it: within
         // the micrometre in which it is located it steps, it does not turn gradually.
@@ -148,8 +146,8 @@ pub(crate) fn of_written(
             push(0.5, at(0.5 * (piece.share_from + piece.share_to)), false);
         }
         push(1.0, at(piece.share_to), true);
-    }
-    sites
+        sites
+    })
 }
 
 fn kind(motion: &Move) -> PointKind {

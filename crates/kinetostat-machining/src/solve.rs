@@ -1,5 +1,6 @@
-//! Many points of a path, solved one after the other from the neighbour's state, in chunks of fixed
-//! size: the answer of a point does not depend on the number of threads.
+//! Many points of a path, together where the batch can, and else one after the other from the
+//! neighbour's state, in chunks of fixed size: the answer of a point does not depend on the number of
+//! threads.
 
 use kinetostat::{
     Error, Mechanism, MechanismEquilibrium, MechanismState, Pose, Posture, Wrench,
@@ -21,16 +22,18 @@ pub(crate) struct Neighbour<'m> {
 
 /// A neighbour farther away than this (share of the machine's length) is no better than a start
 /// from rest.
-const NEAR: f64 = 0.05;
+pub(crate) const NEAR: f64 = 0.05;
+
+/// Length that neighbours are measured by, m.
+pub(crate) fn reach_of_neighbours(mechanism: &Mechanism) -> f64 {
+    let limbs = mechanism.limbs().iter();
+    limbs.map(|l| l.nominal.scale().length).fold(0.0, f64::max)
+}
 
 impl<'m> Neighbour<'m> {
     fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {
         self.last.as_ref().filter(|(posture, _)| {
-            let limbs = posture.mechanism().limbs();
-            let length = limbs
-                .iter()
-                .map(|l| l.nominal.scale().length)
-                .fold(0.0, f64::max);
+            let length = reach_of_neighbours(posture.mechanism());
             (posture.target().translation.vector - pose.translation.vector).norm() < NEAR * length
         })
     }
@@ -104,14 +107,10 @@ impl<'m> Neighbour<'m> {
 /// cores; answers in order.
 pub(crate) fn in_chunks<'m, T: Sync, R: Send>(
     items: &[T],
-    work: impl Fn(&mut [Neighbour<'m>; 2], &T) -> R + Sync,
+    work: impl Fn(&mut [Neighbour<'m>; 2], &[T]) -> Vec<R> + Sync,
 ) -> Vec<R> {
-    items
-        .par_chunks(CHUNK)
-        .flat_map_iter(|items| {
-            let mut memory: [Neighbour<'m>; 2] = Default::default();
-            let answers: Vec<R> = items.iter().map(|item| work(&mut memory, item)).collect();
-            answers
-        })
+    let chunks = items.par_chunks(CHUNK);
+    chunks
+        .flat_map_iter(|items| work(&mut Default::default(), items))
         .collect()
 }

@@ -266,3 +266,86 @@ fn the_load_in_words_names_the_machine_s_own_weight() {
         assert!(text.contains("215 N") && text.contains(words), "{text}");
     }
 }
+
+/// Points are solved many at once; each is what the general engine says of it alone.
+#[test]
+fn points_of_a_run_are_those_of_the_general_engine() {
+    let arm = Model::preset("heavy_6r").expect("preset").mechanism;
+    let arm_at = arm.platforms()[arm.tool()].home;
+    for (mechanism, home, origin) in [
+        (orthoglide(), Pose::identity(), vector![0.0, 0.0, 0.1]),
+        (
+            arm.with_tool(&straight_tool(0.12)),
+            arm_at,
+            arm_at.translation.vector - vector![0.0, 0.0, 0.12],
+        ),
+    ] {
+        let program = Program::read(GROOVE).expect("program");
+        let reading = ReadOptions::default();
+        let path = interpret(&program, &reading).expect("path");
+        let task = Task {
+            mechanism: &mechanism,
+            program: &program,
+            reading,
+            path: &path,
+            placement: Placement {
+                tool_orientation: home.rotation,
+                ..Placement::at(origin)
+            },
+            load: milling(),
+            writing: WriteOptions::default(),
+            question: Question::default(),
+        };
+        for written in [false, true] {
+            let run = match written {
+                true => compensate_program(&task, &Unwatched),
+                false => analyse(&task, &Unwatched),
+            }
+            .expect("a run");
+            assert!(run.points.len() > 100);
+            for point in run.points.iter().step_by(11) {
+                let wrench = Wrench::new(point.force_n.into(), Vector3::zeros());
+                let wanted = task.placement.tool_pose(&point.position_mm.into());
+                let alone = |commanded: &Pose| {
+                    let posture = mechanism.posture(commanded).expect("a posture");
+                    let e = posture.deflected_by(&wrench).expect("an equilibrium");
+                    let off = e.tool.translation.vector - wanted.translation.vector;
+                    (posture.commands(), off * 1e3, e)
+                };
+                let near = |a: &[f64; 3], b: &Vector3<f64>| (Vector3::from(*a) - b).norm() < 1e-8;
+                let (nominal, before, _) = alone(&wanted);
+                assert!(near(&point.error_before_mm, &before), "{point:?} {before}");
+                let there = Vector3::from(point.position_mm) + Vector3::from(point.correction_mm);
+                let (commands, after, e) = alone(&task.placement.tool_pose(&there));
+                assert!(near(&point.error_after_mm, &after), "{point:?} {after}");
+                let moved = commands.iter().zip(&nominal).map(|(a, b)| a - b);
+                let told = point.actuator_correction.iter().zip(moved);
+                for (told, own) in told {
+                    // Metres or radians as mm or degrees.
+                    let (mm, deg) = (own * 1e3, own.to_degrees());
+                    assert!(
+                        (told - mm).abs().min((told - deg).abs()) < 1e-8,
+                        "{point:?}"
+                    );
+                }
+                for (told, own) in point.actuator_force.iter().zip(e.actuator_forces()) {
+                    assert!(
+                        (told - own).abs() < 1e-6 * own.abs().max(1.0),
+                        "{told} {own}"
+                    );
+                }
+                let relative = |a: f64, b: f64| (a - b).abs() < 1e-7 * b.abs();
+                let stiffness = 1e-3 * e.stiffness_against_force();
+                assert!(relative(point.smallest_stiffness_n_per_mm, stiffness));
+                let (told, own) = (point.buckling_margin, e.margin());
+                let own = own.filter(|mu| mu.is_finite());
+                assert_eq!(told.is_some(), own.is_some());
+                assert!(
+                    told.zip(own).is_none_or(|(a, b)| relative(a, b)),
+                    "{told:?} {own:?}"
+                );
+                assert_eq!(point.stable, e.stable());
+            }
+        }
+    }
+}
