@@ -17,6 +17,7 @@ mod equilibria;
 mod lanes;
 mod law;
 mod loaded;
+mod models;
 mod newton;
 #[cfg(test)]
 mod newton_tests;
@@ -41,6 +42,7 @@ use crate::mechanism::{Limb, Mechanism};
 use crate::posture::Posture;
 use crate::spatial::Pose;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};
+pub use models::over_machines;
 use plan::Plan;
 use run::{Places, Work};
 use table::BLOCK;

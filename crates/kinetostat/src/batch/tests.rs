@@ -310,3 +310,48 @@ fn a_jacobian_alone_is_the_one_together() {
         }
     }
 }
+
+#[test]
+fn machines_do_not_matter_to_each_other() {
+    let count = 40;
+    // Every arm is a little softer than the one before; one of them is none.
+    let machine = |i: usize| {
+        if i == 7 {
+            return Err(Error::model("machine 7", "is left out"));
+        }
+        let drive = ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), 2e5 - 1e3 * i as f64);
+        let chain = Chain::builder("arm")
+            .actuator("joint", drive)
+            .translation(Vector3::new(0.4, 0.05, 0.3))
+            .spring6("link", &(bar() * 20.0), [0.0; 6])
+            .build()?;
+        Mechanism::serial(chain, Pose::identity(), Vector3::zeros())
+    };
+    let ask = |_: usize, batch: &Batch<'_>| {
+        let commands: Vec<f64> = (0..5).map(irregular).collect();
+        let found = batch.stiffness_at_joints(&commands, false)?;
+        Ok(found.stiffness.row(3).collect::<Vec<_>>())
+    };
+    let many = over_machines(count, machine, ask);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let one = pool
+        .expect("a pool")
+        .install(|| over_machines(count, machine, ask));
+    for i in 0..count {
+        let Ok(own) = machine(i) else {
+            assert!(many[i].is_err() && one[i].is_err());
+            continue;
+        };
+        let many = many[i].as_ref().expect("a stiffness");
+        assert_eq!(many, one[i].as_ref().expect("a stiffness"));
+        let at = Places::Joints {
+            commands: &[irregular(3)],
+            each: 1,
+        };
+        let alone = Batch::new(&own).posture(&at, 0).expect("a posture");
+        let alone = alone.stiffness().expect("a stiffness").cartesian.matrix;
+        for (k, x) in many.iter().enumerate() {
+            assert!((x - alone[(k / 6, k % 6)]).abs() < 1e-12 * alone.amax());
+        }
+    }
+}
