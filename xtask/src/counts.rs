@@ -84,8 +84,8 @@ pub fn worst() -> Result<Option<f64>> {
 
 /// Counts of now and of the baseline.
 fn both() -> Result<Option<(Counts, Counts)>> {
-    let baseline = fs::read_to_string(file())
-        .with_context(|| format!("cannot read {}", file().display()))?;
+    let baseline =
+        fs::read_to_string(file()).with_context(|| format!("cannot read {}", file().display()))?;
     let baseline: Counts = serde_json::from_str(&baseline)
         .with_context(|| format!("{} is no baseline", file().display()))?;
     if baseline.instruction_set != instruction_set() {
@@ -117,7 +117,10 @@ struct Comparison {
 
 fn compare(found: &Counts, baseline: &Counts) -> Comparison {
     let (mut more, mut less) = (Vec::new(), Vec::new());
-    let mut table = format!("{:<40} {:>12} {:>12}   change\n", "instructions", "baseline", "now");
+    let mut table = format!(
+        "{:<40} {:>12} {:>12}   change\n",
+        "instructions", "baseline", "now"
+    );
     for (name, &count) in &found.instructions {
         let before = baseline.instructions.get(name).copied();
         let change = percent(&count, before);
@@ -133,7 +136,13 @@ fn compare(found: &Counts, baseline: &Counts) -> Comparison {
         table += &format!("{name:<40} {before:>12} {count:>12}   {change}\n");
     }
     let gone = |name: &&String| !found.instructions.contains_key(*name);
-    less.extend(baseline.instructions.keys().filter(gone).map(|n| format!("{n} (gone)")));
+    less.extend(
+        baseline
+            .instructions
+            .keys()
+            .filter(gone)
+            .map(|n| format!("{n} (gone)")),
+    );
     Comparison { more, less, table }
 }
 
@@ -175,7 +184,11 @@ fn instruction_set() -> String {
 
 /// First line that a program prints about its version, without its name.
 fn version(program: &mut Command) -> Option<String> {
-    let output = program.arg("--version").stderr(Stdio::null()).output().ok()?;
+    let output = program
+        .arg("--version")
+        .stderr(Stdio::null())
+        .output()
+        .ok()?;
     let text = String::from_utf8_lossy(&output.stdout);
     let line = text.lines().next()?.trim();
     let number = line.find(|c: char| c.is_ascii_digit())?;
@@ -192,7 +205,14 @@ fn counted() -> Result<Option<Counts>> {
     let runner = runner()?;
     eprintln!("== instructions of the works, counted by valgrind");
     let output = cargo()
-        .args(["bench", "--quiet", "-p", "kinetostat-bench", "--bench", "counts"])
+        .args([
+            "bench",
+            "--quiet",
+            "-p",
+            "kinetostat-bench",
+            "--bench",
+            "counts",
+        ])
         .args(["--", "--output-format=json", "--allow-aslr=true"])
         .env("GUNGRAUN_RUNNER", runner)
         .current_dir(root())
@@ -218,9 +238,8 @@ fn instructions(text: &str) -> Result<BTreeMap<String, u64>> {
         let summary: Value = serde_json::from_str(line)
             .with_context(|| format!("the bench 'counts' printed no summary: {line}"))?;
         let word = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
-        let count = &summary["profiles"][0]["data"]["total"]["metrics"]["Ir"]["values"];
-        // "both" where an earlier run lies beside it.
-        let count = count.get("new").unwrap_or(&count["both"][0]);
+        // Beside it lies the count of an earlier run, if there was one.
+        let count = &summary["profiles"][0]["data"]["total"]["metrics"]["Ir"]["values"]["new"];
         let Some(count) = count.as_u64() else {
             bail!("the bench 'counts' printed no instructions: {line}");
         };
@@ -269,7 +288,10 @@ fn absolute(path: &Path) -> Result<PathBuf> {
 fn locked<'a>(lock: &'a str, package: &str) -> Option<&'a str> {
     let name = format!("name = \"{package}\"");
     let mut lines = lock.lines().skip_while(|line| *line != name);
-    lines.nth(1)?.strip_prefix("version = \"")?.strip_suffix('"')
+    lines
+        .nth(1)?
+        .strip_prefix("version = \"")?
+        .strip_suffix('"')
 }
 
 #[cfg(test)]
@@ -287,8 +309,14 @@ mod tests {
 
     #[test]
     fn three_percent_more_pass_and_a_little_more_does_not() {
-        let before = counts("1", &[("a", 100_000), ("b", 100_000), ("c", 100_000), ("e", 1)]);
-        let now = counts("2", &[("a", 103_000), ("b", 103_001), ("c", 96_999), ("d", 1)]);
+        let before = counts(
+            "1",
+            &[("a", 100_000), ("b", 100_000), ("c", 100_000), ("e", 1)],
+        );
+        let now = counts(
+            "2",
+            &[("a", 103_000), ("b", 103_001), ("c", 96_999), ("d", 1)],
+        );
         let told = compare(&now, &before);
         assert_eq!(told.more, ["b", "d"]);
         assert_eq!(told.less, ["c", "e (gone)"]);
@@ -308,7 +336,7 @@ mod tests {
         };
         for values in [
             serde_json::json!({"new": 7}),
-            serde_json::json!({"both": [7, 9]}),
+            serde_json::json!({"new": 7, "old": 9}),
         ] {
             let found = instructions(&line(values)).expect("counts");
             assert_eq!(found, BTreeMap::from([("many w1".into(), 7)]));

@@ -2,6 +2,7 @@
 
 mod bench;
 mod book;
+mod counts;
 mod figures;
 mod fuzz;
 mod test;
@@ -23,7 +24,9 @@ Tasks of the project
                                 repeats one
   cargo xtask bench-vs-numpy    speed beside vectorised numpy, in one process; needs python3
   cargo xtask bench-vs-numpy --json   the same as a list of {work, kinetostat_us, numpy_us, ratio,
-                                max_relative_difference}";
+                                max_relative_difference}
+  cargo xtask counts            instructions of every work beside their baseline; needs valgrind
+  cargo xtask counts --renew    takes what is counted now as the baseline";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -33,6 +36,7 @@ fn main() -> ExitCode {
         ["book", options @ ..] => book::run(options),
         ["figures", options @ ..] => figures::run(options),
         ["fuzz", options @ ..] => fuzz::run(options),
+        ["counts", options @ ..] => counts::run(options),
         ["bench-vs-numpy", options @ ..] => bench::versus_numpy(options),
         _ => {
             eprintln!("{HELP}");

@@ -8,8 +8,8 @@ use kinetostat::{
 use kinetostat_bench::{Places, Task, Work, sample};
 use nalgebra::Vector3;
 
-use crate::machines::ARM;
 use crate::{BLOCK, at_most, exponent, shortest};
+use kinetostat_bench::machines::ARM;
 
 /// A cantilever of `pieces` pieces.
 fn cantilever(pieces: usize) -> Result<Mechanism> {

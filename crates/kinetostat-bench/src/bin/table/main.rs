@@ -15,7 +15,6 @@
 )]
 
 mod growth;
-mod machines;
 mod memory;
 mod shapes;
 mod threads;

@@ -9,7 +9,7 @@ use kinetostat_bench::sample;
 use nalgebra::Vector6;
 
 use crate::at_most;
-use crate::machines::path;
+use kinetostat_bench::machines::path;
 
 const MANY: usize = 1_000_000;
 

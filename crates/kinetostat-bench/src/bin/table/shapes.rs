@@ -3,8 +3,8 @@
 use anyhow::Result;
 use kinetostat_bench::Work;
 
-use crate::machines::ALL;
 use crate::{BLOCK, shortest};
+use kinetostat_bench::machines::ALL;
 
 const POSTURES: usize = 1024;
 /// A machine whose postures are solved one by one is asked fewer of them.

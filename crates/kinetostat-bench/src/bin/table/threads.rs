@@ -5,8 +5,8 @@ use std::time::Instant;
 use anyhow::Result;
 use kinetostat_bench::{Results, Work};
 
-use crate::machines::{ARM, HEXAPOD, Machine, PUU3};
 use crate::{BLOCK, at_least, at_most, pass, shortest};
+use kinetostat_bench::machines::{ARM, HEXAPOD, Machine, PUU3};
 
 /// What a call for two threads takes about, us: long against waking a thread, short enough that
 /// other programs leave both cores alone now and then.

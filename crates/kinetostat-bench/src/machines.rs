@@ -3,21 +3,28 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
-use kinetostat_bench::{Places, Task, Work, sample};
+use anyhow::{Result, bail};
+use kinetostat::Pose;
+
+use crate::{Places, Task, Work, sample};
 
 /// A machine and where it is asked.
+#[derive(Clone, Copy, Debug)]
 pub struct Machine {
+    /// Name of its file, see [`path`].
     pub file: &'static str,
+    /// What it is, in words.
     pub what: &'static str,
     /// Spring coordinates.
     pub springs: usize,
     /// N and N m of the wrenches.
     load: (f64, f64),
     places: fn(Range<usize>) -> Places,
+    /// True if commands lead to its pose.
     pub serial: bool,
 }
 
+/// Of W1 and W3.
 pub const ARM: Machine = Machine {
     file: "arm",
     what: "arm of six joints",
@@ -27,6 +34,7 @@ pub const ARM: Machine = Machine {
     serial: true,
 };
 
+/// Of W2.
 pub const HEXAPOD: Machine = Machine {
     file: "hexapod",
     what: "Stewart-Gough platform",
@@ -36,6 +44,7 @@ pub const HEXAPOD: Machine = Machine {
     serial: false,
 };
 
+/// Of W4.
 pub const PUU3: Machine = Machine {
     file: "puu3",
     what: "3-PUU",
@@ -76,7 +85,31 @@ pub const ALL: [Machine; 6] = [
     },
 ];
 
+/// Names of the works.
+pub const WORKS: [&str; 6] = ["W1", "W2", "W3", "W3+K", "W4", "W5"];
+
+/// A work by its name, on so many postures that are the same in every run.
+///
+/// # Errors
+/// If there is no such work, or its model cannot be read.
+pub fn work(name: &str, count: usize) -> Result<Task> {
+    match name {
+        "W1" => ARM.task(Work::StiffnessAndJacobian, count, false),
+        "W2" => HEXAPOD.task(Work::Stiffness, count, false),
+        "W3" => ARM.task(Work::Equilibrium, count, false),
+        "W3+K" => ARM.task(Work::EquilibriumAndStiffness, count, false),
+        "W4" => PUU3.task(Work::Equilibrium, count, false),
+        "W5" => {
+            let home = Places::Poses(vec![Pose::translation(1.0, 0.0, 0.0); count]);
+            let across = [0.0, 10.0, 0.0, 0.0, 0.0, 0.0].repeat(count);
+            Task::open(&path("rod"), Work::Equilibrium, home, &across)
+        }
+        other => bail!("no work is called {other}"),
+    }
+}
+
 /// A model file of the benchmarks.
+#[must_use]
 pub fn path(file: &str) -> PathBuf {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     own.join(format!("../../benches/models/{file}.toml"))
@@ -84,6 +117,9 @@ pub fn path(file: &str) -> PathBuf {
 
 impl Machine {
     /// So many postures of this machine, or of its twin whose links have the default law.
+    ///
+    /// # Errors
+    /// If its model cannot be read.
     pub fn task(&self, work: Work, count: usize, bowing: bool) -> Result<Task> {
         let end = if bowing { "_bowing" } else { "" };
         let loaded = matches!(work, Work::Equilibrium | Work::EquilibriumAndStiffness);
@@ -101,6 +137,7 @@ impl Machine {
     }
 
     /// What is asked of an unloaded machine: with its Jacobian where it has one.
+    #[must_use]
     pub fn unloaded(&self) -> Work {
         match self.serial {
             true => Work::StiffnessAndJacobian,

@@ -1,0 +1,33 @@
+//! Every work on one thread: postures together, and one in each call.
+//!
+//! ```sh
+//! cargo bench -p kinetostat-bench --bench batch
+//! ```
+
+#![allow(missing_docs, reason = "criterion's macro makes a function")]
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use kinetostat_bench::machines::{WORKS, work};
+
+/// What one thread takes at a time: no other one helps.
+const POSTURES: usize = 256;
+
+fn batch(c: &mut Criterion) {
+    for name in WORKS {
+        let count = if name == "W5" { 8 } else { POSTURES };
+        let task = work(name, count).expect("a work");
+        let mut group = c.benchmark_group(name);
+        group.throughput(Throughput::Elements(count as u64));
+        for (label, block) in [("together", count), ("one by one", 1)] {
+            group.bench_function(label, |b| {
+                b.iter(|| black_box(&task).run(block).expect("answers"));
+            });
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, batch);
+criterion_main!(benches);
