@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{bench, cargo, root, step};
+use crate::{bench, cargo, counts, root, step};
 
 /// One number.
 #[derive(Debug, Serialize, Deserialize)]
@@ -541,6 +541,10 @@ fn speed(figures: &mut Vec<Figure>) -> Result<()> {
             let apart = row.max_relative_difference;
             figures.push(Figure::at_most(name, apart, 1e-9, "1"));
         }
+    }
+    if let Some(worst) = counts::worst()? {
+        let name = "instructions of a work above their committed baseline, at worst";
+        figures.push(Figure::at_most(name, worst, counts::SLACK, "%"));
     }
     tables(
         figures,

@@ -15,7 +15,8 @@ use anyhow::{Context, Result, bail};
 const HELP: &str = "\
 Tasks of the project
 
-  cargo xtask test              format, lints, tests, documentation, book: what CI runs
+  cargo xtask test              format, lints, tests, documentation, book, instruction counts:
+                                what CI runs
   cargo xtask book              the book as pages in book/book; with --open it is shown
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}

@@ -1,8 +1,8 @@
-//! `cargo xtask test`: format, lints, tests, documentation, the book.
+//! `cargo xtask test`: format, lints, tests, documentation, the book, instruction counts.
 
 use anyhow::Result;
 
-use crate::{book, cargo, step};
+use crate::{book, cargo, counts, step};
 
 /// What CI runs and the README promises.
 pub fn run() -> Result<()> {
@@ -30,6 +30,7 @@ pub fn run() -> Result<()> {
         cargo().args(["test", "--workspace", "--no-fail-fast"]),
     )?;
     book::check()?;
+    counts::check()?;
     eprintln!("== all passed");
     Ok(())
 }
