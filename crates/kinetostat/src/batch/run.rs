@@ -87,6 +87,10 @@ impl Work<'_> {
     /// In the widest registers that the postures fill at least by half: one posture costs as much in a
     /// wide register as eight.
     pub fn run(self) {
+        #[cfg(test)]
+        if let Some(set) = CHOSEN.get() {
+            return set.dispatch(self);
+        }
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = pulp::x86::V3::try_new() {
             match self.len() {
@@ -119,6 +123,12 @@ impl WithSimd for One<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         self.0.with_simd(pulp::Scalar);
     }
+}
+
+/// The instruction set that a test has chosen for its thread.
+#[cfg(test)]
+thread_local! {
+    pub(super) static CHOSEN: std::cell::Cell<Option<Arch>> = const { std::cell::Cell::new(None) };
 }
 
 impl WithSimd for Work<'_> {

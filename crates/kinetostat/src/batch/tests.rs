@@ -1,10 +1,10 @@
 //! A lane's bits depend on nothing but its own posture.
 
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
-use pulp::{Scalar, Simd, WithSimd};
+use pulp::{Arch, Scalar};
 
 use super::lanes::Lanes;
-use super::run::{Answers, Places, Work};
+use super::run::{CHOSEN, Places};
 use super::*;
 use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench};
 
@@ -79,75 +79,60 @@ fn wrenches(count: usize) -> Vec<Wrench> {
         .collect()
 }
 
-/// All numbers of equilibria found with one instruction set.
-fn settled<S: Simd>(simd: S, machine: &Mechanism, count: usize) -> (Vec<f64>, Vec<Found>) {
+/// Bits of all numbers of all answers, found with one instruction set on this thread.
+fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize) -> Vec<u64> {
+    CHOSEN.set(Some(set));
     let batch = Batch::new(machine);
-    let nominal = batch.nominal.as_ref().expect("compiled");
-    let actual = batch.actual.as_ref().expect("compiled");
     let (poses, wrenches) = (poses(count), wrenches(count));
-    let coordinates = machine.limbs().iter().map(|l| l.actual.coordinate_count());
-    let actuators = machine.actuator_names().len();
-    let widths = [12, coordinates.sum(), actuators, actuators, 12];
-    let mut tables = widths.map(|width| {
-        let mut table = Table::default();
-        table.reset(width, count);
-        table
-    });
-    let [tool, own, commands, forces, targets] = tables
-        .each_mut()
-        .map(|t| t.parts(count).next().expect("a part"));
-    let mut found = vec![Found::Not; count];
-    let platform = &machine.platforms()[1];
-    Work::Loaded {
-        nominal,
-        actual,
-        body: (platform.centre_of_mass.into(), platform.mass),
-        gravity: machine.gravity().into(),
-        places: Places::Poses(&poses),
-        wrenches: &wrenches,
-        directions: Some([true, true, true, false, false, false]),
-        answers: Answers {
-            tool,
-            coordinates: own,
-            commands,
-            forces,
-            stiffness: &mut [],
-            targets,
-            found: &mut found,
-        },
+    let (free, bent) = match joints {
+        Some(commands) => (
+            batch.stiffness_at_joints(commands, true),
+            batch.equilibrium_at_joints(commands, &wrenches, true),
+        ),
+        None => (
+            Ok(batch.stiffness(&poses)),
+            batch.equilibrium(&poses, &wrenches, false),
+        ),
+    };
+    let (free, bent) = (free.expect("sizes"), bent.expect("sizes"));
+    let mut tables = vec![
+        free.stiffness,
+        free.jacobian,
+        bent.tool,
+        bent.coordinates,
+        bent.commands,
+        bent.actuator_forces,
+        bent.stiffness,
+    ];
+    let mut found = [free.found, bent.found].concat();
+    if joints.is_none() {
+        let directions = [true, true, true, false, false, false];
+        let targets = batch.targets_under_load(&poses, &wrenches, directions);
+        let targets = targets.expect("sizes").equilibrium;
+        tables.extend([targets.tool, targets.coordinates, targets.commands]);
+        found.extend(targets.found);
     }
-    .with_simd(simd);
-    let all = (0..count)
-        .flat_map(|i| tables.iter().flat_map(move |t| t.row(i)))
-        .collect();
-    (all, found)
+    CHOSEN.set(None);
+    assert!(found.iter().all(|f| *f == Found::Together));
+    let rows = |i: usize| tables.iter().flat_map(move |t| t.row(i));
+    (0..count).flat_map(rows).map(f64::to_bits).collect()
 }
 
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
-    let machine = sliders();
     let count = 11;
-    let (alone, found) = settled(Scalar, &machine, count);
-    assert!(found.iter().all(|f| *f == Found::Together));
+    let mut sets = vec![Arch::new()];
     #[cfg(target_arch = "x86_64")]
-    {
-        let mut sets = 0;
-        if let Some(simd) = pulp::x86::V3::try_new() {
-            assert_eq!(
-                settled(simd, &machine, count),
-                (alone.clone(), found.clone())
-            );
-            sets += 1;
+    sets.extend(pulp::x86::V3::try_new().map(Arch::V3));
+    let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
+    for (machine, joints) in [(sliders(), None), (arm(), Some(commands.as_slice()))] {
+        let single = answers(Arch::Scalar, &machine, joints, count);
+        for set in &sets {
+            let same = answers(*set, &machine, joints, count) == single;
+            assert!(same, "{}: {set:?}", machine.name());
         }
-        if let Some(simd) = pulp::x86::V4::try_new() {
-            assert_eq!(
-                settled(simd, &machine, count),
-                (alone.clone(), found.clone())
-            );
-            sets += 1;
-        }
-        println!("{sets} vector instruction sets compared with single numbers");
     }
+    println!("{sets:?} compared with single numbers");
 }
 
 #[test]
