@@ -9,6 +9,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use kinetostat_bench::Results;
 use kinetostat_bench::machines::{WORKS, work};
 
 /// What one thread takes at a time: no other one helps.
@@ -22,7 +23,8 @@ fn batch(c: &mut Criterion) {
         group.throughput(Throughput::Elements(count as u64));
         for (label, block) in [("together", count), ("one by one", 1)] {
             group.bench_function(label, |b| {
-                b.iter(|| black_box(&task).run(block).expect("answers"));
+                let mut results = Results::default();
+                b.iter(|| black_box(&task).run(block, &mut results).expect("answers"));
             });
         }
         group.finish();

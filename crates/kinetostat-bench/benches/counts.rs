@@ -11,14 +11,15 @@ use gungraun::Callgrind;
 use gungraun::prelude::*;
 use kinetostat::{MechanismEquilibrium, Posture, UnloadedStiffness, Wrench};
 use kinetostat_bench::machines::{path, work};
-use kinetostat_bench::{Task, sample};
+use kinetostat_bench::{Results, Task, sample};
 use nalgebra::Vector6;
 
-/// Run once before: the choice of the instruction set is not counted, and memory is at hand.
-fn ready(name: &str, count: usize) -> Task {
+/// Run once before: the choice of the instruction set is not counted, and the results have their memory.
+fn ready(name: &str, count: usize) -> (Task, Results) {
     let task = work(name, count).expect("a work");
-    task.run(count).expect("answers");
-    task
+    let mut results = Results::default();
+    task.run(count, &mut results).expect("answers");
+    (task, results)
 }
 
 // So few postures that no other thread is called.
@@ -29,9 +30,9 @@ fn ready(name: &str, count: usize) -> Task {
 #[bench::w3_k("W3+K", 64)]
 #[bench::w4("W4", 64)]
 #[bench::w5("W5", 8)]
-fn together(task: Task) -> Task {
-    black_box(&task).run(64).expect("answers");
-    task
+fn together((task, mut results): (Task, Results)) -> (Task, Results) {
+    black_box(&task).run(64, &mut results).expect("answers");
+    (task, results)
 }
 
 #[library_benchmark(setup = ready)]
@@ -41,9 +42,9 @@ fn together(task: Task) -> Task {
 #[bench::w3_k("W3+K", 16)]
 #[bench::w4("W4", 16)]
 #[bench::w5("W5", 2)]
-fn one_by_one(task: Task) -> Task {
-    black_box(&task).run(1).expect("answers");
-    task
+fn one_by_one((task, mut results): (Task, Results)) -> (Task, Results) {
+    black_box(&task).run(1, &mut results).expect("answers");
+    (task, results)
 }
 
 /// A machine at home for the general engine, and a load.
