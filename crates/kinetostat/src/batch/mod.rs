@@ -329,5 +329,9 @@ fn left<T: Send>(
     let left: Vec<usize> = (0..found.len())
         .filter(|i| found[*i] != Found::Together)
         .collect();
+    // None or one calls no threads.
+    if left.len() < 2 {
+        return left.into_iter().map(|i| (i, alone(i).ok())).collect();
+    }
     left.into_par_iter().map(|i| (i, alone(i).ok())).collect()
 }
