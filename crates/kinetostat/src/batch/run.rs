@@ -125,9 +125,9 @@ impl WithSimd for One<'_> {
     }
 }
 
-/// The instruction set that a test has chosen for its thread.
 #[cfg(test)]
 thread_local! {
+    /// The instruction set that a test has chosen for its thread.
     pub(super) static CHOSEN: std::cell::Cell<Option<Arch>> = const { std::cell::Cell::new(None) };
 }
 
