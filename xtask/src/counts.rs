@@ -149,7 +149,7 @@ fn compare(found: &Counts, baseline: &Counts) -> Comparison {
 /// A work without a baseline is a failure: nobody would notice when it grows.
 fn percent(count: &u64, before: Option<u64>) -> f64 {
     match before {
-        Some(before) => 100.0 * (*count as f64 / before as f64 - 1.0),
+        Some(before) => 100.0 * (*count as f64 - before as f64) / before as f64,
         None => f64::INFINITY,
     }
 }
