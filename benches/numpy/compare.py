@@ -106,10 +106,10 @@ def works():
 
 
 def seconds(run):
-    """What this thread computed, so that other programs on the core count for neither side."""
-    start = time.thread_time()
+    """What this process computed, all its threads, so that other programs on the core count for neither side."""
+    start = time.process_time()
     run()
-    return time.thread_time() - start
+    return time.process_time() - start
 
 
 def measure(work, rounds, twin=None):

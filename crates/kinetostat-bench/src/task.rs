@@ -210,20 +210,22 @@ impl Task {
         Ok(())
     }
 
-    /// Number of postures that are solved one by one, or not at all.
+    /// Numbers of postures that are solved one by one, and not at all.
     ///
     /// # Errors
     /// What the machine refuses.
-    pub fn lonely(&self, block: usize) -> Result<usize> {
+    pub fn not_together(&self, block: usize) -> Result<(usize, usize)> {
         let block = block.max(1);
         let mut results = Results::default();
-        let mut count = 0;
+        let (mut alone, mut not) = (0, 0);
         for from in (0..self.len()).step_by(block) {
             self.ask(from, (from + block).min(self.len()), &mut results)?;
-            let found = self.found(&results);
-            count += found.iter().filter(|f| **f != Found::Together).count();
+            for found in self.found(&results) {
+                alone += usize::from(*found == Found::Alone);
+                not += usize::from(*found == Found::Not);
+            }
         }
-        Ok(count)
+        Ok((alone, not))
     }
 
     fn found<'a>(&self, results: &'a Results) -> &'a [Found] {

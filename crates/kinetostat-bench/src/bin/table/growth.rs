@@ -8,7 +8,7 @@ use kinetostat::{
 use kinetostat_bench::{Places, Task, Work, sample};
 use nalgebra::Vector3;
 
-use crate::{BLOCK, at_most, exponent, shortest};
+use crate::{BLOCK, at_most, exponent, median};
 use kinetostat_bench::machines::ARM;
 
 /// A cantilever of `pieces` pieces.
@@ -28,29 +28,30 @@ fn cantilever(pieces: usize) -> Result<Mechanism> {
 /// Times (us per posture) of several sizes, one list per work.
 type Rows<const N: usize> = [Vec<(usize, f64)>; N];
 
-/// Measures one line of a table; says how many postures were solved one by one.
+/// Measures one line of a table; says how many postures were solved one by one, and not at all.
 fn line<const N: usize>(
     size: usize,
     rows: &mut Rows<N>,
     tasks: impl Fn(usize) -> Result<Task>,
 ) -> Result<()> {
     print!("{size:<10}");
-    let mut lonely = 0;
+    let (mut lonely, mut not_found) = (0, 0);
     for (k, rows) in rows.iter_mut().enumerate() {
         let task = tasks(k)?;
-        let time = shortest(&task, BLOCK)?;
-        lonely += task.lonely(BLOCK)?;
+        let time = median(&task, BLOCK)?;
+        let (alone, not) = task.not_together(BLOCK)?;
+        (lonely, not_found) = (lonely + alone, not_found + not);
         print!("{time:>16.3}");
         rows.push((size, time));
     }
-    println!("{lonely:>8}");
+    println!("{lonely:>8}{not_found:>11}");
     Ok(())
 }
 
 fn heading(size: &str, names: &[&str]) {
     print!("{size:<10}");
     names.iter().for_each(|name| print!("{name:>16}"));
-    println!("{:>8}", "alone");
+    println!("{:>8}{:>11}", "alone", "not found");
 }
 
 /// Chains of 6 to 6000 spring coordinates.

@@ -34,28 +34,33 @@ fn pass(task: &Task, block: usize, results: &mut Results) -> Result<f64> {
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// What this thread has computed so far, s, where the system tells: in steps of some milliseconds.
-fn computed() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
-    Some(nanoseconds * 1e-9)
+/// What all threads have computed so far, s: unlike the clock on the wall it does not count what other
+/// programs do meanwhile.
+#[cfg(unix)]
+fn computed(_start: Instant) -> f64 {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
-/// Time of one posture, us: the shortest of several passes, since what disturbs only makes it longer.
-/// A pass that is too long to be left alone by other programs is timed by what it computes itself.
-fn shortest(task: &Task, block: usize) -> Result<f64> {
+/// Systems that do not tell are timed by the wall.
+#[cfg(not(unix))]
+fn computed(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64()
+}
+
+/// Time of one posture, us: the median of several passes.
+fn median(task: &Task, block: usize) -> Result<f64> {
     let start = Instant::now();
     let mut results = Results::default();
-    let mut best = f64::INFINITY;
-    let mut passes = 0;
-    while passes < 3 || (start.elapsed().as_secs_f64() < 0.3 && passes < 300) {
-        let before = computed();
-        let wall = pass(task, block, &mut results)?;
-        let own = computed().zip(before).map(|(after, before)| after - before);
-        best = best.min(own.filter(|_| wall > 0.1).unwrap_or(wall));
-        passes += 1;
+    let mut times = Vec::new();
+    task.run(block, &mut results)?;
+    while times.len() < 3 || (start.elapsed().as_secs_f64() < 0.4 && times.len() < 301) {
+        let before = computed(start);
+        task.run(block, &mut results)?;
+        times.push(computed(start) - before);
     }
-    Ok(best / task.len() as f64 * 1e6)
+    times.sort_by(f64::total_cmp);
+    Ok(times[times.len() / 2] / task.len() as f64 * 1e6)
 }
 
 /// A line that `cargo xtask figures` reads; with `--figures` only.

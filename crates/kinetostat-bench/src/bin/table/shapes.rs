@@ -1,9 +1,9 @@
 //! Machines of different shapes in one table, with plain and with bowing links.
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use kinetostat_bench::Work;
 
-use crate::{BLOCK, shortest};
+use crate::{BLOCK, median};
 use kinetostat_bench::machines::ALL;
 
 const POSTURES: usize = 1024;
@@ -12,7 +12,7 @@ const FEW: usize = 16;
 
 pub fn table() -> Result<()> {
     println!(
-        "One thread, blocks of {BLOCK} postures; us per posture, and ns per posture and spring"
+        "One thread, blocks of {BLOCK} postures; us of processor time per posture, and ns per posture and spring"
     );
     println!(
         "{:<34}{:>8}{:>12}{:>8}{:>14}{:>8}{:>16}{:>8}  alone",
@@ -36,13 +36,18 @@ pub fn table() -> Result<()> {
             ];
             let mut lonely = Vec::new();
             for (work, width) in works.into_iter().zip([12, 14, 16]) {
-                let most_alone = machine.task(work, FEW, bowing)?.lonely(BLOCK)? > FEW / 2;
+                let most_alone = machine.task(work, FEW, bowing)?.not_together(BLOCK)?.0 > FEW / 2;
                 let count = if most_alone { FEW } else { POSTURES };
                 let task = machine.task(work, count, bowing)?;
-                let time = shortest(&task, BLOCK)?;
+                let time = median(&task, BLOCK)?;
                 let each = time * 1e3 / machine.springs as f64;
                 print!("{time:>width$.3}{each:>8.1}");
-                lonely.push(format!("{}/{count}", task.lonely(BLOCK)?));
+                let (alone, not_found) = task.not_together(BLOCK)?;
+                ensure!(
+                    not_found == 0,
+                    "{not_found} postures of {name} are not found"
+                );
+                lonely.push(format!("{alone}/{count}"));
             }
             println!("  {}", lonely.join(" "));
         }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use anyhow::Result;
 use kinetostat_bench::{Results, Work};
 
-use crate::{BLOCK, at_least, at_most, pass, shortest};
+use crate::{BLOCK, at_least, at_most, median, pass};
 use kinetostat_bench::machines::{ARM, HEXAPOD, Machine, PUU3};
 
 /// What a call for two threads takes about, us: long against waking a thread, short enough that
@@ -26,8 +26,8 @@ pub fn single() -> Result<()> {
     println!("{:<8}{:>10}{:>10}{:>8}", "work", "batch", "single", "ratio");
     let mut figures = Vec::new();
     for (name, machine, work) in &WORKS {
-        let batch = shortest(&machine.task(*work, 2 * BLOCK, false)?, BLOCK)?;
-        let single = shortest(&machine.task(*work, 64, false)?, 1)?;
+        let batch = median(&machine.task(*work, 2 * BLOCK, false)?, BLOCK)?;
+        let single = median(&machine.task(*work, 64, false)?, 1)?;
         println!(
             "{name:<8}{batch:>10.3}{single:>10.3}{:>8.2}",
             single / batch
@@ -53,7 +53,7 @@ pub fn two() -> Result<()> {
     let pools = (pool(1)?, pool(2)?);
     let mut figures = Vec::new();
     for (name, machine, work) in &WORKS {
-        let each = shortest(&machine.task(*work, BLOCK, false)?, BLOCK)?;
+        let each = median(&machine.task(*work, BLOCK, false)?, BLOCK)?;
         let many = ((PASS / each / BLOCK as f64) as usize).clamp(4, 32) * BLOCK;
         let task = machine.task(*work, many, false)?;
         let mut results = Results::default();
