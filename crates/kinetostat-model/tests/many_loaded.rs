@@ -80,6 +80,34 @@ fn judged(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f6
 }
 
 #[test]
+fn every_preset_has_the_same_tangent_alone_and_together() {
+    let count = 11;
+    for preset in preset_names() {
+        let model = Model::preset(preset.name).expect("a preset");
+        let mechanism = &model.mechanism;
+        let batch = Batch::new(mechanism);
+        let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
+        let all = batch.equilibrium(&poses, &wrenches, true).expect("sizes");
+        let mut worst = 0.0_f64;
+        for i in 0..count {
+            let posture = mechanism.posture(&poses[i]);
+            let Ok(alone) = posture.and_then(|p| p.deflected_by(&wrenches[i])) else {
+                continue;
+            };
+            let matrix = alone.stiffness.matrix;
+            let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
+            worst = worst.max((own - matrix).amax() / matrix.amax());
+        }
+        let found = together(&all.found);
+        println!(
+            "{}: {found} of {count} together, apart {worst:.0e}",
+            preset.name
+        );
+        assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
+    }
+}
+
+#[test]
 fn every_preset_is_judged_the_same_alone_and_together() {
     let count = 11;
     for preset in preset_names() {

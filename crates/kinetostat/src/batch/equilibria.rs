@@ -1,6 +1,5 @@
 //! Loaded postures: what is asked of them, and where the answers go.
 
-use super::plan::Plan;
 use super::run::{Answers, Places, Work};
 use super::table::BLOCK;
 use super::{BLOCKS, Batch, Found, Table, in_parallel, left};
@@ -329,11 +328,6 @@ impl<'m> Batch<'m> {
         })
     }
 
-    fn has_tangent(&self) -> bool {
-        let actual = self.actual.as_ref();
-        actual.is_ok_and(|actual| actual.len() == 1 && actual.iter().all(Plan::has_tangent))
-    }
-
     /// Solves those postures that kernels can.
     fn together(
         &self,
@@ -403,7 +397,7 @@ impl<'m> Batch<'m> {
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
         out.reset(self, asked, places.len());
-        if asked == Asked::Rest || asked == Asked::Tangent && self.has_tangent() {
+        if asked != Asked::Verdict {
             let mut none = Table::default();
             none.reset(0, places.len());
             self.together(places, wrenches, None, out, &mut none);

@@ -3,7 +3,8 @@
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Vec3, cross, dot};
+use super::dual::{Dual, Number, inner, outer};
+use super::lanes::Lanes;
 use super::symmetric::Symmetric;
 use crate::parallelogram::ParallelogramLaw;
 
@@ -47,69 +48,152 @@ pub(super) fn parallelogram<S: Simd>(
 /// rotations), and the square of its rotation.
 #[inline(always)]
 pub(super) fn bowing<S: Simd>(
-    simd: S,
+    _: S,
     stiffness: &[f64; 36],
     length: f64,
     at: &[Lanes<S>; 6],
 ) -> ([Lanes<S>; 6], Lanes<S>) {
-    let zero = Lanes::new(simd, 0.0);
+    let bent = bent(stiffness, length, at);
+    (bent.torque, bent.square)
+}
+
+/// A beam segment bent.
+struct Bent<N> {
+    /// Torques in the six directions.
+    torque: [N; 6],
+    /// Square of its rotation.
+    square: N,
+    /// Rotation vector.
+    turn: [N; 3],
+    /// Axial force, N.
+    axial: N,
+}
+
+#[inline(always)]
+fn bent<N: Number>(stiffness: &[f64; 36], length: f64, at: &[N; 6]) -> Bent<N> {
     let h = length;
     // Rotation vector of Rx Ry Rz from half angles.
-    let half = [3, 4, 5].map(|k: usize| (at[k] * 0.5).sin_cos_near_zero());
-    let [(sa, ca), (sb, cb), (sc, cc)] = half;
+    let (sa, ca) = (at[3] * 0.5).sin_cos_near_zero();
+    let (sb, cb) = (at[4] * 0.5).sin_cos_near_zero();
+    let (sc, cc) = (at[5] * 0.5).sin_cos_near_zero();
     let v = [
         (sa * cb).times_plus(cc, ca * sb * sc),
         (ca * sb).times_plus(cc, -(sa * cb * sc)),
         (ca * cb).times_plus(sc, sa * sb * cc),
     ];
     // 2 asin(s) / s.
-    let ratio = dot(&v, &v).polynomial(&ASIN) * 2.0;
-    let f = v.map(|x| x * ratio);
+    let ratio = inner(&v, &v).polynomial(&ASIN) * 2.0;
+    let f = [v[0] * ratio, v[1] * ratio, v[2] * ratio];
     let (y, z, fy, fz) = (at[1], at[2], f[1], f[2]);
-    let bow = |w: Lanes<S>, p: Lanes<S>, sign: f64| {
-        (w * w) * (0.6 / h) + (p * p) * (h / 15.0) - (w * p) * (0.1 * sign)
-    };
     let strain = [
-        at[0] + bow(y, fz, 1.0) + bow(z, fy, -1.0),
+        at[0] + bow(h, y, fz, 1.0) + bow(h, z, fy, -1.0),
         y,
         z,
         f[0],
         fy,
         fz,
     ];
-    let mut g = [zero; 6];
+    let mut g = [strain[0] * 0.0; 6];
     for i in 0..6 {
         for j in 0..6 {
-            g[i] = strain[j].times_plus(strain[j].same(stiffness[6 * i + j]), g[i]);
+            g[i] = g[i] + strain[j] * stiffness[6 * i + j];
         }
     }
     let n = g[0];
-    let m: Vec3<S> = [
+    let m = [
         g[3],
-        g[4] + n * (fy * (2.0 * h / 15.0) + z * 0.1),
-        g[5] + n * (fz * (2.0 * h / 15.0) - y * 0.1),
+        n.times_plus(fy * (2.0 * h / 15.0) + z * 0.1, g[4]),
+        n.times_plus(fz * (2.0 * h / 15.0) - y * 0.1, g[5]),
     ];
     // From the rotation vector to the three turns: the transposed rate of the logarithm.
-    let square = dot(&f, &f);
+    let square = inner(&f, &f);
     let c = square.polynomial(&LOGARITHM);
-    let once = cross(&f, &m);
-    let twice = cross(&f, &once);
-    let about = [0, 1, 2].map(|k| c.times_plus(twice[k], once[k].times_plus(n.same(0.5), m[k])));
+    let once = outer(&f, &m);
+    let twice = outer(&f, &once);
+    let mut about = m;
+    for k in 0..3 {
+        about[k] = c.times_plus(twice[k], m[k] + once[k] * 0.5);
+    }
     let (sx, cx) = at[3].sin_cos_near_zero();
     let (sy, cy) = at[4].sin_cos_near_zero();
-    let second = [zero, cx, sx];
     let third = [sy, -(sx * cy), cx * cy];
-    (
-        [
+    Bent {
+        torque: [
             n,
-            g[1] + n * (y * (1.2 / h) - fz * 0.1),
-            g[2] + n * (z * (1.2 / h) + fy * 0.1),
+            n.times_plus(y * (1.2 / h) - fz * 0.1, g[1]),
+            n.times_plus(z * (1.2 / h) + fy * 0.1, g[2]),
             about[0],
-            dot(&second, &about),
-            dot(&third, &about),
+            cx.times_plus(about[1], sx * about[2]),
+            inner(&third, &about),
         ],
         square,
-    )
+        turn: f,
+        axial: n,
+    }
+}
+
+/// How much a plane of bending shortens the axis.
+#[inline(always)]
+fn bow<N: Number>(h: f64, w: N, p: N, sign: f64) -> N {
+    (w * w) * (0.6 / h) + (p * p) * (h / 15.0) - (w * p) * (0.1 * sign)
+}
+
+/// Tangent stiffness of a beam segment at a deflection. Derivatives by the turns are carried along;
+/// those by the translations are written out, and the rest follows since a potential has a symmetric
+/// tangent.
+#[inline(always)]
+pub(super) fn bowing_tangent<S: Simd>(
+    stiffness: &[f64; 36],
+    length: f64,
+    at: &[Lanes<S>; 6],
+) -> [[Lanes<S>; 6]; 6] {
+    let (zero, one) = (at[0].same(0.0), at[0].same(1.0));
+    let mut along = [Dual {
+        value: zero,
+        rate: [zero; 3],
+    }; 6];
+    for k in 0..6 {
+        along[k].value = at[k];
+        if k >= 3 {
+            along[k].rate[k - 3] = one;
+        }
+    }
+    let bent = bent(stiffness, length, &along);
+    let mut out = [[zero; 6]; 6];
+    for i in 0..6 {
+        for j in 0..3 {
+            out[i][3 + j] = bent.torque[i].rate[j];
+            if i < 3 {
+                out[3 + j][i] = bent.torque[i].rate[j];
+            }
+        }
+    }
+    // Of the axis' strain by x, y and z.
+    let (fy, fz) = (bent.turn[1].value, bent.turn[2].value);
+    let first = [
+        one,
+        at[1] * (1.2 / length) - fz * 0.1,
+        at[2] * (1.2 / length) + fy * 0.1,
+    ];
+    for i in 0..3 {
+        for j in 0..3 {
+            let mut sum = first[i] * first[j] * stiffness[0];
+            if j > 0 {
+                sum = sum + first[i] * stiffness[j];
+            }
+            if i > 0 {
+                sum = sum + first[j] * stiffness[6 * i];
+            }
+            if i > 0 && j > 0 {
+                sum = sum + stiffness[6 * i + j];
+            }
+            if i > 0 && i == j {
+                sum = sum + bent.axial.value * (1.2 / length);
+            }
+            out[i][j] = sum;
+        }
+    }
+    out
 }
 
 /// `asin(s) / s` in powers of `s^2`, highest first: `(2k)! / (4^k k!^2 (2k + 1))`.

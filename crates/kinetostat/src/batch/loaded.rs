@@ -57,7 +57,7 @@ pub(super) struct LoadedLimb<S: Simd> {
     /// Gravity at every mass, m/s^2, axes of the frame there.
     pub gravity: Vec<Vec3<S>>,
     /// Of the springs that depend on the commanded posture, in the order of the steps.
-    laws: Vec<Symmetric<S>>,
+    pub laws: Vec<Symmetric<S>>,
     /// Springs are deflected. The first pass finds them as they are drawn.
     pub bent: bool,
     /// One in the lanes where springs may turn more than [`sin_cos_small`] knows, if there are any.

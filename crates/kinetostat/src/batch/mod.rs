@@ -12,8 +12,10 @@
 
 mod actuators;
 mod compensate;
+mod dual;
 mod eliminate;
 mod equilibria;
+mod freed;
 mod lanes;
 mod law;
 mod loaded;
@@ -30,6 +32,7 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 mod unloaded;
+mod verdict;
 
 use rayon::prelude::*;
 

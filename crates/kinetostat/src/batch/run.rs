@@ -13,7 +13,6 @@ use super::plan::Plan;
 use super::reach::{Joints, Target};
 use super::symmetric::Symmetric;
 use super::table::BLOCK;
-use super::tangent;
 use super::unloaded::Walk;
 use crate::spatial::{Pose, Wrench};
 
@@ -196,9 +195,10 @@ impl WithSimd for Work<'_> {
                     machine.actuator_forces(simd);
                     group.put(answers.forces, 0, &machine.forces);
                     if !answers.stiffness.is_empty() {
-                        machine.limbs[0].frames(&actual[0], &gravity);
-                        let (k, regular) =
-                            tangent::stiffness(simd, &actual[0], &machine.limbs[0], &gravity);
+                        for (limb, plan) in machine.limbs.iter_mut().zip(actual) {
+                            limb.frames(plan, &gravity);
+                        }
+                        let (k, regular) = machine.tangent(simd);
                         good = good.least_of(regular);
                         group.put(answers.stiffness, 0, k.as_flattened());
                     }
@@ -406,11 +406,12 @@ pub(super) struct Machine<'a, S: Simd> {
     pub actual: &'a [Plan],
     walks: Vec<(Walk<S>, Walk<S>)>,
     joints: Vec<Joints<S>>,
-    limbs: Vec<LoadedLimb<S>>,
+    pub limbs: Vec<LoadedLimb<S>>,
     newton: Option<Newton<S>>,
     factors: Vec<Eliminated<S>>,
-    body: ([f64; 3], f64),
-    gravity: [f64; 3],
+    /// Centre of mass (m, axes of the tool) and mass of the platform.
+    pub body: ([f64; 3], f64),
+    pub gravity: [f64; 3],
     /// Where the tool is commanded.
     pub target: Target<S>,
     /// Where the tool is.

@@ -1,33 +1,35 @@
-//! Tangent stiffness of a loaded serial chain, by one walk from its end to its base.
+//! Tangent stiffness of a loaded limb, by one walk from its base to its end.
 //!
-//! With `t` the motion of what lies beyond a place and `y` the change of the wrench there (both at the tip's
-//! place), rows and columns as in [`crate::sweep`]: along a stage of coordinates `x` with twists `S`,
-//! `t = t' + S x` and `S^T (y + A t) = K x`, and a node adds `y' = y + g t`. What lies beyond answers
-//! `y = P t + B w` to a change `w` of the wrench at the tip, whose own motion is `t_n = F t + D w`:
+//! With `t` the motion of the place reached and `y` the change of the wrench passed on there (both at the
+//! tip's place), `x` the motions of the passive joints so far and rows as in [`crate::sweep`], the walk
+//! carries
 //!
 //! ```text
-//! (K - S^T P S - L) x = S^T (P + A) t' + S^T B w        L: S^T A S below the diagonal
-//! P' = P (1 + S X_t) + g    B' = B + P S X_w    F' = F (1 + S X_t)    D' = D + F S X_w
+//! t = D y + E x        0 = G y + H x        (torques of the passive joints do not change)
 //! ```
 //!
-//! At the base `t = 0`, so `D` is the compliance: exact under dead moments too, where it is not symmetric.
+//! Nothing moves at the base. Along a stage of coordinates `q` with twists `S`, `t' = t + S q` and
+//! `K q = S^T (y + A t) + L q`, `L` the part of `S^T A S` below the diagonal; a passive joint adds a
+//! column and a row instead. At a dead force `y = y' + g t`. At the end `t = K_C y^-1`: `K_C` is the
+//! leading block of the inverse of `[D E; G H]`. Exact under dead moments too, where it is not symmetric.
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, cross, minus};
+use super::lanes::{Lanes, Vec3, cross, dot, minus};
+use super::law;
 use super::loaded::{LoadedLimb, twist};
-use super::plan::{Held, Plan, Step};
+use super::plan::{Held, Law, Plan, Spring, Step};
 
-type Mat6<S> = [[Lanes<S>; 6]; 6];
+pub(super) type Mat6<S> = [[Lanes<S>; 6]; 6];
 
-struct Riccati<S: Simd> {
-    p: Mat6<S>,
-    b: Mat6<S>,
-    f: Mat6<S>,
-    d: Mat6<S>,
+struct Walk<S: Simd> {
+    /// `[D E; G H]`, column by column.
+    z: [[Lanes<S>; 12]; 12],
+    /// Six and the passive joints.
+    width: usize,
     /// Force and moment beyond, about the tip's place.
-    force: [Lanes<S>; 3],
-    moment: [Lanes<S>; 3],
+    force: Vec3<S>,
+    moment: Vec3<S>,
     regular: Lanes<S>,
     simd: S,
 }
@@ -41,85 +43,170 @@ pub(super) fn stiffness<S: Simd>(
     gravity: &[f64; 3],
 ) -> (Mat6<S>, Lanes<S>) {
     let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-    let nothing = [[zero; 6]; 6];
-    let mut unit = nothing;
-    for k in 0..6 {
-        unit[k][k] = one;
-    }
     let [fx, fy, fz, mx, my, mz] = limb.wrench;
-    let mut walk = Riccati {
-        p: nothing,
-        b: unit,
-        f: unit,
-        d: nothing,
-        force: [zero; 3],
-        moment: [zero; 3],
+    let mut walk = Walk {
+        z: [[zero; 12]; 12],
+        width: 6 + plan.passive.len(),
+        force: [fx, fy, fz],
+        moment: [mx, my, mz],
         regular: one,
         simd,
     };
-    walk.node(&[fx, fy, fz], &[zero; 3]);
-    walk.moment = [mx, my, mz];
-    let mut mass = limb.masses.len();
-    for step in plan.steps.iter().rev() {
+    let mut mass = 0;
+    for step in &plan.steps {
+        if let Step::Mass { mass: m, .. } = step {
+            let arm = minus(&limb.masses[mass], &limb.point);
+            walk.load(&weight(simd, gravity, *m), &arm);
+            mass += 1;
+        }
+    }
+    let (mut mass, mut law) = (0, 0);
+    for step in &plan.steps {
         match step {
             Step::Mass { mass: m, .. } => {
-                mass -= 1;
-                let weight = gravity.map(|g| one * (g * *m));
+                let weight = weight(simd, gravity, *m);
                 let arm = minus(&limb.masses[mass], &limb.point);
                 walk.node(&weight, &arm);
+                let [x, y, z] = weight;
+                walk.load(&[-x, -y, -z], &arm);
+                mass += 1;
             }
             Step::Joint(joint) => {
-                if let (Held::Spring(c), Some(_)) = (joint.held, joint.amount.coordinate) {
-                    let mut s = [[zero; 6]; 6];
-                    s[0] = twist(limb, plan, joint.screw);
-                    let mut k = [0.0; 36];
-                    k[0] = 1.0 / c;
-                    walk.stage::<1>(&s, &k);
+                let Some((_, ratio)) = joint.amount.coordinate else {
+                    continue;
+                };
+                let mut s = twist(limb, plan, joint.screw);
+                for x in &mut s {
+                    *x = *x * ratio;
+                }
+                match joint.held {
+                    Held::Spring(c) => walk.stage(&s, c),
+                    Held::Passive(slot) => walk.passive(&s, slot),
+                    Held::Fixed => {}
                 }
             }
             Step::Spring(spring) => {
-                let mut s = [[zero; 6]; 6];
-                let mut screw = spring.screw;
-                for d in 0..6 {
-                    if spring.coordinates[d].is_some() {
-                        s[d] = twist(limb, plan, screw);
-                        screw += 1;
-                    }
-                }
-                // A direction that does not move: a unit on the diagonal holds it.
-                let mut k = *spring.stiffness;
-                for d in 0..6 {
-                    if spring.coordinates[d].is_none() {
-                        k[7 * d] = 1.0;
-                    }
-                }
-                walk.stage::<6>(&s, &k);
+                let c = compliance(simd, limb, spring, &mut law, &mut walk.regular);
+                walk.spring(plan, limb, spring, &c);
             }
             Step::Shift(_) | Step::Rotate(_) => {}
         }
     }
-    let mut matrix = walk.d;
-    let mut inverse = unit;
-    let regular = solve(simd, &mut matrix, &mut inverse);
-    (inverse, walk.regular.least_of(regular))
+    walk.node(&[fx, fy, fz], &[zero; 3]);
+    walk.inverse(plan)
 }
 
-impl<S: Simd> Riccati<S> {
-    /// A dead force at a point, from which the tip lies at `-arm`: `g = [0, 0; -hat(f), hat(f) hat(arm)]`.
-    #[inline(always)]
-    fn node(&mut self, force: &[Lanes<S>; 3], arm: &[Lanes<S>; 3]) {
-        let [x, y, z] = *force;
-        let zero = Lanes::new(self.simd, 0.0);
-        // Rows of -hat(f).
-        let rows = [[zero, z, -y], [-z, zero, x], [y, -x, zero]];
-        for (i, row) in rows.iter().enumerate() {
-            // hat(f) hat(arm) = -(rows hat(arm)); a row times hat(arm) is row x arm.
-            let turned = cross(row, arm);
-            for k in 0..3 {
-                self.p[3 + i][k] = self.p[3 + i][k] + row[k];
-                self.p[3 + i][3 + k] = self.p[3 + i][3 + k] - turned[k];
+#[inline(always)]
+fn weight<S: Simd>(simd: S, gravity: &[f64; 3], mass: f64) -> Vec3<S> {
+    let [x, y, z] = gravity;
+    [
+        Lanes::new(simd, x * mass),
+        Lanes::new(simd, y * mass),
+        Lanes::new(simd, z * mass),
+    ]
+}
+
+/// Tangent compliance of a spring where it is.
+#[inline(always)]
+fn compliance<S: Simd>(
+    simd: S,
+    limb: &LoadedLimb<S>,
+    spring: &Spring,
+    law: &mut usize,
+    regular: &mut Lanes<S>,
+) -> Mat6<S> {
+    let mut c = [[Lanes::new(simd, 0.0); 6]; 6];
+    match &spring.law {
+        Law::Constant => {
+            for i in 0..6 {
+                for j in 0..6 {
+                    c[i][j] = Lanes::new(simd, spring.compliance[6 * i + j]);
+                }
             }
         }
+        Law::Parallelogram(..) => {
+            for i in 0..6 {
+                for j in 0..6 {
+                    c[i][j] = limb.laws[*law].get(i, j);
+                }
+            }
+            *law += 1;
+        }
+        Law::Bowing(length) => {
+            let mut k = law::bowing_tangent(&spring.stiffness, *length, &deflection(limb, spring));
+            for i in 0..6 {
+                c[i][i] = Lanes::new(simd, 1.0);
+            }
+            *regular = regular.least_of(solve_small::<S, 6, 6>(simd, &mut k, &mut c));
+        }
+    }
+    c
+}
+
+/// Coordinates of a spring in the six directions.
+#[inline(always)]
+pub(super) fn deflection<S: Simd>(limb: &LoadedLimb<S>, spring: &Spring) -> [Lanes<S>; 6] {
+    let mut at = [limb.wrench[0] * 0.0; 6];
+    for d in 0..6 {
+        if let Some(own) = spring.coordinates[d] {
+            at[d] = limb.coordinates[own];
+        }
+    }
+    at
+}
+
+/// Twists of a spring's six directions at the tip's place; zero where a direction does not move.
+#[inline(always)]
+pub(super) fn twists<S: Simd>(
+    simd: S,
+    plan: &Plan,
+    limb: &LoadedLimb<S>,
+    spring: &Spring,
+) -> Mat6<S> {
+    let mut s = [[Lanes::new(simd, 0.0); 6]; 6];
+    let mut screw = spring.screw;
+    for d in 0..6 {
+        if spring.coordinates[d].is_some() {
+            s[d] = twist(limb, plan, screw);
+            screw += 1;
+        }
+    }
+    s
+}
+
+/// `A t = [0, hat(f); hat(f), hat(m)] t` for a twist.
+#[inline(always)]
+pub(super) fn outer<S: Simd>(
+    force: &Vec3<S>,
+    moment: &Vec3<S>,
+    t: &[Lanes<S>; 6],
+) -> [Lanes<S>; 6] {
+    let (v, w) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
+    let top = cross(force, &w);
+    let (a, b) = (cross(force, &v), cross(moment, &w));
+    [
+        top[0],
+        top[1],
+        top[2],
+        a[0] + b[0],
+        a[1] + b[1],
+        a[2] + b[2],
+    ]
+}
+
+#[inline(always)]
+pub(super) fn dot6<S: Simd>(a: &[Lanes<S>; 6], b: &[Lanes<S>; 12]) -> Lanes<S> {
+    let mut sum = a[0] * b[0];
+    for k in 1..6 {
+        sum = a[k].times_plus(b[k], sum);
+    }
+    sum
+}
+
+impl<S: Simd> Walk<S> {
+    /// Adds a force at a point, to which `arm` leads from the tip's place, to those beyond.
+    #[inline(always)]
+    fn load(&mut self, force: &Vec3<S>, arm: &Vec3<S>) {
         let own = cross(arm, force);
         for k in 0..3 {
             self.force[k] = self.force[k] + force[k];
@@ -127,86 +214,178 @@ impl<S: Simd> Riccati<S> {
         }
     }
 
-    /// `A t = [0, hat(f); hat(f), hat(m)] t` for a twist.
+    /// `S^T (y + A t)` for one column: `A` is skew.
     #[inline(always)]
-    fn outer(&self, t: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
-        let (v, w) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
-        let top = cross(&self.force, &w);
-        let (a, b) = (cross(&self.force, &v), cross(&self.moment, &w));
+    fn row(s: &[Lanes<S>; 6], minus: &[Lanes<S>; 6], c: usize, t: &[Lanes<S>; 12]) -> Lanes<S> {
+        let turned = dot6(minus, t);
+        if c < 6 { s[c] - turned } else { -turned }
+    }
+
+    /// One coordinate of compliance `c`.
+    #[inline(always)]
+    fn stage(&mut self, s: &[Lanes<S>; 6], compliance: f64) {
+        let turned = outer(&self.force, &self.moment, s);
+        for c in 0..self.width {
+            let t = &mut self.z[c];
+            let q = Self::row(s, &turned, c, t) * compliance;
+            for k in 0..6 {
+                t[k] = q.times_plus(s[k], t[k]);
+            }
+        }
+    }
+
+    /// One motion of a passive joint.
+    #[inline(always)]
+    fn passive(&mut self, s: &[Lanes<S>; 6], slot: usize) {
+        let turned = outer(&self.force, &self.moment, s);
+        for c in 0..self.width {
+            let torque = Self::row(s, &turned, c, &self.z[c]);
+            self.z[c][6 + slot] = self.z[c][6 + slot] + torque;
+        }
+        for k in 0..6 {
+            self.z[6 + slot][k] = self.z[6 + slot][k] + s[k];
+        }
+    }
+
+    /// A spring of six directions: `q = C (r + L q)`, and only the rows of the rotations of `L` are not
+    /// zero, so that three numbers `L q` are found first.
+    #[inline(always)]
+    fn spring(&mut self, plan: &Plan, limb: &LoadedLimb<S>, spring: &Spring, c: &Mat6<S>) {
+        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
+        let s = twists(self.simd, plan, limb, spring);
+        let mut turned = [[zero; 6]; 6];
+        for d in 0..6 {
+            turned[d] = outer(&self.force, &self.moment, &s[d]);
+        }
+        let mut l = [[zero; 6]; 3];
+        for i in 0..3 {
+            for j in 0..3 + i {
+                let mut sum = s[3 + i][0] * turned[j][0];
+                for k in 1..6 {
+                    sum = s[3 + i][k].times_plus(turned[j][k], sum);
+                }
+                l[i][j] = sum;
+            }
+        }
+        let mut n = [[zero; 3]; 3];
+        for i in 0..3 {
+            for k in 0..3 {
+                let mut sum = if i == k { one } else { zero };
+                for j in 0..3 + i {
+                    sum = l[i][j].times_from(c[j][3 + k], sum);
+                }
+                n[i][k] = sum;
+            }
+        }
+        let n = self.inverse3(&n);
+        for column in 0..self.width {
+            let t = &mut self.z[column];
+            let mut r = [zero; 6];
+            for d in 0..6 {
+                r[d] = Self::row(&s[d], &turned[d], column, t);
+            }
+            let mut q = [zero; 6];
+            for d in 0..6 {
+                for k in 0..6 {
+                    q[d] = c[d][k].times_plus(r[k], q[d]);
+                }
+            }
+            let mut lq = [zero; 3];
+            for i in 0..3 {
+                for j in 0..3 + i {
+                    lq[i] = l[i][j].times_plus(q[j], lq[i]);
+                }
+            }
+            let mut found = [zero; 3];
+            for i in 0..3 {
+                for j in 0..3 {
+                    found[i] = n[i][j].times_plus(lq[j], found[i]);
+                }
+            }
+            for d in 0..6 {
+                for k in 0..3 {
+                    q[d] = c[d][3 + k].times_plus(found[k], q[d]);
+                }
+            }
+            for d in 0..3 {
+                for k in 0..3 {
+                    t[k] = s[d][k].times_plus(q[d], t[k]);
+                }
+            }
+            for d in 3..6 {
+                for k in 0..6 {
+                    t[k] = s[d][k].times_plus(q[d], t[k]);
+                }
+            }
+        }
+    }
+
+    /// A dead force at a point, to which `arm` leads from the tip's place: where the point moves by `v`, the
+    /// moment about the tip's place changes by `v x f`. `y = y' + [0; p]` with `p` from three equations.
+    #[inline(always)]
+    fn node(&mut self, force: &Vec3<S>, arm: &Vec3<S>) {
+        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
+        let mut p = [[zero; 3]; 12];
+        for c in 0..self.width {
+            let t = &self.z[c];
+            let lever = cross(&[t[3], t[4], t[5]], arm);
+            let v = [t[0] + lever[0], t[1] + lever[1], t[2] + lever[2]];
+            p[c] = cross(&v, force);
+        }
+        let mut n = [[zero; 3]; 3];
+        for i in 0..3 {
+            for k in 0..3 {
+                n[i][k] = (if i == k { one } else { zero }) - p[3 + k][i];
+            }
+        }
+        let n = self.inverse3(&n);
+        let about = [self.z[3], self.z[4], self.z[5]];
+        for c in 0..self.width {
+            let own = p[c];
+            for i in 0..3 {
+                let x = dot(&n[i], &own);
+                for r in 0..self.width {
+                    self.z[c][r] = about[i][r].times_plus(x, self.z[c][r]);
+                }
+            }
+        }
+    }
+
+    /// Inverse of a 3 x 3 matrix near the identity.
+    #[inline(always)]
+    fn inverse3(&mut self, m: &[[Lanes<S>; 3]; 3]) -> [[Lanes<S>; 3]; 3] {
+        let (a, b, c) = (
+            cross(&m[1], &m[2]),
+            cross(&m[2], &m[0]),
+            cross(&m[0], &m[1]),
+        );
+        let determinant = dot(&m[0], &a);
+        self.regular = self.regular.least_of(determinant.abs());
+        let r = determinant.same(1.0) / determinant;
         [
-            top[0],
-            top[1],
-            top[2],
-            a[0] + b[0],
-            a[1] + b[1],
-            a[2] + b[2],
+            [a[0] * r, b[0] * r, c[0] * r],
+            [a[1] * r, b[1] * r, c[1] * r],
+            [a[2] * r, b[2] * r, c[2] * r],
         ]
     }
 
-    /// Coordinates with twists `s` (a row each) and stiffness `k`.
+    /// The leading block of the inverse, and the smallest relative pivot.
     #[inline(always)]
-    fn stage<const N: usize>(&mut self, s: &Mat6<S>, k: &[f64; 36]) {
-        let zero = Lanes::new(self.simd, 0.0);
-        // P s_j, and A^T s_i = (s_i^T A)^T = -A s_i, since A is skew.
-        let mut ps = [[zero; 6]; N];
-        let mut sa = [[zero; 6]; N];
-        for j in 0..N {
-            for r in 0..6 {
-                for c in 0..6 {
-                    ps[j][r] = self.p[r][c].times_plus(s[j][c], ps[j][r]);
-                }
-            }
-            sa[j] = self.outer(&s[j]).map(|x| -x);
+    fn inverse(&mut self, plan: &Plan) -> (Mat6<S>, Lanes<S>) {
+        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
+        if self.width > 6 {
+            let found = super::freed::freed(self.simd, plan, &mut self.z);
+            return (found.0, self.regular.least_of(found.1));
         }
-        let mut m = [[zero; N]; N];
-        // Columns: t' (6), w (6).
-        let mut x = [[zero; 12]; N];
-        for i in 0..N {
-            for j in 0..N {
-                let mut sum = zero + k[if N == 1 { 0 } else { 6 * i + j }];
-                for r in 0..6 {
-                    sum = s[i][r].times_from(ps[j][r], sum);
-                    if j < i {
-                        sum = sa[i][r].times_from(s[j][r], sum);
-                    }
-                }
-                m[i][j] = sum;
-            }
-            for c in 0..6 {
-                let (mut t, mut w) = (sa[i][c], zero);
-                for r in 0..6 {
-                    t = s[i][r].times_plus(self.p[r][c], t);
-                    w = s[i][r].times_plus(self.b[r][c], w);
-                }
-                (x[i][c], x[i][6 + c]) = (t, w);
+        let (mut matrix, mut inverse) = ([[zero; 6]; 6], [[zero; 6]; 6]);
+        for i in 0..6 {
+            inverse[i][i] = one;
+            for j in 0..6 {
+                matrix[i][j] = self.z[j][i];
             }
         }
-        self.regular = self
-            .regular
-            .least_of(solve_small::<S, N, 12>(self.simd, &mut m, &mut x));
-        // S X.
-        let mut sx = [[zero; 12]; 6];
-        for r in 0..6 {
-            for c in 0..12 {
-                for i in 0..N {
-                    sx[r][c] = s[i][r].times_plus(x[i][c], sx[r][c]);
-                }
-            }
-        }
-        let (p, f) = (self.p, self.f);
-        for r in 0..6 {
-            for c in 0..6 {
-                for i in 0..N {
-                    self.p[r][c] = ps[i][r].times_plus(x[i][c], self.p[r][c]);
-                    self.b[r][c] = ps[i][r].times_plus(x[i][6 + c], self.b[r][c]);
-                }
-                for q in 0..6 {
-                    self.f[r][c] = f[r][q].times_plus(sx[q][c], self.f[r][c]);
-                    self.d[r][c] = f[r][q].times_plus(sx[q][6 + c], self.d[r][c]);
-                }
-            }
-        }
-        let _ = p;
+        let regular = solve_small::<S, 6, 6>(self.simd, &mut matrix, &mut inverse);
+        (inverse, self.regular.least_of(regular))
     }
 }
 
@@ -247,9 +426,4 @@ pub(super) fn solve_small<S: Simd, const N: usize, const C: usize>(
         }
     }
     regular
-}
-
-#[inline(always)]
-fn solve<S: Simd>(simd: S, m: &mut Mat6<S>, x: &mut Mat6<S>) -> Lanes<S> {
-    solve_small::<S, 6, 6>(simd, m, x)
 }

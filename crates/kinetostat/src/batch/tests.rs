@@ -340,3 +340,39 @@ fn machines_do_not_matter_to_each_other() {
         }
     }
 }
+
+#[test]
+fn the_tangent_of_a_bent_beam_is_the_difference_of_its_torques() {
+    let k = bar();
+    let stiffness: [f64; 36] = std::array::from_fn(|i| k[(i / 6, i % 6)]);
+    let torque = |at: &[f64; 6]| {
+        let at = at.map(|x| Lanes::new(Scalar, x));
+        let (torque, _) = super::law::bowing(Scalar, &stiffness, 0.3, &at);
+        torque.map(number)
+    };
+    for i in 0..20 {
+        let at: [f64; 6] =
+            std::array::from_fn(|d| irregular(6 * i + d) * if d < 3 { 0.02 } else { 0.2 });
+        let lanes = at.map(|x| Lanes::new(Scalar, x));
+        let tangent = super::law::bowing_tangent(&stiffness, 0.3, &lanes);
+        for column in 0..6 {
+            let step = if column < 3 { 1e-6 } else { 1e-5 };
+            let (mut more, mut less) = (at, at);
+            more[column] += step;
+            less[column] -= step;
+            let (more, less) = (torque(&more), torque(&less));
+            for row in 0..6 {
+                let slope = (more[row] - less[row]) / (2.0 * step);
+                let own = number(tangent[row][column]);
+                let size = (k[(row, row)] * k[(column, column)]).sqrt();
+                assert!((slope - own).abs() < 1e-7 * size, "{row} {column}");
+            }
+        }
+    }
+}
+
+fn number(x: Lanes<Scalar>) -> f64 {
+    let mut out = [0.0];
+    x.store(&mut out);
+    out[0]
+}
