@@ -44,9 +44,7 @@ pub(super) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
         regular = regular.least_of(rest / whole);
         let norm = rest.sqrt();
         let signed = column[k].where_less(zero, -norm, norm);
-        for i in k..6 {
-            v[k][i] = column[i];
-        }
+        v[k][k..].copy_from_slice(&column[k..6]);
         v[k][k] = column[k] + signed;
         let scale = one / (signed * v[k][k]);
         for i in k..6 {
@@ -92,9 +90,7 @@ pub(super) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
     }
     regular = regular.least_of(solve(simd, joints, width, &mut m, &mut x));
     let mut k = [[zero; 6]; 6];
-    for i in 0..6 {
-        k[i] = x[joints + i];
-    }
+    k.copy_from_slice(&x[joints..width]);
     for j in (0..joints).rev() {
         for c in 0..6 {
             let mut column = zero;
