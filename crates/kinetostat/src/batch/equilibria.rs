@@ -1,6 +1,8 @@
 //! Loaded postures: what is asked of them, and where the answers go.
 
+use super::plan::Plan;
 use super::run::{Answers, Places, Work};
+use super::shape::springs;
 use super::table::BLOCK;
 use super::{BLOCKS, Batch, Found, Table, in_parallel, left};
 use crate::compensation::target_under_load;
@@ -328,6 +330,15 @@ impl<'m> Batch<'m> {
         })
     }
 
+    /// Kernels see all that a verdict depends on: a redundant passive joint, which they lock, may be
+    /// pushed out of line.
+    fn judges(&self) -> bool {
+        let whole = |plan: &Plan| plan.passive.len() + springs(plan) == plan.coordinates;
+        self.actual
+            .as_ref()
+            .is_ok_and(|plans| plans.iter().all(whole))
+    }
+
     /// Solves those postures that kernels can.
     fn together(
         &self,
@@ -347,13 +358,22 @@ impl<'m> Batch<'m> {
             &mut out.commands,
             &mut out.actuator_forces,
             &mut out.stiffness,
+            &mut out.verdicts,
             targets,
         ]
         .map(|table| table.parts(BLOCKS));
         let parts = out.found.chunks_mut(BLOCK * BLOCKS).enumerate();
         let works = parts.map(|(k, found)| {
-            let next = [0, 1, 2, 3, 4, 5].map(|i| tables[i].next().unwrap_or_default());
-            let [tool_out, coordinates, commands, forces, stiffness, targets] = next;
+            let next = [0, 1, 2, 3, 4, 5, 6].map(|i| tables[i].next().unwrap_or_default());
+            let [
+                tool_out,
+                coordinates,
+                commands,
+                forces,
+                stiffness,
+                verdicts,
+                targets,
+            ] = next;
             Work::Loaded {
                 nominal,
                 actual,
@@ -368,6 +388,7 @@ impl<'m> Batch<'m> {
                     commands,
                     forces,
                     stiffness,
+                    verdicts,
                     targets,
                     found,
                 },
@@ -397,7 +418,7 @@ impl<'m> Batch<'m> {
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
         out.reset(self, asked, places.len());
-        if asked != Asked::Verdict {
+        if asked != Asked::Verdict || self.judges() {
             let mut none = Table::default();
             none.reset(0, places.len());
             self.together(places, wrenches, None, out, &mut none);

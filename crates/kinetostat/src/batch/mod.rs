@@ -26,6 +26,7 @@ mod newton_tests;
 mod plan;
 mod reach;
 mod run;
+mod shape;
 mod symmetric;
 mod table;
 mod tangent;

@@ -11,6 +11,7 @@ use super::loaded::{Held6, LoadedLimb, serial};
 use super::newton::Newton;
 use super::plan::Plan;
 use super::reach::{Joints, Target};
+use super::shape::Shape;
 use super::symmetric::Symmetric;
 use super::table::BLOCK;
 use super::unloaded::Walk;
@@ -77,6 +78,7 @@ pub(super) struct Answers<'a> {
     pub commands: &'a mut [f64],
     pub forces: &'a mut [f64],
     pub stiffness: &'a mut [f64],
+    pub verdicts: &'a mut [f64],
     /// Commanded poses, 12 numbers as `tool`.
     pub targets: &'a mut [f64],
     pub found: &'a mut [Found],
@@ -155,6 +157,9 @@ impl WithSimd for Work<'_> {
                 answers,
             } => {
                 let mut machine = Machine::new(simd, nominal, actual, body, gravity);
+                if !answers.verdicts.is_empty() {
+                    machine.shapes = actual.iter().map(|a| Shape::new(simd, a)).collect();
+                }
                 let count = answers.found.len();
                 for first in (0..count).step_by(S::F64_LANES) {
                     let group = Group { first, count };
@@ -201,6 +206,11 @@ impl WithSimd for Work<'_> {
                         let (k, regular) = machine.tangent(simd);
                         good = good.least_of(regular);
                         group.put(answers.stiffness, 0, k.as_flattened());
+                        if !answers.verdicts.is_empty() {
+                            let (verdict, regular) = machine.verdict(simd, &k);
+                            good = good.least_of(regular);
+                            group.put(answers.verdicts, 0, &verdict);
+                        }
                     }
                     group.conclude(good, answers.found);
                 }
@@ -419,6 +429,8 @@ pub(super) struct Machine<'a, S: Simd> {
     pub point: lanes::Vec3<S>,
     /// Of the loads on all actuators, N or N m.
     forces: Vec<Lanes<S>>,
+    /// Of the limbs, where verdicts are asked for.
+    pub shapes: Vec<Shape<S>>,
 }
 
 impl<'a, S: Simd> Machine<'a, S> {
@@ -450,6 +462,7 @@ impl<'a, S: Simd> Machine<'a, S> {
             rotation: identity(simd),
             point: [Lanes::new(simd, 0.0); 3],
             forces: vec![Lanes::new(simd, 0.0); actual.iter().map(|a| a.commands).sum()],
+            shapes: Vec::new(),
         }
     }
 

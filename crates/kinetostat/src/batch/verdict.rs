@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, carried, constant, dot};
 use super::run::Machine;
+use super::symmetric::{AT, Symmetric};
 use super::tangent::{self, Mat6};
 
 impl<S: Simd> Machine<'_, S> {
@@ -38,4 +39,74 @@ impl<S: Simd> Machine<'_, S> {
         }
         (sum, regular)
     }
+
+    /// Whether the equilibrium holds (one or zero), force per motion in the softest direction of the
+    /// tool, margin (not a number without inner motions), as in [`super::Verdict`]; and the smallest
+    /// relative pivot on the way: a platform that nothing holds, or that runs away, is judged alone.
+    #[inline(always)]
+    pub fn verdict(&mut self, simd: S, k: &Mat6<S>) -> ([Lanes<S>; 3], Lanes<S>) {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let mut own = Symmetric::zero(simd);
+        for i in 0..6 {
+            for j in i..6 {
+                own.set(i, j, (k[i][j] + k[j][i]) * 0.5);
+            }
+        }
+        let (compliance, mut regular) = own.inverse(simd);
+        let softest = largest(compliance.a);
+        let mut margin = None;
+        let limbs = self.shapes.iter_mut().zip(self.actual).zip(&self.limbs);
+        for ((shape, plan), limb) in limbs {
+            if let Some((own, pivot)) = shape.margin(plan, limb, &self.gravity) {
+                regular = regular.least_of(pivot);
+                margin = Some(match margin {
+                    Some(other) => own.max(other),
+                    None => own,
+                });
+            }
+        }
+        let stable = match margin {
+            Some(margin) => margin.where_less(one, one, zero),
+            None => one,
+        };
+        let margin = match margin {
+            Some(margin) => margin,
+            None => zero + f64::NAN,
+        };
+        ([stable, one / softest, margin], regular)
+    }
+}
+
+/// Sweeps of Jacobi's rotations: each squares what is beside the diagonal.
+const SWEEPS: usize = 6;
+
+/// Largest eigenvalue of a symmetric 3 x 3 matrix in six numbers.
+#[inline(always)]
+fn largest<S: Simd>(mut m: [Lanes<S>; 6]) -> Lanes<S> {
+    for _ in 0..SWEEPS {
+        rotate::<S, 0, 1, 2>(&mut m);
+        rotate::<S, 0, 2, 1>(&mut m);
+        rotate::<S, 1, 2, 0>(&mut m);
+    }
+    m[AT[0][0]].max(m[AT[1][1]]).max(m[AT[2][2]])
+}
+
+/// Jacobi's rotation that takes entry (I, J) to zero; K is the third axis.
+#[inline(always)]
+fn rotate<S: Simd, const I: usize, const J: usize, const K: usize>(m: &mut [Lanes<S>; 6]) {
+    let x = m[AT[I][J]];
+    let (zero, one) = (x.same(0.0), x.same(1.0));
+    // tan 2a = 2 x / d; t the smaller root, finite where both are zero.
+    let d = m[AT[J][J]] - m[AT[I][I]];
+    let root = d.times_plus(d, x * x * 4.0).sqrt();
+    let under = d.abs() + root;
+    let t = x * d.where_less(zero, -one, one) * 2.0 / under.max(one * f64::MIN_POSITIVE);
+    let c = one / t.times_plus(t, one).sqrt();
+    let s = t * c;
+    m[AT[I][I]] = t.times_from(x, m[AT[I][I]]);
+    m[AT[J][J]] = t.times_plus(x, m[AT[J][J]]);
+    m[AT[I][J]] = zero;
+    let (a, b) = (m[AT[I][K]], m[AT[J][K]]);
+    m[AT[I][K]] = s.times_from(b, c * a);
+    m[AT[J][K]] = s.times_plus(a, c * b);
 }
