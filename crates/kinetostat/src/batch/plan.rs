@@ -296,6 +296,17 @@ impl Plan {
     }
 }
 
+impl Plan {
+    /// Newton's iteration along the limb is compiled: serial, springs of constant matrices.
+    pub fn has_tangent(&self) -> bool {
+        let linear = |step: &Step| match step {
+            Step::Spring(spring) => matches!(spring.law, Law::Constant),
+            _ => true,
+        };
+        self.passive.is_empty() && self.steps.iter().all(linear)
+    }
+}
+
 /// Passive joints whose motion others make as well, in general: locked where they are at home.
 fn redundant_passive_joints(chain: &Chain) -> Vec<usize> {
     // A posture with nothing special about it.
