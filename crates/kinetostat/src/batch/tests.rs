@@ -91,7 +91,7 @@ fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize)
         ),
         None => (
             Ok(batch.stiffness(&poses)),
-            batch.equilibrium(&poses, &wrenches, false),
+            batch.judged_equilibrium(&poses, &wrenches),
         ),
     };
     let (free, bent) = (free.expect("sizes"), bent.expect("sizes"));
@@ -103,6 +103,7 @@ fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize)
         bent.commands,
         bent.actuator_forces,
         bent.stiffness,
+        bent.verdicts,
     ];
     let mut found = [free.found, bent.found].concat();
     if joints.is_none() {
