@@ -490,9 +490,11 @@ impl<S: Simd> Shape<S> {
             // Pivots of x - H and their two derivatives, each over the pivot.
             let (mut sum, mut squares) = (zero, zero);
             let (mut q, mut q1, mut q2) = (one, zero, zero);
+            let mut least = one;
             for i in first..springs {
                 let over = self.u[i] / q;
-                let p = (x - self.v[i] - over).max(one * LEAST);
+                let p = x - self.v[i] - over;
+                least = least.least_of(p);
                 let r = one / p;
                 let p1 = over.times_plus(q1, one) * r;
                 let p2 = over * (q2 - q1 * q1 * 2.0) * r;
@@ -502,6 +504,8 @@ impl<S: Simd> Shape<S> {
             }
             let under = (squares * order - sum * sum) * (order - 1.0);
             let step = one * order / (sum + under.max(zero).sqrt());
+            // From above all pivots are positive: one that is not is rounding at the eigenvalue.
+            let step = least.where_less(one * LEAST, zero, step);
             x = active.where_less(one * 0.5, x, x - step);
             active = step.where_less(one * ROUNDING, zero, active);
             if active.all_less(0.5) {
@@ -543,9 +547,8 @@ pub(super) fn springs(plan: &Plan) -> usize {
 
 /// Steps of Laguerre's iteration: three or four where the largest eigenvalue stands alone.
 const MOST_STEPS: usize = 100;
-/// A pivot that is not larger counts as this, in units of the largest row: the iteration comes from
-/// above, where all are positive.
-const LEAST: f64 = 1e-18;
+/// A pivot that is not larger is none, in units of the largest row.
+const LEAST: f64 = 1e-30;
 /// A step after which the next one would be rounding, in the same units.
 const ROUNDING: f64 = 1e-14;
 
