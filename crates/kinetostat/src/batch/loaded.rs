@@ -62,13 +62,21 @@ pub(super) struct LoadedLimb<S: Simd> {
     pub bent: bool,
     /// One in the lanes where springs may turn more than [`sin_cos_small`] knows, if there are any.
     pub far: Option<Lanes<S>>,
-    /// Largest square of a rotation of a spring whose law is a series.
-    largest: Lanes<S>,
-    /// Squares of the torques, of their changes in the last pass and in the one before.
-    size: Lanes<S>,
-    change: Lanes<S>,
+    /// Of the last pass.
+    tally: Tally<S>,
+    /// Square of the change in the one before.
     before: Lanes<S>,
     simd: S,
+}
+
+/// What a pass finds, summed up over the springs.
+#[derive(Clone, Copy)]
+struct Tally<S: Simd> {
+    /// Squares of the torques and of their changes.
+    size: Lanes<S>,
+    change: Lanes<S>,
+    /// Largest square of a rotation of a spring whose law is a series.
+    largest: Lanes<S>,
 }
 
 impl<S: Simd> LoadedLimb<S> {
@@ -94,9 +102,11 @@ impl<S: Simd> LoadedLimb<S> {
             laws: Vec::new(),
             bent: false,
             far: None,
-            largest: zero,
-            size: zero,
-            change: zero,
+            tally: Tally {
+                size: zero,
+                change: zero,
+                largest: zero,
+            },
             before: zero,
             simd,
         }
@@ -110,7 +120,7 @@ impl<S: Simd> LoadedLimb<S> {
         self.coordinates.fill(zero);
         self.torque.fill(zero);
         self.wrench = [zero; 6];
-        (self.bent, self.far, self.change) = (false, None, zero);
+        (self.bent, self.far, self.tally.change) = (false, None, zero);
         for (own, x) in plan.passive.iter().zip(passive) {
             self.coordinates[*own] = *x;
         }
@@ -150,7 +160,7 @@ impl<S: Simd> LoadedLimb<S> {
                 Step::Joint(joint) => {
                     if PLACES {
                         self.places[joint.screw] = Place {
-                            axis: column(&r, joint.axis),
+                            axis: column_of(&r, joint.axis),
                             origin: p,
                         };
                     }
@@ -171,8 +181,9 @@ impl<S: Simd> LoadedLimb<S> {
                         }
                         MotionKind::Prismatic => {
                             self.moved[joint.screw][0] = amount;
+                            let axis = column_of(&r, joint.axis);
                             for k in 0..3 {
-                                p[k] = r[3 * k + joint.axis].times_plus(amount, p[k]);
+                                p[k] = axis[k].times_plus(amount, p[k]);
                             }
                         }
                     }
@@ -249,8 +260,11 @@ impl<S: Simd> LoadedLimb<S> {
     pub fn inwards(&mut self, plan: &Plan, active: Lanes<S>) {
         let zero = Lanes::new(self.simd, 0.0);
         let (mut force, mut moment) = self.at_tip();
-        self.before = self.change;
-        (self.change, self.size, self.largest) = (zero, zero, zero);
+        let mut tally = Tally {
+            size: zero,
+            change: zero,
+            largest: zero,
+        };
         let (mut mass, mut law) = (self.gravity.len(), self.laws.len());
         for step in plan.steps.iter().rev() {
             match step {
@@ -262,17 +276,19 @@ impl<S: Simd> LoadedLimb<S> {
                 Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
                 Step::Joint(joint) => {
                     let torque = self.joint_bears(joint, &mut force, &mut moment);
-                    self.joint_follows(joint, torque, active);
+                    self.joint_follows(joint, torque, active, &mut tally);
                 }
                 Step::Spring(spring) => {
                     if matches!(spring.law, Law::Parallelogram(..)) {
                         law -= 1;
                     }
                     let torque = self.spring_bears(spring, &mut force, &mut moment);
-                    self.spring_follows(spring, law, torque, active);
+                    self.spring_follows(spring, law, torque, active, &mut tally);
                 }
             }
         }
+        self.before = self.tally.change;
+        self.tally = tally;
         self.bent = true;
     }
 
@@ -322,11 +338,11 @@ impl<S: Simd> LoadedLimb<S> {
         match joint.kind {
             MotionKind::Prismatic => {
                 slid(joint.axis, s, force, moment);
-                force[joint.axis]
+                component(force, joint.axis)
             }
             MotionKind::Revolute => {
                 back(joint.axis, s, c, force, moment);
-                moment[joint.axis]
+                component(moment, joint.axis)
             }
         }
     }
@@ -340,14 +356,20 @@ impl<S: Simd> LoadedLimb<S> {
     }
 
     #[inline(always)]
-    fn joint_follows(&mut self, joint: &Joint, torque: Lanes<S>, active: Lanes<S>) {
+    fn joint_follows(
+        &mut self,
+        joint: &Joint,
+        torque: Lanes<S>,
+        active: Lanes<S>,
+        tally: &mut Tally<S>,
+    ) {
         let Some((own, ratio)) = joint.amount.coordinate else {
             return;
         };
         match joint.held {
             Held::Spring(compliance) => {
                 let torque = torque * ratio;
-                self.bears(own, torque, self.torque[own]);
+                self.bears(own, torque, self.torque[own], tally);
                 self.follows(own, torque * compliance, active);
             }
             // Several motions may belong to one passive joint: see `clear`.
@@ -357,10 +379,10 @@ impl<S: Simd> LoadedLimb<S> {
 
     /// The torque on a coordinate is `torque` now; its spring bears `borne`.
     #[inline(always)]
-    fn bears(&mut self, own: usize, torque: Lanes<S>, borne: Lanes<S>) {
+    fn bears(&mut self, own: usize, torque: Lanes<S>, borne: Lanes<S>, tally: &mut Tally<S>) {
         let change = torque - borne;
-        self.change = change.times_plus(change, self.change);
-        self.size = torque.times_plus(torque, self.size);
+        tally.change = change.times_plus(change, tally.change);
+        tally.size = torque.times_plus(torque, tally.size);
         self.torque[own] = torque;
     }
 
@@ -380,7 +402,8 @@ impl<S: Simd> LoadedLimb<S> {
         let zero = Lanes::new(self.simd, 0.0);
         let mut torque = [zero; 6];
         let mut screw = spring.screw + spring.moving;
-        for k in [2, 1, 0] {
+        for i in 0..3 {
+            let k = 2 - i;
             torque[3 + k] = moment[k];
             if spring.coordinates[3 + k].is_some() && self.bent {
                 screw -= 1;
@@ -406,6 +429,7 @@ impl<S: Simd> LoadedLimb<S> {
         law: usize,
         torque: [Lanes<S>; 6],
         active: Lanes<S>,
+        tally: &mut Tally<S>,
     ) {
         let zero = Lanes::new(self.simd, 0.0);
         // Where the spring is, what it bears there, and what its compliance is multiplied with.
@@ -418,7 +442,7 @@ impl<S: Simd> LoadedLimb<S> {
             }
             let square;
             (borne, square) = law::bowing(self.simd, &spring.stiffness, length, &from);
-            self.largest = self.largest.max(square);
+            tally.largest = tally.largest.max(square);
             for d in 0..6 {
                 lacks[d] = torque[d] - borne[d];
             }
@@ -435,7 +459,7 @@ impl<S: Simd> LoadedLimb<S> {
         };
         for d in 0..6 {
             if let Some(own) = spring.coordinates[d] {
-                self.bears(own, torque[d], borne[d]);
+                self.bears(own, torque[d], borne[d], tally);
                 self.follows(own, from[d] + step[d], active);
             }
         }
@@ -446,10 +470,11 @@ impl<S: Simd> LoadedLimb<S> {
     #[inline(always)]
     fn moving(&self) -> Lanes<S> {
         let one = Lanes::new(self.simd, 1.0);
-        let most = self.size * (LAST_CHANGE * LAST_CHANGE);
-        let moving = most.where_less(self.change, one, one.same(0.0));
-        let allowed = self.before * self.size * (TOLERANCE * TOLERANCE);
-        allowed.where_less(self.change * self.change, one, moving)
+        let Tally { size, change, .. } = self.tally;
+        let most = size * (LAST_CHANGE * LAST_CHANGE);
+        let moving = most.where_less(change, one, one.same(0.0));
+        let allowed = self.before * size * (TOLERANCE * TOLERANCE);
+        allowed.where_less(change * change, one, moving)
     }
 
     /// One where every spring turns less than so much (rad) and all numbers are numbers.
@@ -468,6 +493,7 @@ impl<S: Simd> LoadedLimb<S> {
             }
         }
         let within = self
+            .tally
             .largest
             .where_less(one * law::MOST_SQUARE, one, one.same(0.0));
         (one - most) * within
@@ -481,6 +507,26 @@ fn sin_cos_small<S: Simd>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
     let sine = z.polynomial(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0]);
     let cosine = z.polynomial(&[1.0 / 40_320.0, -1.0 / 720.0, 1.0 / 24.0, -0.5, 1.0]);
     ((x * z).times_plus(sine, x), cosine)
+}
+
+/// A component. An index that is known at run time only would keep the vector out of registers.
+#[inline(always)]
+pub(super) fn component<S: Simd>(v: &Vec3<S>, axis: usize) -> Lanes<S> {
+    match axis {
+        0 => v[0],
+        1 => v[1],
+        _ => v[2],
+    }
+}
+
+/// A column, likewise.
+#[inline(always)]
+fn column_of<S: Simd>(r: &Mat3<S>, axis: usize) -> Vec3<S> {
+    match axis {
+        0 => column(r, 0),
+        1 => column(r, 1),
+        _ => column(r, 2),
+    }
 }
 
 /// `p + R l` for a constant `l`, often along an axis.
@@ -599,18 +645,22 @@ pub(super) fn serial<S: Simd>(
         active = active * limb.moving();
         if pass > 0 {
             let most = limb.before * (MOST_CONTRACTION * MOST_CONTRACTION);
-            lost = select(active, most.where_less(limb.change, one, zero), lost);
+            lost = select(active, most.where_less(limb.tally.change, one, zero), lost);
             active = active * (one - lost);
         }
     }
     let done = (one - active) * (one - lost) * limb.sound(plan, MOST_TURN);
-    if let Some(newton) = newton
-        && !(one - done).all_less(0.5)
-    {
-        let found = newton.settle(plan, limb, gravity, one - done);
-        return done + found * limb.sound(plan, MOST_TURN_FAR);
+    if (one - done).all_less(0.5) || !plan.has_tangent() {
+        return done;
     }
-    done
+    if newton.is_none() {
+        *newton = Some(Newton::new(simd, plan));
+    }
+    let Some(newton) = newton else {
+        return done;
+    };
+    let found = newton.settle(plan, limb, gravity, one - done);
+    done + found * limb.sound(plan, MOST_TURN_FAR)
 }
 
 /// Limbs that hold one platform.

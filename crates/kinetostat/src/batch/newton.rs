@@ -22,7 +22,7 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Vec3, cross, dot};
-use super::loaded::{LoadedLimb, back, lever, rotated_back, select, slid, times};
+use super::loaded::{LoadedLimb, back, component, lever, rotated_back, select, slid, times};
 use super::plan::{Held, Joint, Plan, Spring, Step};
 use super::unloaded::matrix;
 use crate::chain::MotionKind;
@@ -77,7 +77,7 @@ pub(super) struct Newton<S: Simd> {
 }
 
 impl<S: Simd> Newton<S> {
-    /// Buffers; none for a limb that the iteration does not know.
+    /// Buffers.
     pub fn new(simd: S, plan: &Plan) -> Self {
         let zero = Lanes::new(simd, 0.0);
         let nothing = [[zero; 6]; 6];
@@ -358,7 +358,8 @@ impl<S: Simd> Newton<S> {
                 screw += 1;
             }
         }
-        for k in [2, 1, 0] {
+        for i in 0..3 {
+            let k = 2 - i;
             if spring.coordinates[3 + k].is_some() {
                 let [s, c] = own.turned[k];
                 back(k, s, c, force, moment);
@@ -371,7 +372,11 @@ impl<S: Simd> Newton<S> {
         for k in 0..3 {
             let mut a = [zero; 3];
             a[k] = one;
-            let e = [a, second, third][if k == 0 { 0 } else { k }];
+            let e = match k {
+                0 => a,
+                1 => second,
+                _ => third,
+            };
             let (lever, ef, em) = (cross(&a, force), cross(&e, force), cross(&e, moment));
             for r in 0..3 {
                 own.passed_on[r][k] = zero;
@@ -480,8 +485,8 @@ impl<S: Simd> Newton<S> {
                         let this = &mut self.singles[single];
                         moved = this.moved;
                         let y = match joint.kind {
-                            MotionKind::Prismatic => force[joint.axis],
-                            MotionKind::Revolute => moment[joint.axis],
+                            MotionKind::Prismatic => component(&force, joint.axis),
+                            MotionKind::Revolute => component(&moment, joint.axis),
                         };
                         this.free = y.times_plus(y.same(ratio), lacks) * this.reciprocal;
                         for k in 0..3 {
@@ -498,7 +503,8 @@ impl<S: Simd> Newton<S> {
                 Step::Spring(spring) => {
                     stage -= 1;
                     let own = &mut self.stages[stage];
-                    for k in [2, 1, 0] {
+                    for i in 0..3 {
+                        let k = 2 - i;
                         let [s, c] = own.turned[k];
                         back(k, s, c, &mut force, &mut moment);
                     }
@@ -584,10 +590,14 @@ impl<S: Simd> Newton<S> {
                         }
                         self.next[own] = x;
                         let along = match joint.kind {
-                            MotionKind::Prismatic => &mut v[joint.axis],
-                            MotionKind::Revolute => &mut w[joint.axis],
+                            MotionKind::Prismatic => &mut v,
+                            MotionKind::Revolute => &mut w,
                         };
-                        *along = x.times_plus(x.same(ratio), *along);
+                        for k in 0..3 {
+                            if k == joint.axis {
+                                along[k] = x.times_plus(x.same(ratio), along[k]);
+                            }
+                        }
                     }
                 }
                 Step::Spring(spring) => {

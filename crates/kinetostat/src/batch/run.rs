@@ -417,6 +417,7 @@ pub(super) struct Machine<'a, S: Simd> {
     walks: Vec<(Walk<S>, Walk<S>)>,
     joints: Vec<Joints<S>>,
     pub limbs: Vec<LoadedLimb<S>>,
+    /// Made when it is needed.
     newton: Option<Newton<S>>,
     factors: Vec<Eliminated<S>>,
     /// Centre of mass (m, axes of the tool) and mass of the platform.
@@ -450,8 +451,7 @@ impl<'a, S: Simd> Machine<'a, S> {
                 .collect(),
             joints: nominal.iter().map(|n| Joints::new(simd, n)).collect(),
             limbs: actual.iter().map(|a| LoadedLimb::new(simd, a)).collect(),
-            newton: (actual.len() == 1 && actual[0].has_tangent())
-                .then(|| Newton::new(simd, &actual[0])),
+            newton: None,
             factors: Vec::with_capacity(actual.len()),
             body,
             gravity,
