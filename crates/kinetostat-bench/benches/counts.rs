@@ -70,7 +70,6 @@ fn general_stiffness(at: (Posture<'static>, Wrench)) -> UnloadedStiffness {
 #[library_benchmark(setup = at_home)]
 #[bench::arm("arm", 2000.0, 300.0)]
 #[bench::puu3("puu3", 300.0, 10.0)]
-#[bench::rod("rod", 0.5, 0.0)]
 fn general_equilibrium(at: (Posture<'static>, Wrench)) -> MechanismEquilibrium {
     black_box(&at.0)
         .deflected_by(&at.1)
