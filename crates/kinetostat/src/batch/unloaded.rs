@@ -42,6 +42,8 @@ impl<S: Simd> Place<S> {
     }
 }
 
+type SineCosine<S> = (Lanes<S>, Lanes<S>);
+
 /// Where a limb is and what its springs yield: buffers of one walk.
 pub(super) struct Walk<S: Simd> {
     /// Of the frame reached, base axes.
@@ -53,7 +55,7 @@ pub(super) struct Walk<S: Simd> {
     rigid: bool,
     places: Vec<Place<S>>,
     /// Sines and cosines of two joints that are known already, and the step of the first.
-    pub known: Option<(usize, [(Lanes<S>, Lanes<S>); 2])>,
+    pub known: Option<(usize, [SineCosine<S>; 2])>,
     simd: S,
 }
 
