@@ -28,6 +28,9 @@ use crate::chain::MotionKind;
 pub(super) const MOST_PASSES: usize = 30;
 /// Relative change of the torques that the next pass would bring when a lane is done: rounding.
 const TOLERANCE: f64 = 1e-13;
+/// Rounding of a gap between a limb and its platform, share of the natural length or rad: a few walks
+/// of tens of motions.
+const GAP_ROUNDING: f64 = 4e-15;
 /// And the most that the last pass has brought, however fast the passes contract.
 const LAST_CHANGE: f64 = 1e-10;
 /// Passes that bring more than this share of the one before do not come to an end in time.
@@ -468,12 +471,12 @@ impl<S: Simd> LoadedLimb<S> {
     /// One in the lanes where the next pass would still change the torques. If passes contract by a
     /// ratio, the next change is that ratio times the last one.
     #[inline(always)]
-    fn moving(&self) -> Lanes<S> {
+    fn moving(&self, rounding: Lanes<S>) -> Lanes<S> {
         let one = Lanes::new(self.simd, 1.0);
         let Tally { size, change, .. } = self.tally;
-        let most = size * (LAST_CHANGE * LAST_CHANGE);
+        let most = (size * (LAST_CHANGE * LAST_CHANGE)).max(rounding);
         let moving = most.where_less(change, one, one.same(0.0));
-        let allowed = self.before * size * (TOLERANCE * TOLERANCE);
+        let allowed = (self.before * size * (TOLERANCE * TOLERANCE)).max(rounding * rounding);
         allowed.where_less(change * change, one, moving)
     }
 
@@ -642,7 +645,7 @@ pub(super) fn serial<S: Simd>(
             break;
         }
         limb.inwards(plan, active);
-        active = active * limb.moving();
+        active = active * limb.moving(zero);
         if pass > 0 {
             let most = limb.before * (MOST_CONTRACTION * MOST_CONTRACTION);
             lost = select(active, most.where_less(limb.tally.change, one, zero), lost);
@@ -669,6 +672,8 @@ pub(super) struct Held6<'a, S: Simd> {
     pub limbs: &'a mut [LoadedLimb<S>],
     /// Unloaded compliance of every limb.
     pub factors: &'a [Eliminated<S>],
+    /// Largest entry of every limb's stiffness, N m.
+    pub stiffest: &'a [Lanes<S>],
     /// Inverse of the unloaded stiffness of the platform.
     pub compliance: &'a Symmetric<S>,
     pub rotation: Mat3<S>,
@@ -718,7 +723,8 @@ impl<S: Simd> Held6<'_, S> {
             lacks[k] = lacks[k] + weight[k];
             lacks[3 + k] = lacks[3 + k] + lever[k];
         }
-        for ((limb, plan), factors) in self.limbs.iter_mut().zip(self.plans).zip(self.factors) {
+        for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
+            let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
             limb.clear(plan);
             limb.inwards(plan, active);
             limb.outwards(plan, &self.gravity);
@@ -727,14 +733,18 @@ impl<S: Simd> Held6<'_, S> {
                 // A share of the natural length, or rad.
                 moving = (one * TOLERANCE).where_less(x.abs(), one, moving);
             }
-            moving = moving.max(limb.moving());
+            // On every coordinate, N or N m.
+            let torques = noise * noise * (limb.coordinates.len() as f64);
+            let rounding = torques * (1.0 + 1.0 / (plan.length * plan.length));
+            moving = moving.max(limb.moving(rounding));
             let (step, _) = correction(simd, limb, plan, factors, gap);
             for k in 0..6 {
                 lacks[k] = lacks[k] - limb.wrench[k] - step[k];
             }
         }
         let motion = self.compliance.times(&lacks);
-        for ((limb, plan), factors) in self.limbs.iter_mut().zip(self.plans).zip(self.factors) {
+        for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
+            let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
             let mut gap = gap(limb, plan, &self.rotation, &self.point);
             for k in 0..3 {
                 gap[k] = motion[k].times_plus(one * (1.0 / plan.length), gap[k]);
@@ -748,7 +758,9 @@ impl<S: Simd> Held6<'_, S> {
                 change = x.times_plus(x, change);
                 size = w.times_plus(w, size);
             }
-            let allowed = size * (TOLERANCE * TOLERANCE);
+            // What a gap of rounding makes of wrenches is rounding too: limbs that brace each other
+            // know their inner forces no better.
+            let allowed = (size * (TOLERANCE * TOLERANCE)).max(noise * noise);
             moving = allowed.where_less(change, one, moving);
             for k in 0..6 {
                 limb.wrench[k] = select(active, limb.wrench[k] + step[k], limb.wrench[k]);

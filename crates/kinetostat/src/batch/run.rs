@@ -420,6 +420,8 @@ pub(super) struct Machine<'a, S: Simd> {
     /// Made when it is needed.
     newton: Option<Newton<S>>,
     factors: Vec<Eliminated<S>>,
+    /// Largest stiffness of each limb, N m: per share of the natural length, or per radian.
+    stiffest: Vec<Lanes<S>>,
     /// Centre of mass (m, axes of the tool) and mass of the platform.
     pub body: ([f64; 3], f64),
     pub gravity: [f64; 3],
@@ -453,6 +455,7 @@ impl<'a, S: Simd> Machine<'a, S> {
             limbs: actual.iter().map(|a| LoadedLimb::new(simd, a)).collect(),
             newton: None,
             factors: Vec::with_capacity(actual.len()),
+            stiffest: Vec::with_capacity(actual.len()),
             body,
             gravity,
             target: Target {
@@ -518,6 +521,7 @@ impl<'a, S: Simd> Machine<'a, S> {
             return good.least_of(done);
         }
         self.factors.clear();
+        self.stiffest.clear();
         let mut sum = Symmetric::zero(simd);
         for ((plan, joints), (_, walk)) in self.actual.iter().zip(&self.joints).zip(&mut self.walks)
         {
@@ -533,6 +537,11 @@ impl<'a, S: Simd> Machine<'a, S> {
             let own = factors.stiffness(simd);
             sum.add(&own.matrix.scaled(1.0 / (length * length), 1.0 / length));
             good = good.least_of(own.regular);
+            let mut most = own.matrix.get(0, 0);
+            for k in 1..6 {
+                most = most.max(own.matrix.get(k, k));
+            }
+            self.stiffest.push(most);
             self.factors.push(factors);
         }
         let (compliance, regular) = sum.inverse(simd);
@@ -540,6 +549,7 @@ impl<'a, S: Simd> Machine<'a, S> {
             plans: self.actual,
             limbs: &mut self.limbs,
             factors: &self.factors,
+            stiffest: &self.stiffest,
             compliance: &compliance,
             rotation: self.rotation,
             point: self.point,
