@@ -8,7 +8,9 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_bench::{Answers, Places, Task, Work};
+use kinetostat::Wrench;
+use kinetostat::batch::{Batch, Found};
+use kinetostat_bench::{Answers, Places, Task, Work, sample};
 
 fn model(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../benches/models/{name}.toml"))
@@ -246,6 +248,34 @@ fn the_rod_is_that_of_w5() {
     let places = Places::from_numbers(&pose).expect("a pose");
     let bowing = answers("rod_bowing", Work::Equilibrium, places, &wrench);
     assert!(apart(&bowing.tool[9..], &tip) < 2e-3);
+}
+
+/// Four legs on a platform that three could hold brace each other: their inner forces are known no
+/// better than a gap of rounding times their stiffness, and no lane may wait for more.
+#[test]
+fn legs_that_brace_each_other_are_found_together() {
+    let count = 256;
+    for name in ["puu4", "puu4_bowing"] {
+        let machine = kinetostat_model::read_model(&model(name)).expect("a model");
+        let machine = machine.mechanism;
+        let poses = sample::poses(0..count, [0.0; 3], 0.05, 0.0);
+        let wrenches: Vec<Wrench> = sample::wrenches(0..count, 300.0, 10.0)
+            .chunks(6)
+            .map(|w| Wrench(nalgebra::Vector6::from_column_slice(w)))
+            .collect();
+        let batch = Batch::new(&machine);
+        let found = batch
+            .equilibrium(&poses, &wrenches, false)
+            .expect("as many wrenches as poses");
+        let together = found.found.iter().filter(|f| **f == Found::Together);
+        assert_eq!(together.count(), count, "{name}");
+        for i in (0..count).step_by(37) {
+            let posture = machine.posture(&poses[i]).expect("reachable");
+            let alone = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
+            let own = found.tool_pose(i).translation.vector;
+            assert!((own - alone.tool.translation.vector).norm() < 1e-12);
+        }
+    }
 }
 
 #[test]

@@ -188,7 +188,10 @@ fn solved(task: &MapTask<'_>, batch: &Batch<'_>, places: std::ops::Range<usize>)
 
 fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
     // What the batch would ask one by one is asked here, once.
-    let together = batch.alone().is_none().then(|| batch.stiffness(poses));
+    let together = batch
+        .alone_unloaded()
+        .is_none()
+        .then(|| batch.stiffness(poses));
     let length = natural_length(task.mechanism);
     for (i, place) in out.iter_mut().enumerate() {
         let found = together.as_ref().map(|t| (t, t.found[i]));

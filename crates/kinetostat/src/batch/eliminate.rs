@@ -66,7 +66,7 @@ impl<S: Simd> Eliminated<S> {
             for k in m..j {
                 pivot = own.l[j][k].times_from(own.l[j][k], pivot);
             }
-            own.regular = own.regular.least_of(pivot / diagonal);
+            own.regular = own.regular.least_of(pivot / diagonal.abs());
             let reciprocal = one / pivot.sqrt();
             own.l[j][j] = reciprocal;
             for i in j + 1..d {

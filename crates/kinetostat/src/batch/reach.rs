@@ -179,10 +179,16 @@ impl<S: Simd> Joints<S> {
                     least_squares_step::<S, 0, 6>(simd, unknowns, &columns, &e),
                 ),
             };
-            let mut share = one;
+            let (mut share, mut largest) = (one, zero);
             for k in 0..unknowns {
                 let size = step[k].abs().max(one * 1e-300);
                 share = share.least_of(one * search.most[k] / size);
+                let unit = if search.most[k] == length {
+                    1.0 / length
+                } else {
+                    1.0
+                };
+                largest = largest.max(size * unit);
             }
             for k in 0..unknowns {
                 step[k] = active.where_less(one * 0.5, zero, step[k] * share);
@@ -194,8 +200,11 @@ impl<S: Simd> Joints<S> {
             for k in 0..search.commands {
                 self.commands[k] = self.commands[k] + step[joints + k];
             }
+            // Near a stretched limb joints go far for little: a short way that is left is no proof.
             let near = NEAR * length;
-            active = square.where_less(one * (near * near), zero, active);
+            let there = square.where_less(one * (near * near), one, zero);
+            let still = largest.where_less(one * NEAR, there, zero);
+            active = active * (one - still);
         }
         self.reached = active.where_less(one * 0.5, self.reached, zero);
     }

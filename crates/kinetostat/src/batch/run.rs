@@ -212,6 +212,7 @@ impl WithSimd for Work<'_> {
                             group.put(answers.verdicts, 0, &verdict);
                         }
                     }
+                    good = good.least_of(machine.numbers(simd, &wrench));
                     group.conclude(good, answers.found);
                 }
             }
@@ -343,10 +344,11 @@ fn unloaded<S: Simd>(
             Places::Joints { commands, each } => {
                 let (walk, joints) = &mut limbs[0];
                 group.commands(simd, commands, each, &mut joints.commands);
+                let within = bounded(simd, &joints.commands);
                 let steps = plans[0].steps.len();
                 walk.along(&plans[0], true, steps, &joints.commands, &[]);
                 let own = walk.stiffness(&plans[0]);
-                good = own.regular;
+                good = own.regular.least_of(within);
                 sum = own.matrix;
             }
             Places::Poses(poses) => {
@@ -408,6 +410,17 @@ fn unloaded<S: Simd>(
         }
         group.conclude(good, found);
     }
+}
+
+/// One where all commands are angles and lengths that sines are exact for.
+#[inline(always)]
+fn bounded<S: Simd>(simd: S, commands: &[Lanes<S>]) -> Lanes<S> {
+    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+    let mut good = one;
+    for x in commands {
+        good = x.abs().where_less(one * 1e5, good, zero);
+    }
+    good
 }
 
 /// A machine with the buffers of its limbs.
@@ -480,6 +493,28 @@ impl<'a, S: Simd> Machine<'a, S> {
         }
     }
 
+    /// One where the wrench and all answers are numbers, and squares of forces too.
+    #[inline(always)]
+    fn numbers(&self, simd: S, wrench: &[Lanes<S>; 6]) -> Lanes<S> {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let (mut good, mut all) = (one, zero);
+        for x in wrench {
+            good = x.abs().where_less(one * 1e100, good, zero);
+        }
+        for x in &self.point {
+            all = x.times_plus(zero, all);
+        }
+        for x in &self.forces {
+            all = x.times_plus(zero, all);
+        }
+        for limb in &self.limbs {
+            for x in &limb.coordinates {
+                all = x.times_plus(zero, all);
+            }
+        }
+        good.least_of(all + 1.0)
+    }
+
     /// Commands the machine: its joints, or its tool.
     #[inline(always)]
     fn aim(&mut self, simd: S, places: &Places<'_>, group: &Group) {
@@ -503,6 +538,13 @@ impl<'a, S: Simd> Machine<'a, S> {
                 good = good.least_of(joints.reached);
             }
             (self.rotation, self.point) = (self.target.rotation, self.target.point);
+        } else {
+            // Where the commands lead the machine as it is drawn.
+            let (plan, (walk, _)) = (&self.nominal[0], &mut self.walks[0]);
+            let commands = &self.joints[0].commands;
+            good = bounded(simd, commands);
+            walk.along(plan, false, plan.steps.len(), commands, &[]);
+            (self.rotation, self.point) = (walk.rotation, walk.point);
         }
         for ((limb, plan), joints) in self.limbs.iter_mut().zip(self.actual).zip(&self.joints) {
             limb.start(plan, &joints.commands, &joints.passive);

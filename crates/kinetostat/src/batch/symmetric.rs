@@ -187,7 +187,7 @@ impl<S: Simd> Symmetric<S> {
             for k in 0..j {
                 pivot = l[j][k].times_from(l[j][k], pivot);
             }
-            least = least.least_of(pivot / own);
+            least = least.least_of(pivot / own.abs());
             let r = one / pivot.sqrt();
             reciprocal[j] = r;
             for i in j + 1..6 {

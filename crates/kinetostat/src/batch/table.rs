@@ -5,11 +5,18 @@ pub(super) const BLOCK: usize = 8;
 
 /// A row of numbers for each of many postures, as a structure of arrays in blocks of eight: the
 /// numbers of eight postures lie side by side, so that a vector register is stored at once.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Table {
     width: usize,
     count: usize,
     data: Vec<f64>,
+}
+
+impl PartialEq for Table {
+    fn eq(&self, other: &Self) -> bool {
+        (self.width, self.count) == (other.width, other.count)
+            && (0..self.count).all(|i| self.row(i).eq(other.row(i)))
+    }
 }
 
 impl Table {
@@ -56,7 +63,7 @@ impl Table {
     }
 
     /// All numbers: number `k` of posture `i` is at `(i / 8) * 8 * width + 8 * k + i % 8`; the last
-    /// block is filled up.
+    /// block is filled up with numbers that mean nothing.
     #[must_use]
     pub fn data(&self) -> &[f64] {
         &self.data

@@ -377,3 +377,120 @@ fn number(x: Lanes<Scalar>) -> f64 {
     x.store(&mut out);
     out[0]
 }
+
+/// A serial arm with a heavy tool, whose limb holds the platform as limbs of a parallel machine do.
+#[test]
+fn a_heavy_tool_at_given_joints_does_not_remember_its_neighbours() {
+    let light = arm();
+    let mut builder = Mechanism::builder("heavy").gravity(light.gravity());
+    let tool = builder.platform(Platform {
+        mass: 40.0,
+        centre_of_mass: Vector3::new(0.02, 0.01, -0.05),
+        ..light.platforms()[light.tool()].clone()
+    });
+    let machine = builder
+        .limb(Limb {
+            to: tool,
+            ..light.limbs()[0].clone()
+        })
+        .build()
+        .expect("a machine");
+    let batch = Batch::new(&machine);
+    let count = 21;
+    let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
+    let wrenches = wrenches(count);
+    let all = batch
+        .equilibrium_at_joints(&commands, &wrenches, false)
+        .expect("sizes");
+    for i in 0..count {
+        let one = batch
+            .equilibrium_at_joints(&commands[3 * i..3 * i + 3], &wrenches[i..=i], false)
+            .expect("sizes");
+        assert_eq!(all.found[i], Found::Together);
+        assert!(all.tool.row(i).eq(one.tool.row(0)));
+        let joints = Places::Joints {
+            commands: &commands,
+            each: 3,
+        };
+        let alone = batch.posture(&joints, i).expect("a posture");
+        let alone = alone.deflected_by(&wrenches[i]).expect("an equilibrium");
+        let own = all.tool_pose(i).translation.vector;
+        assert!((own - alone.tool.translation.vector).norm() < 1e-11);
+    }
+}
+
+#[test]
+fn what_is_no_number_is_not_found() {
+    for machine in [sliders(), arm()] {
+        let batch = Batch::new(&machine);
+        let home = machine.platforms()[machine.tool()].home;
+        let poses = vec![home; 9];
+        let mut wrenches = wrenches(9);
+        wrenches[2].0[1] = f64::NAN;
+        wrenches[5].0[4] = 1e160;
+        let found = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+        assert_ne!(found.found[2], Found::Together);
+        assert_ne!(found.found[5], Found::Together);
+    }
+}
+
+/// Near a stretched arm the way left of a search says little about the joints.
+#[test]
+fn nearly_stretched_arms_have_the_joints_of_the_general_engine() {
+    let mut chain = Chain::builder("arm");
+    for (name, axis) in [
+        ("a", Vector3::z()),
+        ("b", Vector3::y()),
+        ("c", Vector3::y()),
+    ] {
+        chain = chain
+            .actuator(
+                name,
+                ActuatorSpec {
+                    home: 0.4,
+                    ..ActuatorSpec::new(MotionKind::Revolute, axis, 2e5)
+                },
+            )
+            .translation(Vector3::new(0.4, 0.0, 0.0))
+            .spring6(&format!("l{name}"), &(bar() * 20.0), [0.0; 6]);
+    }
+    for (name, axis) in [
+        ("d", Vector3::x()),
+        ("e", Vector3::y()),
+        ("f", Vector3::x()),
+    ] {
+        chain = chain
+            .actuator(
+                name,
+                ActuatorSpec {
+                    home: 0.4,
+                    ..ActuatorSpec::new(MotionKind::Revolute, axis, 2e5)
+                },
+            )
+            .translation(Vector3::new(0.05, 0.0, 0.0))
+            .spring6(&format!("l{name}"), &(bar() * 20.0), [0.0; 6]);
+    }
+    let chain = chain.build().expect("an arm");
+    let machine = Mechanism::serial(chain, Pose::identity(), Vector3::zeros()).expect("a machine");
+    let batch = Batch::new(&machine);
+    let base = machine.platforms()[0].home;
+    let springs = machine.limbs()[0].nominal.home_coordinates();
+    for elbow in [0.3, 1e-2, 1e-3] {
+        let joints = [0.3, 0.5, elbow, 0.2, 0.5, 0.3];
+        let pose = unloaded_tip(&machine.limbs()[0].nominal, &base, &springs, &joints);
+        let found = batch.stiffness(&[pose; 8]);
+        let Ok(posture) = machine.posture(&pose) else {
+            continue;
+        };
+        let alone = posture.stiffness().expect("a stiffness").cartesian.matrix;
+        let off = found.stiffness.row(0).enumerate();
+        let off = off.fold(0.0, |m: f64, (k, x)| {
+            m.max((x - alone[(k / 6, k % 6)]).abs())
+        });
+        assert!(
+            off < 1e-9 * alone.amax(),
+            "{elbow}: {off} of {}",
+            alone.amax()
+        );
+    }
+}
