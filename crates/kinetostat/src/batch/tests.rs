@@ -438,36 +438,21 @@ fn what_is_no_number_is_not_found() {
 #[test]
 fn nearly_stretched_arms_have_the_joints_of_the_general_engine() {
     let mut chain = Chain::builder("arm");
-    for (name, axis) in [
-        ("a", Vector3::z()),
-        ("b", Vector3::y()),
-        ("c", Vector3::y()),
+    for (name, axis, length) in [
+        ("a", Vector3::z(), 0.4),
+        ("b", Vector3::y(), 0.4),
+        ("c", Vector3::y(), 0.4),
+        ("d", Vector3::x(), 0.05),
+        ("e", Vector3::y(), 0.05),
+        ("f", Vector3::x(), 0.05),
     ] {
+        let drive = ActuatorSpec {
+            home: 0.4,
+            ..ActuatorSpec::new(MotionKind::Revolute, axis, 2e5)
+        };
         chain = chain
-            .actuator(
-                name,
-                ActuatorSpec {
-                    home: 0.4,
-                    ..ActuatorSpec::new(MotionKind::Revolute, axis, 2e5)
-                },
-            )
-            .translation(Vector3::new(0.4, 0.0, 0.0))
-            .spring6(&format!("l{name}"), &(bar() * 20.0), [0.0; 6]);
-    }
-    for (name, axis) in [
-        ("d", Vector3::x()),
-        ("e", Vector3::y()),
-        ("f", Vector3::x()),
-    ] {
-        chain = chain
-            .actuator(
-                name,
-                ActuatorSpec {
-                    home: 0.4,
-                    ..ActuatorSpec::new(MotionKind::Revolute, axis, 2e5)
-                },
-            )
-            .translation(Vector3::new(0.05, 0.0, 0.0))
+            .actuator(name, drive)
+            .translation(Vector3::new(length, 0.0, 0.0))
             .spring6(&format!("l{name}"), &(bar() * 20.0), [0.0; 6]);
     }
     let chain = chain.build().expect("an arm");
