@@ -115,7 +115,8 @@ impl<'p> Block<'p> {
                     remedy,
                 ));
             }
-            None if letter == 'G' => {
+            // Builders give their own functions whole numbers; only vendors' commands have others.
+            None if letter == 'G' || !tenths.is_multiple_of(10) && !self.is_vendor() => {
                 return Err(self.refuse(
                     Some(word),
                     &format!("{shown} is not known here and may move the tool"),
@@ -159,25 +160,26 @@ impl<'p> Block<'p> {
 
     /// Letters that are parameters of another code of the block are no coordinates.
     fn drop_parameters(&mut self) {
-        let takes = |letter: u8, first: f64, last: f64| {
-            self.words
-                .iter()
-                .any(|word| word.letter == letter && (first..=last).contains(&word.value))
+        let takes = |letter: u8, codes: &[u32]| {
+            self.words.iter().any(|word| {
+                let tenths = word.tenths();
+                word.letter == letter && tenths.is_multiple_of(10) && codes.contains(&(tenths / 10))
+            })
         };
         let mut dropped: Vec<u8> = Vec::new();
         if self.codes.dwell {
             dropped.extend(b"XUPSFABCEVWYZQR");
         }
-        if takes(b'G', 64.0, 64.9) {
+        if takes(b'G', &[64]) {
             dropped.extend(b"PQ");
         }
-        if takes(b'M', 62.0, 68.0) {
+        if takes(b'M', &[62, 63, 64, 65, 66, 67, 68]) {
             dropped.extend(b"PELQ");
         }
-        if takes(b'M', 3.0, 5.0) || takes(b'M', 19.0, 19.0) {
+        if takes(b'M', &[3, 4, 5, 19]) {
             dropped.extend(b"RPQ");
         }
-        if takes(b'M', 50.0, 53.0) || takes(b'M', 6.0, 6.0) || takes(b'M', 100.0, 199.0) {
+        if takes(b'M', &[6, 50, 51, 52, 53]) || (100..=199).any(|code| takes(b'M', &[code])) {
             dropped.extend(b"PQ");
         }
         for letter in dropped {

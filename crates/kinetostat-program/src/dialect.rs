@@ -21,8 +21,8 @@ pub enum Treatment {
 pub struct Code {
     /// `G` or `M`.
     pub letter: char,
-    /// First and last code of the range, in tenths: G38.2 is 382.
-    pub tenths: (u32, u32),
+    /// The codes, each in tenths: G38.2 is 382. Exactly these and none between them.
+    pub tenths: &'static [u32],
     /// What it means on the controllers that have it.
     pub meaning: &'static str,
     /// What is done with it.
@@ -31,19 +31,19 @@ pub struct Code {
 
 use Treatment::{Carried, Understood};
 
-const fn g(first: u32, last: u32, meaning: &'static str, treatment: Treatment) -> Code {
+const fn g(tenths: &'static [u32], meaning: &'static str, treatment: Treatment) -> Code {
     Code {
         letter: 'G',
-        tenths: (first, last),
+        tenths,
         meaning,
         treatment,
     }
 }
 
-const fn m(first: u32, last: u32, meaning: &'static str, treatment: Treatment) -> Code {
+const fn m(tenths: &'static [u32], meaning: &'static str, treatment: Treatment) -> Code {
     Code {
         letter: 'M',
-        tenths: (first, last),
+        tenths,
         meaning,
         treatment,
     }
@@ -56,29 +56,29 @@ const fn refused(reason: &'static str, remedy: &'static str) -> Treatment {
 const WRITE_MOVES: &str = "let the CAM system write the motion as G0 and G1 to G3 blocks";
 const OWN_PROGRAM: &str = "take it out of the program and run it by hand or from another program";
 
-/// Every code that is known. A G code outside the table is refused; an M code outside it is carried.
+/// Every code that is known, one by one: a code between two of them (G2.1, G90.2) is unknown.
+///
+/// A G code outside the table is refused. An M code outside it and outside [`crate::MOMENTS`] is carried
+/// byte for byte where it stands in a block without motion, and refused beside a motion.
 pub const CODES: &[Code] = &[
-    g(0, 0, "rapid motion", Understood),
-    g(10, 10, "straight feed motion", Understood),
-    g(20, 30, "circular or helical feed motion", Understood),
-    g(40, 40, "dwell", Carried),
+    g(&[0], "rapid motion", Understood),
+    g(&[10], "straight feed motion", Understood),
+    g(&[20, 30], "circular or helical feed motion", Understood),
+    g(&[40], "dwell", Carried),
     g(
-        50,
-        53,
+        &[50, 51, 52, 53],
         "spline or high-precision mode",
         refused("splines and contour modes are not followed", WRITE_MOVES),
     ),
     g(
-        70,
-        70,
+        &[70],
         "lathe diameter mode",
         refused("X would count as a diameter", "write X as a radius (G8)"),
     ),
-    g(80, 80, "lathe radius mode", Carried),
-    g(90, 90, "exact stop in this block", Carried),
+    g(&[80], "lathe radius mode", Carried),
+    g(&[90], "exact stop in this block", Carried),
     g(
-        100,
-        101,
+        &[100, 110],
         "set offsets or tool data",
         refused(
             "it changes offsets that the path depends on",
@@ -86,52 +86,45 @@ pub const CODES: &[Code] = &[
         ),
     ),
     g(
-        120,
-        139,
+        &[120, 130],
         "pocket cycles",
         refused("a cycle's motion is the controller's own", WRITE_MOVES),
     ),
-    g(150, 150, "polar coordinates off", Carried),
+    g(&[150], "polar coordinates off", Carried),
     g(
-        160,
-        160,
+        &[160],
         "polar coordinates on",
         refused(
             "X and Y would be radius and angle",
             "write Cartesian coordinates",
         ),
     ),
-    g(170, 170, "plane XY", Understood),
-    g(180, 180, "plane ZX", Understood),
-    g(190, 190, "plane YZ", Understood),
+    g(&[170], "plane XY", Understood),
+    g(&[180], "plane ZX", Understood),
+    g(&[190], "plane YZ", Understood),
     g(
-        171,
-        191,
+        &[171, 181, 191],
         "planes of U V W",
         refused("arcs of the axes U V W are not followed", WRITE_MOVES),
     ),
-    g(200, 210, "inches, millimetres", Understood),
+    g(&[200, 210], "inches, millimetres", Understood),
     g(
-        280,
-        309,
+        &[280, 281, 282, 300, 301],
         "homing, reference points",
         refused("where the axes go is not in the program", OWN_PROGRAM),
     ),
     g(
-        290,
-        290,
+        &[290],
         "probing of the bed",
         refused("it moves by what a probe finds", OWN_PROGRAM),
     ),
     g(
-        310,
-        310,
+        &[310],
         "skip or probe",
         refused("it moves until a signal comes", OWN_PROGRAM),
     ),
     g(
-        330,
-        339,
+        &[330, 331],
         "threading, rigid tapping",
         refused(
             "motion is tied to the spindle",
@@ -139,35 +132,31 @@ pub const CODES: &[Code] = &[
         ),
     ),
     g(
-        380,
-        389,
+        &[382, 383, 384, 385],
         "probing",
         refused("it moves until a probe answers", OWN_PROGRAM),
     ),
-    g(400, 400, "cutter radius compensation off", Understood),
+    g(&[400], "cutter radius compensation off", Understood),
     g(
-        410,
-        421,
+        &[410, 411, 420, 421],
         "cutter radius compensation on",
         refused(
             "the controller offsets the path by a radius that is not in the program",
             "let the CAM system write the centre line of the tool (compensation in computer), then G40",
         ),
     ),
-    g(430, 430, "tool length offset on", Understood),
+    g(&[430], "tool length offset on", Understood),
     g(
-        431,
-        439,
+        &[431, 432, 433, 434, 435, 437, 440],
         "tool length offset by words or with tool point control",
         refused(
             "it changes where the tool point goes",
             "use G43 H with a Z word, or set the length at the machine",
         ),
     ),
-    g(490, 490, "tool length offset off", Understood),
+    g(&[490], "tool length offset off", Understood),
     g(
-        500,
-        519,
+        &[500, 501, 510, 511],
         "scaling, mirroring",
         refused(
             "coordinates would be scaled",
@@ -175,8 +164,7 @@ pub const CODES: &[Code] = &[
         ),
     ),
     g(
-        520,
-        520,
+        &[520],
         "local offset",
         refused(
             "controllers disagree whether it adds to G92 or replaces it",
@@ -184,52 +172,50 @@ pub const CODES: &[Code] = &[
         ),
     ),
     g(
-        530,
-        530,
+        &[530],
         "machine coordinates",
         refused(
             "where the machine's zero lies in the part frame is not in the program",
             "move in part coordinates, or retract from another program",
         ),
     ),
-    g(540, 593, "work coordinate systems", Understood),
     g(
-        600,
-        609,
+        &[540, 541, 550, 560, 570, 580, 590, 591, 592, 593],
+        "work coordinate systems",
+        Understood,
+    ),
+    g(
+        &[600],
         "approach from one side",
         refused("it adds a motion of the controller's own", "remove it"),
     ),
-    g(610, 619, "exact path, exact stop", Carried),
-    g(640, 640, "path blending", Carried),
+    g(&[610, 611], "exact path, exact stop", Carried),
+    g(&[640], "path blending", Carried),
     g(
-        680,
-        689,
+        &[680, 681, 682, 683, 684],
         "rotation of coordinates",
         refused(
             "coordinates would be turned",
             "let the CAM system write turned coordinates",
         ),
     ),
-    g(690, 690, "rotation of coordinates off", Carried),
+    g(&[690], "rotation of coordinates off", Carried),
     g(
-        700,
-        729,
+        &[700, 710, 711, 712, 717, 720, 721, 722],
         "lathe cycles",
         refused("a cycle's motion is the controller's own", WRITE_MOVES),
     ),
     g(
-        730,
-        769,
+        &[730, 731, 732, 740, 750, 760],
         "canned cycles",
         refused(
             "a canned cycle's motion is the controller's own",
             WRITE_MOVES,
         ),
     ),
-    g(800, 800, "motion mode off", Understood),
+    g(&[800], "motion mode off", Understood),
     g(
-        810,
-        899,
+        &[810, 820, 830, 840, 850, 860, 870, 880, 890],
         "canned cycles",
         refused(
             "a canned cycle's motion is the controller's own",
@@ -237,26 +223,23 @@ pub const CODES: &[Code] = &[
         ),
     ),
     g(
-        900,
-        911,
+        &[900, 901, 910, 911],
         "absolute and incremental coordinates and arc centres",
         Understood,
     ),
     g(
-        920,
-        923,
+        &[920, 921, 922, 923],
         "set, clear, suspend, resume the position offset",
         Understood,
     ),
-    g(930, 950, "feed modes", Understood),
-    g(960, 970, "spindle speed modes", Carried),
-    g(980, 990, "return level of canned cycles", Carried),
-    m(0, 10, "stop", Carried),
-    m(20, 20, "end of program", Understood),
-    m(300, 300, "end of program", Understood),
+    g(&[930, 940, 950], "feed modes", Understood),
+    g(&[960, 970], "spindle speed modes", Carried),
+    g(&[980, 990], "return level of canned cycles", Carried),
+    m(&[0, 10], "stop", Carried),
+    m(&[20], "end of program", Understood),
+    m(&[300], "end of program", Understood),
     m(
-        470,
-        470,
+        &[470],
         "repeat the program",
         refused(
             "it starts again from wherever the tool is",
@@ -264,18 +247,16 @@ pub const CODES: &[Code] = &[
         ),
     ),
     m(
-        720,
-        720,
+        &[720],
         "restore modal state",
         refused(
             "it brings back modes that were saved elsewhere",
             "write the modes as words",
         ),
     ),
-    m(820, 830, "absolute, relative extruder words", Understood),
+    m(&[820, 830], "absolute, relative extruder words", Understood),
     m(
-        1280,
-        1299,
+        &[1280, 1290],
         "tool centre point control",
         refused(
             "it changes where the tool point goes",
@@ -283,8 +264,7 @@ pub const CODES: &[Code] = &[
         ),
     ),
     m(
-        2060,
-        2060,
+        &[2060],
         "home offsets",
         refused(
             "it shifts all coordinates",
@@ -292,8 +272,7 @@ pub const CODES: &[Code] = &[
         ),
     ),
     m(
-        2180,
-        2180,
+        &[2180],
         "tool offsets",
         refused(
             "it shifts all coordinates",
@@ -301,14 +280,12 @@ pub const CODES: &[Code] = &[
         ),
     ),
     m(
-        2900,
-        2900,
+        &[2900],
         "live shift of an axis",
         refused("it moves the tool", "remove it"),
     ),
     m(
-        4280,
-        4280,
+        &[4280],
         "home offsets",
         refused(
             "it shifts all coordinates",
@@ -316,17 +293,15 @@ pub const CODES: &[Code] = &[
         ),
     ),
     m(
-        6650,
-        6660,
+        &[6650, 6660],
         "kinematics of a parallel machine",
         refused("it changes where the tool goes", "set it at the machine"),
     ),
 ];
 
-/// Line of the table for a code; exact entries come before the ranges that hold them.
+/// Line of the table for a code.
 pub(crate) fn lookup(letter: char, tenths: u32) -> Option<&'static Code> {
-    let of_letter = || CODES.iter().filter(move |code| code.letter == letter);
-    of_letter()
-        .find(|code| code.tenths == (tenths, tenths))
-        .or_else(|| of_letter().find(|code| (code.tenths.0..=code.tenths.1).contains(&tenths)))
+    CODES
+        .iter()
+        .find(|code| code.letter == letter && code.tenths.contains(&tenths))
 }

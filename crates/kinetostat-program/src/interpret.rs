@@ -1,5 +1,7 @@
 //! Where the tool goes: the second stage of reading.
 
+use std::collections::BTreeSet;
+
 use nalgebra::Vector3;
 
 use crate::arc::{self, ArcFrame};
@@ -8,6 +10,7 @@ use crate::curve::Curve;
 use crate::error::ProgramError;
 use crate::extra::ExtraAxes;
 use crate::modes::Modes;
+use crate::moment::{Placed, moment_of};
 use crate::options::{BlockDelete, ReadOptions};
 use crate::path::{
     Change, CoordinateWords, Event, Knowledge, Motion, Move, MoveKind, OffsetChange, Path,
@@ -106,6 +109,8 @@ struct Interpreter<'o> {
     ended: Option<usize>,
     no_feed_warned: bool,
     block_delete_warned: bool,
+    /// M codes of which a warning was given.
+    disputed_warned: BTreeSet<u32>,
     /// Work coordinate system of the first motion.
     first_system: Option<usize>,
     system_warned: bool,
@@ -128,6 +133,7 @@ impl<'o> Interpreter<'o> {
             ended: None,
             no_feed_warned: false,
             block_delete_warned: false,
+            disputed_warned: BTreeSet::new(),
             first_system: None,
             system_warned: false,
             moves: Vec::new(),
@@ -328,6 +334,47 @@ impl<'o> Interpreter<'o> {
         Ok(())
     }
 
+    /// A block with motion may be divided: each of its codes must have a piece to stand in.
+    fn check_codes_beside_motion(
+        &mut self,
+        block: &Block<'_>,
+        kind: MoveKind,
+    ) -> Result<(), ProgramError> {
+        for word in block.words.iter().filter(|word| word.letter == b'M') {
+            let tenths = word.tenths();
+            let Some(moment) = moment_of(tenths) else {
+                return Err(block.refuse(
+                    Some(word),
+                    &format!(
+                        "M{} stands beside a motion, and whether it acts before or after it is not known here",
+                        word.value
+                    ),
+                    "write it in a block of its own, before or after the motion",
+                ));
+            };
+            if kind != MoveKind::Feed {
+                continue;
+            }
+            if moment.placed == Placed::Refused {
+                return Err(block.refuse(
+                    Some(word),
+                    &format!(
+                        "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it",
+                        moment.code, moment.meaning
+                    ),
+                    "write it in a block of its own, before or after the motion",
+                ));
+            }
+            if moment.is_disputed() && self.disputed_warned.insert(moment.code) {
+                self.warn(block.line_number, &format!(
+                    "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
+                    moment.code, moment.meaning
+                ));
+            }
+        }
+        Ok(())
+    }
+
     fn read_move(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
         let motion = match self.modes.motion {
             Some(Motion::Off) | None => {
@@ -357,6 +404,7 @@ impl<'o> Interpreter<'o> {
         } else {
             MoveKind::Feed
         };
+        self.check_codes_beside_motion(block, kind)?;
         self.modes.check_feed(block, kind)?;
         if kind == MoveKind::Feed && self.modes.feed.is_none() && !self.no_feed_warned {
             self.no_feed_warned = true;

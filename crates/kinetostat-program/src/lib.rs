@@ -55,6 +55,7 @@ mod lex;
 mod map;
 mod merge;
 mod modes;
+mod moment;
 mod number;
 mod options;
 mod path;
@@ -75,6 +76,7 @@ pub use field::{
 };
 pub use interpret::interpret;
 pub use map::CorrectionMap;
+pub use moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
 pub use options::{BlockDelete, ReadOptions, Units};
 pub use path::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,

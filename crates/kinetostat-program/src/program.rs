@@ -73,6 +73,11 @@ impl Word {
     pub(crate) fn span(&self) -> Range<usize> {
         self.start as usize..self.end as usize
     }
+
+    /// The number of a code in tenths: M5 is 50. Codes that were read have no finer digits.
+    pub(crate) fn tenths(&self) -> u32 {
+        (self.value * 10.0).round() as u32
+    }
 }
 
 impl Program {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::curve::{Curve, NO_LENGTH_MM};
 use crate::emit::{OutputState, Step, motion_of};
 use crate::error::WriteError;
+use crate::moment::is_written_last;
 use crate::number;
 use crate::path::{ExtraMode, Feed, FeedMode, Knowledge, Motion, Move, Path};
 use crate::program::{Line, Program, Word};
@@ -51,8 +52,7 @@ pub(crate) fn motion_word(words: &[Word]) -> Option<&Word> {
 
 /// Whether a word acts when the block's motion is over.
 pub(crate) fn is_after_motion(word: &Word) -> bool {
-    word.letter == b'M' && [0.0, 1.0, 2.0, 30.0, 60.0].contains(&word.value)
-        || word.letter == b'G' && word.value == 9.0
+    is_written_last(word.letter, word.tenths())
 }
 
 /// Writes the pieces of one block.

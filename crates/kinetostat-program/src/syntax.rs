@@ -95,16 +95,15 @@ fn vendor_command(line: &[u8], tokens: &[&Spanned]) -> Option<usize> {
     if !(takes_text || printers_own || code >= 100.0) || arguments.is_empty() {
         return None;
     }
-    if takes_text {
-        return Some(at + 1);
-    }
     // Variables and checksums are refused with their own reason.
-    if arguments.iter().any(|spanned| {
-        matches!(
-            spanned.token,
-            Token::Other(b'#' | b'[' | b']' | b'*' | b'=')
-        )
-    }) {
+    if !takes_text
+        && arguments.iter().any(|spanned| {
+            matches!(
+                spanned.token,
+                Token::Other(b'#' | b'[' | b']' | b'*' | b'=')
+            )
+        })
+    {
         return None;
     }
     let plain = arguments
