@@ -2,7 +2,7 @@
 """Compares kinetostat-program with LinuxCNC's interpreter, an independent reader of G-code.
 
     scripts/compare_with_linuxcnc.py [--programs N] [--mutants N] [--corrected N] [--seed N]
-                                     [--keep FOLDER] [--lines N] [PROGRAM ...]
+                                     [--keep FOLDER] [--lines N] [--moves FILE] [PROGRAM ...]
 
 Four comparisons over random programs (the same for the same seed):
 
@@ -300,6 +300,10 @@ class Writer:
             words.append(["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"][self.system])
         return words
 
+    def beside_words(self):
+        """Sometimes M codes that act before or after the motion of their block."""
+        return self.r.choice([["M8"], ["M9"], ["M5"], ["M3"], ["M1"], ["M8", "M5"], ["M9", "M0"]]) if self.r.random() < 0.05 else []
+
     def straight(self):
         r = self.r
         before = self.inch
@@ -314,7 +318,7 @@ class Writer:
         if feed and self.inch != before and self.feed_mode != 93:
             # F beside a change of units is read differently: the units go into a block before.
             modes = self.alone(modes, ("G20", "G21"))
-        self.block(modes + self.motion_words(0 if rapid else 1) + words + feed)
+        self.block(modes + self.motion_words(0 if rapid else 1) + words + feed + self.beside_words())
         self.at = to
 
     def alone(self, modes, codes):
@@ -369,7 +373,7 @@ class Writer:
         feed = self.feed_words(abs(sweep) * radius)
         if feed and self.inch != before and self.feed_mode != 93:
             modes = self.alone(modes, ("G20", "G21"))
-        self.block(modes + self.motion_words(2 if clockwise else 3) + words + feed)
+        self.block(modes + self.motion_words(2 if clockwise else 3) + words + feed + self.beside_words())
         self.at = to
 
     def circle_by_end(self):
@@ -726,13 +730,14 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the programs; otherwise they are removed")
     parser.add_argument("--lines", type=int, default=3, help="examples shown of each difference")
+    parser.add_argument("--moves", type=pathlib.Path, help="the example `moves`, if it is built already")
     parser.add_argument("program", nargs="*", type=pathlib.Path, help="real programs to write with corrections")
     options = parser.parse_args()
     python = linuxcnc_python()
     if python is None:
         print("SKIPPED: LinuxCNC's Python module `gcode` is not installed (Debian: linuxcnc-uspace); nothing was compared")
         return 0
-    tools = {"python": python, "moves": build_moves(), "rs274": shutil.which("rs274")}
+    tools = {"python": python, "moves": options.moves or build_moves(), "rs274": shutil.which("rs274")}
     if tools["rs274"] is None:
         print("rs274 is not installed: written programs are read by the module gcode alone")
     folder = options.keep or pathlib.Path(tempfile.mkdtemp())
