@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use kinetostat_machining::{
-    LoadAlongPath, Run, RunResult, Task, analyse, compensate_program, load_in_words,
+    LoadAlongPath, Run, RunResult, Task, Warning, WarningCode, analyse, compensate_program,
+    load_in_words,
 };
 use kinetostat_program::{Path as ToolPath, Program, ProgramError, interpret};
 
@@ -138,10 +139,10 @@ pub(crate) fn solve(
     if let Some(limit) = setting.max_blocks_per_second
         && run.result.summary.blocks_per_second > limit
     {
-        run.result.warnings.push(format!(
+        run.result.warnings.push(Warning::new(WarningCode::BlocksPerSecond, format!(
             "the written program asks for up to {:.0} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
             run.result.summary.blocks_per_second
-        ));
+        )));
     }
     Ok(run)
 }

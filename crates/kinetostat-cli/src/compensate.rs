@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use kinetostat_machining::{RESULT_SCHEMA, Warning, of_program};
 use kinetostat_program::{
     Accounting, CorrectionMap, Program, interpret, verify_written, write_corrected,
 };
@@ -11,7 +12,7 @@ use crate::along::{self, Aim, Files as Targets, tell};
 use crate::args::CompensateArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::machine::machine;
+use crate::machine::{machine, of_model};
 use crate::output::{Existing, Outputs};
 use crate::progress::Progress;
 use crate::screen::{self, Stream, columns, fixed, mm, number, wrapped};
@@ -65,12 +66,7 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
         &setting,
         args.run.program.threads,
     )?;
-    run.result.warnings.extend(
-        model
-            .warnings
-            .iter()
-            .map(|w| format!("model: {}", w.message)),
-    );
+    run.result.warnings.extend(of_model(&model));
     targets.fill(&run)?;
     let paths = targets.outputs.commit()?;
     let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
@@ -129,7 +125,7 @@ struct MapResult<'a> {
     accounting: &'a Accounting,
     largest_distance_mm: f64,
     largest_speed_error_percent: f64,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
 }
 
 fn from_map(
@@ -181,15 +177,9 @@ fn from_map(
         verify_written(&program, &path, &written, &setting.reading, &writing).map_err(refuse)?;
     progress.finish();
     let a = &written.accounting;
-    let mut warnings: Vec<String> = path
-        .warnings
-        .iter()
-        .chain(&a.warnings)
-        .map(|w| format!("line {}: {}", w.line, w.text))
-        .collect();
-    warnings.dedup();
+    let warnings = of_program(&path, Some(&a.warnings));
     let result = MapResult {
-        schema: 1,
+        schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         program: &setting.program_name,
         map: name,

@@ -14,7 +14,7 @@ use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
 use crate::joints::{self, JointValue};
-use crate::machine::machine;
+use crate::machine::{machine, of_model};
 use crate::output::{Existing, Outputs};
 use crate::overcome::{Overcome, overcome};
 use crate::place::{Spot, spot};
@@ -68,12 +68,7 @@ fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     along::read_program(&setting)?;
     let mut targets = Targets::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let mut run = along::solve(Aim::Analyse, &machine, &setting, args.program.threads)?;
-    run.result.warnings.extend(
-        model
-            .warnings
-            .iter()
-            .map(|w| format!("model: {}", w.message)),
-    );
+    run.result.warnings.extend(of_model(&model));
     targets.fill(&run)?;
     let paths = targets.outputs.commit()?;
     let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));

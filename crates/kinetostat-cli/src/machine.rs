@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, straight_tool,
+    CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, Warning, WarningCode, straight_tool,
 };
 use kinetostat_model::Model;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -83,6 +83,18 @@ pub(crate) fn machine(
         },
         model,
     ))
+}
+
+/// What looks wrong in a model, for the list of a run.
+pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
+    model.warnings.iter().map(|problem| Warning {
+        line: problem.line,
+        ..Warning::new(
+            WarningCode::Model,
+            format!("{}; {}", problem.message, problem.help),
+        )
+        .of_file(problem.file.clone())
+    })
 }
 
 fn with_deviations(model: Model, job: Option<&JobFile>) -> Answer<Model> {

@@ -233,7 +233,7 @@ fn worst(result: &RunResult) -> String {
 }
 
 /// Warnings as a list, or nothing.
-pub(crate) fn warnings(list: &[String]) -> String {
+pub(crate) fn warnings<W: std::fmt::Display>(list: &[W]) -> String {
     const SHOWN: usize = 8;
     if list.is_empty() {
         return String::new();
@@ -246,7 +246,7 @@ pub(crate) fn warnings(list: &[String]) -> String {
         }
     );
     for warning in list.iter().take(SHOWN) {
-        out.push_str(&item(warning));
+        out.push_str(&item(&warning.to_string()));
     }
     if list.len() > SHOWN {
         out.push_str(&format!(

@@ -14,6 +14,7 @@ mod run;
 mod sites;
 mod solve;
 mod together;
+mod warning;
 
 pub use field::ModelField;
 pub use load::{CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
@@ -24,4 +25,7 @@ pub use result::{
     ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
     Summary,
 };
-pub use run::{Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words};
+pub use run::{
+    Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words, of_program,
+};
+pub use warning::{Warning, WarningCode};

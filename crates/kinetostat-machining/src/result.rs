@@ -4,9 +4,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::near::NearSingular;
+use crate::warning::Warning;
 
 /// Version of this structure; it changes when a name or a meaning changes.
-pub const RESULT_SCHEMA: u32 = 1;
+pub const RESULT_SCHEMA: u32 = 2;
 
 /// Result of a run over a program.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -22,7 +23,7 @@ pub struct RunResult {
     /// Places with the largest errors before compensation, worst first; at most ten.
     pub worst_points: Vec<PointResult>,
     /// Everything a person should know and did not ask for.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
     /// Where the program comes nearest to a singular posture, of at most
     /// [`Self::MAX_POSTURES`] places along it; none if no singular posture is near.
     #[serde(default)]

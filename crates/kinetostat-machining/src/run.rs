@@ -20,6 +20,7 @@ use crate::result::{
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{Neighbour, in_chunks};
 use crate::together::Together;
+use crate::warning::{Warning, WarningCode};
 
 /// Everything that decides a run.
 #[derive(Clone, Debug)]
@@ -488,24 +489,25 @@ fn conclude(
     }
 
     let summary = summarise(task, &points, written.as_ref(), speed_percent);
-    let mut warnings: Vec<String> = task
-        .path
-        .warnings
-        .iter()
-        .chain(written.iter().flat_map(|w| &w.accounting.warnings))
-        .map(|w| format!("line {}: {}", w.line, w.text))
-        .collect();
-    warnings.dedup();
+    let mut warnings = of_program(
+        task.path,
+        written.as_ref().map(|w| w.accounting.warnings.as_slice()),
+    );
     if !summary.stable {
         let first = points.iter().find(|p| !p.stable).map_or(0, |p| p.line);
-        warnings.push(format!(
-            "the machine is not stable under this load, first at line {first}: it would jump to another shape; do not run this program"
+        warnings.push(Warning::at_line(
+            WarningCode::NotStable,
+            first,
+            format!("the machine is not stable under this load, first at line {first}: it would jump to another shape; do not run this program"),
         ));
     }
     if task.placement.scale != 1.0 {
-        warnings.push(format!(
-            "the program is scaled by {} in the machine: corrections fit only a program of that size, and all lengths here are program millimetres",
-            task.placement.scale
+        warnings.push(Warning::new(
+            WarningCode::Scaled,
+            format!(
+                "the program is scaled by {} in the machine: corrections fit only a program of that size, and all lengths here are program millimetres",
+                task.placement.scale
+            ),
         ));
     }
     let near_singularity = nearest_singular(task, &points);
@@ -513,9 +515,10 @@ fn conclude(
         let [x, y, z] = near.position_mm;
         warnings.insert(
             0,
-            format!(
-                "line {}, at X{x:.2} Y{y:.2} Z{z:.2} mm: {}",
-                near.line, near.posture.in_words
+            Warning::at_line(
+                WarningCode::NearSingular,
+                near.line,
+                format!("at X{x:.2} Y{y:.2} Z{z:.2} mm: {}", near.posture.in_words),
             ),
         );
     }
@@ -545,6 +548,27 @@ fn conclude(
         points,
         written,
     }
+}
+
+/// What was found while a program was read, and while another was written from it: each once.
+#[must_use]
+pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) -> Vec<Warning> {
+    let made = |code: WarningCode| {
+        move |w: &kinetostat_program::Warning| Warning::at_line(code, w.line, w.text.clone())
+    };
+    let mut warnings: Vec<Warning> = path
+        .warnings
+        .iter()
+        .map(made(WarningCode::Program))
+        .collect();
+    warnings.extend(
+        writing
+            .unwrap_or_default()
+            .iter()
+            .map(made(WarningCode::Writing)),
+    );
+    warnings.dedup();
+    warnings
 }
 
 /// The place nearest to a singular posture: ends of moves and places between them, evenly spread.

@@ -239,7 +239,7 @@ fn a_program_on_which_the_machine_would_buckle_is_not_written() {
     assert!(
         told.warnings
             .iter()
-            .any(|w| w.contains("do not run this program")),
+            .any(|w| w.message.contains("do not run this program")),
         "{:?}",
         told.warnings
     );

@@ -28,7 +28,7 @@ pub(crate) fn render(result: &RunResult) -> Result<String, minijinja::Error> {
     let warnings: Vec<String> = result
         .warnings
         .iter()
-        .map(|line| text::clean(line))
+        .map(|warning| text::clean(&warning.to_string()))
         .collect();
     let actuators = question.actuators.len();
     environment.get_template(PAGE)?.render(context! {

@@ -5,7 +5,9 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat_machining::{ActuatorColumn, PointKind, PointResult, RESULT_SCHEMA, RunResult};
+use kinetostat_machining::{
+    ActuatorColumn, PointKind, PointResult, RESULT_SCHEMA, RunResult, Warning, WarningCode,
+};
 
 fn norm(v: &[f64; 3]) -> f64 {
     v[0].hypot(v[1]).hypot(v[2])
@@ -175,9 +177,10 @@ pub fn circle_groove() -> RunResult {
     summary.feed_length_mm = 159.1;
     summary.max_rounding_error_mm = 0.000_087;
     summary.max_speed_deviation_percent = 0.041;
-    result.warnings = vec![
-        "Slider z carries up to 81 N, which is outside the range in which its stiffness was identified (60 N).".to_owned(),
-    ];
+    result.warnings = vec![Warning::new(
+        WarningCode::Model,
+        "Slider z carries up to 81 N, which is outside the range in which its stiffness was identified (60 N).",
+    )];
     result
 }
 
@@ -357,6 +360,9 @@ pub fn hostile_text() -> RunResult {
         a.motion_unit = long.clone();
     }
     result.kinetostat_version = evil.to_owned();
-    result.warnings = vec![evil.to_owned(), long];
+    result.warnings = vec![
+        Warning::new(WarningCode::Program, evil),
+        Warning::at_line(WarningCode::Writing, 3, long),
+    ];
     result
 }

@@ -1,0 +1,80 @@
+//! What a person should know and did not ask for: one list, made once, shown on the terminal, in JSON
+//! and in the report.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// What a warning is about: a stable word for programs that read the JSON. Kinds may be added.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum WarningCode {
+    /// Something in the program, found while it was read.
+    Program,
+    /// Something in the written program.
+    Writing,
+    /// Something in the model file that looks wrong.
+    Model,
+    /// An equilibrium that the machine would leave.
+    NotStable,
+    /// The program is scaled.
+    Scaled,
+    /// A singular posture is near.
+    NearSingular,
+    /// More blocks per second than the controller takes.
+    BlocksPerSecond,
+}
+
+/// Something a person should know and did not ask for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Warning {
+    /// What it is about.
+    pub code: WarningCode,
+    /// What was found and what follows from it.
+    pub message: String,
+    /// Line, from 1; none where it speaks of all of a file.
+    pub line: Option<usize>,
+    /// File of that line; none for the program.
+    pub file: Option<String>,
+}
+
+impl Warning {
+    /// About the whole run.
+    #[must_use]
+    pub fn new(code: WarningCode, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+            line: None,
+            file: None,
+        }
+    }
+
+    /// About a line of the program.
+    #[must_use]
+    pub fn at_line(code: WarningCode, line: usize, message: impl Into<String>) -> Self {
+        Self {
+            line: Some(line),
+            ..Self::new(code, message)
+        }
+    }
+
+    /// The same, of another file than the program.
+    #[must_use]
+    pub fn of_file(mut self, file: impl Into<String>) -> Self {
+        self.file = Some(file.into());
+        self
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.file, self.line) {
+            (Some(file), Some(line)) => write!(f, "{file}, line {line}: {}", self.message),
+            (Some(file), None) => write!(f, "{file}: {}", self.message),
+            (None, Some(line)) => write!(f, "line {line}: {}", self.message),
+            (None, None) => f.write_str(&self.message),
+        }
+    }
+}
