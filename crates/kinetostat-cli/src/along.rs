@@ -1,12 +1,13 @@
 //! A run along a program, from question to files: shared by `compensate`, `deflect` and `demo`.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use kinetostat_machining::{
     LoadAlongPath, Run, RunResult, Task, Warning, WarningCode, analyse, compensate_program,
     load_in_words,
 };
-use kinetostat_program::{Path as ToolPath, Program, ProgramError, interpret};
+use kinetostat_program::{Path as ToolPath, Program, ProgramError, faults, interpret};
 
 use crate::failure::{Answer, Failure};
 use crate::machine::Machine;
@@ -86,10 +87,47 @@ impl Files {
 
 /// Reads and interprets a program.
 pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
-    let refuse = |error: ProgramError| Failure::input(error).within(&setting.program_name);
-    let program = Program::read(setting.program.clone()).map_err(refuse)?;
-    let path = interpret(&program, &setting.reading).map_err(refuse)?;
-    Ok((program, path))
+    let read = Program::read(setting.program.clone()).and_then(|program| {
+        let path = interpret(&program, &setting.reading)?;
+        Ok((program, path))
+    });
+    read.map_err(|error| {
+        let all = faults(setting.program.clone(), &setting.reading);
+        let message = if all.len() > 1 {
+            faults_in_words(&all)
+        } else {
+            error.to_string()
+        };
+        Failure::input(message).within(&setting.program_name)
+    })
+}
+
+/// Faults of one reason that are listed; further ones are counted.
+const FAULTS_OF_A_REASON: usize = 3;
+
+/// Faults listed in all.
+const FAULTS_SHOWN: usize = 40;
+
+/// All faults of a program in the order of its lines.
+fn faults_in_words(all: &[ProgramError]) -> String {
+    let mut text = format!("{} lines are refused:", all.len());
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut shown = 0;
+    for fault in all {
+        let count = counts.entry(&fault.reason).or_default();
+        *count += 1;
+        if *count <= FAULTS_OF_A_REASON && shown < FAULTS_SHOWN {
+            shown += 1;
+            text.push_str(&format!("\n  {fault}"));
+        }
+    }
+    if shown < all.len() {
+        text.push_str(&format!(
+            "\n  and {} more, most for the same reasons as above",
+            all.len() - shown
+        ));
+    }
+    text
 }
 
 /// Solves the machine along the program.

@@ -424,6 +424,9 @@ pub(crate) struct ProgramArgs {
     /// Blocks marked with `/`: run them (the default), or skip them
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Reading")]
     pub(crate) block_delete: Option<BlockDeleteWord>,
+    /// Rotary and second axes (A B C U V W) stand still: take a program with their words
+    #[arg(long, help_heading = "Reading")]
+    pub(crate) axes_stand_still: bool,
     /// Where the tool stands before the first block, mm
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
     pub(crate) start_position_mm: Option<Vec<f64>>,
@@ -501,6 +504,7 @@ A job file:
 
   [reading]
   # units = "mm", arc_tolerance_mm = 0.005, block_delete = "run"
+  # axes_stand_still = true   (a program with words of A B C U V W)
   # start_position_mm = [0, 0, 50]
   # work_offset_mm = { G54 = [0, 0, 0] }
 

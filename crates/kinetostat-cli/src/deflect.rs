@@ -245,6 +245,7 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
         ("--arc-tolerance", p.arc_tolerance.is_some()),
         ("--work-offset", !p.work_offset.is_empty()),
         ("--block-delete", p.block_delete.is_some()),
+        ("--axes-stand-still", p.axes_stand_still),
         ("--start-position-mm", p.start_position_mm.is_some()),
         ("--chord-tolerance-um", p.chord_tolerance_um.is_some()),
     ];

@@ -115,6 +115,8 @@ pub(crate) struct ReadingTable {
     pub units: Option<UnitsWord>,
     pub arc_tolerance_mm: Option<Spanned<f64>>,
     pub block_delete: Option<BlockDeleteWord>,
+    /// A B C U V W stand still while the tool cuts.
+    pub axes_stand_still: Option<bool>,
     pub start_position_mm: Option<[f64; 3]>,
     pub work_offset_mm: Option<Spanned<BTreeMap<String, [f64; 3]>>>,
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_program::{BlockDelete, ReadOptions, Units, WriteOptions};
+use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, Units, WriteOptions};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
 
@@ -304,6 +304,9 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
             BlockDeleteWord::Run => BlockDelete::Run,
             BlockDeleteWord::Skip => BlockDelete::Skip,
         };
+    }
+    if flags.axes_stand_still || table.axes_stand_still.unwrap_or_default() {
+        reading.other_axes = OtherAxes::StandStill;
     }
     reading.start_position_mm = match (&flags.start_position_mm, table.start_position_mm) {
         (Some(v), _) => Some(vector("--start-position-mm", v)?),

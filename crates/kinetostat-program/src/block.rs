@@ -176,10 +176,12 @@ impl<'p> Block<'p> {
         if takes(b'M', &[62, 63, 64, 65, 66, 67, 68]) {
             dropped.extend(b"PELQ");
         }
-        if takes(b'M', &[3, 4, 5, 19]) {
+        if takes(b'M', &[19]) {
             dropped.extend(b"RPQ");
         }
-        if takes(b'M', &[6, 50, 51, 52, 53]) || (100..=199).any(|code| takes(b'M', &[code])) {
+        if takes(b'M', &[3, 4, 5, 6, 50, 51, 52, 53])
+            || (100..=199).any(|code| takes(b'M', &[code]))
+        {
             dropped.extend(b"PQ");
         }
         for letter in dropped {

@@ -11,17 +11,21 @@ use crate::error::ProgramError;
 use crate::extra::ExtraAxes;
 use crate::modes::Modes;
 use crate::moment::{Placed, moment_of};
-use crate::options::{BlockDelete, ReadOptions};
+use crate::options::{BlockDelete, OtherAxes, ReadOptions};
 use crate::path::{
-    Change, CoordinateWords, Event, Knowledge, Motion, Move, MoveKind, OffsetChange, Path,
-    PositionOffset, Warning,
+    Change, CoordinateWords, Event, ExtraMode, Knowledge, Motion, Move, MoveKind, OffsetChange,
+    Path, PositionOffset, Warning,
 };
 use crate::program::{LineKind, Program};
+use crate::tools::ToolWords;
 
 /// Coordinates beyond this are no machine's, in mm.
 const LARGEST_COORDINATE_MM: f64 = 1e6;
 
 const COORDINATES: [u8; 3] = *b"XYZ";
+
+/// Axes that change where the tool stands in the part, by way of a table, a head or second slides.
+const OTHER_AXES: &[u8; 6] = b"ABCUVW";
 
 /// Interprets the motions of a program.
 ///
@@ -37,18 +41,32 @@ const COORDINATES: [u8; 3] = *b"XYZ";
 pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, ProgramError> {
     let mut interpreter = Interpreter::new(options);
     for index in 0..program.lines().len() {
-        let line = &program.lines()[index];
-        let skipped = line.block_delete && options.block_delete == BlockDelete::Skip;
-        if line.kind == LineKind::AfterEnd || program.words(line).is_empty() || skipped {
-            continue;
-        }
-        let block = Block::of(program, index)?;
-        if line.block_delete {
-            interpreter.warn_block_delete(block.line_number);
-        }
-        interpreter.run(&block)?;
+        interpreter.run_line(program, index)?;
     }
     interpreter.finish(program)
+}
+
+/// Everything that is refused in a program, in the order of its lines, at most one fault a line; empty
+/// where [`Program::read`] and [`interpret`] take it.
+///
+/// A line that is refused is left out of what follows, so a later fault may be there only because of an
+/// earlier one.
+pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramError> {
+    let (program, mut found) = Program::read_with_faults(bytes.into());
+    let mut interpreter = Interpreter::new(options);
+    for index in 0..program.lines().len() {
+        if let Err(fault) = interpreter.run_line(&program, index) {
+            interpreter.modes.go_on_after_fault();
+            found.push(fault);
+        }
+    }
+    if found.is_empty() {
+        found.extend(interpreter.finish(&program).err());
+    }
+    // Of two faults of a line the first found is that of its reading.
+    found.sort_by_key(|fault| fault.line);
+    found.dedup_by_key(|fault| fault.line);
+    found
 }
 
 /// Of which axes the coordinates are shifted by an amount that is not in the program.
@@ -118,6 +136,7 @@ struct Interpreter<'o> {
     /// For each move: which axes are known before and after it.
     knowledge: Vec<([bool; 3], [bool; 3])>,
     events: Vec<Event>,
+    tools: ToolWords,
     warnings: Vec<Warning>,
 }
 
@@ -139,6 +158,7 @@ impl<'o> Interpreter<'o> {
             moves: Vec::new(),
             knowledge: Vec::new(),
             events: Vec::new(),
+            tools: ToolWords::default(),
             warnings: Vec::new(),
         }
     }
@@ -169,6 +189,19 @@ impl<'o> Interpreter<'o> {
         }
     }
 
+    fn run_line(&mut self, program: &Program, index: usize) -> Result<(), ProgramError> {
+        let line = &program.lines()[index];
+        let skipped = line.block_delete && self.options.block_delete == BlockDelete::Skip;
+        if line.kind == LineKind::AfterEnd || program.words(line).is_empty() || skipped {
+            return Ok(());
+        }
+        let block = Block::of(program, index)?;
+        if line.block_delete {
+            self.warn_block_delete(block.line_number);
+        }
+        self.run(&block)
+    }
+
     fn run(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
         if block.is_vendor() {
             self.modes.extra.set_extruder_mode(block.codes.extruder);
@@ -188,7 +221,9 @@ impl<'o> Interpreter<'o> {
                 "remove the blocks after M2 or M30, or the M2 or M30 before them",
             ));
         }
+        self.refuse_other_axes(block)?;
         self.modes.set(block)?;
+        self.tools.note(block);
         if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {
@@ -352,6 +387,13 @@ impl<'o> Interpreter<'o> {
                     "write it in a block of its own, before or after the motion",
                 ));
             };
+            if moment.code == 6 && self.options.tools.is_some() {
+                return Err(block.refuse(
+                    Some(word),
+                    "the tool is changed beside a motion: which of the two tools makes the motion depends on the controller",
+                    "write M6 in a block of its own, before or after the motion",
+                ));
+            }
             if kind != MoveKind::Feed {
                 continue;
             }
@@ -508,12 +550,51 @@ impl<'o> Interpreter<'o> {
         Ok(end)
     }
 
-    /// A turned part or head changes where the tool stands in the part, and this reader cannot tell how.
-    fn warn_of_carried_axes(&mut self) {
-        for letter in "ABCUVW".chars() {
-            let moved = |motion: &&Move| motion.extra.iter().any(|extra| extra.letter == letter);
-            if let Some(line) = self.moves.iter().find(moved).map(|motion| motion.line) {
-                self.warn(line, &format!("axis {letter} is carried along; what it does to the place of the tool in the part is not accounted for"));
+    /// Words of axes that turn or shift the part or the head, of which there is no model here.
+    fn refuse_other_axes(&self, block: &Block<'_>) -> Result<(), ProgramError> {
+        if self.options.other_axes == OtherAxes::StandStill {
+            return Ok(());
+        }
+        for letter in *OTHER_AXES {
+            if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
+                return Err(block.refuse(
+                    Some(word),
+                    &format!(
+                        "axis {} changes where the tool stands in the part and in the machine, and there is no model of it",
+                        char::from(letter)
+                    ),
+                    "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The user said that these axes stand still; the program may say otherwise.
+    fn warn_of_moved_axes(&mut self) {
+        for letter in OTHER_AXES.map(char::from) {
+            let words = || {
+                self.moves.iter().flat_map(|motion| {
+                    let own = motion.extra.iter().filter(|extra| extra.letter == letter);
+                    own.map(|extra| (motion.line, *extra))
+                })
+            };
+            let moved = words().find(|(_, extra)| match (extra.mode, extra.start) {
+                (ExtraMode::Incremental, _) => extra.word != 0.0,
+                (_, Some(start)) => extra.word != start,
+                (_, None) => false,
+            });
+            if let Some((line, extra)) = moved {
+                let from = match (extra.mode, extra.start) {
+                    (ExtraMode::Absolute, Some(start)) => format!("from {start} to {}", extra.word),
+                    _ => format!("by {}", extra.word),
+                };
+                self.warn(line, &format!("axis {letter} moves {from} though it is said to stand still: from here on the corrections are right only if that does not change where the tool stands in the part"));
+            } else if let Some((line, _)) = words().next() {
+                self.warn(
+                    line,
+                    &format!("axis {letter} is carried along and taken to stand still"),
+                );
             }
         }
     }
@@ -549,14 +630,17 @@ impl<'o> Interpreter<'o> {
         {
             self.warn(first, &format!("{unknown} block(s) move before the program has stated where the tool is; they are carried unchanged (a start position given by option changes this)"));
         }
-        self.warn_of_carried_axes();
-        self.warnings.sort_by_key(|warning| warning.line);
-        Ok(Path {
+        self.warn_of_moved_axes();
+        let mut path = Path {
             moves: self.moves,
             stated,
             warnings: self.warnings,
+            tool_changes: Vec::new(),
             events: self.events,
-        })
+        };
+        self.tools.finish(&mut path, program, self.options)?;
+        path.warnings.sort_by_key(|warning| warning.line);
+        Ok(path)
     }
 }
 

@@ -62,6 +62,7 @@ mod path;
 mod program;
 mod render;
 mod syntax;
+mod tools;
 mod turn;
 mod verify;
 mod verify_text;
@@ -74,14 +75,15 @@ pub use error::{MapError, ProgramError, WriteError};
 pub use field::{
     CorrectionField, FieldFailure, Monitor, NoCorrection, Request, Turning, Unwatched,
 };
-pub use interpret::interpret;
+pub use interpret::{faults, interpret};
 pub use map::CorrectionMap;
 pub use moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
-pub use options::{BlockDelete, ReadOptions, Units};
+pub use options::{BlockDelete, OtherAxes, ReadOptions, Units};
 pub use path::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
 };
 pub use program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
+pub use tools::ToolChange;
 pub use turn::Turn;
 pub use verify::{Verification, verify_written};
 pub use write::{Corrected, Piece, WriteOptions, write_corrected};

@@ -163,6 +163,14 @@ impl Modes {
         self.tool_length_on = on;
     }
 
+    /// Faults that would be found again in every block that follows are told once.
+    pub fn go_on_after_fault(&mut self) {
+        self.units.get_or_insert(Units::Millimetres);
+        self.motion.get_or_insert(Motion::Feed);
+        self.feed_is_stale = false;
+        self.length_change = None;
+    }
+
     /// Millimetres in one unit; a motion needs it.
     pub fn mm_per_unit(&self, block: &Block<'_>) -> Result<f64, ProgramError> {
         self.units.map(Units::mm_per_unit).ok_or_else(|| {

@@ -33,6 +33,22 @@ pub enum BlockDelete {
     Skip,
 }
 
+/// What is done with a program that moves axes other than X, Y, Z and the extruder E.
+///
+/// A rotary table or head (A B C) and a second set of slides (U V W) change where the tool stands in the
+/// part and in the machine, and there is no model of them here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OtherAxes {
+    /// The first block with such a word is refused (the default).
+    #[default]
+    Refused,
+    /// The user says that they stand still while the tool cuts, or that their motion does not change
+    /// where the tool stands in the part. Their words are carried, and shared out over the pieces of a
+    /// divided block; a warning names the first block that moves one of them.
+    StandStill,
+}
+
 /// Settings of the reading that the program cannot supply.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadOptions {
@@ -55,6 +71,12 @@ pub struct ReadOptions {
     pub arc_tolerance_mm: f64,
     /// Whether blocks marked with `/` are run.
     pub block_delete: BlockDelete,
+    /// Whether words of the axes A B C U V W are taken.
+    pub other_axes: OtherAxes,
+    /// Numbers of the tools that the field of corrections knows, each with its length. `None` (the
+    /// default) means one tool for the whole program: a second tool is warned of. With a list, a tool
+    /// outside it is refused, and so is a tool change beside a motion.
+    pub tools: Option<Vec<u32>>,
 }
 
 impl Default for ReadOptions {
@@ -65,6 +87,8 @@ impl Default for ReadOptions {
             start_position_mm: None,
             arc_tolerance_mm: 0.005,
             block_delete: BlockDelete::Run,
+            other_axes: OtherAxes::Refused,
+            tools: None,
         }
     }
 }

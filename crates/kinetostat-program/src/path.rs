@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::curve::Curve;
+use crate::tools::ToolChange;
 
 /// Whether a move is made at rapid rate or at the programmed feed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -141,6 +142,8 @@ pub struct Path {
     pub stated: [bool; 3],
     /// What may surprise the user, with lines.
     pub warnings: Vec<Warning>,
+    /// Where another tool is taken, in the order of lines; see [`Path::tool_on`].
+    pub tool_changes: Vec<ToolChange>,
     /// What changes between the moves and matters to who writes them.
     pub(crate) events: Vec<Event>,
 }

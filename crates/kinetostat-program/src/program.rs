@@ -89,7 +89,19 @@ impl Program {
     /// longer than [`MAX_READ_LINE_BYTES`], numbers that are none, variables and expressions, control
     /// structure, subroutines and calls, checksums.
     pub fn read(bytes: impl Into<Vec<u8>>) -> Result<Program, ProgramError> {
-        Reader::new(bytes.into()).read()
+        let (program, faults) = Self::read_with_faults(bytes.into());
+        match faults.into_iter().next() {
+            Some(first) => Err(first),
+            None => Ok(program),
+        }
+    }
+
+    /// What can be read, and every line that cannot, in order. Of a refused line the words before the
+    /// place of the fault are kept, so that its modes are not missed in the lines that follow.
+    pub(crate) fn read_with_faults(bytes: Vec<u8>) -> (Program, Vec<ProgramError>) {
+        let mut reader = Reader::new(bytes);
+        let faults = reader.read();
+        (reader.program, faults)
     }
 
     /// The program, byte for byte as it was read.
@@ -194,8 +206,11 @@ impl Reader {
         }
     }
 
-    fn read(mut self) -> Result<Program, ProgramError> {
-        self.check_size()?;
+    fn read(&mut self) -> Vec<ProgramError> {
+        let mut faults = Vec::new();
+        if let Err(fault) = self.check_size() {
+            return vec![fault];
+        }
         let mut start = byte_order_mark(&self.program.bytes);
         while start < self.program.bytes.len() {
             let rest = &self.program.bytes[start..];
@@ -208,10 +223,11 @@ impl Reader {
                 [] => 0,
                 _ => 1,
             };
-            self.read_line(start..start + length, start + length + ending)?;
+            let content = start..start + length;
+            faults.extend(self.read_line(content, start + length + ending));
             start += length + ending;
         }
-        Ok(self.program)
+        faults
     }
 
     fn check_size(&self) -> Result<(), ProgramError> {
@@ -237,17 +253,26 @@ impl Reader {
         })
     }
 
-    fn read_line(&mut self, content: Range<usize>, next: usize) -> Result<(), ProgramError> {
+    fn read_line(&mut self, content: Range<usize>, next: usize) -> Option<ProgramError> {
         let number = self.program.lines.len() + 1;
         let first_word = self.program.words.len();
+        let mut fault = None;
         let (kind, block_delete) = if self.tape_marks == 2 {
             (LineKind::AfterEnd, false)
         } else {
             let mut tokens = std::mem::take(&mut self.tokens);
             tokens.clear();
             let result = self.read_tokens(number, content.clone(), &mut tokens);
+            let kept = result.unwrap_or_else(|found| {
+                let before = tokens
+                    .iter()
+                    .take_while(|token| content.start + token.span.end <= found.span.start);
+                self.keep_words(&content, before);
+                fault = Some(found);
+                (LineKind::Words, false)
+            });
             self.tokens = tokens;
-            result?
+            kept
         };
         self.program.lines.push(Line {
             start: content.start as u32,
@@ -257,7 +282,30 @@ impl Reader {
             kind,
             block_delete,
         });
-        Ok(())
+        fault
+    }
+
+    fn keep_words<'t>(
+        &mut self,
+        content: &Range<usize>,
+        tokens: impl IntoIterator<Item = &'t Spanned>,
+    ) {
+        for spanned in tokens {
+            if let Token::Word {
+                letter,
+                number,
+                value,
+            } = &spanned.token
+            {
+                self.program.words.push(Word {
+                    letter: *letter,
+                    start: (content.start + spanned.span.start) as u32,
+                    number: (content.start + number.start) as u32,
+                    end: (content.start + number.end) as u32,
+                    value: *value,
+                });
+            }
+        }
     }
 
     fn read_tokens(
@@ -340,22 +388,7 @@ impl Reader {
         let checked = syntax::check(text, &significant, self.blocks == 0)
             .map_err(|found| refuse(found.span, &found.reason, found.remedy))?;
         self.blocks += 1;
-        for spanned in &significant[..checked.words] {
-            if let Token::Word {
-                letter,
-                number,
-                value,
-            } = &spanned.token
-            {
-                self.program.words.push(Word {
-                    letter: *letter,
-                    start: (content.start + spanned.span.start) as u32,
-                    number: (content.start + number.start) as u32,
-                    end: (content.start + number.end) as u32,
-                    value: *value,
-                });
-            }
-        }
+        self.keep_words(&content, significant[..checked.words].iter().copied());
         Ok((checked.kind, block_delete))
     }
 }

@@ -17,6 +17,7 @@ fn bare() -> WriteOptions {
 fn at_origin() -> ReadOptions {
     ReadOptions {
         start_position_mm: Some(Vector3::zeros()),
+        other_axes: OtherAxes::StandStill,
         ..ReadOptions::default()
     }
 }

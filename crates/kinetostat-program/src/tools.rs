@@ -1,0 +1,166 @@
+//! Which tool is in the spindle, block by block.
+
+use std::collections::BTreeSet;
+
+use crate::block::Block;
+use crate::error::ProgramError;
+use crate::options::ReadOptions;
+use crate::path::{Path, Warning};
+use crate::program::Program;
+
+/// A block from which on another tool is used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub struct ToolChange {
+    /// Line of the block, counted from 1.
+    pub line: usize,
+    /// Number of the tool.
+    pub number: u32,
+}
+
+impl Path {
+    /// Number of the tool that the block on a line is made with, as the program says it: by `T` and `M6`;
+    /// without any M6 by `T`; without any T by the `H` of `G43`. `None` before the first of them.
+    pub fn tool_on(&self, line: usize) -> Option<u32> {
+        let after = self
+            .tool_changes
+            .partition_point(|change| change.line <= line);
+        Some(self.tool_changes.get(after.checked_sub(1)?)?.number)
+    }
+}
+
+/// What the words of a program say about its tools.
+#[derive(Default)]
+pub(crate) struct ToolWords {
+    selected: Option<u32>,
+    changed: Vec<ToolChange>,
+    named: Vec<ToolChange>,
+    lengths: Vec<ToolChange>,
+}
+
+impl ToolWords {
+    pub fn note(&mut self, block: &Block<'_>) {
+        let line = block.line_number;
+        let whole = |letter: u8| {
+            let value = block.word(letter)?.value;
+            (value.fract() == 0.0 && (0.0..1e9).contains(&value)).then_some(value as u32)
+        };
+        if let Some(number) = whole(b'T') {
+            self.selected = Some(number);
+            push(&mut self.named, line, number);
+        }
+        let has_change = block
+            .words
+            .iter()
+            .any(|word| word.letter == b'M' && word.tenths() == 60);
+        if let (true, Some(number)) = (has_change, self.selected) {
+            push(&mut self.changed, line, number);
+        }
+        if block.codes.tool_length == Some(430)
+            && let Some(number) = whole(b'H').filter(|number| *number > 0)
+        {
+            push(&mut self.lengths, line, number);
+        }
+    }
+
+    /// Fills in the tools of a path and says what does not fit the tools that are known.
+    pub fn finish(
+        self,
+        path: &mut Path,
+        program: &Program,
+        options: &ReadOptions,
+    ) -> Result<(), ProgramError> {
+        let lengths = self.lengths.clone();
+        path.tool_changes = [self.changed, self.named, self.lengths]
+            .into_iter()
+            .find(|changes| !changes.is_empty())
+            .unwrap_or_default();
+        warn_of_other_lengths(path, &lengths);
+        match &options.tools {
+            None => warn_of_one_tool(path),
+            Some(known) => {
+                refuse_unknown_tools(path, program, known)?;
+                warn_before_first_tool(path);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn push(changes: &mut Vec<ToolChange>, line: usize, number: u32) {
+    if changes.last().is_none_or(|last| last.number != number) {
+        changes.push(ToolChange { line, number });
+    }
+}
+
+/// `G43 H3` while tool 2 is in the spindle: which of the two has the length?
+fn warn_of_other_lengths(path: &mut Path, lengths: &[ToolChange]) {
+    let mut told = BTreeSet::new();
+    for length in lengths {
+        let Some(tool) = path.tool_on(length.line) else {
+            continue;
+        };
+        if tool != length.number && told.insert((tool, length.number)) {
+            path.warnings.push(Warning {
+                line: length.line,
+                text: format!(
+                    "G43 H{} takes the length of another tool than T{tool}, which is in the spindle; corrections are those of tool {tool}",
+                    length.number
+                ),
+            });
+        }
+    }
+}
+
+fn warn_of_one_tool(path: &mut Path) {
+    let Some(first) = path.tool_changes.first().map(|change| change.number) else {
+        return;
+    };
+    let mut told = BTreeSet::from([first]);
+    for change in path.tool_changes.clone() {
+        if told.insert(change.number) {
+            path.warnings.push(Warning {
+                line: change.line,
+                text: format!(
+                    "tool {} comes after tool {first}, and corrections are made for one tool length and one load: from here on they may be those of another tool. Name each tool with its length (and its load) as [[tools]] in the job file, or correct the part of each tool as a program of its own",
+                    change.number
+                ),
+            });
+        }
+    }
+}
+
+fn refuse_unknown_tools(path: &Path, program: &Program, known: &[u32]) -> Result<(), ProgramError> {
+    for (index, change) in path.tool_changes.iter().enumerate() {
+        let until = path
+            .tool_changes
+            .get(index + 1)
+            .map_or(usize::MAX, |next| next.line);
+        let is_used = path
+            .moves
+            .iter()
+            .any(|motion| (change.line..until).contains(&motion.line));
+        if is_used && !known.contains(&change.number) {
+            return Err(Block::of(program, change.line - 1)?.refuse(
+                None,
+                &format!(
+                    "tool {} is not among the tools that are named",
+                    change.number
+                ),
+                "give it in a table [[tools]] of the job file: number and length_mm",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn warn_before_first_tool(path: &mut Path) {
+    let Some(first) = path.moves.first().map(|motion| motion.line) else {
+        return;
+    };
+    if path.tool_on(first).is_none() {
+        path.warnings.push(Warning {
+            line: first,
+            text: "the first blocks move before the program has named a tool; they are corrected for the one under [tool]".to_owned(),
+        });
+    }
+}
