@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use kinetostat_machining::{
-    LoadAlongPath, Run, RunResult, Task, Warning, WarningCode, analyse, compensate_program,
+    LoadAlongPath, Run, RunResult, Task, Tool, Warning, WarningCode, analyse, compensate_program,
     load_in_words,
 };
 use kinetostat_program::{Path as ToolPath, Program, ProgramError, faults, interpret};
@@ -138,6 +138,15 @@ pub(crate) fn solve(
     threads: Option<usize>,
 ) -> Answer<Run> {
     let (program, path) = read_program(setting)?;
+    let tools: Vec<Tool<'_>> = machine
+        .tools
+        .iter()
+        .map(|(number, mechanism, load)| Tool {
+            number: *number,
+            mechanism,
+            load: *load,
+        })
+        .collect();
     let mut question = machine.question.clone();
     question.program.clone_from(&setting.program_name);
     let mut writing = setting.writing.clone();
@@ -150,7 +159,10 @@ pub(crate) fn solve(
             ),
             format!(
                 "load {}",
-                load_in_words(&machine.mechanism, &LoadAlongPath::new(machine.load, &path))
+                load_in_words(
+                    &machine.mechanism,
+                    &LoadAlongPath::with_tools(machine.load, &path, &tools)
+                )
             ),
             format!("tool {}", question.tool),
             format!("placement {}", question.placement),
@@ -163,6 +175,7 @@ pub(crate) fn solve(
         path: &path,
         placement: machine.placement,
         load: machine.load,
+        tools: &tools,
         writing,
         question,
     };

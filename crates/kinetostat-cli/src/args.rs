@@ -497,6 +497,10 @@ A job file:
   [tool]
   length_mm = 100                  # or pose = { position_mm = [...], ... }
 
+  # [[tools]]                      # several tools: T1 M6, T2 M6
+  # number = 1
+  # length_mm = 100                # and load = { ... } of its own
+
   [load]                           # on feed moves; none in rapids
   milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }
   # or force_n = [0, 0, -200], moment_n_m = [0, 0, 1], axes = "base"

@@ -48,6 +48,8 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     }
     let to_screen = args.run.json.as_deref() == Some(Path::new("-"));
     if let Some(map) = &args.map {
+        // A table of corrections knows no tools: a second one is warned of.
+        setting.reading.tools = None;
         return from_map(&files, map, &setting, existing, to_screen);
     }
     let (machine, model) = machine(

@@ -30,6 +30,9 @@ pub(crate) struct Job {
     pub placement: PlacementTable,
     #[serde(default)]
     pub tool: ToolTable,
+    /// Several tools, by number; without any, `tool` is the only one.
+    #[serde(default)]
+    pub tools: Vec<Spanned<NumberedTool>>,
     #[serde(default)]
     pub load: LoadTable,
     #[serde(default)]
@@ -62,6 +65,20 @@ pub(crate) struct ToolTable {
     pub length_mm: Option<Spanned<f64>>,
     /// Or the whole pose of the tip in the flange.
     pub pose: Option<Spanned<PoseTable>>,
+}
+
+/// A tool that the program takes by its number.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NumberedTool {
+    /// Number in the T words of the program.
+    pub number: u32,
+    /// Distance of the tip along z of the flange, mm.
+    pub length_mm: Option<Spanned<f64>>,
+    /// Or the whole pose of the tip in the flange.
+    pub pose: Option<Spanned<PoseTable>>,
+    /// What acts on it; without this, the job's `[load]`.
+    pub load: Option<LoadTable>,
 }
 
 /// What acts on the tool.

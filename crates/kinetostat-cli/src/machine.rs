@@ -13,7 +13,7 @@ use serde_spanned::Spanned;
 use crate::args::ProgramArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::job::Axes;
+use crate::job::{Axes, LoadTable};
 use crate::orientation;
 use crate::screen::{fixed, triple};
 use crate::setting::{JobFile, above_zero, chosen, finite, vector};
@@ -23,6 +23,8 @@ pub(crate) struct Machine {
     pub(crate) mechanism: Mechanism,
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
+    /// Tools by number, each with its machine and load.
+    pub(crate) tools: Vec<(u32, Mechanism, ProgramLoad)>,
     pub(crate) question: Question,
     /// Of the model's text and deviations.
     pub(crate) fingerprint: u64,
@@ -57,10 +59,11 @@ pub(crate) fn machine(
     inputs.extend(path.clone());
     let model = with_deviations(model, job)?;
     let fingerprint = fingerprint(&model);
-    let (tool, tool_words) = tool(job, flags)?;
+    let (tool, mut tool_words) = tool(job, flags)?;
     let mechanism = model.mechanism.with_tool(&tool);
     let placement = placement(job, flags, &mechanism)?;
-    let load = load(job, flags)?;
+    let load = load(job, job.map(|j| &j.job.load), flags)?;
+    let tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words)?;
     let source = match &path {
         Some(_) => named,
         None => format!("preset {named}"),
@@ -78,6 +81,7 @@ pub(crate) fn machine(
             mechanism,
             placement,
             load,
+            tools,
             question,
             fingerprint,
         },
@@ -129,27 +133,78 @@ pub(crate) fn short(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn tool(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<(Pose, String)> {
-    let straight = |length_mm: f64| {
-        if !length_mm.is_finite() || length_mm.abs() > 1e5 {
-            return Err(Failure::input(format!(
-                "the tool's length is {length_mm} mm; tools are shorter than 100 m"
-            )));
-        }
-        let words = if length_mm == 0.0 {
-            "none: the platform's own point".to_owned()
-        } else {
-            format!("{} mm along z of the flange", short(length_mm))
-        };
-        Ok((straight_tool(1e-3 * length_mm), words))
+/// The tools of `[[tools]]`, and all tools in words.
+fn numbered_tools(
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    mechanism: &Mechanism,
+    words: &mut String,
+) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
+    let mut tools: Vec<(u32, Mechanism, ProgramLoad)> = Vec::new();
+    let Some(j) = job.filter(|j| !j.job.tools.is_empty()) else {
+        return Ok(tools);
     };
+    if flags.tool_length_mm.is_some() {
+        return Err(Failure::input(
+            "--tool-length-mm gives one length, but the job file has several tools under [[tools]]; change the length there, or leave the option out",
+        ));
+    }
+    let mut all = Vec::new();
+    for entry in &j.job.tools {
+        let tool = entry.get_ref();
+        if tools.iter().any(|(number, ..)| *number == tool.number) {
+            return Err(j.error(
+                entry,
+                &format!("tool {} is given twice", tool.number),
+                "give each number once",
+            ));
+        }
+        if tool.length_mm.is_none() && tool.pose.is_none() {
+            return Err(j.error(
+                entry,
+                &format!("tool {} has no length", tool.number),
+                "write length_mm = ..., or pose = { position_mm = [...], ... }",
+            ));
+        }
+        let (pose, text) = tool_of(j, tool.length_mm.as_ref(), tool.pose.as_ref())?;
+        let load = load(job, Some(tool.load.as_ref().unwrap_or(&j.job.load)), flags)?;
+        all.push(format!("tool {}: {text}", tool.number));
+        tools.push((tool.number, mechanism.with_tool(&pose), load));
+    }
+    *words = all.join("; ");
+    Ok(tools)
+}
+
+fn straight(length_mm: f64) -> Answer<(Pose, String)> {
+    if !length_mm.is_finite() || length_mm.abs() > 1e5 {
+        return Err(Failure::input(format!(
+            "the tool's length is {length_mm} mm; tools are shorter than 100 m"
+        )));
+    }
+    let words = if length_mm == 0.0 {
+        "none: the platform's own point".to_owned()
+    } else {
+        format!("{} mm along z of the flange", short(length_mm))
+    };
+    Ok((straight_tool(1e-3 * length_mm), words))
+}
+
+fn tool(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<(Pose, String)> {
     if let Some(length) = flags.tool_length_mm {
         return straight(length);
     }
-    let Some(j) = job else {
-        return straight(0.0);
-    };
-    match (&j.job.tool.length_mm, &j.job.tool.pose) {
+    match job {
+        Some(j) => tool_of(j, j.job.tool.length_mm.as_ref(), j.job.tool.pose.as_ref()),
+        None => straight(0.0),
+    }
+}
+
+fn tool_of(
+    j: &JobFile,
+    length: Option<&Spanned<f64>>,
+    pose: Option<&Spanned<kinetostat_model::schema::Placement>>,
+) -> Answer<(Pose, String)> {
+    match (length, pose) {
         (Some(_), Some(pose)) => Err(j.error(
             pose,
             "the tool is given twice: 'length_mm' and 'pose'",
@@ -232,8 +287,12 @@ fn placement_in_words(placement: &Placement) -> String {
     text
 }
 
-fn load(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ProgramLoad> {
-    let table = job.map(|j| j.job.load.clone()).unwrap_or_default();
+fn load(
+    job: Option<&JobFile>,
+    table: Option<&LoadTable>,
+    flags: &ProgramArgs,
+) -> Answer<ProgramLoad> {
+    let table = table.cloned().unwrap_or_default();
     if let (Some(j), Some(milling)) = (job, &table.milling)
         && (table.force_n.is_some() || table.moment_n_m.is_some() || table.axes.is_some())
     {

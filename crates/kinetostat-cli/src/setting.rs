@@ -308,6 +308,10 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
     if flags.axes_stand_still || table.axes_stand_still.unwrap_or_default() {
         reading.other_axes = OtherAxes::StandStill;
     }
+    if let Some(j) = job.filter(|j| !j.job.tools.is_empty()) {
+        let numbers = j.job.tools.iter().map(|tool| tool.get_ref().number);
+        reading.tools = Some(numbers.collect());
+    }
     reading.start_position_mm = match (&flags.start_position_mm, table.start_position_mm) {
         (Some(v), _) => Some(vector("--start-position-mm", v)?),
         (None, Some(v)) => Some(v.into()),

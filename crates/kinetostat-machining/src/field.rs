@@ -12,7 +12,7 @@ use crate::together::Together;
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
 /// under the load of the program.
 pub struct ModelField<'a> {
-    /// Machine with its tool.
+    /// Machine with its tool; with that of [`LoadAlongPath::tool_of`] where there are several.
     pub mechanism: &'a Mechanism,
     /// Where the program lies.
     pub placement: Placement,
@@ -42,7 +42,25 @@ impl CorrectionField for ModelField<'_> {
     }
 
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
-        let together = Together::new(self.mechanism);
+        let number = |r: &Request| self.load.tool_of(r.move_index).map(|tool| tool.number);
+        let of_one_tool = requests.chunk_by(|a, b| number(a) == number(b));
+        of_one_tool
+            .flat_map(|requests| {
+                let tool = self.load.tool_of(requests[0].move_index);
+                self.with(tool.map_or(self.mechanism, |t| t.mechanism), requests)
+            })
+            .collect()
+    }
+}
+
+impl ModelField<'_> {
+    /// Corrections of one tool.
+    fn with(
+        &self,
+        mechanism: &Mechanism,
+        requests: &[Request],
+    ) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+        let together = Together::new(mechanism);
         in_chunks(requests, |memory, requests| {
             let poses: Vec<Pose> = requests
                 .iter()
@@ -60,7 +78,7 @@ impl CorrectionField for ModelField<'_> {
             let both = poses.iter().zip(&wrenches);
             both.map(|(pose, wrench)| {
                 memory[0]
-                    .target(self.mechanism, pose, wrench)
+                    .target(mechanism, pose, wrench)
                     .map(|posture| correction(pose, posture.target()))
                     .map_err(|error| FieldFailure::new(in_words(&error)))
             })

@@ -14,6 +14,7 @@ mod run;
 mod sites;
 mod solve;
 mod together;
+mod tool;
 mod warning;
 
 pub use field::ModelField;
@@ -28,4 +29,5 @@ pub use result::{
 pub use run::{
     Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words, of_program,
 };
+pub use tool::Tool;
 pub use warning::{Warning, WarningCode};

@@ -16,6 +16,7 @@ use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::placement::Placement;
+use crate::tool::{Tool, tool_on};
 
 /// Axes of a constant wrench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -78,6 +79,35 @@ impl ProgramLoad {
         }
     }
 
+    fn in_words(&self) -> String {
+        let text = match self.cutting {
+            CuttingLoad::None => return "no cutting load".into(),
+            CuttingLoad::Constant { axes, wrench } => {
+                let (f, m) = (wrench.force(), wrench.moment());
+                let axes = match axes {
+                    LoadAxes::Base => "base",
+                    LoadAxes::Tool => "tool",
+                    LoadAxes::Feed => "feed",
+                };
+                format!(
+                    "force ({}, {}, {}) N and moment ({}, {}, {}) N m at the tool's tip in {axes} axes, on feed moves",
+                    f.x, f.y, f.z, m.x, m.y, m.z
+                )
+            }
+            CuttingLoad::Milling {
+                radial,
+                tangential,
+                axial,
+            } => format!(
+                "milling: {radial} N to the right of the feed, {tangential} N along it, {axial} N along z, on feed moves"
+            ),
+        };
+        match self.below_z_mm {
+            Some(z) => format!("{text}, only below Z {z} mm"),
+            None => text,
+        }
+    }
+
     fn turns(&self) -> bool {
         matches!(
             self.cutting,
@@ -105,6 +135,7 @@ struct Headings {
 pub struct LoadAlongPath<'a> {
     load: ProgramLoad,
     path: &'a Path,
+    tools: &'a [Tool<'a>],
     headings: Vec<Headings>,
 }
 
@@ -123,10 +154,29 @@ impl<'a> LoadAlongPath<'a> {
     /// Prepares the headings of all moves.
     #[must_use]
     pub fn new(load: ProgramLoad, path: &'a Path) -> Self {
+        Self::with_tools(load, path, &[])
+    }
+
+    /// The same, with the load of each tool on the blocks that are made with it; `load` is that of blocks
+    /// without one of these tools.
+    #[must_use]
+    pub fn with_tools(load: ProgramLoad, path: &'a Path, tools: &'a [Tool<'a>]) -> Self {
+        let mut along = Self {
+            load,
+            path,
+            tools,
+            headings: Vec::new(),
+        };
+        along.headings = along.headings();
+        along
+    }
+
+    fn headings(&self) -> Vec<Headings> {
+        let path = self.path;
         let mut headings = vec![Headings::default(); path.moves.len()];
-        if load.turns() {
-            for (h, m) in headings.iter_mut().zip(&path.moves) {
-                if m.kind == MoveKind::Feed {
+        if self.load.turns() || self.tools.iter().any(|tool| tool.load.turns()) {
+            for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
+                if m.kind == MoveKind::Feed && self.load_of(i).turns() {
                     h.at_start = heading(m.tangent(0.0));
                     h.at_end = heading(m.tangent(1.0));
                 }
@@ -137,31 +187,39 @@ impl<'a> LoadAlongPath<'a> {
                     continue;
                 };
                 let turn = wrap(after - before);
-                if turn.abs() <= load.gentle_corner {
+                if turn.abs() <= self.load_of(i).gentle_corner {
                     headings[i - 1].lag_end = 0.5 * turn;
                     headings[i].lag_start = -0.5 * turn;
                 }
             }
         }
-        Self {
-            load,
-            path,
-            headings,
-        }
+        headings
+    }
+
+    /// The tool that a move is made with, where several are named.
+    #[must_use]
+    pub fn tool_of(&self, move_index: usize) -> Option<&Tool<'a>> {
+        tool_on(self.tools, self.path, self.path.moves[move_index].line)
+    }
+
+    fn load_of(&self, move_index: usize) -> &ProgramLoad {
+        self.tool_of(move_index)
+            .map_or(&self.load, |tool| &tool.load)
     }
 
     /// Wrench on the tool's tip (base axes, N, N m) at a share of a move.
     #[must_use]
     pub fn wrench(&self, placement: &Placement, move_index: usize, share: f64) -> Wrench {
+        let load = self.load_of(move_index);
         let motion = &self.path.moves[move_index];
         let position = motion.point(share);
-        let outside = self.load.below_z_mm.is_some_and(|z| position.z >= z);
+        let outside = load.below_z_mm.is_some_and(|z| position.z >= z);
         if motion.kind == MoveKind::Rapid || outside {
             return Wrench::zero();
         }
         let in_base =
             |w: Wrench| w.rotated(&placement.base_from_part.rotation.to_rotation_matrix());
-        match self.load.cutting {
+        match load.cutting {
             CuttingLoad::None => Wrench::zero(),
             CuttingLoad::Constant {
                 axes: LoadAxes::Base,
@@ -220,7 +278,8 @@ impl<'a> LoadAlongPath<'a> {
         let own = heading(motion.tangent(share))?;
         let h = &self.headings[move_index];
         let length = motion.length_mm();
-        let zone = self.load.turning_length_mm;
+        let load = self.load_of(move_index);
+        let zone = load.turning_length_mm;
         // Short moves turn evenly over their whole length, long ones near their ends.
         let (start, end) = if length <= 2.0 * zone {
             (1.0 - share, share)
@@ -237,32 +296,12 @@ impl<'a> LoadAlongPath<'a> {
     /// The load in words.
     #[must_use]
     pub fn in_words(&self) -> String {
-        let text = match self.load.cutting {
-            CuttingLoad::None => return "no cutting load".into(),
-            CuttingLoad::Constant { axes, wrench } => {
-                let (f, m) = (wrench.force(), wrench.moment());
-                let axes = match axes {
-                    LoadAxes::Base => "base",
-                    LoadAxes::Tool => "tool",
-                    LoadAxes::Feed => "feed",
-                };
-                format!(
-                    "force ({}, {}, {}) N and moment ({}, {}, {}) N m at the tool's tip in {axes} axes, on feed moves",
-                    f.x, f.y, f.z, m.x, m.y, m.z
-                )
-            }
-            CuttingLoad::Milling {
-                radial,
-                tangential,
-                axial,
-            } => format!(
-                "milling: {radial} N to the right of the feed, {tangential} N along it, {axial} N along z, on feed moves"
-            ),
-        };
-        match self.load.below_z_mm {
-            Some(z) => format!("{text}, only below Z {z} mm"),
-            None => text,
+        if self.tools.is_empty() {
+            return self.load.in_words();
         }
+        let of_tool = |tool: &Tool<'_>| format!("tool {}: {}", tool.number, tool.load.in_words());
+        let all: Vec<String> = self.tools.iter().map(of_tool).collect();
+        all.join("; ")
     }
 }
 

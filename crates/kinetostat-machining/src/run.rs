@@ -20,6 +20,7 @@ use crate::result::{
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{Neighbour, in_chunks};
 use crate::together::Together;
+use crate::tool::{Tool, tool_on};
 use crate::warning::{Warning, WarningCode};
 
 /// Everything that decides a run.
@@ -37,10 +38,20 @@ pub struct Task<'a> {
     pub placement: Placement,
     /// What acts on the tool.
     pub load: ProgramLoad,
+    /// Tools that the program takes by number, each with its own machine and load; empty where there is
+    /// one tool. `mechanism` and `load` are those of blocks without one of these.
+    pub tools: &'a [Tool<'a>],
     /// How the compensated program is written.
     pub writing: WriteOptions,
     /// Names and words for the result; figures are filled in by the run.
     pub question: Question,
+}
+
+impl<'a> Task<'a> {
+    /// Machine with the tool that the block on a line is made with.
+    fn mechanism_on(&self, line: usize) -> &'a Mechanism {
+        tool_on(self.tools, self.path, line).map_or(self.mechanism, |tool| tool.mechanism)
+    }
 }
 
 /// Who watches a run and may stop it.
@@ -145,7 +156,7 @@ pub struct Run {
 /// # Errors
 /// [`RunError`] naming the line.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    let load = LoadAlongPath::new(task.load, task.path);
+    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     let arc_tolerance_mm = 20.0 * task.writing.chord_tolerance_mm;
     let sites = || of_path(task.path, &load, &task.placement, arc_tolerance_mm);
     let (points, _) = solve(task, sites, false, watch)?;
@@ -157,7 +168,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 /// # Errors
 /// [`RunError`] naming the line; nothing is to be written then.
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
-    let load = LoadAlongPath::new(task.load, task.path);
+    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     let field = ModelField {
         mechanism: task.mechanism,
         placement: task.placement,
@@ -251,7 +262,15 @@ fn solve<S: Iterator<Item = Site>>(
     watch.stage(name, total);
     let mut points: Vec<PointResult> = Vec::with_capacity(total);
     let mut worse = None;
-    let together = Together::new(task.mechanism);
+    let machines = std::iter::once(task.mechanism).chain(task.tools.iter().map(|t| t.mechanism));
+    let together: Vec<Together<'_>> = machines.map(Together::new).collect();
+    let number = |site: &Site| tool_on(task.tools, task.path, site.line).map(|tool| tool.number);
+    // The first is the machine without one of the tools.
+    let machine = |site: &Site| {
+        let tool = number(site);
+        let index = tool.and_then(|n| task.tools.iter().position(|tool| tool.number == n));
+        &together[index.map_or(0, |index| index + 1)]
+    };
     let mut sites = sites();
     loop {
         let batch: Vec<Site> = sites.by_ref().take(BATCH).collect();
@@ -261,8 +280,12 @@ fn solve<S: Iterator<Item = Site>>(
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
-        let solved = in_chunks(&batch, |memory, sites| {
-            chunk(task, &together, memory, sites, written)
+        let of_one_tool = batch.chunk_by(|a, b| number(a) == number(b));
+        let solved = of_one_tool.flat_map(|run| {
+            let together = machine(&run[0]);
+            in_chunks(run, |memory, sites| {
+                chunk(task, together, memory, sites, written)
+            })
         });
         for (site, point) in batch.iter().zip(solved) {
             let point = point?;
@@ -281,7 +304,7 @@ fn chunk<'m>(
     sites: &[Site],
     written: bool,
 ) -> Vec<Result<PointResult, RunError>> {
-    let place = &task.placement;
+    let (place, mechanism) = (&task.placement, together.mechanism());
     let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
         sites.iter().map(|s| place.tool_pose(of(s))).collect()
     };
@@ -301,7 +324,7 @@ fn chunk<'m>(
             None => None,
             Some(Some(found)) => Some((found.commands.row(i).collect(), found.tool_pose(i))),
             Some(None) => {
-                let (posture, tool) = before_memory.rest(task.mechanism, &wanted[i], wrench)?;
+                let (posture, tool) = before_memory.rest(mechanism, &wanted[i], wrench)?;
                 Some((posture.commands(), tool))
             }
         };
@@ -312,7 +335,7 @@ fn chunk<'m>(
         let after = match after {
             Some(after) => after,
             None => {
-                let found = after_memory.equilibrium(task.mechanism, &commanded[i], wrench)?;
+                let found = after_memory.equilibrium(mechanism, &commanded[i], wrench)?;
                 Loaded::of_posture(&found.0, &found.1)
             }
         };
@@ -565,6 +588,7 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
         writing
             .unwrap_or_default()
             .iter()
+            .filter(|warning| !path.warnings.contains(warning))
             .map(made(WarningCode::Writing)),
     );
     warnings.dedup();
@@ -580,9 +604,12 @@ fn nearest_singular(task: &Task<'_>, points: &[PointResult]) -> Option<NearSingu
     let mut found: Option<(f64, NearSingularPlace)> = None;
     for point in points.iter().step_by(stride) {
         let pose = task.placement.tool_pose(&point.position_mm.into());
+        let mechanism = task.mechanism_on(point.line);
         let posture = match &last {
-            Some(near) => task.mechanism.posture_near(&pose, near),
-            None => task.mechanism.posture(&pose),
+            Some(near) if std::ptr::eq(near.mechanism(), mechanism) => {
+                mechanism.posture_near(&pose, near)
+            }
+            _ => mechanism.posture(&pose),
         };
         let Ok(posture) = posture else { continue };
         if let Some(near) = near_singular(&posture) {

@@ -46,6 +46,10 @@ impl<'m> Together<'m> {
         }
     }
 
+    pub fn mechanism(&self) -> &'m Mechanism {
+        self.mechanism
+    }
+
     /// The poses to command so that the tool is at `poses` under `wrenches`.
     pub fn targets(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<Vec<Pose>> {
         let batch = self.batch.as_ref()?;

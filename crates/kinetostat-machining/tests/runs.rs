@@ -50,6 +50,7 @@ fn run(
         path: &path,
         placement: Placement::at(origin),
         load,
+        tools: &[],
         writing: WriteOptions::default(),
         question: Question::default(),
     };
@@ -206,6 +207,7 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
         path: &path,
         placement,
         load: milling(),
+        tools: &[],
         writing: WriteOptions::default(),
         question: Question::default(),
     };
@@ -293,6 +295,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
                 ..Placement::at(origin)
             },
             load: milling(),
+            tools: &[],
             writing: WriteOptions::default(),
             question: Question::default(),
         };
