@@ -10,6 +10,84 @@ fn result(bytes: &[u8]) -> Value {
 }
 
 #[test]
+fn tools_of_a_program_have_their_own_lengths_and_without_a_table_a_warning() {
+    let here = workplace();
+    let program = "G21 G90\nT1 M6\nG43 H1 G0 Z5\nG0 X0 Y0\nG1 Z-1 F300\nG1 X30\nG0 Z5\nT2 M6\nG43 H2 G0 Z5\nG1 Z-1 F300\nG1 X0\nG0 Z5\nM2\n";
+    std::fs::write(here.path().join("tools.ngc"), program).unwrap();
+    let compensate = |job: &str| {
+        std::fs::write(here.path().join("tools.toml"), job).unwrap();
+        let arguments = [
+            "compensate",
+            "tools.toml",
+            "--force-overwrite",
+            "--json",
+            "r.json",
+        ];
+        let done = run(here.path(), &arguments);
+        (done, here.path().join("r.json"))
+    };
+    let one = JOB.replace("part.ngc", "tools.ngc");
+    let (done, json) = compensate(&one);
+    done.answered();
+    let r = result(&std::fs::read(json).unwrap());
+    let lines: Vec<u64> = r["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|w| {
+            w["message"]
+                .as_str()
+                .unwrap()
+                .contains("one tool length and one load")
+        })
+        .map(|w| w["line"].as_u64().unwrap())
+        .collect();
+    assert_eq!(lines, [8], "{}", r["warnings"]);
+
+    let table = "[[tools]]\nnumber = 1\nlength_mm = 100\n[[tools]]\nnumber = 2\nlength_mm = 40\nload = { force_n = [0, 0, -400] }\n\n[load]";
+    let (done, json) = compensate(&one.replace("[load]", table));
+    let said = done.answered();
+    assert!(!said.out.contains("one tool length"), "{}", said.out);
+    let r = result(&std::fs::read(json).unwrap());
+    let question = &r["question"];
+    assert!(
+        question["tool"].as_str().unwrap().contains("tool 2: 40 mm"),
+        "{question}"
+    );
+    assert!(
+        question["load"]
+            .as_str()
+            .unwrap()
+            .contains("tool 2: force (0, 0, -400) N"),
+        "{question}"
+    );
+    let force = |line: u64| {
+        let points = r["points"].as_array().unwrap();
+        let point = points
+            .iter()
+            .find(|p| p["line"] == line)
+            .expect("a point on the line");
+        point["force_n"][2].as_f64().unwrap()
+    };
+    assert!((force(6) + 25.0).abs() < 1e-9 && (force(11) + 400.0).abs() < 1e-9);
+    assert!(
+        r["summary"]["max_position_error_after_mm"]
+            .as_f64()
+            .unwrap()
+            <= 0.001
+    );
+
+    // A tool that is not in the table.
+    let (done, _) = compensate(&one.replace("[load]", &table.replace("number = 2", "number = 3")));
+    assert_eq!(done.code, 1);
+    assert!(
+        done.err.contains("line 8") && done.err.contains("tool 2 is not among"),
+        "{}",
+        done.err
+    );
+}
+
+#[test]
 fn a_job_writes_what_it_names_and_options_go_over_it() {
     let here = workplace();
     let said = run(

@@ -20,6 +20,30 @@ pub fn jobs() -> Vec<Case> {
             ],
         ),
         case(
+            "job: a tool twice",
+            j(
+                "[load]",
+                "[[tools]]\nnumber = 1\nlength_mm = 90\n[[tools]]\nnumber = 1\nlength_mm = 80\n[load]",
+            ),
+            &RUN,
+            1,
+            &["bad.toml:14", "tool 1 is given twice"],
+        ),
+        case(
+            "job: a tool without a length",
+            j("[load]", "[[tools]]\nnumber = 1\n[load]"),
+            &RUN,
+            1,
+            &["bad.toml:11", "tool 1 has no length", "length_mm"],
+        ),
+        case(
+            "job: several tools and one length",
+            j("[load]", "[[tools]]\nnumber = 1\nlength_mm = 90\n[load]"),
+            &["compensate", "bad.toml", "--tool-length-mm", "100"],
+            1,
+            &["--tool-length-mm", "several tools"],
+        ),
+        case(
             "job: no unit",
             j("part_origin_mm", "part_origin"),
             &RUN,
