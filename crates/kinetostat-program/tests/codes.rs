@@ -3,6 +3,9 @@
 // Helpers of tests, which clippy does not count as tests.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod code_programs;
+
+use code_programs::{AFTER, BEFORE, READ};
 use kinetostat_program::*;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -43,13 +46,6 @@ fn pieces_of_line_3(text: &str) -> Result<Vec<String>, ProgramError> {
 fn has_word(line: &str, word: &str) -> bool {
     line.split(' ').any(|other| other == word)
 }
-
-/// M codes that act before the motion on every controller that a source could be named for.
-const BEFORE: [u32; 21] = [
-    3, 4, 7, 8, 13, 14, 48, 49, 50, 51, 52, 53, 62, 63, 64, 65, 66, 67, 68, 82, 83,
-];
-/// M codes that act after it, and those that stop something and act after it on some.
-const AFTER: [u32; 7] = [0, 1, 2, 5, 9, 30, 60];
 
 #[test]
 fn each_m_code_of_a_divided_block_stands_in_the_piece_where_it_acts() {
@@ -159,13 +155,6 @@ fn where_controllers_disagree_the_line_is_named() {
     assert_eq!(found, [(4, "M9"), (5, "M5")], "{:?}", path.warnings);
 }
 
-/// Every G code that is read, in tenths; from the manuals, not from the table.
-const READ: [u32; 45] = [
-    0, 10, 20, 30, 40, 80, 90, 150, 170, 180, 190, 200, 210, 400, 430, 490, 540, 550, 560, 570,
-    580, 590, 591, 592, 593, 610, 611, 640, 690, 800, 900, 901, 910, 911, 920, 921, 922, 923, 930,
-    940, 950, 960, 970, 980, 990,
-];
-
 #[test]
 fn every_g_code_is_known_exactly_or_refused_with_its_line() {
     for tenths in 0..1000 {
@@ -269,4 +258,22 @@ fn the_book_has_the_table_of_moments() {
             "{controller}: {source}"
         );
     }
+}
+
+/// The generator of `cargo xtask fuzz`, for a moment.
+#[test]
+fn random_programs_with_every_code_keep_each_in_its_place() {
+    let mut all = code_programs::Found::default();
+    let mut taken = 0;
+    for seed in 0..1500 {
+        let found = code_programs::check(seed).unwrap_or_else(|what| panic!("{what}"));
+        taken += usize::from(found.taken);
+        all.refused += found.refused;
+        all.divided += found.divided;
+        all.placed += found.placed;
+    }
+    assert!(
+        taken > 300 && all.refused > 300 && all.divided > 300 && all.placed > 300,
+        "{taken} {all:?}"
+    );
 }
