@@ -4,6 +4,16 @@ use anyhow::{Context, Result, bail};
 
 use crate::{cargo, step};
 
+/// Programs with every code, for a twelfth of the time: they are thousands in a second. One case is
+/// repeated with `cargo run --package kinetostat-program --example fuzz_codes -- case SEED`.
+fn codes(minutes: &str, seed: &str) -> Result<()> {
+    let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--release", "--package", "kinetostat-program"]);
+    command.args(["--example", "fuzz_codes", "--", &minutes, seed]);
+    step("fuzz of codes", &mut command)
+}
+
 /// `--minutes M` (10 if not given), `--seed N` (1), or `--case N` to repeat one.
 pub fn run(options: &[&str]) -> Result<()> {
     let (mut minutes, mut seed, mut case) = ("10", "1", None);
@@ -21,6 +31,9 @@ pub fn run(options: &[&str]) -> Result<()> {
             "--case" => case = Some(*value),
             _ => bail!("{word} is unknown; there are --minutes, --seed and --case"),
         }
+    }
+    if case.is_none() {
+        codes(minutes, seed)?;
     }
     let mut command = cargo();
     command.args([
