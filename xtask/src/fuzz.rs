@@ -9,7 +9,13 @@ use crate::{cargo, step};
 fn codes(minutes: &str, seed: &str) -> Result<()> {
     let minutes = (minutes.parse::<f64>()? / 12.0).to_string();
     let mut command = cargo();
-    command.args(["run", "--quiet", "--release", "--package", "kinetostat-program"]);
+    command.args([
+        "run",
+        "--quiet",
+        "--release",
+        "--package",
+        "kinetostat-program",
+    ]);
     command.args(["--example", "fuzz_codes", "--", &minutes, seed]);
     step("fuzz of codes", &mut command)
 }

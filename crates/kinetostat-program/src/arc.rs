@@ -165,7 +165,7 @@ fn arc_about(block: &Block<'_>, frame: &ArcFrame, centre: [f64; 2]) -> Result<Ar
                  end; they differ by {difference:.4} mm, {:.4} mm are allowed",
                 frame.tolerance_mm
             ),
-            "mend the block, or allow more with the arc tolerance",
+            "mend the block, or allow more with the arc tolerance (--arc-tolerance, or arc_tolerance_mm under [reading] in the job file)",
         ));
     }
     let smallest = start_radius.min(end_radius);

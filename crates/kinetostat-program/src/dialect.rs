@@ -82,7 +82,7 @@ pub const CODES: &[Code] = &[
         "set offsets or tool data",
         refused(
             "it changes offsets that the path depends on",
-            "set the offsets at the machine and give work offsets by option",
+            "set the offsets at the machine and give work offsets (--work-offset, or work_offset_mm under [reading] in the job file)",
         ),
     ),
     g(
@@ -168,7 +168,7 @@ pub const CODES: &[Code] = &[
         "local offset",
         refused(
             "controllers disagree whether it adds to G92 or replaces it",
-            "use G54 to G59 with offsets given by option",
+            "use G54 to G59 and give their offsets (--work-offset, or work_offset_mm under [reading] in the job file)",
         ),
     ),
     g(

@@ -81,7 +81,7 @@ pub enum WriteError {
     /// The program carries the mark of a compensated one.
     #[error(
         "line {line}: the program is marked as compensated already; a second compensation would \
-         count every correction twice: take the original program, or allow it explicitly (`again`)"
+         count every correction twice: take the original program, or allow it explicitly (--again)"
     )]
     AlreadyCompensated {
         /// Line of the mark, counted from 1.

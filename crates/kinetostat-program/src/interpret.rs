@@ -173,7 +173,7 @@ impl<'o> Interpreter<'o> {
     fn warn_block_delete(&mut self, line: usize) {
         if !self.block_delete_warned {
             self.block_delete_warned = true;
-            self.warn(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off");
+            self.warn(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off (--block-delete skip leaves them out)");
         }
     }
 
@@ -185,7 +185,7 @@ impl<'o> Interpreter<'o> {
         let offsets = &self.options.work_offsets_mm;
         if now != first && offsets[now] == offsets[first] && !self.system_warned {
             self.system_warned = true;
-            self.warn(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (work offsets), or these blocks are corrected for the wrong place");
+            self.warn(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
         }
     }
 
@@ -437,7 +437,7 @@ impl<'o> Interpreter<'o> {
                     self.shifts.line,
                     char::from(COORDINATES[axis])
                 ),
-                "begin with G92.1 and state where the tool is with G0 before the first G92, or give the start position by option",
+                "begin with G92.1 and state where the tool is with G0 before the first G92, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
             ));
         }
         let mm_per_unit = self.modes.mm_per_unit(block)?;
@@ -469,7 +469,7 @@ impl<'o> Interpreter<'o> {
                             "the arc starts at a place whose {} the program has not stated",
                             char::from(COORDINATES[axis])
                         ),
-                        "move there with G0 first, or give the start position by option",
+                        "move there with G0 first, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
                     ));
                 }
                 Curve::Arc(arc::read(
@@ -531,7 +531,7 @@ impl<'o> Interpreter<'o> {
                             "an incremental feed from a place whose {} the program has not stated",
                             char::from(letter)
                         ),
-                        "state the place with an absolute move or G92, or give the start position by option",
+                        "state the place with an absolute move or G92, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
                     ));
                 }
                 end[axis] += value_mm;
@@ -613,7 +613,7 @@ impl<'o> Interpreter<'o> {
                 return Err(block.refuse(
                     None,
                     "the arc is made before the program has stated all axes it moves later",
-                    "state X, Y and Z before the first arc, or give the start position by option",
+                    "state X, Y and Z before the first arc, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
                 ));
             }
         }
@@ -628,7 +628,7 @@ impl<'o> Interpreter<'o> {
             .filter(|_| unknown > 0)
             .map(|motion| motion.line)
         {
-            self.warn(first, &format!("{unknown} block(s) move before the program has stated where the tool is; they are carried unchanged (a start position given by option changes this)"));
+            self.warn(first, &format!("{unknown} block(s) move before the program has stated where the tool is; they are carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
         }
         self.warn_of_moved_axes();
         let mut path = Path {

@@ -177,7 +177,7 @@ impl Modes {
             block.refuse(
                 None,
                 "the program moves before it names its units",
-                "begin it with G21 (mm) or G20 (inch), or give the units by option",
+                "begin it with G21 (mm) or G20 (inch), or give the units (--units, or units under [reading] in the job file)",
             )
         })
     }

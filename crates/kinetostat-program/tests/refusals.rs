@@ -212,7 +212,7 @@ const BAD: &[(&str, usize, &str, &str)] = &[
         "G21\nG10 L2 P1 X0",
         2,
         "G10 (set offsets or tool data)",
-        "by option",
+        "--work-offset",
     ),
     ("G21\nG28", 2, "G28 (homing, reference points)", "by hand"),
     (
@@ -485,6 +485,7 @@ fn every_bad_program_is_refused_with_line_reason_and_remedy() {
         assert_eq!(error.line, *line, "{text:?}: {message}");
         assert!(error.reason.contains(reason), "{text:?}: {message}");
         assert!(error.remedy.contains(remedy), "{text:?}: {message}");
+        assert!(!message.contains("by option"), "the option has a name: {message}");
         assert!(message.starts_with(&format!("line {line}: `")), "{message}");
         assert!(
             error.span.end <= text.len() && error.span.start <= error.span.end,
@@ -546,7 +547,7 @@ fn motion_from_an_unknown_place_is_refused_where_the_place_matters() {
         let error = refusal(text.as_bytes(), false).unwrap();
         assert_eq!(error.line, line, "{error}");
         assert!(error.reason.contains(reason), "{error}");
-        assert!(error.remedy.contains("start position by option"), "{error}");
+        assert!(error.remedy.contains("--start-position-mm"), "{error}");
     }
 }
 
