@@ -410,12 +410,13 @@ fn mean(turns: impl Iterator<Item = UnitQuaternion<f64>>) -> UnitQuaternion<f64>
 }
 
 fn nearest_rotation(m: &Matrix3<f64>) -> Option<UnitQuaternion<f64>> {
-    let svd = m.svd(true, true);
-    let (u, v_t) = (svd.u?, svd.v_t?);
+    let own = kinetostat::SingularValues::of(m);
     // Points on a line leave a turn about it open.
-    if svd.singular_values[1] < 1e-9 * svd.singular_values[0] {
+    if own.rank(1e-9) < 2 {
         return None;
     }
+    let u = Matrix3::from_iterator(own.left.iter().copied());
+    let v_t = Matrix3::from_iterator(own.right.iter().copied()).transpose();
     let mut sign = Matrix3::identity();
     sign[(2, 2)] = (u * v_t).determinant().signum();
     let rotation = Rotation3::from_matrix_unchecked(u * sign * v_t);

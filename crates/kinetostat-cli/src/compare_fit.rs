@@ -362,8 +362,9 @@ impl Fit<'_> {
             matrix += square;
             right += square * (a[i].1 - m.base.rotation * b[i].1);
         }
-        let svd = matrix.svd(true, true);
-        Some(svd.solve(&right, 1e-9).unwrap_or_else(|_| Vector3::zeros()))
+        let right = nalgebra::DVector::from_column_slice(right.as_slice());
+        let shift = kinetostat::SingularValues::of(&matrix).shortest(&right, 1e-9);
+        Some(Vector3::new(shift[0], shift[1], shift[2]))
     }
 }
 

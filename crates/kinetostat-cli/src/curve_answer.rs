@@ -175,6 +175,13 @@ pub(crate) struct CriticalAnswer {
     pub(crate) mode: Vec<f64>,
     pub(crate) mode_in_words: String,
     pub(crate) followed_to_factor: f64,
+    /// All loads have a potential; if not, the factor is that of divergence, flutter is left open.
+    pub(crate) conservative: bool,
+    /// Without a potential: below this factor there is neither divergence nor flutter; null with one, or
+    /// if none was met.
+    pub(crate) safe_below_factor: Option<f64>,
+    /// What is left open, in words; empty if nothing is.
+    pub(crate) caution: String,
 }
 
 /// A path of equilibria.
@@ -455,6 +462,7 @@ fn critical_loads(
 
 fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -> CriticalAnswer {
     let mode = c.exact.as_ref().map_or_else(Vec::new, |e| e.mode.clone());
+    let caution = c.caution().unwrap_or_default();
     CriticalAnswer {
         judged,
         linear_factor: c.linear,
@@ -472,6 +480,9 @@ fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -
         },
         mode,
         followed_to_factor: c.reached,
+        conservative: c.conservative,
+        safe_below_factor: c.definite_until,
+        caution,
     }
 }
 

@@ -160,15 +160,7 @@ impl SerialChain {
                 }
             }
         }
-        let svd = all.svd(true, false);
-        let most = svd.singular_values.amax();
-        let kept: Vec<usize> = (0..svd.singular_values.len())
-            .filter(|&i| svd.singular_values[i] > 1e-8 * most)
-            .collect();
-        match svd.u {
-            Some(u) => u.select_columns(&kept),
-            None => DMatrix::identity(6, 6),
-        }
+        kinetostat::SingularValues::of(&all).range(1e-8)
     }
 
     /// What every coordinate is, for people and for tables.

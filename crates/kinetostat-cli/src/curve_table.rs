@@ -339,7 +339,11 @@ fn critical_in_words(c: &CriticalAnswer) -> String {
         ),
         None => "; the first load step destabilises nothing".to_owned(),
     };
-    format!("{what}: {exact}{linear}")
+    let caution = match c.caution.is_empty() {
+        true => String::new(),
+        false => format!(". Note: {}", c.caution),
+    };
+    format!("{what}: {exact}{linear}{caution}")
 }
 
 fn branches(a: &CurveAnswer) -> String {

@@ -215,15 +215,7 @@ pub(crate) fn degenerate(
         .collect();
     let turn = turn_matrix(&end.axes).transpose();
     let turn = DMatrix::from_fn(held.len(), 6, |i, j| turn[(held[i], j)]);
-    let sizes = |motions: DMatrix<f64>| {
-        let mut list: Vec<f64> = (&turn * motions)
-            .singular_values()
-            .iter()
-            .copied()
-            .collect();
-        list.sort_by(|a, b| b.total_cmp(a));
-        list
-    };
+    let sizes = |motions: DMatrix<f64>| kinetostat::SingularValues::of(&(&turn * motions)).values;
     if held.is_empty() {
         return false;
     }

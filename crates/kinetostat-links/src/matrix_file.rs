@@ -127,8 +127,8 @@ pub(crate) fn invert(c: &Matrix6<f64>) -> Option<Matrix6<f64>> {
     }
     let scale = Matrix6::from_diagonal(&c.diagonal().map(|d| 1.0 / d.sqrt()));
     let balanced = scale * c * scale;
-    let singular = balanced.svd(false, false).singular_values;
-    if singular.min() < 1e-12 * singular.max() {
+    let singular = kinetostat::SingularValues::of(&balanced);
+    if singular.least() < 1e-12 * singular.largest() {
         return None;
     }
     Some(scale * balanced.try_inverse()? * scale)

@@ -336,16 +336,8 @@ fn inverse(map: &DMatrix<f64>) -> Result<DMatrix<f64>, DVector<f64>> {
     for (mut column, by) in balanced.column_iter_mut().zip(&columns) {
         column /= *by;
     }
-    let svd = balanced.clone().svd(false, true);
-    let (least, value) =
-        svd.singular_values
-            .iter()
-            .enumerate()
-            .fold(
-                (0, f64::INFINITY),
-                |m, (i, s)| if *s < m.1 { (i, *s) } else { m },
-            );
-    let inverse = (value > 1e-9 * svd.singular_values.max())
+    let singular = kinetostat::SingularValues::of(&balanced);
+    let inverse = (singular.least() > 1e-9 * singular.largest())
         .then(|| balanced.try_inverse())
         .flatten()
         .filter(|m| m.iter().all(|x| x.is_finite()));
@@ -354,11 +346,9 @@ fn inverse(map: &DMatrix<f64>) -> Result<DMatrix<f64>, DVector<f64>> {
             m[(i, j)] / columns[i] / rows[j]
         })),
         None => {
-            let unseen = svd.v_t.map_or_else(
-                || DVector::from_element(map.ncols(), 1.0),
-                |v| v.row(least).transpose(),
-            );
-            Err(unseen)
+            let all = singular.all_right();
+            let last = all.column_iter().next_back();
+            Err(last.map_or_else(|| DVector::zeros(0), |v| v.into_owned()))
         }
     }
 }

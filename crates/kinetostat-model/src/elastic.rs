@@ -34,7 +34,13 @@ impl Elasticity {
     /// is for a matrix.
     pub(crate) fn cantilever(&self, place: &Place, length: f64) -> Found<Matrix6<f64>> {
         match self {
-            Self::Section(section) => Ok(section.cantilever(length)),
+            Self::Section(section) => section.cantilever(length).map_err(|error| {
+                Finding::new(
+                    place,
+                    error.to_string(),
+                    "give every measure as a positive number, and the outer one larger than the inner one",
+                )
+            }),
             Self::Beam(beam) => beam.cantilever(place, length),
             Self::Matrix(matrix) => Ok(**matrix),
         }

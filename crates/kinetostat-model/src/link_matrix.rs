@@ -29,8 +29,9 @@ const MOST_LENGTHS: f64 = 2.0;
 /// lies between its ends.
 ///
 /// ```
-/// let bar = kinetostat::BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.0).cantilever(0.5);
+/// let bar = kinetostat::BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.0).cantilever(0.5)?;
 /// assert!(kinetostat_model::doubts_of_link_matrix(&bar, Some(0.5)).is_empty());
+/// # Ok::<(), kinetostat::Error>(())
 /// ```
 #[must_use]
 pub fn doubts_of_link_matrix(k: &Matrix6<f64>, length: Option<f64>) -> Vec<(String, String)> {

@@ -56,8 +56,8 @@ fn by_elimination(place: Place) -> Result<(Matrix6<f64>, usize), Error> {
 }
 
 /// Largest difference of two stiffness matrices, entries referred to the link's diagonal.
-fn difference(one: &Matrix6<f64>, other: &Matrix6<f64>) -> f64 {
-    let link = SECTION.cantilever(LENGTH);
+fn difference(one: &Matrix6<f64>, other: &Matrix6<f64>) -> Result<f64, Cause> {
+    let link = SECTION.cantilever(LENGTH)?;
     let mut most = 0.0_f64;
     for i in 0..6 {
         for j in 0..6 {
@@ -65,7 +65,7 @@ fn difference(one: &Matrix6<f64>, other: &Matrix6<f64>) -> f64 {
             most = most.max((one[(i, j)] - other[(i, j)]).abs() / size);
         }
     }
-    most
+    Ok(most)
 }
 
 pub(crate) fn eq_3_26() -> Result<Contents, Cause> {
@@ -136,7 +136,7 @@ pub(crate) fn eq_3_26() -> Result<Contents, Cause> {
 type Factor = (&'static str, f64, usize, usize);
 
 /// A rule by its name.
-type Rule = fn(&Matrix3<f64>) -> Matrix3<f64>;
+type Rule = fn(&Matrix3<f64>) -> Result<Matrix3<f64>, Error>;
 
 /// A row of Table 3.1: the joint, the rule, the eliminated direction, the chain, the print.
 type PlanarRow = (&'static str, Rule, Option<usize>, Place, [Factor; 4]);
@@ -149,13 +149,13 @@ pub(crate) fn table_3_1() -> Result<Contents, Cause> {
         SECTION.youngs_modulus * SECTION.area,
         SECTION.youngs_modulus * SECTION.second_moment_z,
     );
-    let (l, beam) = (LENGTH, planar_beam(ea, ei, LENGTH));
+    let (l, beam) = (LENGTH, planar_beam(ea, ei, LENGTH)?);
     // Rows: the joint, the named rule on any matrix and on the beam, and what is printed of the beam
     // in units of EA/L, EI/L^3, EI/L^2, EI/L.
     let rows: [PlanarRow; 4] = [
         (
             "no joint",
-            |k| *k,
+            |k| Ok(*k),
             None,
             Place::None,
             [
@@ -209,7 +209,7 @@ pub(crate) fn table_3_1() -> Result<Contents, Cause> {
         if let Some(p) = gone {
             let printed =
                 Matrix3::from_fn(|i, j| any[(i, j)] - any[(i, p)] * any[(p, j)] / any[(p, p)]);
-            let ours = rule(&any);
+            let ours = rule(&any)?;
             let most = (printed - ours).amax();
             let text = format!("K_jk - K_j{0} K_{0}k / K_{0}{0}", p + 1);
             items.push(Item::formula(
@@ -222,7 +222,7 @@ pub(crate) fn table_3_1() -> Result<Contents, Cause> {
             ));
         }
         let (general, _) = by_elimination(place)?;
-        let own = rule(&beam);
+        let own = rule(&beam)?;
         for (printed, value, i, j) in factors {
             let measure = match (i, j) {
                 (1, 1) => ea / l,
@@ -293,7 +293,7 @@ fn value(fraction: &str) -> f64 {
 fn compare_table(
     rows: &[(&str, Matrix6<f64>, Place, [&'static str; 8])],
 ) -> Result<Contents, Cause> {
-    let link = SECTION.cantilever(LENGTH);
+    let link = SECTION.cantilever(LENGTH)?;
     let mut items = Vec::new();
     for (joint, own, place, printed) in rows {
         let (general, rank) = by_elimination(*place)?;
@@ -314,7 +314,7 @@ fn compare_table(
             format!("{joint}: largest other entry, as a share"),
             "0",
             0.0,
-            difference(&rest, &zero),
+            difference(&rest, &zero)?,
             "",
             "",
         ));
@@ -328,7 +328,7 @@ fn compare_table(
             format!(
                 "{joint}: the rule against elimination on a chain, largest difference as a share"
             ),
-            difference(own, &general),
+            difference(own, &general)?,
             "",
             INPUT,
         ));
@@ -340,49 +340,49 @@ fn compare_table(
 }
 
 pub(crate) fn table_3_2() -> Result<Contents, Cause> {
-    let k = SECTION.cantilever(LENGTH);
-    let slide = |axis| {
-        (
-            with_slide(&k, axis),
+    let k = SECTION.cantilever(LENGTH)?;
+    let slide = |axis| -> Result<_, Cause> {
+        Ok((
+            with_slide(&k, axis)?,
             Place::End(MotionKind::Prismatic, axis),
-        )
+        ))
     };
-    let hinge = |axis| {
-        (
-            with_hinge_at_end(&k, axis),
+    let hinge = |axis| -> Result<_, Cause> {
+        Ok((
+            with_hinge_at_end(&k, axis)?,
             Place::End(MotionKind::Revolute, axis),
-        )
+        ))
     };
     // In the order of ENTRIES: K11 K22 K33 K44 K55 K66 K26 K35.
     let rows: [SpatialRow; 6] = [
         (
             "T_x",
-            slide(Axis::X),
+            slide(Axis::X)?,
             ["0", "1", "1", "1", "1", "1", "1", "1"],
         ),
         (
             "T_y",
-            slide(Axis::Y),
+            slide(Axis::Y)?,
             ["1", "0", "1", "1", "1", "1/4", "0", "1"],
         ),
         (
             "T_z",
-            slide(Axis::Z),
+            slide(Axis::Z)?,
             ["1", "1", "0", "1", "1/4", "1", "1", "0"],
         ),
         (
             "R_x",
-            hinge(Axis::X),
+            hinge(Axis::X)?,
             ["1", "1", "1", "0", "1", "1", "1", "1"],
         ),
         (
             "R_y",
-            hinge(Axis::Y),
+            hinge(Axis::Y)?,
             ["1", "1", "1/4", "1", "0", "1", "1", "0"],
         ),
         (
             "R_z",
-            hinge(Axis::Z),
+            hinge(Axis::Z)?,
             ["1", "1/4", "1", "1", "1", "0", "0", "1"],
         ),
     ];
@@ -390,22 +390,22 @@ pub(crate) fn table_3_2() -> Result<Contents, Cause> {
 }
 
 pub(crate) fn table_3_3() -> Result<Contents, Cause> {
-    let k = SECTION.cantilever(LENGTH);
-    let root = |axis| {
-        (
-            with_hinge_at_root(&k, axis, LENGTH),
+    let k = SECTION.cantilever(LENGTH)?;
+    let root = |axis| -> Result<_, Cause> {
+        Ok((
+            with_hinge_at_root(&k, axis, LENGTH)?,
             Place::Root(MotionKind::Revolute, axis),
-        )
+        ))
     };
     let rows: [SpatialRow; 2] = [
         (
             "R_y at L",
-            root(Axis::Y),
+            root(Axis::Y)?,
             ["1", "1", "1/4", "1", "3/4", "1", "1", "1/2"],
         ),
         (
             "R_z at L",
-            root(Axis::Z),
+            root(Axis::Z)?,
             ["1", "1/4", "1", "1", "1", "3/4", "1/2", "1"],
         ),
     ];

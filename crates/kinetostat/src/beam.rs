@@ -6,6 +6,9 @@
 use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
+use crate::error::{Error, Result};
+use crate::passive_rules::positive;
+
 /// Section and material of a straight prismatic link along its local x axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BeamSection {
@@ -43,14 +46,46 @@ impl BeamSection {
     ///
     /// ```
     /// let bar = kinetostat::BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.0);
-    /// let k = bar.cantilever(0.5);
+    /// let k = bar.cantilever(0.5)?;
     /// let bending = 3.0 * 2.1e11 * bar.second_moment_z / 0.5_f64.powi(3);
     /// let compliance = k.try_inverse().ok_or("singular")?;
     /// assert!((1.0 / compliance[(1, 1)] / bending - 1.0).abs() < 1e-12); // P L^3 / 3 E I
-    /// # Ok::<(), &str>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
-    pub fn cantilever(&self, length: f64) -> Matrix6<f64> {
+    ///
+    /// # Errors
+    /// A length, a modulus or a value of the section that is not positive and finite (a tube inside out
+    /// has negative second moments).
+    pub fn cantilever(&self, length: f64) -> Result<Matrix6<f64>> {
+        self.check(length)?;
+        Ok(self.rigid_root(length))
+    }
+
+    /// Refuses sections and lengths that no beam has.
+    fn check(&self, length: f64) -> Result<()> {
+        let inside_out = self.area < 0.0 && self.second_moment_y < 0.0;
+        if inside_out {
+            let reason = format!(
+                "its area is {} m^2, a positive number is needed: the inner diameter is larger than the outer one",
+                self.area
+            );
+            return Err(Error::model("section", reason));
+        }
+        for (what, value) in [
+            ("length (m)", length),
+            ("Young's modulus (Pa)", self.youngs_modulus),
+            ("shear modulus (Pa)", self.shear_modulus),
+            ("area (m^2)", self.area),
+            ("second moment about y (m^4)", self.second_moment_y),
+            ("second moment about z (m^4)", self.second_moment_z),
+            ("torsion constant (m^4)", self.torsion_constant),
+        ] {
+            positive("section", what, value)?;
+        }
+        Ok(())
+    }
+
+    fn rigid_root(&self, length: f64) -> Matrix6<f64> {
         let in_y = self.youngs_modulus * self.second_moment_z;
         let in_z = self.youngs_modulus * self.second_moment_y;
         let mut k = Matrix6::zeros();

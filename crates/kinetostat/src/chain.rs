@@ -281,6 +281,15 @@ impl Chain {
     }
 }
 
+/// Refuses a pose with a number that [`sensible`] refuses.
+pub(crate) fn sensible_pose(place: &str, what: &str, pose: &crate::spatial::Pose) -> Result<()> {
+    let (p, r) = (pose.translation.vector, pose.rotation.coords);
+    for value in [p.x, p.y, p.z, r.x, r.y, r.z, r.w] {
+        sensible(place, || what.to_owned(), value)?;
+    }
+    Ok(())
+}
+
 /// Numbers beyond this lose themselves when they are multiplied.
 const LARGEST: f64 = 1e60;
 

@@ -45,6 +45,8 @@ impl ChainBlocks {
         commands: &[f64],
     ) -> Result<Self> {
         chain.check(coordinates, commands)?;
+        let place = format!("chain '{}'", chain.name());
+        crate::chain::sensible_pose(&place, "the pose of the base", base)?;
         let mut system = System::new(chain, base, coordinates, commands, false);
         let none = Wrench::zero();
         system.evaluate(

@@ -1,7 +1,7 @@
 //! Compliance of a chain's end: what exists even where the stiffness is infinite in some directions
 //! (a planar chain of rigid links in space) and zero in others (passive joints).
 
-use nalgebra::{DMatrix, DVector, Matrix6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::directions::{Direction, DirectionKind};
 use crate::saddle::column_space;
@@ -40,7 +40,18 @@ impl CartesianCompliance {
             .map(|t| DVector::from_fn(6, |i, _| t.0[i] * unit(i)))
             .collect();
         let mut springs = Matrix6::zeros();
-        if !held.is_empty() {
+        let rows = crate::graded::root_rows(directions, length);
+        let uneven = crate::graded::spread(directions) > 1e8;
+        let symmetric = (stiffness - stiffness.transpose()).amax() <= 1e-9 * stiffness.amax();
+        if let Some(rows) = rows.filter(|_| uneven && symmetric) {
+            // The matrix has lost its soft directions, the list has not.
+            for row in rows {
+                let v = Vector6::from_fn(|i, _| row[i] / unit(i));
+                let moves = v / v.norm_squared();
+                let moves = Vector6::from_fn(|i, _| moves[i] / unit(i));
+                springs += moves * moves.transpose();
+            }
+        } else if !held.is_empty() {
             let n = column_space(&DMatrix::from_columns(&held));
             let balanced = DMatrix::from_fn(6, 6, |i, j| stiffness[(i, j)] / (unit(i) * unit(j)));
             if let Some(inverse) = (n.transpose() * balanced * &n).try_inverse() {

@@ -10,6 +10,7 @@ use crate::machine_directions::independent_columns;
 use crate::network::ends;
 use crate::posture::Posture;
 use crate::saddle::complement;
+use crate::singular_values::range;
 use crate::spatial::Wrench;
 
 /// Singular values below this share of the largest are zero: postures close to about 1e-13.
@@ -129,7 +130,7 @@ impl Posture<'_> {
     #[must_use]
     pub fn overconstraint(&self) -> Overconstraint {
         let constraints = Constraints::new(self, false);
-        let basis = complement(&independent_columns_above(&constraints.rows, ZERO));
+        let basis = complement(&range(&constraints.rows, ZERO));
         let basis = sparse(basis);
         let length = self.mechanism.scale().length;
         let stresses = basis.column_iter().map(|column| {
@@ -192,30 +193,10 @@ impl Posture<'_> {
                     }
                 }
             }
-            independent_columns_above(&all, ZERO).ncols()
+            range(&all, ZERO).ncols()
         };
         m.actuator_count() - (rank(true) - rank(false))
     }
-}
-
-/// Orthonormal basis of the column space, with a tolerance.
-pub(crate) fn independent_columns_above(a: &DMatrix<f64>, zero: f64) -> DMatrix<f64> {
-    if a.is_empty() || a.iter().any(|x| !x.is_finite()) {
-        return DMatrix::zeros(a.nrows(), 0);
-    }
-    let svd = a.clone().svd(true, false);
-    let most = svd.singular_values.amax();
-    let kept: Vec<DVector<f64>> = match &svd.u {
-        Some(u) => (0..svd.singular_values.len())
-            .filter(|&k| svd.singular_values[k] > zero * most)
-            .map(|k| u.column(k).into_owned())
-            .collect(),
-        None => Vec::new(),
-    };
-    if kept.is_empty() {
-        return DMatrix::zeros(a.nrows(), 0);
-    }
-    DMatrix::from_columns(&kept)
 }
 
 /// The same space by a basis with zeros: every vector has an entry of its own.

@@ -1,5 +1,13 @@
 //! Critical load factor of a load pattern: how many times a pattern of loads can grow until the
 //! chain loses its stability, by the eigenvalue of the first load step and by following the path.
+//!
+//! Loads without a potential (forces that follow the chain, moments about axes that turn) make the
+//! tangent `T = N^T (K - H) N` unsymmetric. Then a neighbouring equilibrium, and with it divergence,
+//! exists where `det T = 0`, not where the symmetric part of `T` is indefinite; and the chain may start
+//! to swing with growing amplitude (flutter) before, which depends on its masses and is not answered
+//! here (Ziegler 1952; Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963).
+
+use std::cell::RefCell;
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -8,8 +16,11 @@ use crate::bifurcation::SpecialKind;
 use crate::branches::{CurvePoint, CurveSettings, follow_until};
 use crate::equilibrium::{ChainProblem, Equilibrium, solve_chain};
 use crate::error::Result;
+use crate::load_energy::is_conservative;
 use crate::reduced::{LoadPattern, Parameter, Reduced};
 use crate::saddle::{Saddle, column_space, complement};
+use crate::singular_values::SingularValues;
+use crate::spatial::Wrench;
 use crate::stability::margin;
 use crate::tracer::Tracer;
 
@@ -49,6 +60,30 @@ pub struct CriticalLoad {
     pub exact: Option<CriticalPoint>,
     /// Largest load factor to which the path was followed.
     pub reached: f64,
+    /// All loads have a potential. If not, `exact` is the first divergence (a zero of the tangent's
+    /// determinant), and flutter, for which masses are needed, may come before.
+    pub conservative: bool,
+    /// Without a potential: the factor at which the symmetric part of the tangent turns indefinite. Below
+    /// it there is neither divergence nor flutter, whatever the masses are (real work is needed for every small
+    /// motion). `None` with a potential (then `exact` says it), or if it stays definite up to `reached`.
+    pub definite_until: Option<f64>,
+}
+
+impl CriticalLoad {
+    /// What a load without a potential leaves open; `None` for one that has a potential.
+    #[must_use]
+    pub fn caution(&self) -> Option<String> {
+        if self.conservative {
+            return None;
+        }
+        let safe = match self.definite_until {
+            Some(factor) => format!("up to the factor {factor:.6} neither can happen"),
+            None => format!("up to the factor {:.6} neither can happen", self.reached),
+        };
+        Some(format!(
+            "the loads follow the chain and have no potential: the critical factor is that of divergence (the tangent's determinant is zero); flutter, a swing that grows, may come before it and depends on the masses, which are not asked for here; {safe}"
+        ))
+    }
 }
 
 /// Smallest positive factor of `pattern` at which the chain becomes unstable, on the path from the
@@ -68,7 +103,11 @@ pub fn critical_load_factor(
     let start = solve_chain(problem, &settings.solver)?;
     let mut reduced = Reduced::new(problem, Some(&parameter), &settings.solver)?;
     let z = reduced.start(&start.coordinates, &start.wrench, 0.0)?;
-    let (linear, linear_mode) = linear_prediction(&mut reduced, &z, judged);
+    let mut whole = problem.clone();
+    whole.loads.extend(pattern.loads.iter().cloned());
+    whole.end.wrench = Wrench(whole.end.wrench.0 + pattern.end.0);
+    let conservative = is_conservative(problem) && is_conservative(&whole);
+    let (linear, linear_mode) = linear_prediction(&mut reduced, &z, judged, conservative);
 
     let mut settings = settings.clone();
     settings.branches = 1;
@@ -76,19 +115,56 @@ pub fn critical_load_factor(
     if settings.largest_change.is_none() {
         settings.largest_change = linear.map(|f| f / 6.0);
     }
-    let unstable = move |p: &CurvePoint| match judged {
+    let indefinite = move |p: &CurvePoint| match judged {
         Judged::Shape => !p.equilibrium.stability.stable,
         Judged::ShapeAndEnd => !p.dead.stable,
+    };
+    let mut judge = Reduced::new(problem, Some(&parameter), &settings.solver)?;
+    judge.start(&start.coordinates, &start.wrench, 0.0)?;
+    let judge = RefCell::new(judge);
+    let unstable = |p: &CurvePoint| {
+        indefinite(p)
+            && (conservative || diverges(&Tangent::at(&mut judge.borrow_mut(), &p.z, judged)))
     };
     let curves = follow_until(problem, &parameter, &start, 0.0, &settings, Some(&unstable))?;
     let points = &curves.branches[0].points;
     let mut reached = points.iter().map(|p| p.parameter).fold(0.0, f64::max);
-    let exact = match points.iter().position(unstable) {
+    let at_change = |i: usize, verdict: &dyn Fn(&CurvePoint) -> bool| -> Result<CurvePoint> {
+        let mut tracer = Tracer {
+            reduced: Reduced::new(problem, Some(&parameter), &settings.solver)?,
+            settings: &settings,
+            specials: Vec::new(),
+        };
+        tracer
+            .reduced
+            .start(&start.coordinates, &start.wrench, 0.0)?;
+        Ok(tracer.verdict_change(&points[i - 1], &points[i], verdict))
+    };
+    let mode = |p: &CurvePoint| match conservative {
+        true => mode_of(p, judged),
+        false => {
+            let mut judge = judge.borrow_mut();
+            let tangent = Tangent::at(&mut judge, &p.z, judged);
+            let mut motion = DVector::zeros(judge.count() + 1);
+            let first = judge.reactions();
+            if let Some(v) = tangent.mode() {
+                motion.rows_mut(first, v.len()).copy_from(&v);
+            }
+            largest_one(&judge.motion(&motion))
+        }
+    };
+    let definite_until = match points.iter().position(indefinite) {
+        _ if conservative => None,
+        Some(0) => Some(0.0),
+        Some(i) => Some(at_change(i, &indefinite)?.parameter),
+        None => None,
+    };
+    let exact = match points.iter().position(&unstable) {
         None => None,
         Some(0) => Some(CriticalPoint {
             factor: 0.0,
             kind: None,
-            mode: mode_of(&points[0], judged),
+            mode: mode(&points[0]),
             equilibrium: points[0].equilibrium.clone(),
         }),
         Some(i) => {
@@ -105,16 +181,11 @@ pub fn critical_load_factor(
                     equilibrium: s.point.equilibrium.clone(),
                 },
                 None => {
-                    let mut tracer = Tracer {
-                        reduced,
-                        settings: &settings,
-                        specials: Vec::new(),
-                    };
-                    let p = tracer.verdict_change(&points[i - 1], &points[i], &unstable);
+                    let p = at_change(i, &unstable)?;
                     CriticalPoint {
                         factor: p.parameter,
                         kind: None,
-                        mode: mode_of(&p, judged),
+                        mode: mode(&p),
                         equilibrium: p.equilibrium,
                     }
                 }
@@ -129,6 +200,90 @@ pub fn critical_load_factor(
         linear_mode,
         exact,
         reached,
+        conservative,
+        definite_until,
+    })
+}
+
+/// The tangent among the motions that nothing holds, springs and loads apart.
+struct Tangent {
+    /// `N`, balanced coordinates.
+    null: DMatrix<f64>,
+    /// `N^T K N`.
+    springs: DMatrix<f64>,
+    /// `N^T H N`, unsymmetric without a potential.
+    loads: DMatrix<f64>,
+}
+
+impl Tangent {
+    fn at(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, judged: Judged) -> Self {
+        let (r, n) = (reduced.reactions(), reduced.coordinates_count());
+        let (_, _, matrix) = reduced.linearised(z);
+        let rows = match judged {
+            Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
+            Judged::Shape => crate::stiffness::balanced_jacobian(&reduced.system, &reduced.factors),
+        };
+        let null = free_motions(reduced, &rows);
+        Self {
+            springs: null.transpose() * reduced.spring_tangent() * &null,
+            loads: null.transpose() * reduced.load_hessian() * &null,
+            null,
+        }
+    }
+
+    /// Motion of the coordinates that meets the least resistance.
+    fn mode(&self) -> Option<DVector<f64>> {
+        let own = SingularValues::of(&(&self.springs - &self.loads));
+        let least = own.right.column_iter().next_back()?;
+        Some(&self.null * least)
+    }
+}
+
+/// Motions that `rows` leave free, without those that change nothing.
+fn free_motions(reduced: &Reduced<'_, '_>, rows: &DMatrix<f64>) -> DMatrix<f64> {
+    let range = column_space(rows);
+    let mut all = (range.transpose() * rows).transpose();
+    // Motions that change nothing are no modes: those of them that the held directions leave free.
+    for v in reduced
+        .neutral_motions()
+        .iter()
+        .flat_map(|v| v.column_iter())
+    {
+        if (rows * v).amax() < 1e-9 * rows.amax().max(f64::MIN_POSITIVE) {
+            let k = all.ncols();
+            all = all.insert_column(k, 0.0);
+            all.set_column(k, &v);
+        }
+    }
+    complement(&all)
+}
+
+/// True beyond a zero of `det (K - H)`: a real eigenvalue of `K^-1 H` has passed one. Two that pass
+/// together (a round rod) do not change the determinant's sign, so they are counted one by one.
+fn diverges(tangent: &Tangent) -> bool {
+    largest_real(&tangent.springs, &tangent.loads).is_some_and(|mu| mu >= 1.0)
+}
+
+/// Largest real eigenvalue of `K^-1 H`. Where passive motions strain no spring, the sign of the
+/// determinant decides: infinity if it is negative.
+fn largest_real(springs: &DMatrix<f64>, loads: &DMatrix<f64>) -> Option<f64> {
+    if springs.is_empty() || springs.iter().chain(loads.iter()).any(|x| !x.is_finite()) {
+        return None;
+    }
+    let regular = springs.clone().cholesky().filter(|c| {
+        let d = c.l_dirty().diagonal();
+        d.min() > 1e-5 * d.max()
+    });
+    let found = regular.and_then(|c| {
+        let schur = nalgebra::linalg::Schur::try_new(c.solve(loads), f64::EPSILON, 10_000)?;
+        let all = schur.complex_eigenvalues();
+        let most = all.iter().fold(0.0_f64, |m, x| m.max(x.norm()));
+        let real = all.iter().filter(|x| x.im.abs() <= 1e-6 * most);
+        Some(real.fold(f64::NEG_INFINITY, |m, x| m.max(x.re)))
+    });
+    found.or_else(|| {
+        let sign = (springs - loads).determinant();
+        (sign < 0.0).then_some(f64::INFINITY)
     })
 }
 
@@ -152,6 +307,7 @@ fn linear_prediction(
     reduced: &mut Reduced<'_, '_>,
     z: &DVector<f64>,
     judged: Judged,
+    conservative: bool,
 ) -> (Option<f64>, Vec<f64>) {
     let (r, m) = (reduced.reactions(), reduced.count());
     let n = reduced.coordinates_count();
@@ -190,21 +346,17 @@ fn linear_prediction(
     reduced.evaluate(&moved);
     stress -= (springs(reduced) - before) / share;
     reduced.evaluate(z);
-    let range = column_space(&rows);
-    let mut all = (range.transpose() * &rows).transpose();
-    // Motions that change nothing are no modes: those of them that the held directions leave free.
-    for v in reduced
-        .neutral_motions()
-        .iter()
-        .flat_map(|v| v.column_iter())
-    {
-        if (&rows * v).amax() < 1e-9 * rows.amax().max(f64::MIN_POSITIVE) {
-            let k = all.ncols();
-            all = all.insert_column(k, 0.0);
-            all.set_column(k, &v);
-        }
+    let null = free_motions(reduced, &rows);
+    if !conservative {
+        let springs = null.transpose() * reduced.spring_tangent() * &null;
+        let before = null.transpose() * reduced.load_hessian() * &null;
+        reduced.evaluate(&ahead);
+        let loads = null.transpose() * reduced.load_hessian() * &null - &before;
+        reduced.evaluate(z);
+        let mu = largest_real(&(springs - before), &loads);
+        let factor = mu.filter(|mu| mu.is_finite() && *mu > 1e-9);
+        return (factor.map(|mu| 1.0 / mu), Vec::new());
     }
-    let null = complement(&all);
     let stress = null.transpose() * stress * &null;
     let stiff = -(null.transpose() * at_rest * &null);
     let (mu, mode) = margin(&stress, &stiff);
@@ -215,14 +367,18 @@ fn linear_prediction(
         (Some(mu), Some(v)) if mu > least && mu.is_finite() => {
             let mut whole = DVector::zeros(m + 1);
             whole.rows_mut(r, n).copy_from(&(&null * v));
-            let motion = reduced.motion(&whole);
-            let most = motion
-                .iter()
-                .copied()
-                .fold(0.0_f64, |a, x| if x.abs() > a.abs() { x } else { a });
-            let most = if most == 0.0 { 1.0 } else { most };
-            (Some(1.0 / mu), motion.iter().map(|x| x / most).collect())
+            (Some(1.0 / mu), largest_one(&reduced.motion(&whole)))
         }
         _ => (None, Vec::new()),
     }
+}
+
+/// A motion with its largest component 1.
+fn largest_one(motion: &[f64]) -> Vec<f64> {
+    let most = motion
+        .iter()
+        .copied()
+        .fold(0.0_f64, |a, x| if x.abs() > a.abs() { x } else { a });
+    let most = if most == 0.0 { 1.0 } else { most };
+    motion.iter().map(|x| x / most).collect()
 }

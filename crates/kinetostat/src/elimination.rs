@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::chain_blocks::{ChainBlocks, regular_inverse};
-use crate::passive_rules::eliminate_passive;
+use crate::passive_rules::eliminated;
 use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
 
 /// Why a form has no answer here.
@@ -163,7 +163,7 @@ impl ChainBlocks {
         let (mut pivots, mut skipped) = (Vec::new(), Vec::new());
         for &i in order {
             let column = Vector6::from_fn(|row, _| self.j_q[(row, i)]);
-            let step = eliminate_passive(&k, &column);
+            let step = eliminated(&k, &column);
             let unit = self.factors[1][i];
             pivots.push(step.pivot / (unit * unit));
             let rounding = RANK_TOLERANCE * most * column.norm_squared();

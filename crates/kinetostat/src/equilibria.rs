@@ -19,6 +19,7 @@ use crate::load_energy::load_energy;
 use crate::reduced::{Corrected, LoadPattern, Parameter, Reduced};
 use crate::saddle::{Saddle, pseudo_inverse};
 use crate::settings::Settings;
+use crate::singular_values::SingularValues;
 use crate::spatial::Twist;
 use crate::state_distance::wrapped;
 
@@ -344,6 +345,8 @@ struct Known {
     z: DVector<f64>,
     equilibrium: Equilibrium,
     stable: bool,
+    /// Number of unstable modes under the conditions as prescribed.
+    unstable: usize,
     hits: usize,
     /// Least singular value of the conditions' derivative, balanced.
     least: f64,
@@ -587,8 +590,15 @@ impl Search<'_, '_, '_> {
         let (_, balance) = self.reduced.evaluate(&c.z);
         c.balance = balance;
         let energy = self.reduced.system.energy;
+        let (stability, unstable) = self.reduced.stability(&c.matrix, false);
         for k in &mut self.known {
-            let near = (1e-8 / k.least.max(1e-12)).clamp(1e-6, 1e-2);
+            let near = if k.unstable == unstable || k.least < 1e-8 {
+                (1e-8 / k.least.max(1e-12)).clamp(1e-6, 1e-2)
+            } else {
+                // Another number of unstable modes is another shape, however near (the partner at a
+                // fold), except where neither is known better.
+                (1e-11 / k.least).clamp(1e-10, 1e-4)
+            };
             let d = wrapped(&c.z, &k.z, &turns, offset);
             let alike = (k.equilibrium.energy - energy).abs()
                 <= 1e-8 * (energy.abs() + k.equilibrium.energy.abs()) + 1e-14;
@@ -611,15 +621,15 @@ impl Search<'_, '_, '_> {
         let least = if square.is_empty() {
             1.0
         } else {
-            let singular = square.singular_values();
-            singular.min() / singular.max().max(f64::MIN_POSITIVE)
+            let singular = SingularValues::of(&square);
+            singular.least() / singular.largest().max(f64::MIN_POSITIVE)
         };
-        let (stability, unstable) = self.reduced.stability(&c.matrix, false);
         let equilibrium = self.reduced.equilibrium(&c);
         self.known.push(Known {
             z: c.z,
             equilibrium,
             stable: stability.stable && unstable == 0,
+            unstable,
             hits: usize::from(plain),
             least,
         });

@@ -563,6 +563,7 @@ pub(crate) fn solve_along(
 ) -> Result<(Equilibrium, Path)> {
     check_problem(problem)?;
     let chain = problem.chain;
+    settings.check(&format!("chain '{}'", chain.name()))?;
     let factors = balance(chain, &problem.posture);
     let mut attempt = Attempt {
         problem,
@@ -627,6 +628,9 @@ pub(crate) fn solve_along(
         if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
             return Ok(attempt.finish(x, wrench, iterations, &balance));
         }
+    }
+    if let Some(reason) = crate::no_equilibrium::why(problem) {
+        return Err(reason);
     }
     Err(Error::NotConverged {
         place: format!("chain '{}'", chain.name()),

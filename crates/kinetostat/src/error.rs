@@ -44,10 +44,24 @@ fn not_converged(
                 d.x, d.y, d.z
             )
         }
+        None if !(closure.is_finite() && torque.is_finite()) => format!(
+            "{place}: no equilibrium found in {iterations} iterations: with these numbers the deflections grow beyond all limits; the largest share of the load with an equilibrium is {share:.3}. Look for a load, a length or a stiffness in the wrong unit"
+        ),
         None => format!(
             "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a gap of {closure:.3e} m, and torques of {torque:.3e} times the largest without balance)"
         ),
     }
+}
+
+fn nearest_found(distance_m: f64, angle_rad: f64) -> String {
+    if !(distance_m.is_finite() && angle_rad.is_finite()) {
+        return "no pose near it was found: look for a length in the wrong unit".to_owned();
+    }
+    format!(
+        "the nearest pose found is {:.4e} mm and {:.4e} deg away",
+        distance_m * 1e3,
+        angle_rad.to_degrees()
+    )
 }
 
 /// Result of this crate.
@@ -118,10 +132,7 @@ pub enum Error {
         limit: Option<Box<LoadLimit>>,
     },
     /// The actuators cannot bring the end there.
-    #[error(
-        "{place}: the target cannot be reached; the nearest pose found is {:.4e} mm and {:.4e} deg away",
-        distance_m * 1e3, angle_rad.to_degrees()
-    )]
+    #[error("{place}: the target cannot be reached; {}", nearest_found(*distance_m, *angle_rad))]
     Unreachable {
         /// Limb or mechanism.
         place: String,

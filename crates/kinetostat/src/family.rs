@@ -156,11 +156,9 @@ pub(crate) fn family_of(
         return None;
     }
     let motions = &null * crate::saddle::complement(&DMatrix::from_columns(&[own]));
-    let svd = matrix.svd(true, false);
-    let u = svd.u?;
-    let mut order: Vec<usize> = (0..u.ncols()).collect();
-    order.sort_by(|&i, &j| svd.singular_values[i].total_cmp(&svd.singular_values[j]));
-    let lefts = u.select_columns(&order[..k]);
+    let left = crate::singular_values::SingularValues::of(&matrix).left;
+    let least: Vec<usize> = (0..left.ncols()).rev().take(k).collect();
+    let lefts = left.select_columns(&least);
     let family = Family { motions, lefts };
     let before = reduced.family.replace(family.clone().into());
     let holds = family.motions.column_iter().all(|v| {

@@ -23,13 +23,21 @@ pub struct LimbPosture {
 /// nearest to `start`; `None` starts from the chain's home.
 ///
 /// # Errors
-/// [`Error::Unreachable`] with the nearest pose found.
+/// [`Error::Unreachable`] with the nearest pose found; numbers that are not finite or absurdly large,
+/// a start that is not of this chain.
 pub fn inverse_kinematics(
     chain: &Chain,
     base: &Pose,
     target: &Pose,
     start: Option<&LimbPosture>,
 ) -> Result<LimbPosture> {
+    let place = format!("limb '{}'", chain.name());
+    for (what, pose) in [("the pose of the base", base), ("the target pose", target)] {
+        crate::chain::sensible_pose(&place, what, pose)?;
+    }
+    if let Some(start) = start {
+        chain.check(&start.coordinates, &start.commands)?;
+    }
     let mut search = Search::new(chain, base, target);
     let home = LimbPosture {
         commands: chain.home_commands(),
@@ -67,7 +75,7 @@ pub fn inverse_kinematics(
     let (_, pose) = nearest;
     let miss = pose_residual(target, &pose);
     Err(Error::Unreachable {
-        place: format!("limb '{}'", chain.name()),
+        place,
         distance_m: miss.linear().norm(),
         angle_rad: miss.angular().norm(),
         nearest: Box::new(pose),

@@ -104,6 +104,7 @@ mod family;
 mod follower;
 mod forward;
 mod function_load;
+mod graded;
 mod graph;
 mod inverse;
 mod jet;
@@ -125,6 +126,7 @@ mod mobility;
 mod near_singular;
 mod nearest;
 mod network;
+mod no_equilibrium;
 mod overcome;
 mod parallelogram;
 mod passive_rules;
@@ -140,6 +142,7 @@ mod saddle;
 mod settings;
 mod shape_criterion;
 mod singular_point;
+mod singular_values;
 mod sparse;
 mod spatial;
 mod spring;
@@ -215,6 +218,7 @@ pub use report_iteration::{
 pub use saddle::Inertia;
 pub use settings::Settings;
 pub use shape_criterion::{ShapeCriterion, shape_criterion};
+pub use singular_values::SingularValues;
 pub use spatial::{
     CartesianStiffness, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix, turn_matrix,
 };

@@ -132,7 +132,7 @@ impl LinkSpec {
                 let per_length = Vector6::new(e * s.area, shear, shear, twist, bend_y, bend_z);
                 return Ok(Matrix6::from_diagonal(&(per_length / h)));
             }
-            LinkElasticity::Section(section) => section.cantilever(h),
+            LinkElasticity::Section(section) => section.cantilever(h).map_err(|e| e.to_string())?,
             LinkElasticity::Matrix(matrix) if self.segments == 1 && !strain => *matrix,
             LinkElasticity::Matrix(matrix) => {
                 let per_length = compliance_per_length(matrix, self.length)?;

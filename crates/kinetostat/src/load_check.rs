@@ -37,6 +37,8 @@ pub fn check_tangents(
     load: &Load,
 ) -> Result<TangentCheck> {
     chain.check(coordinates, commands)?;
+    let place = format!("chain '{}'", chain.name());
+    crate::chain::sensible_pose(&place, "the pose of the base", base)?;
     let kinematics = Kinematics::new(chain, base, coordinates, commands, false);
     fits(chain, &kinematics, load)?;
     let length = chain.scale().length;

@@ -59,7 +59,7 @@ impl Load {
 }
 
 /// The wrench that the end condition prescribes, zero in the directions of prescribed pose.
-fn prescribed_wrench(problem: &ChainProblem<'_>) -> Wrench {
+pub(crate) fn prescribed_wrench(problem: &ChainProblem<'_>) -> Wrench {
     let end = &problem.end;
     let mut own = end.wrench.rotated(&end.axes.inverse());
     for k in 0..6 {

@@ -12,6 +12,7 @@ use crate::constraints::limb_motions;
 use crate::inverse::LimbPosture;
 use crate::network::ends;
 use crate::posture::Posture;
+use crate::singular_values::SingularValues;
 use crate::spatial::{Pose, Twist, moved, pose_residual};
 
 /// A limb is singular where its singular value is at most this share of the largest.
@@ -46,39 +47,15 @@ struct Axes {
 
 impl Axes {
     fn of(matrix: DMatrix<f64>) -> Option<Self> {
-        let (m, n) = matrix.shape();
-        if n == 0 || matrix.iter().any(|x| !x.is_finite()) {
+        if matrix.ncols() == 0 || matrix.iter().any(|x| !x.is_finite()) {
             return None;
         }
-        let falling = |values: &DVector<f64>| {
-            let mut order: Vec<usize> = (0..values.len()).collect();
-            order.sort_by(|&i, &j| values[j].total_cmp(&values[i]));
-            order
-        };
-        let size = m.max(n);
-        let svd = matrix.clone().resize_vertically(size, 0.0).svd(false, true);
-        let order = falling(&svd.singular_values);
-        let right = svd.v_t?.transpose().select_columns(&order);
-        let values: Vec<f64> = order[..m.min(n)]
-            .iter()
-            .map(|&i| svd.singular_values[i])
-            .collect();
-        let svd = matrix
-            .clone()
-            .resize_horizontally(size, 0.0)
-            .svd(true, false);
-        let mut left = svd.u?.select_columns(&falling(&svd.singular_values));
-        // Pairs, where they are clear.
-        for (k, &value) in values.iter().enumerate() {
-            if value > UNCLEAR * values[0] {
-                left.set_column(k, &(&matrix * right.column(k) / value));
-            }
-        }
+        let own = SingularValues::of(&matrix);
         Some(Self {
             matrix,
-            values,
-            left,
-            right,
+            left: own.all_left(),
+            right: own.all_right(),
+            values: own.values,
         })
     }
 
@@ -236,13 +213,7 @@ impl<'p, 'm> Search<'p, 'm> {
             return (all, values);
         }
         // Those that really change.
-        let svd = all.clone().svd(true, false);
-        let most = svd.singular_values.amax();
-        let Some(u) = svd.u else { return (all, values) };
-        let kept: Vec<usize> = (0..svd.singular_values.len())
-            .filter(|&k| svd.singular_values[k] > 1e-4 * most)
-            .collect();
-        let u = u.select_columns(&kept);
+        let u = SingularValues::of(&all).range(1e-4);
         (u.transpose() * all, u.transpose() * values)
     }
 
@@ -265,9 +236,8 @@ impl<'p, 'm> Search<'p, 'm> {
         if moves.is_empty() {
             return Some([particular, DVector::zeros(self.count)]);
         }
-        let svd = moves.svd(true, true);
-        let cut = 1e-4 * svd.singular_values.amax().max(1e-3);
-        let z = svd.solve(&-left, cut).ok()?;
+        let own = SingularValues::of(&moves);
+        let z = own.shortest(&-left, 1e-4 * own.largest().max(1e-3));
         Some([particular, free * z])
     }
 
@@ -337,35 +307,15 @@ impl<'p, 'm> Search<'p, 'm> {
 
 /// Shortest solution and an orthonormal basis of what is left free.
 fn solve(rows: &DMatrix<f64>, wanted: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    let (m, n) = rows.shape();
-    if n == 0 {
+    if rows.ncols() == 0 {
         return Some((DVector::zeros(0), DMatrix::zeros(0, 0)));
     }
     if rows.iter().any(|x| !x.is_finite()) {
         return None;
     }
-    let svd = rows
-        .clone()
-        .resize_vertically(m.max(n), 0.0)
-        .svd(true, true);
-    let (u, v_t) = (svd.u.as_ref()?, svd.v_t.as_ref()?);
-    let cut = 1e-9 * svd.singular_values.amax();
-    let mut shortest = DVector::zeros(n);
-    let mut free = Vec::new();
-    for (k, &value) in svd.singular_values.iter().enumerate() {
-        let v = v_t.row(k).transpose();
-        if value > cut {
-            let part = u.column(k).rows(0, m).dot(wanted) / value;
-            shortest += v * part;
-        } else {
-            free.push(v);
-        }
-    }
-    let basis = match free.is_empty() {
-        true => DMatrix::zeros(n, 0),
-        false => DMatrix::from_columns(&free),
-    };
-    Some((shortest, basis))
+    let own = SingularValues::of(rows);
+    let shortest = own.shortest(wanted, 1e-9 * own.largest());
+    Some((shortest, own.null_space(1e-9)))
 }
 
 impl Posture<'_> {

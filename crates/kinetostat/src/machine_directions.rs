@@ -8,9 +8,13 @@ use crate::block_elimination::Pivots;
 use crate::chain::Scale;
 use crate::directions::scaled_twist;
 use crate::saddle::{Saddle, column_space, complement};
+use crate::singular_values::range;
 use crate::sparse::{PlatformSystem, RigidRows, Sparse, motion_units};
 use crate::spatial::shift_matrix;
 use crate::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
+
+/// Stiffnesses of a limb that differ by more are kept apart when limbs are added.
+const UNEVEN: f64 = 1e6;
 
 /// Principal directions of a platform's stiffness; motions that a limb (its own stiffness and the
 /// arm to its tip) cannot follow are rigid.
@@ -23,7 +27,16 @@ pub(crate) fn balanced_directions<'a>(
     let factor = |i: usize| if i < 3 { root } else { root * scale.length };
     let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (factor(i) * factor(j)));
     let mut blocked: Vec<DVector<f64>> = Vec::new();
+    let mut rows = Some(Vec::new());
+    let mut uneven = false;
     for (limb, arm, own) in limbs {
+        uneven |= crate::graded::spread(&limb.directions) > UNEVEN;
+        let shift = shift_matrix(&arm).transpose();
+        let own_rows = crate::graded::root_rows(&limb.directions, own.length);
+        rows = rows.zip(own_rows).map(|(mut all, more)| {
+            all.extend(more.into_iter().map(|row: Vector6<f64>| shift * row));
+            all
+        });
         for direction in limb
             .directions
             .iter()
@@ -33,7 +46,7 @@ pub(crate) fn balanced_directions<'a>(
             let t = direction.twist.0;
             let square = own.length * own.length;
             let wrench = Vector6::from_fn(|k, _| if k < 3 { t[k] } else { t[k] * square });
-            let on_platform = shift_matrix(&arm).transpose() * wrench;
+            let on_platform = shift * wrench;
             blocked.push(DVector::from_fn(6, |k, _| on_platform[k] / factor(k)).normalize());
         }
     }
@@ -42,7 +55,10 @@ pub(crate) fn balanced_directions<'a>(
     } else {
         complement(&column_space(&DMatrix::from_columns(&blocked)))
     };
-    let mut list = directions(scale, &balanced, &range);
+    let mut list = match rows.filter(|_| uneven) {
+        Some(rows) => crate::graded::summed(&rows, scale, &range),
+        None => directions(scale, &balanced, &range),
+    };
     for kind in [DirectionKind::Rigid, DirectionKind::Free] {
         along_axes(&mut list, kind, scale);
     }
@@ -308,20 +324,5 @@ fn among(
 /// Orthonormal basis of the span of the columns, by singular values. Columns may be fewer or more
 /// than rows.
 pub(crate) fn independent_columns(a: &DMatrix<f64>) -> DMatrix<f64> {
-    if a.is_empty() || a.iter().any(|x| !x.is_finite()) {
-        return DMatrix::zeros(a.nrows(), 0);
-    }
-    let svd = a.clone().svd(true, false);
-    let most = svd.singular_values.amax();
-    let Some(u) = &svd.u else {
-        return DMatrix::zeros(a.nrows(), 0);
-    };
-    let kept: Vec<_> = (0..svd.singular_values.len())
-        .filter(|&k| svd.singular_values[k] > 1e-10 * most && most > 0.0)
-        .map(|k| u.column(k).into_owned())
-        .collect();
-    if kept.is_empty() {
-        return DMatrix::zeros(a.nrows(), 0);
-    }
-    DMatrix::from_columns(&kept)
+    range(a, 1e-10)
 }

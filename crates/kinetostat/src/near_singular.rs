@@ -226,15 +226,11 @@ impl Measure {
         if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
             return own;
         }
-        let svd = matrix.svd(true, false);
-        if let Some(u) = &svd.u {
-            let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();
-            order.sort_by(|&i, &j| svd.singular_values[j].total_cmp(&svd.singular_values[i]));
-            for i in order {
-                own.values.push(svd.singular_values[i]);
-                own.motions.push(motion(&u.column(i).into_owned()));
-            }
+        let found = crate::singular_values::SingularValues::of(&matrix);
+        for column in found.left.column_iter() {
+            own.motions.push(motion(&column.into_owned()));
         }
+        own.values = found.values;
         own
     }
 

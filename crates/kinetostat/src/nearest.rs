@@ -65,9 +65,8 @@ impl Mechanism {
                 return (size(&off) <= limit).then_some(pose);
             }
             // Rows that repeat each other differ by as much as the pose is off.
-            let svd = rows.svd(true, true);
-            let cut = svd.singular_values.amax() * (10.0 * most).max(1e-9);
-            let step = svd.solve(&lacks, cut).ok()?;
+            let own = crate::singular_values::SingularValues::of(&rows);
+            let step = own.shortest(&lacks, own.largest() * (10.0 * most).max(1e-9));
             let step = Twist(Vector6::from_fn(|k, _| {
                 if k < 3 { step[k] } else { step[k] / length }
             }));

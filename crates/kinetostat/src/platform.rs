@@ -563,12 +563,10 @@ impl<'m> PlatformSolver<'m> {
     /// The moment of the wrench on the tool without the reactions of what guides it.
     pub fn dead_moment(&self, wrench: &Wrench) -> Vector3<f64> {
         let held = self.guide.hands.rows(3, 3);
-        let Some(u) = (held.ncols() > 0).then(|| held.into_owned().svd(true, false)) else {
-            return wrench.moment();
-        };
+        let held = crate::singular_values::SingularValues::of(&held);
         let mut moment = wrench.moment();
-        for (k, column) in u.u.iter().flat_map(|u| u.column_iter()).enumerate() {
-            if u.singular_values[k] > 1e-9 {
+        for (column, value) in held.left.column_iter().zip(&held.values) {
+            if *value > 1e-9 {
                 moment -= column * column.dot(&wrench.moment());
             }
         }

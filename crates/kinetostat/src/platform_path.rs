@@ -518,19 +518,15 @@ impl<'p, 'm> Path<'p, 'm> {
         let mut rows = DMatrix::zeros(n + 1, n + 1);
         rows.view_mut((0, 0), (n, n)).copy_from(&(k / stiff));
         rows.view_mut((0, n), (n, 1)).copy_from(&(-&load / push));
-        let svd = rows.svd(false, true);
-        let Some(v) = svd.v_t else {
-            return *before;
-        };
+        let own = crate::singular_values::SingularValues::of(&rows);
+        let most = own.largest();
         let was = DVector::from_fn(n + 1, |i, _| match i < n {
             true => possible.column(i).dot(&before.0),
             false => before.1 / unit,
         });
-        let most = svd.singular_values.amax();
         let mut next = DVector::zeros(n + 1);
-        for (i, value) in svd.singular_values.iter().enumerate() {
+        for (own, value) in own.right.column_iter().zip(&own.values) {
             if *value <= 1e-9 * most {
-                let own = v.row(i).transpose();
                 let share = own.dot(&was);
                 next += own * share;
             }
@@ -539,10 +535,9 @@ impl<'p, 'm> Path<'p, 'm> {
             // A flat posture: the load starts to move the tool where nothing holds it yet.
             let push = load.normalize();
             next.fill(0.0);
-            for (i, value) in svd.singular_values.iter().enumerate() {
+            for (own, value) in own.right.column_iter().zip(&own.values) {
                 if *value <= 1e-9 * most {
-                    let own = v.row(i).transpose();
-                    next += &own * own.rows(0, n).dot(&push);
+                    next += own * own.rows(0, n).dot(&push);
                 }
             }
             next[n] = 0.0;

@@ -201,14 +201,8 @@ impl Mechanism {
     }
 
     fn posture_from(&self, target: &Pose, near: Option<&Posture<'_>>) -> Result<Posture<'_>> {
-        let numbers = target.to_homogeneous();
-        if let Some(value) = numbers.iter().copied().find(|x| !x.is_finite()) {
-            return Err(Error::NotFinite {
-                place: format!("mechanism '{}'", self.name),
-                what: "the target pose".into(),
-                value,
-            });
-        }
+        let place = format!("mechanism '{}'", self.name);
+        crate::chain::sensible_pose(&place, "the target pose", target)?;
         let mut platforms: Vec<Pose> = self.platforms.iter().map(|p| p.home).collect();
         platforms[self.tool] = *target;
         let limbs = if self.platforms.len() > 2 {
@@ -550,14 +544,9 @@ impl<'m> Posture<'m> {
         what: &str,
         mut values: impl Iterator<Item = &'a f64>,
     ) -> Result<()> {
-        match values.find(|x| !x.is_finite()) {
-            None => Ok(()),
-            Some(&value) => Err(Error::NotFinite {
-                place: format!("mechanism '{}'", self.mechanism.name),
-                what: what.into(),
-                value,
-            }),
-        }
+        let place = format!("mechanism '{}'", self.mechanism.name);
+        self.settings.check(&place)?;
+        values.try_for_each(|value| crate::chain::sensible(&place, || what.to_owned(), *value))
     }
 
     fn settled(

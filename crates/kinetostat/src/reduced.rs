@@ -26,6 +26,7 @@ use crate::load_energy::is_conservative;
 use crate::loading::Load;
 use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
 use crate::settings::Settings;
+use crate::singular_values::SingularValues;
 use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, turn_matrix};
 use crate::stability::{ShapeStability, stability_within};
 
@@ -136,6 +137,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
     ) -> Result<Self> {
         check_problem(problem)?;
         let chain = problem.chain;
+        settings.check(&format!("chain '{}'", chain.name()))?;
         let factors = balance(chain, &problem.posture);
         let mut system = System::new(
             chain,
@@ -251,13 +253,8 @@ impl<'p, 'a> Reduced<'p, 'a> {
             if !columns.iter().all(|v| v.is_finite()) {
                 continue;
             }
-            let singular = columns.singular_values();
-            let most = singular.amax();
-            let free = singular
-                .iter()
-                .filter(|s| **s <= 100.0 * RANK_TOLERANCE * most)
-                .count();
-            least = least.min(free + passive.saturating_sub(singular.len()));
+            let rank = SingularValues::of(&columns).rank(100.0 * RANK_TOLERANCE);
+            least = least.min(passive.saturating_sub(rank));
         }
         self.neutral = least;
     }

@@ -313,15 +313,33 @@ fn rate_here(reduced: &Reduced<'_, '_>) -> f64 {
     if !h.iter().chain(k.iter()).all(|x| x.is_finite()) {
         return f64::INFINITY;
     }
-    let singular = k.singular_values();
-    if singular.min() <= 1e2 * RANK_TOLERANCE * singular.max() {
+    let singular = crate::singular_values::SingularValues::of(&k);
+    if singular.least() <= 1e2 * RANK_TOLERANCE * singular.largest() {
         return f64::INFINITY;
     }
-    k.lu().solve(&h).map_or(f64::INFINITY, |m| {
-        m.complex_eigenvalues()
-            .iter()
-            .fold(0.0, |most, mu| most.max(mu.norm()))
-    })
+    k.lu().solve(&h).map_or(f64::INFINITY, spectral_radius)
+}
+
+/// Largest absolute value of the (complex) eigenvalues, by Gelfand's formula
+/// `lim |M^n|^(1/n)` with n doubled by squaring. nalgebra's Schur form is not used: at equal absolute
+/// values (rotations, clusters) its iteration may never end.
+fn spectral_radius(mut m: DMatrix<f64>) -> f64 {
+    let mut logarithm = 0.0;
+    let mut share = 1.0;
+    for _ in 0..60 {
+        let size = m.norm();
+        if size == 0.0 {
+            return 0.0;
+        }
+        if !size.is_finite() {
+            return f64::INFINITY;
+        }
+        logarithm += share * size.ln();
+        share *= 0.5;
+        m.unscale_mut(size);
+        m = &m * &m;
+    }
+    logarithm.exp()
 }
 
 /// Shrinking of the steps, from the last ones that rounding does not touch.

@@ -4,6 +4,8 @@
 
 use nalgebra::{DMatrix, Dyn, LU};
 
+use crate::singular_values::SingularValues;
+
 /// Pivots or singular values below this share of the largest count as zero. Regular machines stay
 /// above 1e-8 in balanced units (flat postures to 1 um included); rounding stays below 1e-13.
 pub(crate) const RANK_TOLERANCE: f64 = 1e-11;
@@ -17,7 +19,10 @@ pub(crate) struct Saddle {
 
 enum Factors {
     Regular(LU<f64, Dyn, Dyn>),
-    Singular(DMatrix<f64>),
+    Singular {
+        matrix: DMatrix<f64>,
+        inverse: DMatrix<f64>,
+    },
 }
 
 impl Saddle {
@@ -37,7 +42,10 @@ impl Saddle {
         let factors = if n == 0 || least > 10.0 * RANK_TOLERANCE * most {
             Factors::Regular(lu)
         } else {
-            Factors::Singular(pseudo_inverse(&a).0)
+            Factors::Singular {
+                inverse: pseudo_inverse(&a).0,
+                matrix: a,
+            }
         };
         Self {
             row_scale: row_scale.to_vec(),
@@ -62,7 +70,13 @@ impl Saddle {
                 let solved = lu.solve_mut(b);
                 debug_assert!(solved);
             }
-            Factors::Singular(inverse) => *b = inverse * &*b,
+            Factors::Singular { matrix, inverse } => {
+                let mut x = inverse * &*b;
+                // Once more for what rounding left.
+                let rest = &*b - matrix * &x;
+                x += inverse * rest;
+                *b = x;
+            }
         }
         for mut column in b.column_iter_mut() {
             for (x, s) in column.iter_mut().zip(&self.column_scale) {
@@ -75,27 +89,13 @@ impl Saddle {
 /// Moore-Penrose inverse and rank of a balanced matrix.
 pub(crate) fn pseudo_inverse(a: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
     if a.iter().any(|x| !x.is_finite()) {
-        // The singular value iteration would never end.
         return (DMatrix::from_element(a.ncols(), a.nrows(), f64::NAN), 0);
     }
     if a.is_empty() {
         return (DMatrix::zeros(a.ncols(), a.nrows()), 0);
     }
-    let svd = a.clone().svd(true, true);
-    let most = svd.singular_values.amax();
-    let cut = (RANK_TOLERANCE * most).max(f64::MIN_POSITIVE);
-    let (Some(u), Some(v_t)) = (&svd.u, &svd.v_t) else {
-        return (DMatrix::zeros(a.ncols(), a.nrows()), 0);
-    };
-    let mut inverse = DMatrix::zeros(a.ncols(), a.nrows());
-    let mut rank = 0;
-    for (k, &sigma) in svd.singular_values.iter().enumerate() {
-        if sigma > cut {
-            rank += 1;
-            inverse += v_t.row(k).transpose() * u.column(k).transpose() / sigma;
-        }
-    }
-    (inverse, rank)
+    let own = SingularValues::of(a);
+    (own.pseudo_inverse(RANK_TOLERANCE), own.rank(RANK_TOLERANCE))
 }
 
 /// True if the (fewer) rows of a wide balanced matrix are certainly independent: a cheap test by
@@ -113,25 +113,13 @@ pub(crate) fn rows_certainly_independent(a: &DMatrix<f64>) -> bool {
 
 /// Orthonormal bases of the column space and rank of a balanced matrix, by its singular values.
 pub(crate) fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
-    if a.is_empty() || a.iter().any(|x| !x.is_finite()) {
+    if a.is_empty() {
         return DMatrix::zeros(a.nrows(), 0);
     }
     if rows_certainly_independent(a) {
         return DMatrix::identity(a.nrows(), a.nrows());
     }
-    let svd = a.clone().svd(true, false);
-    let most = svd.singular_values.amax();
-    let Some(u) = &svd.u else {
-        return DMatrix::zeros(a.nrows(), 0);
-    };
-    let kept: Vec<_> = (0..svd.singular_values.len())
-        .filter(|&k| svd.singular_values[k] > RANK_TOLERANCE * most.max(f64::MIN_POSITIVE))
-        .map(|k| u.column(k).into_owned())
-        .collect();
-    if kept.is_empty() {
-        return DMatrix::zeros(a.nrows(), 0);
-    }
-    DMatrix::from_columns(&kept)
+    crate::singular_values::range(a, RANK_TOLERANCE)
 }
 
 /// Orthonormal basis of everything orthogonal to the (independent) columns of `a`, n x (n - k).

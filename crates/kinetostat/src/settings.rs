@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::{Error, Result};
+
 /// Tolerances and limits; the defaults suit every machine in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
@@ -26,5 +28,29 @@ impl Default for Settings {
             picard_steps: 1,
             smallest_load_step: 1.0 / 1024.0,
         }
+    }
+}
+
+impl Settings {
+    /// Refuses what no iteration can work with, naming it.
+    pub(crate) fn check(&self, place: &str) -> Result<()> {
+        let wrong = |what: &str, found: String, asked: &str| {
+            let reason = format!("settings: {what} is {found}, {asked} is needed");
+            Err(Error::model(place, reason))
+        };
+        for (what, value) in [("closure", self.closure), ("torque", self.torque)] {
+            if !(value > 0.0 && value < 1.0) {
+                return wrong(what, value.to_string(), "a share between 0 and 1");
+            }
+        }
+        if self.iterations == 0 {
+            return wrong("iterations", "0".into(), "at least 1");
+        }
+        let step = self.smallest_load_step;
+        if !(step > 0.0 && step <= 1.0) {
+            let asked = "a share above 0 and up to 1";
+            return wrong("smallest_load_step", step.to_string(), asked);
+        }
+        Ok(())
     }
 }

@@ -3,22 +3,20 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::reduced::Reduced;
+use crate::singular_values::SingularValues;
 
 /// Null directions of an `m x n` matrix, the most certain first, with the singular values of all.
 pub(crate) fn null_directions(matrix: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
-    let (m, n) = matrix.shape();
     if !matrix.iter().all(|v| v.is_finite()) {
         return Vec::new();
     }
-    let square = matrix.clone().resize_vertically(m.max(n), 0.0);
-    let svd = square.svd(false, true);
-    let mut list: Vec<(f64, DVector<f64>)> = match &svd.v_t {
-        Some(v) => (0..n)
-            .map(|k| (svd.singular_values[k], v.row(k).transpose()))
-            .collect(),
-        None => Vec::new(),
-    };
-    list.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let own = SingularValues::of(matrix);
+    let all = own.all_right();
+    let value = |k: usize| own.values.get(k).copied().unwrap_or(0.0);
+    let falling = all.column_iter().enumerate();
+    let list = falling.map(|(k, v)| (value(k), v.into_owned()));
+    let mut list: Vec<_> = list.collect();
+    list.reverse();
     list
 }
 
@@ -55,10 +53,11 @@ pub(crate) fn left_null(matrix: &DMatrix<f64>) -> DVector<f64> {
     if !matrix.iter().all(|v| v.is_finite()) {
         return DVector::zeros(m);
     }
-    let svd = matrix.clone().svd(true, false);
-    let least = svd.singular_values.imin();
-    svd.u
-        .map_or_else(|| DVector::zeros(m), |u| u.column(least).into_owned())
+    let left = SingularValues::of(matrix).left;
+    match left.ncols() {
+        0 => DVector::zeros(m),
+        k => left.column(k - 1).into_owned(),
+    }
 }
 
 /// Step of the differences of `G_z` in balanced units.

@@ -225,7 +225,7 @@ mod tests {
             torsion_constant: 0.5,
         };
         // Every coupling that a matrix from finite elements may have.
-        let matrix = section.cantilever(0.8)
+        let matrix = section.cantilever(0.8).unwrap()
             + Matrix6::from_fn(|i, j| 0.02 * ((1 + i + j + i * j) as f64).sin());
         let laws = [
             SpringLaw::Bowing(Box::new(BowingLaw {

@@ -17,6 +17,7 @@ pub(crate) use crate::directions::directions;
 pub(crate) use crate::directions::{Direction, DirectionKind};
 use crate::directions::{Share, free_by_joints, largest, shares};
 use crate::error::Result;
+use crate::graded::Graded;
 use crate::saddle::{Saddle, column_space, complement, rows_certainly_independent};
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 use crate::sweep::Sweep;
@@ -41,6 +42,14 @@ pub struct ChainStiffness {
 }
 
 impl ChainStiffness {
+    /// Largest stiffness of a principal direction over the smallest that is not zero; 1 where there
+    /// are none. From about 1e9 on, the entries of `cartesian` hold the soft directions to fewer and
+    /// fewer digits (none at 1e16); `directions` hold them all.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        crate::graded::spread(&self.directions)
+    }
+
     /// Number of directions of one kind.
     #[must_use]
     pub fn count(&self, kind: DirectionKind) -> usize {
@@ -82,6 +91,8 @@ pub fn unloaded_stiffness(
     commands: &[f64],
 ) -> Result<ChainStiffness> {
     chain.check(coordinates, commands)?;
+    let place = format!("chain '{}'", chain.name());
+    crate::chain::sensible_pose(&place, "the pose of the base", base)?;
     let factors = balance(chain, coordinates);
     let mut system = System::of_chain(chain, base, coordinates, commands, &factors, None);
     loop {
@@ -155,18 +166,41 @@ pub(crate) fn chain_stiffness(
 ) -> ChainStiffness {
     let jacobian = balanced_jacobian(system, factors);
     let redundant = passive_null_space(chain, &jacobian);
+    if let Some(end) = Graded::of(chain, system, factors, &jacobian) {
+        let list = end.directions(chain);
+        return described(chain, &jacobian, &redundant, &end.answer, list);
+    }
     let (range, answer) = match solved {
         Some(solution) if column_space(&jacobian).ncols() == 6 => {
             (DMatrix::identity(6, 6), solution)
         }
-        _ => motions_of_end(chain, system, factors, &jacobian),
+        _ => evenly_stiff_motions(chain, system, factors, &jacobian),
     };
-    described(chain, factors, &jacobian, &range, &redundant, &answer)
+    let list = directions(chain.scale(), &balanced_stiffness(factors, &answer), &range);
+    described(chain, &jacobian, &redundant, &answer, list)
 }
 
-/// What the end can do (orthonormal, balanced, 6 x r), and [`unit_motions`] over it. A direction so
-/// stiff that all others would drown in its rounding (a chain pulled straight) counts as rigid.
+fn balanced_stiffness(factors: &[f64], answer: &DMatrix<f64>) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]))
+}
+
+/// What the end can do (orthonormal, balanced, 6 x r), and wrench and coordinates per unit motion of
+/// it, (6 + n) x 6.
 pub(crate) fn motions_of_end(
+    chain: &Chain,
+    system: &System,
+    factors: &[f64],
+    jacobian: &DMatrix<f64>,
+) -> (DMatrix<f64>, DMatrix<f64>) {
+    match Graded::of(chain, system, factors, jacobian) {
+        Some(end) => (end.range, end.answer),
+        None => evenly_stiff_motions(chain, system, factors, jacobian),
+    }
+}
+
+/// The same where no direction is much stiffer than others by its springs. A direction so
+/// stiff that all others would drown in its rounding (a chain pulled straight) counts as rigid.
+fn evenly_stiff_motions(
     chain: &Chain,
     system: &System,
     factors: &[f64],
@@ -190,8 +224,7 @@ pub(crate) fn motions_of_end(
         return (range, answer);
     }
     let free = |range: &DMatrix<f64>, answer: &DMatrix<f64>| {
-        let balanced = Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]));
-        let list = directions(chain.scale(), &balanced, range);
+        let list = directions(chain.scale(), &balanced_stiffness(factors, answer), range);
         let free = list.iter().filter(|d| d.kind == DirectionKind::Free);
         free.count()
     };
@@ -219,28 +252,26 @@ pub(crate) fn swept_stiffness(
     if redundant.ncols() > 0 {
         return None;
     }
+    if Graded::uneven(&jacobian) {
+        return None;
+    }
     let range = column_space(&jacobian);
     let balanced = crate::sweep_solve::unit_motions(sweep, &range)?;
     let answer = DMatrix::from_fn(factors.len(), 6, |i, j| {
         balanced[(i, j)] * factors[i] * factors[j]
     });
-    Some(described(
-        chain, factors, &jacobian, &range, &redundant, &answer,
-    ))
+    let list = directions(chain.scale(), &balanced_stiffness(factors, &answer), &range);
+    Some(described(chain, &jacobian, &redundant, &answer, list))
 }
 
 /// From wrench and coordinates per unit motion of the tip, (6 + n) x 6.
 fn described(
     chain: &Chain,
-    factors: &[f64],
     jacobian: &DMatrix<f64>,
-    range: &DMatrix<f64>,
     redundant: &DMatrix<f64>,
     answer: &DMatrix<f64>,
+    mut directions: Vec<Direction>,
 ) -> ChainStiffness {
-    let balanced = Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]));
-
-    let mut directions = directions(chain.scale(), &balanced, range);
     free_by_joints(chain, jacobian, &mut directions);
     let rank = directions
         .iter()

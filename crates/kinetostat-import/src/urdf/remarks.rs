@@ -136,8 +136,8 @@ pub(crate) fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f
             jacobian[(i, column)] = change[i] / unit;
         }
     }
-    let values = jacobian.singular_values();
-    if values.min() < 1e-4 * values.max() {
+    let values = kinetostat::SingularValues::of(&jacobian);
+    if values.least() < 1e-4 * values.largest() {
         log.notice(
             &plan.robot.at,
             "the arm is singular at home: two of its axes do the same there",

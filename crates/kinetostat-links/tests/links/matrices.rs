@@ -9,7 +9,9 @@ use nalgebra::Matrix6;
 use crate::{apart, text};
 
 fn bar() -> Matrix6<f64> {
-    BeamSection::tube(2.1e11, 8.0e10, 0.06, 0.04).cantilever(0.4)
+    BeamSection::tube(2.1e11, 8.0e10, 0.06, 0.04)
+        .cantilever(0.4)
+        .unwrap()
 }
 
 /// A CSV of the bar in N and mm with rows and columns in the given order.

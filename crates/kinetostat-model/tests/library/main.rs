@@ -110,7 +110,10 @@ pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture<'m>) ->
                 more[j] += 1e-4;
                 rates.set_column(j, &(way(&here, &stand(&more)) / 1e-4));
             }
-            inverse = rates.pseudo_inverse(1e-6).expect("a pseudo-inverse");
+            inverse = {
+                let own = kinetostat::SingularValues::of(&rates);
+                own.pseudo_inverse(1e-6 / own.largest())
+            };
         }
         let step = &inverse * way(&here, &wanted);
         change += &step;

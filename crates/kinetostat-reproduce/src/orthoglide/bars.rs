@@ -76,7 +76,7 @@ impl Barred {
                 format!("foot {name}"),
                 0,
                 near,
-                machine.foot(leg, false).build()?,
+                machine.foot(leg, false)?.build()?,
                 joints.commands.clone(),
                 &[("q1", q1)],
             );

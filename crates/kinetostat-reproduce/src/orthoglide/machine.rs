@@ -102,7 +102,7 @@ impl Orthoglide {
     }
 
     fn leg(&self, leg: usize, with_errors: bool) -> Result<Chain, Cause> {
-        let chain = self.foot(leg, with_errors);
+        let chain = self.foot(leg, with_errors)?;
         let chain = match self.matrix_at {
             None => chain.parallelogram("q2", self.bar_length, WIDTH, &bar(), 0.0),
             Some(inclination) => {
@@ -124,22 +124,23 @@ impl Orthoglide {
     }
 
     /// From the base to the first joint.
-    pub(super) fn foot(&self, leg: usize, with_errors: bool) -> ChainBuilder {
+    pub(super) fn foot(&self, leg: usize, with_errors: bool) -> Result<ChainBuilder, Cause> {
         let (turn, slide) = match with_errors {
             true => (self.line_error, self.slide_error),
             false => (0.0, 0.0),
         };
         let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::x(), self.drive);
         drive.home = -HEAD - self.bar_length;
-        Chain::builder(format!("leg {leg}"))
+        let chain = Chain::builder(format!("leg {leg}"))
             .rigid(axes(leg))
             .translation(vector![0.0, -FOOT, 0.0])
             .rigid(Pose::rotation(Vector3::x() * turn))
             .translation(vector![slide, 0.0, 0.0])
             .actuator("drive", drive)
             .translation(vector![0.0, FOOT, 0.0])
-            .spring6("foot", &foot_stiffness(), [0.0; 6])
-            .passive("q1", MotionKind::Revolute, Vector3::z(), 0.0)
+            .spring6("foot", &foot_stiffness()?, [0.0; 6])
+            .passive("q1", MotionKind::Revolute, Vector3::z(), 0.0);
+        Ok(chain)
     }
 }
 
@@ -163,7 +164,7 @@ pub(super) fn axes(leg: usize) -> Pose {
 }
 
 /// The foot at the first joint: a cantilever of 150 mm at 45 degrees between x and y (SI).
-fn foot_stiffness() -> Matrix6<f64> {
+fn foot_stiffness() -> Result<Matrix6<f64>, Cause> {
     let section = BeamSection {
         youngs_modulus: 1.0,
         shear_modulus: 1.0,
@@ -176,7 +177,7 @@ fn foot_stiffness() -> Matrix6<f64> {
         &Vector3::z_axis(),
         45_f64.to_radians(),
     ));
-    tilt * section.cantilever(0.150) * tilt.transpose()
+    Ok(tilt * section.cantilever(0.150)? * tilt.transpose())
 }
 
 /// One bar at its far end (SI). Bending along z, which the lumped parallelogram leaves out, is that

@@ -18,7 +18,7 @@ fn segment(length: f64) -> Matrix6<f64> {
         second_moment_z: 1.0,
         torsion_constant: 0.8,
     };
-    section.cantilever(length)
+    section.cantilever(length).unwrap()
 }
 
 /// A cantilever of unit length along x.
@@ -138,7 +138,9 @@ fn an_elastica_is_found_together() {
 /// Springs that are soft for the loads: joints of both kinds, slanted axes, weights, springs of fewer than
 /// six directions.
 fn soft_arm() -> Mechanism {
-    let bar = BeamSection::tube(2.1e9, 8.1e8, 0.02, 0.012).cantilever(0.4);
+    let bar = BeamSection::tube(2.1e9, 8.1e8, 0.02, 0.012)
+        .cantilever(0.4)
+        .unwrap();
     let turned = UnitQuaternion::from(Rotation3::new(Vector3::new(0.3, -0.5, 0.8)));
     let revolute = |axis: Vector3<f64>| ActuatorSpec::new(MotionKind::Revolute, axis, 150.0);
     let chain = Chain::builder("soft arm")

@@ -14,7 +14,9 @@ fn irregular(i: usize) -> f64 {
 }
 
 fn bar() -> Matrix6<f64> {
-    BeamSection::tube(2.1e11, 8.1e10, 0.02, 0.012).cantilever(0.3)
+    BeamSection::tube(2.1e11, 8.1e10, 0.02, 0.012)
+        .cantilever(0.3)
+        .unwrap()
 }
 
 /// Three sliders with struts between universal joints, one strut longer than drawn.

@@ -54,7 +54,7 @@ impl Orthoglide {
             &Vector3::z_axis(),
             45_f64.to_radians(),
         ));
-        let foot_matrix = tilt * section.cantilever(0.150) * tilt.transpose();
+        let foot_matrix = tilt * section.cantilever(0.150).unwrap() * tilt.transpose();
         let mut bar = Matrix6::zeros();
         bar[(0, 0)] = 3.25e7;
         bar[(1, 1)] = 18.03e3;
@@ -152,7 +152,7 @@ pub fn arm(with_masses: bool) -> Chain {
         let frame = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, x.cross(&y)]));
         let turn = turn_matrix(&frame);
         let section = BeamSection::tube(2.1e11, 2.1e11 / 2.6, tubes[i].0, tubes[i].1);
-        let k = turn * section.cantilever(l.norm()) * turn.transpose();
+        let k = turn * section.cantilever(l.norm()).unwrap() * turn.transpose();
         builder = builder
             .actuator(
                 &format!("A{}", i + 1),

@@ -107,6 +107,13 @@ pub fn rank(k: &Matrix6<f64>, length: f64) -> usize {
         let unit = |i: usize| if i < 3 { 1.0 } else { length };
         k[(i, j)] / (unit(i) * unit(j))
     });
-    let s = balanced.singular_values();
-    s.iter().filter(|x| **x > 1e-9 * s.amax()).count()
+    // Eigenvalues of [0 A; A^T 0] are the singular values and their opposites.
+    let mut twice = DMatrix::zeros(12, 12);
+    twice.view_mut((0, 6), (6, 6)).copy_from(&balanced);
+    twice
+        .view_mut((6, 0), (6, 6))
+        .copy_from(&balanced.transpose());
+    let values = twice.symmetric_eigenvalues();
+    let most = values.max();
+    values.iter().filter(|x| **x > 1e-9 * most).count()
 }

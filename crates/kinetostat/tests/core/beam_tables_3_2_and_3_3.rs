@@ -86,7 +86,7 @@ fn compare(case: &Value, chain: &Chain, k0: &Matrix6<f64>) {
 fn a_beam_has_the_corrected_stiffness_of_eq_3_26() {
     let file = golden("table_3_2.json");
     let (section, length) = section(&file["beam"]);
-    let k = section.cantilever(length);
+    let k = section.cantilever(length).unwrap();
     let expected = expand(&file["computed_beam"]);
     for i in 0..6 {
         for j in 0..6 {
@@ -112,7 +112,7 @@ fn a_beam_has_the_corrected_stiffness_of_eq_3_26() {
 fn trivial_passive_joints_change_a_beam_as_in_table_3_2() {
     let file = golden("table_3_2.json");
     let (section, length) = section(&file["beam"]);
-    let k0 = section.cantilever(length);
+    let k0 = section.cantilever(length).unwrap();
     for case in file["cases"].as_array().unwrap() {
         compare(case, &beam(case, &section, length, false), &k0);
     }
@@ -122,7 +122,7 @@ fn trivial_passive_joints_change_a_beam_as_in_table_3_2() {
 fn quasi_trivial_passive_joints_change_a_beam_as_in_table_3_3() {
     let file = golden("table_3_3.json");
     let (section, length) = section(&file["beam"]);
-    let k0 = section.cantilever(length);
+    let k0 = section.cantilever(length).unwrap();
     for case in file["cases"].as_array().unwrap() {
         compare(case, &beam(case, &section, length, true), &k0);
     }

@@ -408,7 +408,7 @@ fn an_end_that_is_put_on_an_arc_takes_a_pure_moment() {
 
 /// Stiffness at the end of a cantilever that shears, from its compliance.
 fn shearing(section: &BeamSection, shear: f64, length: f64) -> Matrix6<f64> {
-    let mut compliance = section.cantilever(length).try_inverse().unwrap();
+    let mut compliance = section.cantilever(length).unwrap().try_inverse().unwrap();
     compliance[(1, 1)] += length / shear;
     compliance[(2, 2)] += length / shear;
     compliance.try_inverse().unwrap()
@@ -542,12 +542,12 @@ fn the_unloaded_stiffness_is_exact_for_any_number_of_segments() {
         for n in [1, 2, 7] {
             for (exact, spec) in [
                 (
-                    general().cantilever(length),
+                    general().cantilever(length).unwrap(),
                     LinkSpec::beam(general(), length),
                 ),
                 (
-                    general().cantilever(length),
-                    LinkSpec::matrix(general().cantilever(length), length),
+                    general().cantilever(length).unwrap(),
+                    LinkSpec::matrix(general().cantilever(length).unwrap(), length),
                 ),
                 (coupled(length), LinkSpec::matrix(coupled(length), length)),
             ] {
@@ -577,7 +577,7 @@ fn the_unloaded_stiffness_is_exact_for_any_number_of_segments() {
 fn only_beams_are_divided_and_the_refusal_says_so() {
     let build = |spec: LinkSpec| Chain::builder("c").link_with("rod", &spec).build();
     let error = |spec: LinkSpec| build(spec).unwrap_err().to_string();
-    let mut tapered = general().cantilever(0.7);
+    let mut tapered = general().cantilever(0.7).unwrap();
     tapered[(1, 5)] *= 1.05;
     tapered[(5, 1)] *= 1.05;
     assert!(build(LinkSpec::matrix(tapered, 0.7)).is_ok());
@@ -586,7 +586,7 @@ fn only_beams_are_divided_and_the_refusal_says_so() {
         text.contains("link 'rod'") && text.contains("uniform beam"),
         "{text}"
     );
-    let mut stiff = general().cantilever(0.7).try_inverse().unwrap();
+    let mut stiff = general().cantilever(0.7).unwrap().try_inverse().unwrap();
     stiff[(1, 1)] *= 0.9;
     let text = error(LinkSpec::matrix(stiff.try_inverse().unwrap(), 0.7).segments(2));
     assert!(text.contains("uniform beam"), "{text}");
@@ -668,7 +668,7 @@ fn stiffness_and_work_of_bent_links_agree_with_differences() {
 fn a_preloaded_bent_link_rests_where_its_spring_does() {
     let rest = vec![1e-4, 0.02, -0.01, 0.03, 0.02, 0.05];
     let law = SpringLaw::Bowing(Box::new(BowingLaw {
-        matrix: general().cantilever(0.7),
+        matrix: general().cantilever(0.7).unwrap(),
         length: 0.7,
     }));
     let chain = Chain::builder("bent")
@@ -689,7 +689,10 @@ fn every_link_reports_its_axial_load() {
     let chain = Chain::builder("two")
         .link_with("lower", &slim)
         .node("knee")
-        .link_with("upper", &LinkSpec::matrix(general().cantilever(0.5), 0.5))
+        .link_with(
+            "upper",
+            &LinkSpec::matrix(general().cantilever(0.5).unwrap(), 0.5),
+        )
         .link("plain", &general(), 0.1)
         .build()
         .unwrap();

@@ -240,11 +240,11 @@ fn a_wrist_near_zero_is_as_far_from_singular_as_its_fifth_joint_moves_the_tool()
         let all = [0, 1, 2, 3, 5].map(|j| columns[j].clone());
         let others = DMatrix::from_columns(&all);
         // Joints four and six are all but one: together they cannot cross the lost motion.
-        let svd = others.svd(true, false);
-        let u = svd.u.unwrap();
+        let eigen = (&others * others.transpose()).symmetric_eigen();
+        let u = &eigen.eigenvectors;
         let mut left = &columns[4] * fifth;
-        for k in 0..5 {
-            if svd.singular_values[k] > 0.01 {
+        for k in 0..6 {
+            if eigen.eigenvalues[k] > 1e-4 {
                 left -= u.column(k) * u.column(k).dot(&(&columns[4] * fifth));
             }
         }

@@ -387,7 +387,9 @@ fn oracle_rate(problem: &ChainProblem<'_>, e: &Equilibrium) -> f64 {
     let below = null.transpose() * balanced(&k) * &null;
     let above = null.transpose() * balanced(&h) * &null;
     let m = below.lu().solve(&above).unwrap();
-    let eigenvalues = m.complex_eigenvalues();
+    // With an end: at equal absolute values the iteration may go on for ever.
+    let schur = nalgebra::linalg::Schur::try_new(m, f64::EPSILON, 10_000);
+    let eigenvalues = schur.expect("a Schur form").complex_eigenvalues();
     eigenvalues
         .iter()
         .fold(0.0_f64, |most, mu| most.max(mu.norm()))

@@ -183,7 +183,7 @@ fn element(
             let length = sizes.length * random.between(0.2, 1.5);
             let section = section(random, sizes, length);
             let spec = if random.once_in(3) {
-                LinkSpec::matrix(section.cantilever(length), length)
+                LinkSpec::matrix(section.cantilever(length).unwrap(), length)
             } else {
                 LinkSpec::beam(section, length)
             };
@@ -198,7 +198,7 @@ fn element(
         }
         11 => {
             let length = sizes.length * random.between(0.3, 1.0);
-            let bar = section(random, sizes, length).cantilever(length);
+            let bar = section(random, sizes, length).cantilever(length).unwrap();
             let width = length * random.between(0.1, 0.5);
             let home = random.signed() * f64::from(u8::from(random.once_in(2)));
             (builder.parallelogram(&name, length, width, &bar, home), 6)

@@ -34,7 +34,9 @@ fn frame() -> (Text, Nodes, Superelement) {
 
 /// A 12 x 12 of a free beam along x (N, mm) from the 6 x 6 of its cantilever by equilibrium alone.
 fn free_beam() -> (DMatrix<f64>, Matrix6<f64>) {
-    let si = BeamSection::tube(2.1e11, 8.0e10, 0.06, 0.04).cantilever(0.4);
+    let si = BeamSection::tube(2.1e11, 8.0e10, 0.06, 0.04)
+        .cantilever(0.4)
+        .unwrap();
     let k = kinetostat_links::in_n_mm(&si);
     let mut shift = Matrix6::identity();
     shift

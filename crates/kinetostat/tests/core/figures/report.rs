@@ -11,7 +11,7 @@ fn beams_of_eqs_3_25_and_3_26_and_of_tables_3_2_and_3_3() {
     let mut f = Figures::new();
     let file = golden("table_3_2.json");
     let (section, length) = section(&file["beam"]);
-    let k0 = section.cantilever(length);
+    let k0 = section.cantilever(length).unwrap();
     let mut worst = Worst::new();
     worst.matrix(&k0, &expand(&file["computed_beam"]), &k0);
     let unit = "relative, worst entry (test's tolerance)";

@@ -1,0 +1,212 @@
+//! Stiffnesses of very different size in one chain (a steel wire: stiff along, soft across).
+//!
+//! `K = U S^-1 G S^-1 U^T` with the singular values `S` of the Jacobian, whose coordinates are measured so
+//! that every spring block is one: they are the roots of compliances, and `G` is about one whatever the
+//! springs are (exactly one without passive joints). Ranks are decided on `G`, values are squares of
+//! singular values, so that stiffnesses of a ratio of 1e14 keep eight digits.
+
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+
+use crate::chain::{Chain, Scale};
+use crate::directions::{Direction, DirectionKind, directions, scaled_twist};
+use crate::saddle::{RANK_TOLERANCE, Saddle, complement};
+use crate::singular_values::SingularValues;
+use crate::system::System;
+
+/// Roots of compliances that differ by more than this (stiffnesses by its square) are taken apart.
+const UNEVEN: f64 = 1e3;
+
+/// `x = T y`: coordinates in which every block of springs is the unit matrix, as far as they are
+/// positive definite; balanced.
+fn spring_roots(chain: &Chain, system: &System, factors: &[f64]) -> DMatrix<f64> {
+    let n = chain.coordinate_count();
+    let mut roots = DMatrix::identity(n, n);
+    for block in chain.springs() {
+        let (first, size) = (block.first, block.len());
+        let k = DMatrix::from_fn(size, size, |i, j| {
+            let at = (first + i, first + j);
+            system.spring_tangent[at] * factors[6 + at.0] * factors[6 + at.1]
+        });
+        let inverse = k.cholesky().and_then(|c| {
+            let mut inverse = DMatrix::identity(size, size);
+            let solved = c.l_dirty().tr_solve_lower_triangular_mut(&mut inverse);
+            (solved && inverse.iter().all(|x| x.is_finite())).then_some(inverse)
+        });
+        if let Some(inverse) = inverse {
+            roots
+                .view_mut((first, first), (size, size))
+                .copy_from(&inverse);
+        }
+    }
+    roots
+}
+
+/// Motions of a chain's end sorted by how stiff they are.
+pub(crate) struct Graded {
+    /// `U`, orthonormal, balanced, 6 x r.
+    pub range: DMatrix<f64>,
+    /// Wrench and coordinates per unit motion of the tip, (6 + n) x 6.
+    pub answer: DMatrix<f64>,
+    sizes: Vec<f64>,
+    /// `G`.
+    inner: DMatrix<f64>,
+}
+
+impl Graded {
+    /// True if the end moves much more easily in some directions than in others.
+    pub fn uneven(jacobian: &DMatrix<f64>) -> bool {
+        // A cheap test first: pivots of the Gram matrix are squares.
+        let gram = jacobian * jacobian.transpose();
+        if let Some(c) = gram.cholesky() {
+            let d = c.l_dirty().diagonal();
+            if d.min() * UNEVEN > d.max() * 10.0 {
+                return false;
+            }
+        }
+        let own = SingularValues::of(jacobian);
+        let rank = own.rank(RANK_TOLERANCE);
+        rank > 1 && own.values[0] > UNEVEN * own.values[rank - 1]
+    }
+
+    /// `None` where stiffnesses are of similar size: nothing is lost there in any way.
+    pub fn of(
+        chain: &Chain,
+        system: &System,
+        factors: &[f64],
+        jacobian: &DMatrix<f64>,
+    ) -> Option<Self> {
+        let n = jacobian.ncols();
+        let roots = spring_roots(chain, system, factors);
+        let turned = jacobian * &roots;
+        if !Self::uneven(&turned) {
+            return None;
+        }
+        let own = SingularValues::of(&turned);
+        let r = own.rank(RANK_TOLERANCE);
+        let (range, right) = (own.left.columns(0, r), own.right.columns(0, r));
+        let bordered = system.bordered(true);
+        let torques = DMatrix::from_fn(n, n, |i, j| {
+            bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j]
+        });
+        let torques = roots.transpose() * torques * &roots;
+        let size = match torques.amax() {
+            most if most > 0.0 => most,
+            _ => 1.0,
+        };
+        let mut a = DMatrix::zeros(r + n, r + n);
+        a.view_mut((0, r), (r, n)).copy_from(&right.transpose());
+        a.view_mut((r, 0), (n, r)).copy_from(&right);
+        a.view_mut((r, r), (n, n)).copy_from(&(torques / size));
+        let mut b = DMatrix::identity(r + n, r);
+        let ones = vec![1.0; r + n];
+        Saddle::new(a, &ones, &ones).solve(&mut b);
+        let inner = b.rows(0, r) * size;
+        let mut back = range.transpose();
+        for (mut row, value) in back.row_iter_mut().zip(&own.values) {
+            row.unscale_mut(*value);
+        }
+        let wrench = back.transpose() * &inner * &back;
+        let moved = roots * b.rows(r, n) * &back;
+        let answer = DMatrix::from_fn(6 + n, 6, |i, j| {
+            let balanced = match i < 6 {
+                true => wrench[(i, j)],
+                false => moved[(i - 6, j)],
+            };
+            balanced * factors[i] * factors[j]
+        });
+        Some(Self {
+            range: range.into_owned(),
+            answer,
+            sizes: own.values[..r].to_vec(),
+            inner,
+        })
+    }
+
+    /// Principal directions. Under a load that makes some negative, those that are softer than 1e-9 of
+    /// the stiffest count as free.
+    pub fn directions(&self, chain: &Chain) -> Vec<Direction> {
+        let scale = chain.scale();
+        let eigen = (0.5 * (&self.inner + self.inner.transpose())).symmetric_eigen();
+        let most = eigen.eigenvalues.amax();
+        let zero = 100.0 * RANK_TOLERANCE * most;
+        if eigen.eigenvalues.min() < -zero {
+            let mut back = self.range.transpose();
+            for (mut row, value) in back.row_iter_mut().zip(&self.sizes) {
+                row.unscale_mut(*value);
+            }
+            let k = back.transpose() * &self.inner * back;
+            return directions(scale, &Matrix6::from_fn(|i, j| k[(i, j)]), &self.range);
+        }
+        let held: Vec<usize> = (0..self.sizes.len())
+            .filter(|&i| eigen.eigenvalues[i] > zero)
+            .collect();
+        let root = DMatrix::from_fn(held.len(), self.sizes.len(), |i, j| {
+            let value = eigen.eigenvalues[held[i]].sqrt();
+            value * eigen.eigenvectors[(j, held[i])] / self.sizes[j]
+        });
+        by_root(scale, &root, &self.range, held.len())
+    }
+}
+
+/// Principal directions of `root^T root` (balanced) within a range; `rank` of them are not free.
+fn by_root(scale: Scale, root: &DMatrix<f64>, range: &DMatrix<f64>, rank: usize) -> Vec<Direction> {
+    let direction = |kind, stiffness_n_per_m, motion: &DVector<f64>| Direction {
+        kind,
+        stiffness_n_per_m,
+        twist: scaled_twist(scale, &Vector6::from_fn(|i, _| motion[i])),
+        behind: Vec::new(),
+    };
+    let mut list = Vec::with_capacity(6);
+    for column in complement(range).column_iter() {
+        let motion = column.into_owned();
+        list.push(direction(DirectionKind::Rigid, f64::INFINITY, &motion));
+    }
+    let own = SingularValues::of(root);
+    for (i, column) in own.all_right().column_iter().enumerate() {
+        let motion = range * column;
+        list.push(match own.values.get(i).filter(|_| i < rank) {
+            Some(value) => direction(
+                DirectionKind::Finite,
+                value * value * scale.stiffness,
+                &motion,
+            ),
+            None => direction(DirectionKind::Free, 0.0, &motion),
+        });
+    }
+    list
+}
+
+/// Largest stiffness over the smallest that is not zero; 1 where there are none.
+pub(crate) fn spread(list: &[Direction]) -> f64 {
+    let finite = list.iter().map(|d| d.stiffness_n_per_m.abs());
+    let finite = finite.filter(|k| k.is_finite() && *k > 0.0);
+    let (most, least) = finite.fold((0.0_f64, f64::INFINITY), |(m, l), k| (m.max(k), l.min(k)));
+    if most > 0.0 { most / least } else { 1.0 }
+}
+
+/// Rows `r_i` with `K = sum r_i r_i^T` (SI) of principal directions that are all positive or free.
+pub(crate) fn root_rows(list: &[Direction], length: f64) -> Option<Vec<Vector6<f64>>> {
+    let unit = |i: usize| if i < 3 { 1.0 } else { length };
+    let mut rows = Vec::new();
+    for d in list {
+        match d.kind {
+            DirectionKind::Negative => return None,
+            DirectionKind::Finite => {
+                let balanced = Vector6::from_fn(|i, _| d.twist.0[i] * unit(i));
+                let size = d.stiffness_n_per_m.sqrt() / balanced.norm();
+                rows.push(Vector6::from_fn(|i, _| balanced[i] * unit(i) * size));
+            }
+            DirectionKind::Free | DirectionKind::Rigid => {}
+        }
+    }
+    Some(rows)
+}
+
+/// Principal directions of several stiffnesses that add up, from rows as in [`root_rows`] at the common
+/// place, within a balanced range.
+pub(crate) fn summed(rows: &[Vector6<f64>], scale: Scale, range: &DMatrix<f64>) -> Vec<Direction> {
+    let unit = |i: usize| scale.stiffness.sqrt() * if i < 3 { 1.0 } else { scale.length };
+    let all = DMatrix::from_fn(rows.len(), 6, |i, j| rows[i][j] / unit(j)) * range;
+    let rank = SingularValues::of(&all).rank(RANK_TOLERANCE);
+    by_root(scale, &all, range, rank)
+}
