@@ -29,8 +29,8 @@ use crate::spatial::{Pose, Twist, Wrench, on_screw, pose_residual};
 use crate::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
 use crate::sweep::{Form, Path, Sweep, turned_rows};
-use crate::sweep_solve::{Bordered, END_SPRINGS, EndRows};
-pub(crate) use crate::system::{System, balance};
+use crate::sweep_solve::{Bordered, EndRows, STEP_SPRINGS};
+pub(crate) use crate::system::{System, balance, rounding};
 
 /// What is prescribed in one direction of the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -190,7 +190,7 @@ pub(crate) struct Balance {
 
 /// A factored linearisation of one state.
 enum Tangent<'s> {
-    Swept(Box<Bordered<'s>>),
+    Swept(Box<Bordered<&'s Sweep>>),
     Dense(Saddle),
 }
 
@@ -214,6 +214,8 @@ struct Attempt<'p, 'a> {
     way: Way,
     /// Rotation (vector, rad) that the end lacks.
     turned: Vector3<f64>,
+    /// What rounding leaves unbalanced at the state evaluated last, see [`rounding`].
+    rounding: f64,
     /// Norms of the last two corrections, balanced, the last one first.
     corrections: [f64; 2],
 }
@@ -234,6 +236,7 @@ impl Attempt<'_, '_> {
     fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
         self.evaluate_system(x, wrench, share);
         let p = self.problem;
+        self.rounding = rounding(p.chain, &self.factors, x);
         let tip = self.system.kinematics.tip_pose();
         let (target, offset) = match &self.way {
             Way::Screw(from) if share < 1.0 => (on_screw(from, &p.end.pose, share), Twist::zero()),
@@ -283,7 +286,7 @@ impl Attempt<'_, '_> {
     fn converged(&self, b: &Balance) -> bool {
         let unit = natural(self.problem.chain);
         b.closure <= self.settings.closure * unit
-            && b.torque <= self.settings.torque * b.loads + 1e-16 * unit
+            && b.torque <= self.settings.torque * b.loads + 1e-16 * unit + self.rounding
     }
 
     /// Change of the closure (base axes) with the motion of the end. Where all rotations are held
@@ -370,7 +373,7 @@ impl Attempt<'_, '_> {
             };
             let ends = self.end_matrices();
             // A pivot may be lost by accident far from equilibrium: not with every spring at the end.
-            let found = END_SPRINGS.into_iter().find_map(|spring| {
+            let found = STEP_SPRINGS.into_iter().find_map(|spring| {
                 let tangent = Tangent::Swept(Box::new(Bordered::new(sweep, form, ends, spring)?));
                 let step = self.correction(&tangent, rows)?;
                 Some((tangent, step))
@@ -580,6 +583,7 @@ pub(crate) fn solve_along(
         spare: None,
         way: Way::Straight(Twist::zero()),
         turned: Vector3::zeros(),
+        rounding: 0.0,
         corrections: [0.0; 2],
     };
     let mut spent = 0;
@@ -733,7 +737,7 @@ impl Attempt<'_, '_> {
     ) -> (Equilibrium, Path) {
         self.evaluate_system(&x, &wrench, 1.0);
         let (chain, factors) = (self.problem.chain, &self.factors);
-        let verdicts = match self.system.swept_verdicts(chain, factors) {
+        let verdicts = match self.system.swept_verdicts(chain, factors, None) {
             Some(verdicts) => verdicts,
             None => {
                 if self.system.sweep.is_some() {
@@ -762,13 +766,15 @@ impl Attempt<'_, '_> {
 impl System {
     /// Tangent and shape by sweeps; `None` where there are none, or where passive joints are
     /// redundant or a pivot is lost.
-    fn swept_verdicts(
+    /// `solved` as in [`swept_stiffness`].
+    pub fn swept_verdicts(
         &self,
         chain: &Chain,
         factors: &[f64],
+        solved: Option<&DMatrix<f64>>,
     ) -> Option<(ChainStiffness, ShapeStability)> {
         let sweep = self.sweep.as_ref()?;
-        let stiffness = swept_stiffness(chain, self, sweep, factors)?;
+        let stiffness = swept_stiffness(chain, self, sweep, factors, solved)?;
         let stability = swept_stability(self, sweep, factors)?;
         Some((stiffness, stability))
     }

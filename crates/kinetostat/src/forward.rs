@@ -13,7 +13,7 @@ use crate::inverse::{LimbPosture, wrap_passive};
 use crate::kinematics::Kinematics;
 use crate::mechanism::Mechanism;
 use crate::posture::Posture;
-use crate::saddle::pseudo_inverse;
+use crate::saddle::{Saddle, pseudo_inverse, rows_certainly_independent};
 use crate::spatial::{Pose, Twist, moved, pose_residual, shift_matrix};
 
 /// Largest motion of a command between two closed shapes, rad or natural lengths.
@@ -24,6 +24,31 @@ const STRIDE: f64 = 0.2;
 struct Shape {
     platforms: Vec<Pose>,
     limbs: Vec<LimbPosture>,
+}
+
+/// The shortest solution of `matrix * step = closure`, or what comes nearest to one. Singular values
+/// only where rows or columns may depend on each other.
+fn shortest(matrix: &DMatrix<f64>, closure: &DVector<f64>) -> DVector<f64> {
+    let (rows, columns) = matrix.shape();
+    let transposed = matrix.transpose();
+    if rows == columns {
+        let units = vec![1.0; rows];
+        let mut b = DMatrix::from_column_slice(rows, 1, closure.as_slice());
+        Saddle::new(matrix.clone(), &units, &units).solve(&mut b);
+        return b.column(0).into_owned();
+    }
+    // Newton's iteration mends what the squares of the Gram matrix lose.
+    let regular = match rows < columns {
+        true => rows_certainly_independent(matrix).then(|| matrix * &transposed),
+        false => rows_certainly_independent(&transposed).then(|| &transposed * matrix),
+    };
+    let solved = regular
+        .and_then(nalgebra::DMatrix::cholesky)
+        .map(|gram| match rows < columns {
+            true => &transposed * gram.solve(closure),
+            false => gram.solve(&(&transposed * closure)),
+        });
+    solved.unwrap_or_else(|| pseudo_inverse(matrix).0 * closure)
 }
 
 impl Mechanism {
@@ -220,7 +245,7 @@ impl Mechanism {
             for (j, scale) in scales.iter().enumerate() {
                 matrix.column_mut(j).scale_mut(*scale);
             }
-            let step = pseudo_inverse(&matrix).0 * &closure;
+            let step = shortest(&matrix, &closure);
             // Angles, or lengths by the natural one.
             let most = step.amax();
             let share = if most > 0.5 { 0.5 / most } else { 1.0 };

@@ -14,18 +14,21 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
-use crate::chain::Scale;
-use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, step_limit};
+use crate::chain::{MotionKind, Scale};
+use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, rounding, step_limit};
 use crate::error::{Error, Result};
 use crate::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
 use crate::loading::Load;
 use crate::mechanism::Mechanism;
-use crate::platform_step::{Linear, PlatformStep};
+use crate::platform_chain::ToolBalance;
+use crate::platform_limb::Linear;
+use crate::platform_step::{PlatformStep, Tangents};
 use crate::settings::Settings;
 use crate::sparse::Sparse;
 use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix};
-use crate::stiffness::{balanced_jacobian, motions_of_end};
+use crate::stability::{ShapeStability, shape_stability};
+use crate::stiffness::{ChainStiffness, balanced_jacobian, chain_stiffness, motions_of_end};
 
 /// Poses, coordinates and end wrenches of a mechanism: where an iteration starts and ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,6 +98,19 @@ impl Guide {
     }
 }
 
+/// Where an iteration is.
+struct Place {
+    state: MechanismState,
+    posture: Vec<LimbPosture>,
+    nominal: Vec<Pose>,
+    target: Pose,
+    wrench: Wrench,
+}
+
+/// Corrections of less motion than this (rad, natural lengths) are judged by what lacks after them,
+/// larger ones by the motion that the same tangents still want.
+const SMALL: f64 = 1e-2;
+
 /// A mechanism's equilibrium being solved.
 pub(crate) struct PlatformSolver<'m> {
     pub mechanism: &'m Mechanism,
@@ -118,8 +134,14 @@ pub(crate) struct PlatformSolver<'m> {
     /// What acts on every limb between its ends: gravity and its loads.
     pub loads: Vec<Vec<Load>>,
     pub linear: Vec<Linear>,
+    /// Of a machine that is one chain: what its tool lacks, as it was linearised.
+    pub balance: Option<ToolBalance>,
     /// Closure at the start, kept while the load grows.
     offsets: Vec<Twist>,
+    /// Limbs from the base outwards, where every moving platform has a single limb to it; else none.
+    tree: Vec<usize>,
+    /// The tool is led to its place while the load grows, its limb after it.
+    leads: bool,
     pub share: f64,
     /// See [`crate::Residual::rate`], of the limbs' wrenches and coordinates.
     pub rate: Option<f64>,
@@ -138,6 +160,8 @@ pub(crate) struct MechanismBalance {
     forces: f64,
     /// What loads count as at least, see [`LEAST_LOAD`].
     least: f64,
+    /// Unbalanced torque that is rounding, see [`rounding`].
+    rounding: f64,
 }
 
 impl MechanismBalance {
@@ -162,7 +186,7 @@ impl<'m> PlatformSolver<'m> {
         unknowns: Unknowns,
     ) -> Self {
         let limbs = &mechanism.limbs;
-        let factors = limbs
+        let factors: Vec<Vec<f64>> = limbs
             .iter()
             .zip(&posture)
             .map(|(l, p)| balance(&l.actual, &p.coordinates))
@@ -170,14 +194,16 @@ impl<'m> PlatformSolver<'m> {
         let linear = limbs
             .iter()
             .zip(&posture)
-            .map(|(l, p)| {
-                Linear::new(System::new(
-                    &l.actual,
-                    &state.platforms[l.from],
-                    &p.coordinates,
-                    &p.commands,
-                    l.from != 0,
-                ))
+            .zip(&factors)
+            .map(|((l, p), factors)| {
+                let base = &state.platforms[l.from];
+                // What follows from commands and from a moving base is asked of dense matrices.
+                let dense = matches!(unknowns, Unknowns::Target(_)) || l.from != 0;
+                let (x, commands) = (&p.coordinates, &p.commands);
+                Linear::new(match dense {
+                    true => System::new(&l.actual, base, x, commands, l.from != 0),
+                    false => System::of_chain(&l.actual, base, x, commands, factors, None),
+                })
             })
             .collect();
         let loads = (0..limbs.len()).map(|i| mechanism.acting(i)).collect();
@@ -197,7 +223,10 @@ impl<'m> PlatformSolver<'m> {
             factors,
             loads,
             linear,
+            balance: None,
             offsets: vec![Twist::zero(); limbs.len()],
+            tree: tree(mechanism),
+            leads: false,
             share: 1.0,
             rate: None,
             length,
@@ -205,17 +234,61 @@ impl<'m> PlatformSolver<'m> {
         }
     }
 
-    /// Arm from the reference point of `to` to the limb's tip, base axes, m.
-    pub fn arm(&self, limb: usize) -> Vector3<f64> {
+    /// Arm from the reference point of `to` to the limb's tip at a state, base axes, m.
+    pub fn arm(&self, limb: usize, at: &MechanismState) -> Vector3<f64> {
         let l = &self.mechanism.limbs[limb];
-        self.state.platforms[l.to].rotation * l.platform_from_tip.translation.vector
+        at.platforms[l.to].rotation * l.platform_from_tip.translation.vector
+    }
+
+    /// Platforms go where their limbs lead: every one has a single limb, which alone says where.
+    pub fn follows(&self) -> bool {
+        let free = matches!(self.unknowns, Unknowns::Pose | Unknowns::Guided);
+        free && !self.tree.is_empty() && !self.leads
+    }
+
+    /// Evaluates a limb at the present state.
+    pub fn evaluate_limb(&mut self, i: usize) {
+        let limb = &self.mechanism.limbs[i];
+        let system = &mut self.linear[i].system;
+        for _ in 0..2 {
+            system.evaluate(
+                &limb.actual,
+                &self.state.platforms[limb.from],
+                &self.posture[i].coordinates,
+                &self.posture[i].commands,
+                &self.loads[i],
+                &self.state.coordinates[i],
+                &self.state.wrenches[i],
+                self.share,
+            );
+            if system.sweep.as_ref().is_none_or(|s| s.serial) {
+                break;
+            }
+            system.make_dense();
+        }
+    }
+
+    fn evaluate_limbs(&mut self) {
+        if !self.follows() {
+            (0..self.linear.len()).for_each(|i| self.evaluate_limb(i));
+            return;
+        }
+        for k in 0..self.tree.len() {
+            let i = self.tree[k];
+            self.evaluate_limb(i);
+            let limb = &self.mechanism.limbs[i];
+            let tip = self.linear[i].system.kinematics.tip_pose();
+            self.state.platforms[limb.to] = tip * limb.platform_from_tip.inverse();
+        }
     }
 
     /// Evaluates every limb and the balance of every platform at the present state.
     fn evaluate(&mut self) -> (MechanismBalance, Vec<Wrench>) {
         let m = self.mechanism;
+        self.evaluate_limbs();
         let (mut merit, mut closure_m, mut torque, mut loads, mut forces) =
             (0.0, 0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+        let mut rounds = 0.0_f64;
         // Wrench still missing on each platform, about its origin.
         let mut lack: Vec<Wrench> = m
             .platforms
@@ -252,20 +325,9 @@ impl<'m> PlatformSolver<'m> {
         };
         forces = lack.iter().skip(1).map(size).fold(forces, f64::max);
         for (i, limb) in m.limbs.iter().enumerate() {
-            let arm = self.arm(i);
+            let arm = self.arm(i, &self.state);
             let (x, f) = (&self.state.coordinates[i], &self.state.wrenches[i]);
-            let base = &self.state.platforms[limb.from];
             let linear = &mut self.linear[i];
-            linear.system.evaluate(
-                &limb.actual,
-                base,
-                &self.posture[i].coordinates,
-                &self.posture[i].commands,
-                &self.loads[i],
-                x,
-                f,
-                self.share,
-            );
             let target = self.state.platforms[limb.to] * limb.platform_from_tip;
             let tip = linear.system.kinematics.tip_pose();
             linear.closure =
@@ -275,6 +337,7 @@ impl<'m> PlatformSolver<'m> {
             closure_m = closure_m.max(b.closure / limb.actual.scale().stiffness.sqrt());
             torque = torque.max(b.torque);
             loads = loads.max(b.loads);
+            rounds = rounds.max(rounding(&limb.actual, &self.factors[i], x));
             lack[limb.to] = lack[limb.to] + Wrench(-(shift_matrix(&arm).transpose() * f.0));
             if limb.from != 0 {
                 let n = x.len() + limb.actual.actuators().len();
@@ -305,6 +368,7 @@ impl<'m> PlatformSolver<'m> {
             force,
             forces,
             least: LEAST_LOAD * root * self.length,
+            rounding: rounds,
         };
         (balance, lack)
     }
@@ -312,7 +376,7 @@ impl<'m> PlatformSolver<'m> {
     fn converged(&self, b: &MechanismBalance) -> bool {
         let unit = self.stiffness.sqrt() * self.length;
         b.closure_m <= self.settings.closure * self.length
-            && b.torque <= self.settings.torque * b.loads + 1e-16 * unit
+            && b.torque <= self.settings.torque * b.loads + 1e-16 * unit + b.rounding
             && b.force <= self.settings.torque * b.forces + 1e-16 * unit
     }
 
@@ -352,7 +416,7 @@ impl<'m> PlatformSolver<'m> {
     pub fn solve(
         &mut self,
         share: f64,
-        picard: usize,
+        mut picard: usize,
     ) -> std::result::Result<(usize, MechanismBalance), (usize, MechanismBalance)> {
         self.share = share;
         self.rate = None;
@@ -365,68 +429,61 @@ impl<'m> PlatformSolver<'m> {
             if self.converged(&now) && iteration > 0 {
                 return Ok((iteration, now));
             }
-            if fresh {
-                self.linearise(iteration >= picard);
-                if matches!(self.unknowns, Unknowns::Target(_)) {
-                    self.refresh_rates();
-                }
-            } else {
-                self.renew_residuals();
-            }
-            let Some(step) = self.platform_step(&lack) else {
+            let here = self.state.clone();
+            let old = (!fresh)
+                .then(|| self.newton(&lack, &here, Tangents::Old))
+                .flatten();
+            let reused = old.is_some();
+            let new = Tangents::New {
+                with_hessian: iteration >= picard,
+            };
+            let Some((step, steps)) = old.or_else(|| self.newton(&lack, &here, new)) else {
                 return Err((iteration, now));
             };
-            let PlatformStep {
-                motions,
-                target,
-                carried,
-                push,
-            } = step;
-            let steps = self.limb_steps(&motions, &target, &carried);
-            let mut length = 1.0_f64;
-            for (limb, step) in self.mechanism.limbs.iter().zip(&steps) {
-                length = length.min(step_limit(&limb.actual, step.iter().skip(6).copied()));
-            }
-            for motion in motions.iter().chain([&target]) {
-                length = length
-                    .min(0.5 / motion.angular().norm().max(1e-300))
-                    .min(0.5 * self.length / motion.linear().norm().max(1e-300));
-            }
+            let mut length = self.longest(&step, &steps);
+            let extent = self.extent(steps.iter());
             let correction: f64 = steps
                 .iter()
                 .zip(&self.factors)
                 .flat_map(|(step, units)| step.iter().zip(units))
                 .map(|(change, unit)| (change / unit).powi(2))
                 .sum();
-            let start = (self.state.clone(), self.posture.clone(), self.target);
-            let nominal = self.nominal.clone();
-            let wrench = self.wrench;
-            let retargets = target.0 != Vector6::zeros();
+            let start = self.place();
+            // Where platforms go where their limbs lead, large corrections are judged as those of
+            // chains. What braces each other is led by what lacks, and stays on its branch.
+            let by_motion = self.follows();
             loop {
-                self.wrench = wrench + push * length;
-                for (k, motion) in motions.iter().enumerate() {
-                    self.state.platforms[k + 1] =
-                        moved(&start.0.platforms[k + 1], &Twist(motion.0 * length));
-                }
-                for (i, step) in steps.iter().enumerate() {
-                    self.state.wrenches[i].0 =
-                        start.0.wrenches[i].0 + length * step.fixed_view::<6, 1>(0, 0);
-                    for (j, x) in self.state.coordinates[i].iter_mut().enumerate() {
-                        *x = start.0.coordinates[i][j] + length * step[6 + j];
-                    }
-                    for block in self.mechanism.limbs[i].actual.springs() {
-                        let from = &start.0.coordinates[i];
-                        block.follow(from, self.share, &mut self.state.coordinates[i]);
-                    }
-                }
-                let reached = !retargets || {
-                    self.target = moved(&start.2, &Twist(target.0 * length));
-                    self.retarget()
-                };
+                let reached = self.go(&start, &step, &steps, length);
                 let merit = now.merit;
                 let (next, missing) = self.evaluate();
-                let better = reached && next.merit <= merit * (1.0 - 0.1 * length);
-                if better || (reached && (iteration < picard || self.converged(&next))) {
+                let better = next.merit <= merit * (1.0 - 0.1 * length);
+                let lagged = match by_motion {
+                    true => iteration + 1 < picard,
+                    false => iteration < picard,
+                };
+                let fine = self.converged(&next) || lagged;
+                let less = better && (extent < SMALL || !by_motion);
+                let mut accepted = reached && (fine || less);
+                // Rounding: no further progress is possible and the conditions nearly hold.
+                let close = next.closure_m <= 100.0 * self.settings.closure * self.length
+                    && next.torque <= 10.0 * self.settings.torque * next.loads
+                    && next.force <= 10.0 * self.settings.torque * next.forces;
+                if reached && !accepted && !better && close {
+                    return Ok((iteration, next));
+                }
+                let mut shorter = 0.5 * length;
+                if reached && !accepted && by_motion {
+                    let again = self.newton(&missing, &start.state, Tangents::Old);
+                    let bent = again.map_or(f64::INFINITY, |(_, again)| {
+                        let off = again.iter().zip(&steps);
+                        let off: Vec<_> = off.map(|(a, s)| a - s * (1.0 - length)).collect();
+                        self.extent(off.iter())
+                    });
+                    accepted = bent <= 0.5 * length * extent;
+                    let wanted = 0.5 * length * length * extent / bent;
+                    shorter = wanted.max(0.1 * length).min(shorter);
+                }
+                if accepted {
                     let moved = length * correction.sqrt();
                     self.rate = before.filter(|b| *b > 0.0).map(|b| moved / b);
                     before = Some(moved);
@@ -434,22 +491,23 @@ impl<'m> PlatformSolver<'m> {
                     (now, lack) = (next, missing);
                     break;
                 }
-                // Rounding: no further progress is possible and the conditions nearly hold.
-                let close = next.closure_m <= 100.0 * self.settings.closure * self.length
-                    && next.torque <= 10.0 * self.settings.torque * next.loads
-                    && next.force <= 10.0 * self.settings.torque * next.forces;
-                if reached && close {
-                    return Ok((iteration, next));
+                if reused && by_motion {
+                    // The tangents do not serve any more.
+                    self.put(start);
+                    (now, lack) = self.evaluate();
+                    fresh = true;
+                    break;
                 }
-                length *= 0.5;
+                length = shorter;
                 if length < 1e-3 {
-                    (self.state, self.posture, self.target) = start;
-                    (self.nominal, self.wrench) = (nominal, wrench);
-                    return Err((iteration, now));
-                }
-                if retargets {
-                    self.posture.clone_from(&start.1);
-                    self.nominal.clone_from(&nominal);
+                    self.put(start);
+                    if iteration >= picard || !by_motion {
+                        return Err((iteration, now));
+                    }
+                    // Loads lagged lead nowhere from here: Newton at once.
+                    picard = 0;
+                    (now, lack) = self.evaluate();
+                    break;
                 }
             }
         }
@@ -458,6 +516,94 @@ impl<'m> PlatformSolver<'m> {
         } else {
             Err((self.settings.iterations, now))
         }
+    }
+
+    /// Longest share of a step over which the linearisation says something.
+    fn longest(&self, step: &PlatformStep, steps: &[DVector<f64>]) -> f64 {
+        let mut length = 1.0_f64;
+        for (limb, step) in self.mechanism.limbs.iter().zip(steps) {
+            length = length.min(step_limit(&limb.actual, step.iter().skip(6).copied()));
+        }
+        // Platforms that follow their limbs go as far as those.
+        let free = if self.follows() {
+            &[]
+        } else {
+            &step.motions[..]
+        };
+        for motion in free.iter().chain([&step.target]) {
+            length = length
+                .min(0.5 / motion.angular().norm().max(1e-300))
+                .min(0.5 * self.length / motion.linear().norm().max(1e-300));
+        }
+        length
+    }
+
+    /// Size of the motion of all limbs in a correction: root of the sum of squares of turns (rad) and
+    /// slides (in natural lengths).
+    fn extent<'v>(&self, steps: impl Iterator<Item = &'v DVector<f64>>) -> f64 {
+        let limbs = self.mechanism.limbs.iter().zip(steps);
+        limbs
+            .flat_map(|(limb, step)| {
+                let length = limb.actual.scale().length;
+                let own = limb.actual.coordinates().iter().zip(step.iter().skip(6));
+                own.map(move |(c, dx)| match c.kind {
+                    MotionKind::Revolute => dx * dx,
+                    MotionKind::Prismatic => (dx / length).powi(2),
+                })
+            })
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    fn place(&self) -> Place {
+        Place {
+            state: self.state.clone(),
+            posture: self.posture.clone(),
+            nominal: self.nominal.clone(),
+            target: self.target,
+            wrench: self.wrench,
+        }
+    }
+
+    fn put(&mut self, place: Place) {
+        self.state = place.state;
+        self.posture = place.posture;
+        self.nominal = place.nominal;
+        self.target = place.target;
+        self.wrench = place.wrench;
+    }
+
+    /// Goes a share of a step from a place; `false` where the commands cannot follow.
+    fn go(
+        &mut self,
+        from: &Place,
+        step: &PlatformStep,
+        steps: &[DVector<f64>],
+        length: f64,
+    ) -> bool {
+        self.wrench = from.wrench + step.push * length;
+        for (k, motion) in step.motions.iter().enumerate() {
+            self.state.platforms[k + 1] =
+                moved(&from.state.platforms[k + 1], &Twist(motion.0 * length));
+        }
+        for (i, step) in steps.iter().enumerate() {
+            let start = &from.state.coordinates[i];
+            self.state.wrenches[i].0 =
+                from.state.wrenches[i].0 + length * step.fixed_view::<6, 1>(0, 0);
+            for (j, x) in self.state.coordinates[i].iter_mut().enumerate() {
+                *x = start[j] + length * step[6 + j];
+            }
+            for block in self.mechanism.limbs[i].actual.springs() {
+                block.follow(start, self.share, &mut self.state.coordinates[i]);
+            }
+        }
+        if step.target.0 == Vector6::zeros() {
+            return true;
+        }
+        self.posture.clone_from(&from.posture);
+        self.nominal.clone_from(&from.nominal);
+        self.target = moved(&from.target, &Twist(step.target.0 * length));
+        self.retarget()
     }
 
     /// As given, and failing that with loads and closures that grow from the unloaded posture.
@@ -482,6 +628,7 @@ impl<'m> PlatformSolver<'m> {
         }
         self.share = 1.0;
         self.offsets.fill(Twist::zero());
+        self.leads = self.unknowns == Unknowns::Guided;
         self.evaluate();
         self.offsets = self.linear.iter().map(|l| l.closure).collect();
         let (mut share, mut step, mut iterations) = (0.0_f64, 0.125_f64, 0);
@@ -501,12 +648,14 @@ impl<'m> PlatformSolver<'m> {
                     self.state = kept;
                     step *= 0.5;
                     if step < self.settings.smallest_load_step.max(1e-9) {
+                        self.leads = false;
                         return Err(self.not_converged(iterations, share, &first.1));
                     }
                 }
             }
         }
         self.offsets.fill(Twist::zero());
+        self.leads = false;
         Ok(self.residual(&last, iterations))
     }
 
@@ -551,13 +700,14 @@ impl<'m> PlatformSolver<'m> {
             .zip(self.mechanism.limbs.iter().zip(&self.factors))
         {
             // A limb that cannot move in all directions has no regular system: its end apart from them.
-            if limb.from == 0 && linear.rigid.ncols() > 0 {
+            let swept = linear.system.sweep.is_some();
+            if limb.from == 0 && !swept && linear.rigid.ncols() > 0 {
                 let jacobian = balanced_jacobian(&linear.system, factors);
                 let (_, answer) = motions_of_end(&limb.actual, &linear.system, factors, &jacobian);
                 linear.solution.columns_mut(1, 6).copy_from(&answer);
             }
         }
-        (self.tangents().0, lack)
+        (self.tangents(&self.state).0, lack)
     }
 
     /// The moment of the wrench on the tool without the reactions of what guides it.
@@ -573,15 +723,29 @@ impl<'m> PlatformSolver<'m> {
         moment
     }
 
-    /// System and balance factors of a limb after [`Self::finish`].
-    pub fn limb_system(&self, limb: usize) -> (&System, &[f64]) {
-        (&self.linear[limb].system, &self.factors[limb])
+    /// System of a limb after [`Self::finish`].
+    pub fn limb_system(&self, limb: usize) -> &System {
+        &self.linear[limb].system
     }
 
-    /// Wrench and coordinates of a limb per unit motion of its tip, (6 + n) x 6, after
-    /// [`Self::finish`].
-    pub fn unit_motions(&self, limb: usize) -> DMatrix<f64> {
-        self.linear[limb].solution.columns(1, 6).into_owned()
+    /// Stiffness at its tip and stability of its shape of a limb after [`Self::finish`].
+    pub fn verdicts(&mut self, limb: usize) -> (ChainStiffness, ShapeStability) {
+        let chain = &self.mechanism.limbs[limb].actual;
+        // Wrench and coordinates per unit motion of the tip, (6 + n) x 6.
+        let units = self.linear[limb].solution.columns(1, 6).into_owned();
+        let system = &self.linear[limb].system;
+        if let Some(found) = system.swept_verdicts(chain, &self.factors[limb], Some(&units)) {
+            return found;
+        }
+        let swept = system.sweep.is_some();
+        if swept {
+            self.linear[limb].system.make_dense();
+            self.evaluate_limb(limb);
+        }
+        let (system, factors) = (&self.linear[limb].system, &self.factors[limb]);
+        let units = (!swept).then_some(units);
+        let stiffness = chain_stiffness(chain, system, factors, units);
+        (stiffness, shape_stability(chain, system, factors))
     }
 }
 
@@ -605,6 +769,25 @@ pub(crate) fn rates_of(
         DMatrix::from_fn(rates.nrows(), 6, |i, j| rates[(i, j)])
     });
     rates.collect()
+}
+
+/// Limbs from the base outwards; none where a platform has another number of limbs to it than one.
+fn tree(mechanism: &Mechanism) -> Vec<usize> {
+    let mut placed = vec![false; mechanism.platforms.len()];
+    placed[0] = true;
+    let mut order = Vec::new();
+    while let Some(next) = mechanism
+        .limbs
+        .iter()
+        .position(|l| placed[l.from] && !placed[l.to])
+    {
+        placed[mechanism.limbs[next].to] = true;
+        order.push(next);
+    }
+    if order.len() != mechanism.limbs.len() || placed.contains(&false) {
+        order.clear();
+    }
+    order
 }
 
 fn measure(system: &System, closure: &Twist, wrench: &Wrench, factors: &[f64]) -> Balance {

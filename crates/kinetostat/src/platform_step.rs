@@ -7,48 +7,17 @@
 use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::chain::Scale;
-use crate::equilibrium::System;
-use crate::platform::{PlatformSolver, Unknowns};
-use crate::saddle::{Saddle, column_space, complement, rows_certainly_independent};
+use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::sparse::{PlatformSystem, RigidRows, Sparse};
 use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
-use crate::stiffness::balanced_jacobian;
 
-/// A limb linearised about a state: balanced system solved for closure, motions of its end, of its
-/// commands and of its base.
-pub(crate) struct Linear {
-    /// (6 + n) x (1 + 6 + r \[+ 6\]): wrench and coordinates.
-    pub solution: DMatrix<f64>,
-    /// Factors of the bordered system, kept while its tangent still serves.
-    pub saddle: Option<Saddle>,
-    /// Wrenches on the tip that the limb carries without any motion, 6 x k: the tip cannot move
-    /// along them. Empty for a limb that can be strained in every direction.
-    pub rigid: DMatrix<f64>,
-    /// Rows of the reaction on a moving base before substitution: torque, d/dx, d/dF, d/dbase.
-    pub system: System,
-    pub closure: Twist,
-}
-
-impl Linear {
-    pub fn new(system: System) -> Self {
-        Self {
-            solution: DMatrix::zeros(0, 0),
-            saddle: None,
-            rigid: DMatrix::zeros(6, 0),
-            system,
-            closure: Twist::zero(),
-        }
-    }
-
-    /// Closure and unbalanced torques as first column.
-    fn right_hand_side(&self, b: &mut DMatrix<f64>) {
-        for k in 0..6 {
-            b[(k, 0)] = self.closure.0[k];
-        }
-        for row in 0..self.system.spring_torque.len() {
-            b[(6 + row, 0)] = -self.system.unbalanced(row);
-        }
-    }
+/// Which tangents a step is made with.
+#[derive(Clone, Copy)]
+pub(crate) enum Tangents {
+    /// Those at the state evaluated last.
+    New { with_hessian: bool },
+    /// Those of the step before.
+    Old,
 }
 
 /// One Newton step of the platforms.
@@ -63,59 +32,60 @@ pub(crate) struct PlatformStep {
     pub push: Wrench,
 }
 
-/// See [`Linear::rigid`].
-fn rigid_wrenches(system: &System, factors: &[f64]) -> DMatrix<f64> {
-    let jacobian = balanced_jacobian(system, factors);
-    if rows_certainly_independent(&jacobian) {
-        return DMatrix::zeros(6, 0);
-    }
-    let mut blocked = complement(&column_space(&jacobian));
-    for (mut row, factor) in blocked.row_iter_mut().zip(factors) {
-        row *= *factor;
-    }
-    blocked
-}
-
 impl PlatformSolver<'_> {
     /// Solves every limb's bordered system for closure, end, command and base motions.
     pub fn linearise(&mut self, with_hessian: bool) {
-        for (linear, factors) in self.linear.iter_mut().zip(&self.factors) {
-            let system = &linear.system;
-            let n = system.spring_torque.len();
-            let extra = system.kinematics.velocity_count() - n;
-            let mut b = DMatrix::zeros(6 + n, 7 + extra);
-            linear.right_hand_side(&mut b);
-            for k in 0..6 {
-                b[(k, 1 + k)] = 1.0;
-                for j in 0..extra {
-                    b[(k, 7 + j)] = -system.jacobian[(k, n + j)];
-                }
+        for i in 0..self.linear.len() {
+            if !self.linear[i].linearise(with_hessian, &self.factors[i]) {
+                self.linear[i].system.make_dense();
+                self.evaluate_limb(i);
+                self.linear[i].linearise(with_hessian, &self.factors[i]);
             }
-            if with_hessian {
-                for row in 0..n {
-                    for j in 0..extra {
-                        b[(6 + row, 7 + j)] = -system.hessian[(row, n + j)];
-                    }
-                }
-            }
-            let saddle = Saddle::new(system.bordered(with_hessian), factors, factors);
-            saddle.solve(&mut b);
-            linear.rigid = rigid_wrenches(system, factors);
-            linear.saddle = Some(saddle);
-            linear.solution = b;
         }
     }
 
-    /// New residuals with the tangent as it is.
-    pub fn renew_residuals(&mut self) {
-        for linear in &mut self.linear {
-            let mut b = DMatrix::zeros(linear.solution.nrows(), 1);
-            linear.right_hand_side(&mut b);
-            if let Some(saddle) = &linear.saddle {
-                saddle.solve(&mut b);
-            }
-            linear.solution.column_mut(0).copy_from(&b.column(0));
+    /// New residuals with the tangents as they are; `false` if one does not serve.
+    pub fn renew_residuals(&mut self) -> bool {
+        self.linear
+            .iter_mut()
+            .zip(&self.factors)
+            .all(|(linear, factors)| {
+                let Some(own) = linear.residual(factors) else {
+                    return false;
+                };
+                linear.solution.column_mut(0).copy_from(&own.column(0));
+                true
+            })
+    }
+
+    /// A Newton step for what lacks: of the platforms, and of wrench and coordinates of all limbs.
+    /// With new tangents, or with those at a state where the limbs were linearised before; `None` if
+    /// there is no step, or the old tangents do not serve.
+    pub fn newton(
+        &mut self,
+        lack: &[Wrench],
+        at: &MechanismState,
+        tangents: Tangents,
+    ) -> Option<(PlatformStep, Vec<DVector<f64>>)> {
+        if self.is_one_chain() {
+            return self.step_of_chain(lack, tangents);
         }
+        match tangents {
+            Tangents::New { with_hessian } => {
+                self.linearise(with_hessian);
+                if matches!(self.unknowns, Unknowns::Target(_)) {
+                    self.refresh_rates();
+                }
+            }
+            Tangents::Old => {
+                if !self.renew_residuals() {
+                    return None;
+                }
+            }
+        }
+        let step = self.platform_step(lack, at)?;
+        let limbs = self.limb_steps(&step, at);
+        Some((step, limbs))
     }
 
     /// `K_i`, 6 x 6, of a linearised limb at its tip.
@@ -127,8 +97,8 @@ impl PlatformSolver<'_> {
     }
 
     /// Tangent of the wrench on every moving platform by the motions of all moving platforms,
-    /// 6P x 6P, and by the nominal target's motion, 6P x 6.
-    pub fn tangents(&self) -> (Sparse, DMatrix<f64>) {
+    /// 6P x 6P, and by the nominal target's motion, 6P x 6; arms and loads as at a state.
+    pub fn tangents(&self, at: &MechanismState) -> (Sparse, DMatrix<f64>) {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
         let mut by_pose = Sparse::zeros(6 * p, 6 * p);
@@ -141,10 +111,10 @@ impl PlatformSolver<'_> {
             view += block;
         };
         for (i, limb) in m.limbs.iter().enumerate() {
-            let arm = self.arm(i);
+            let arm = self.arm(i, at);
             let t = shift_matrix(&arm);
             let k = self.limb_stiffness(i);
-            let f = self.state.wrenches[i].force();
+            let f = at.wrenches[i].force();
             let own = t.transpose() * k * t + rotational(&(hat(&f) * hat(&arm)));
             add(&mut by_pose, limb.to, limb.to, &own);
             let solution = &self.linear[i].solution;
@@ -186,27 +156,40 @@ impl PlatformSolver<'_> {
                 add(&mut by_pose, limb.from, limb.to, &by_end);
             }
         }
+        self.add_platform_loads(at, |on, by, block| add(&mut by_pose, on, by, block));
+        (by_pose, by_target)
+    }
+
+    /// Adds the tangents of what acts on the platforms themselves, `-dW / d(motion)`.
+    pub fn add_platform_loads(
+        &self,
+        at: &MechanismState,
+        mut add: impl FnMut(usize, usize, &Matrix6<f64>),
+    ) {
+        let m = self.mechanism;
         // A weight keeps its direction while its lever arm turns.
         for (k, platform) in m.platforms.iter().enumerate().skip(1) {
             let weight = m.gravity * (platform.mass * self.share);
-            let arm = self.state.platforms[k].rotation * platform.centre_of_mass;
+            let arm = at.platforms[k].rotation * platform.centre_of_mass;
             let block = -rotational(&(hat(&weight) * hat(&arm)));
-            add(&mut by_pose, k, k, &block);
+            add(k, k, &block);
         }
         let mut own = Vec::new();
         for load in &m.platform_loads {
-            load.tangents(&self.state.platforms, &mut own);
+            load.tangents(&at.platforms, &mut own);
         }
         for tangent in own {
             let block = tangent.matrix * -self.share;
-            add(&mut by_pose, tangent.on, tangent.by, &block);
+            // The base does not move, nor does it matter what acts on it.
+            if tangent.on > 0 && tangent.by > 0 {
+                add(tangent.on, tangent.by, &block);
+            }
         }
-        (by_pose, by_target)
     }
 
     /// Motions that no limb can follow: rows `N^T (motion of the tip)` over the platforms' motions,
     /// and what they must be, k.
-    pub fn rigid_rows(&self) -> (RigidRows, DVector<f64>) {
+    pub fn rigid_rows(&self, at: &MechanismState) -> (RigidRows, DVector<f64>) {
         let m = self.mechanism;
         let mut rows = RigidRows::none(m.platforms.len() - 1);
         let count = self.linear.iter().map(|l| l.rigid.ncols()).sum();
@@ -217,17 +200,17 @@ impl PlatformSolver<'_> {
             if k == 0 {
                 continue;
             }
-            let at = rows.grow(limb.to - 1, k);
+            let row = rows.grow(limb.to - 1, k);
             let normal = linear.rigid.transpose();
-            let t = shift_matrix(&self.arm(i));
-            rows.matrix.add(at, 6 * (limb.to - 1), &(&normal * t));
+            let t = shift_matrix(&self.arm(i, at));
+            rows.matrix.add(row, 6 * (limb.to - 1), &(&normal * t));
             if limb.from != 0 {
                 let first = linear.system.kinematics.velocity_count() - 6;
                 let by_base = &normal * linear.system.jacobian.columns(first, 6);
-                rows.matrix.add(at, 6 * (limb.from - 1), &-by_base);
+                rows.matrix.add(row, 6 * (limb.from - 1), &-by_base);
             }
             needed
-                .rows_mut(at, k)
+                .rows_mut(row, k)
                 .copy_from(&-(&normal * linear.closure.0));
         }
         (rows, needed)
@@ -253,8 +236,9 @@ impl PlatformSolver<'_> {
         rows
     }
 
-    /// One Newton step.
-    pub fn platform_step(&self, lack: &[Wrench]) -> Option<PlatformStep> {
+    /// One Newton step, arms and loads as at a state: the present one, or the one where the limbs
+    /// were linearised.
+    pub fn platform_step(&self, lack: &[Wrench], at: &MechanismState) -> Option<PlatformStep> {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
         if self.unknowns == Unknowns::Held && p == 1 {
@@ -265,14 +249,14 @@ impl PlatformSolver<'_> {
                 push: Wrench::zero(),
             });
         }
-        let (mut a, by_target) = self.tangents();
+        let (mut a, by_target) = self.tangents(at);
         let mut b = DMatrix::zeros(6 * p, 1);
         for (k, w) in lack.iter().enumerate().skip(1) {
             b.view_mut((6 * (k - 1), 0), (6, 1)).copy_from(&w.0);
         }
         for (i, limb) in m.limbs.iter().enumerate() {
             let solution = &self.linear[i].solution;
-            let t = shift_matrix(&self.arm(i));
+            let t = shift_matrix(&self.arm(i, at));
             let change = t.transpose() * solution.fixed_view::<6, 1>(0, 0);
             let mut rows = b.view_mut((6 * (limb.to - 1), 0), (6, 1));
             rows -= change;
@@ -300,16 +284,16 @@ impl PlatformSolver<'_> {
             a.add(0, tool + k, &by_target.column(k));
         }
         let root = self.stiffness.sqrt();
-        let (mut sizes, mut needed) = self.rigid_rows();
+        let (mut sizes, mut needed) = self.rigid_rows(at);
         let guided = match self.unknowns {
             Unknowns::Guided => self.guide.hands.ncols(),
             _ => 0,
         };
         let first = needed.len();
         if guided > 0 {
-            let pose = &self.state.platforms[m.tool];
+            let (pose, from) = (&self.state.platforms[m.tool], &at.platforms[m.tool]);
             let row = sizes.grow(m.tool - 1, guided);
-            let rows = self.guide.rows_at(&self.target, pose) * root;
+            let rows = self.guide.rows_at(&self.target, from) * root;
             sizes.matrix.add(row, tool, &rows);
             needed = needed.resize_vertically(first + guided, 0.0);
             needed
@@ -383,13 +367,14 @@ impl PlatformSolver<'_> {
     }
 
     /// Changes of wrench and coordinates of every limb that follow from a platform step.
-    pub fn limb_steps(
-        &self,
-        motions: &[Twist],
-        target: &Twist,
-        carried: &[Wrench],
-    ) -> Vec<DVector<f64>> {
+    pub fn limb_steps(&self, step: &PlatformStep, at: &MechanismState) -> Vec<DVector<f64>> {
         let m = self.mechanism;
+        let PlatformStep {
+            motions,
+            target,
+            carried,
+            ..
+        } = step;
         let motion = |platform: usize| {
             if platform == 0 {
                 Twist::zero()
@@ -403,7 +388,7 @@ impl PlatformSolver<'_> {
             .map(|(i, limb)| {
                 let solution = &self.linear[i].solution;
                 let rows = solution.nrows();
-                let t = shift_matrix(&self.arm(i));
+                let t = shift_matrix(&self.arm(i, at));
                 let end = t * motion(limb.to).0;
                 let mut step = solution.column(0) + solution.view((0, 1), (rows, 6)) * end;
                 let mut wrench = step.rows_mut(0, 6);

@@ -23,8 +23,8 @@ use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::settings::Settings;
 use crate::sparse::RigidRows;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
-use crate::stability::{ShapeStability, shape_stability};
-use crate::stiffness::{ChainStiffness, Direction, DirectionKind, chain_stiffness};
+use crate::stability::ShapeStability;
+use crate::stiffness::{ChainStiffness, Direction, DirectionKind};
 
 /// Compliances below this share of the largest, rotations at the natural length, are rounding.
 const NO_MOTION: f64 = 1e-12;
@@ -632,7 +632,7 @@ pub(crate) fn conclude(
     };
     let rigid = match m.platforms.len() {
         2 => RigidRows::none(1),
-        _ => solver.rigid_rows().0,
+        _ => solver.rigid_rows(&solver.state).0,
     };
     let found = condensed(&tangent, &rigid, tool - 1, scale);
     let stiffness = found.matrix;
@@ -643,12 +643,14 @@ pub(crate) fn conclude(
             value,
         });
     }
+    let verdicts: Vec<_> = (0..m.limbs.len()).map(|i| solver.verdicts(i)).collect();
     let limbs: Vec<LimbEquilibrium> = m
         .limbs
         .iter()
+        .zip(verdicts)
         .enumerate()
-        .map(|(i, limb)| {
-            let (system, factors) = solver.limb_system(i);
+        .map(|(i, (limb, (stiffness, stability)))| {
+            let system = solver.limb_system(i);
             let n = limb.actual.coordinate_count();
             let r = limb.actual.actuators().len();
             let joints = &solver.posture[i];
@@ -673,13 +675,8 @@ pub(crate) fn conclude(
                 spring_torques: system.spring_torque.clone(),
                 energy: system.energy,
                 actuator_forces: system.torque[n..n + r].to_vec(),
-                stiffness: chain_stiffness(
-                    &limb.actual,
-                    system,
-                    factors,
-                    Some(solver.unit_motions(i)),
-                ),
-                stability: shape_stability(&limb.actual, system, factors),
+                stiffness,
+                stability,
             })
         })
         .collect::<Result<_>>()?;

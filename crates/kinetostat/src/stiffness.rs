@@ -109,7 +109,7 @@ pub fn unloaded_stiffness(
         let Some(sweep) = &system.sweep else {
             return Ok(chain_stiffness(chain, &system, &factors, None));
         };
-        if let Some(stiffness) = swept_stiffness(chain, &system, sweep, &factors) {
+        if let Some(stiffness) = swept_stiffness(chain, &system, sweep, &factors, None) {
             return Ok(stiffness);
         }
         system.make_dense();
@@ -240,12 +240,14 @@ fn evenly_stiff_motions(
 /// Joints that move the end less than this share of their largest motion make it nearly rigid.
 const STRAIGHT: f64 = 1e-3;
 
-/// The same by sweeps along a long chain; `None` where they cannot.
+/// The same by sweeps along a long chain; `None` where they cannot. `solved` are wrench and
+/// coordinates per unit motion of the tip, (6 + n) x 6, where the caller has them already.
 pub(crate) fn swept_stiffness(
     chain: &Chain,
     system: &System,
     sweep: &Sweep,
     factors: &[f64],
+    solved: Option<&DMatrix<f64>>,
 ) -> Option<ChainStiffness> {
     let jacobian = balanced_jacobian(system, factors);
     let redundant = passive_null_space(chain, &jacobian);
@@ -256,10 +258,15 @@ pub(crate) fn swept_stiffness(
         return None;
     }
     let range = column_space(&jacobian);
-    let balanced = crate::sweep_solve::unit_motions(sweep, &range)?;
-    let answer = DMatrix::from_fn(factors.len(), 6, |i, j| {
-        balanced[(i, j)] * factors[i] * factors[j]
-    });
+    let answer = match solved {
+        Some(solved) => solved.clone(),
+        None => {
+            let balanced = crate::sweep_solve::unit_motions(sweep, &range)?;
+            DMatrix::from_fn(factors.len(), 6, |i, j| {
+                balanced[(i, j)] * factors[i] * factors[j]
+            })
+        }
+    };
     let list = directions(chain.scale(), &balanced_stiffness(factors, &answer), &range);
     Some(described(chain, &jacobian, &redundant, &answer, list))
 }

@@ -355,9 +355,10 @@ impl Sweep {
     }
 
     /// Stiffness of the chain as it lies with its passive joints locked and its springs at rest: the
-    /// natural size of a spring at its end. Directions that hardly or never yield are capped.
+    /// natural size of a spring at its end. Directions that hardly or never yield are capped: they
+    /// count as yielding by the share `least` of the most.
     /// `None` where a number is not finite.
-    pub fn end_spring(&self) -> Option<Matrix6<f64>> {
+    pub fn end_spring(&self, least: f64) -> Option<Matrix6<f64>> {
         let mut compliance = Matrix6::zeros();
         for stage in &self.stages {
             if stage.len == 1 {
@@ -375,7 +376,7 @@ impl Sweep {
         let eigen = (0.5 * (compliance + compliance.transpose())).symmetric_eigen();
         let most = eigen.eigenvalues.amax().max(f64::MIN_POSITIVE);
         let v = &eigen.eigenvectors;
-        let stiff = eigen.eigenvalues.map(|x| 1.0 / x.max(1e-7 * most));
+        let stiff = eigen.eigenvalues.map(|x| 1.0 / x.max(least * most));
         Some(v * Matrix6::from_diagonal(&stiff) * v.transpose())
     }
 

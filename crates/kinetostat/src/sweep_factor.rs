@@ -19,6 +19,7 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::saddle::{Inertia, RANK_TOLERANCE};
 use crate::sweep::{Form, Sweep, column};
+use crate::sweep_solve::EndSpring;
 
 /// A chain, its end on a spring, with all coordinates eliminated.
 pub(crate) struct Factored {
@@ -112,9 +113,8 @@ fn signs(matrix: &Matrix6<f64>, len: usize) -> (usize, usize) {
 
 impl Factored {
     /// `None` where a pivot is lost in rounding: redundant passive joints, or bad luck.
-    /// The spring at the end is `share` times the chain's own stiffness.
-    pub fn new(sweep: &Sweep, form: Form, share: f64) -> Option<Self> {
-        let mut spring = sweep.end_spring()? * share;
+    pub fn new(sweep: &Sweep, form: Form, end: EndSpring) -> Option<Self> {
+        let mut spring = sweep.end_spring(end.least)? * end.share;
         if let Form::Pencil(mu) = form {
             spring *= mu.abs().max(1e-12);
         }
@@ -124,7 +124,7 @@ impl Factored {
         let least = if symmetric {
             1e-3 * RANK_TOLERANCE
         } else {
-            10.0 * RANK_TOLERANCE
+            end.pivot
         };
         let n = sweep.count();
         let blocks = sweep.stages.last().map_or(0, |s| s.block + s.len * s.len);

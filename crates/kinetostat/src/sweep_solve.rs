@@ -1,16 +1,68 @@
 //! The bordered system of a long chain, solved by sweeps: steps of Newton's method, the tangent at
 //! the end, and what holds the shape.
 
+use std::ops::Deref;
+
 use nalgebra::{DMatrix, Dyn, LU, Matrix6, Vector6};
 
 use crate::saddle::{Inertia, RANK_TOLERANCE, Saddle, complement};
 use crate::sweep::{Form, Sweep, column};
 use crate::sweep_factor::Factored;
 
-/// Springs at the end that are tried one after the other, as shares of the chain's own stiffness.
-pub(crate) const END_SPRINGS: [f64; 3] = [1.0, 0.17, 5.3];
+/// A spring at the end of a chain while its coordinates are eliminated, and what may be lost.
+#[derive(Clone, Copy)]
+pub(crate) struct EndSpring {
+    /// Its share of the chain's own stiffness.
+    pub share: f64,
+    /// The share of the largest compliance that the smallest one counts as.
+    pub least: f64,
+    /// Pivots below this share of what they come from are lost (of forms that are not symmetric).
+    pub pivot: f64,
+    /// A residual larger than this share of what is balanced shows that a pivot was too small.
+    pub lost: f64,
+}
 
-/// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced.
+impl EndSpring {
+    /// A share of the chain's own stiffness in all directions that yield.
+    const fn as_stiff(share: f64) -> Self {
+        Self {
+            share,
+            least: 1e-7,
+            pivot: 10.0 * RANK_TOLERANCE,
+            lost: 1e-8,
+        }
+    }
+
+    /// Soft along what hardly yields: where that is worlds stiffer than all the rest, the rest would
+    /// drown in it. Good enough for a step of Newton's method, whose residual is checked.
+    const fn soft(share: f64, least: f64) -> Self {
+        Self {
+            share,
+            least,
+            pivot: 1e-3 * RANK_TOLERANCE,
+            lost: 1e-5,
+        }
+    }
+}
+
+/// Springs at the end that are tried one after the other.
+pub(crate) const END_SPRINGS: [EndSpring; 3] = [
+    EndSpring::as_stiff(1.0),
+    EndSpring::as_stiff(0.17),
+    EndSpring::as_stiff(5.3),
+];
+
+/// The same for a step of Newton's method, whatever the ratio of the stiffnesses.
+pub(crate) const STEP_SPRINGS: [EndSpring; 5] = [
+    END_SPRINGS[0],
+    END_SPRINGS[1],
+    END_SPRINGS[2],
+    EndSpring::soft(1.0, 1e-2),
+    EndSpring::soft(0.03, 1e-3),
+];
+
+/// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced;
+/// every row with an entry of the size one.
 #[derive(Clone, Copy)]
 pub(crate) struct EndRows {
     pub motion: Matrix6<f64>,
@@ -18,6 +70,14 @@ pub(crate) struct EndRows {
 }
 
 impl EndRows {
+    /// Rows with a wrench are stated in its unit, `1 / size`.
+    fn unit(&self, k: usize, size: f64) -> f64 {
+        match self.wrench.row(k).amax() > 0.0 {
+            true => size,
+            false => 1.0,
+        }
+    }
+
     /// The motions in `range` (orthonormal columns) are given, nothing reacts in the others.
     pub fn held(range: &DMatrix<f64>) -> Self {
         let r = range.ncols();
@@ -36,12 +96,10 @@ impl EndRows {
     }
 }
 
-/// A residual larger than this share of what is balanced shows that a pivot was too small.
-const LOST: f64 = 1e-8;
-
-/// `[0 J; J^T M]` with the rows of an end condition, ready for right-hand sides.
-pub(crate) struct Bordered<'s> {
-    sweep: &'s Sweep,
+/// `[0 J; J^T M]` with the rows of an end condition, ready for right-hand sides. Holds its stages or
+/// borrows them.
+pub(crate) struct Bordered<S> {
+    sweep: S,
     pub factored: Factored,
     form: Form,
     rows: EndRows,
@@ -49,12 +107,14 @@ pub(crate) struct Bordered<'s> {
     end: Saddle,
     /// Largest entry of `E`.
     size: f64,
+    /// See [`EndSpring::lost`].
+    lost: f64,
 }
 
-impl<'s> Bordered<'s> {
+impl<S: Deref<Target = Sweep>> Bordered<S> {
     /// `None` where a pivot is lost in rounding.
-    pub fn new(sweep: &'s Sweep, form: Form, rows: EndRows, share: f64) -> Option<Self> {
-        let factored = Factored::new(sweep, form, share)?;
+    pub fn new(sweep: S, form: Form, rows: EndRows, spring: EndSpring) -> Option<Self> {
+        let factored = Factored::new(&sweep, form, spring)?;
         let size = factored.end.amax().max(f64::MIN_POSITIVE);
         let mut a = DMatrix::zeros(12, 12);
         a.view_mut((0, 0), (6, 6))
@@ -62,7 +122,10 @@ impl<'s> Bordered<'s> {
         a.view_mut((0, 6), (6, 6))
             .copy_from(&(Matrix6::identity() - factored.end * factored.spring));
         a.view_mut((6, 0), (6, 6)).copy_from(&rows.wrench);
-        a.view_mut((6, 6), (6, 6)).copy_from(&rows.motion);
+        for k in 0..6 {
+            let motion = rows.motion.row(k) * rows.unit(k, size);
+            a.view_mut((6 + k, 6), (1, 6)).copy_from(&motion);
+        }
         let end = Saddle::new(a, &[1.0; 12], &[1.0; 12]);
         Some(Self {
             sweep,
@@ -71,6 +134,7 @@ impl<'s> Bordered<'s> {
             rows,
             end,
             size,
+            lost: spring.lost,
         })
     }
 
@@ -80,18 +144,12 @@ impl<'s> Bordered<'s> {
         let start = if torque.iter().all(|v| *v == 0.0) {
             Vector6::zeros()
         } else {
-            self.factored.solve(self.sweep, &mut x)
+            self.factored.solve(&self.sweep, &mut x)
         };
         let mut b = DMatrix::zeros(12, 1);
         for k in 0..6 {
             b[(k, 0)] = start[k];
-            // Rows are either of motion or of wrench, whose unit is `1 / size`.
-            let unit = if self.rows.wrench.row(k).amax() > 0.0 {
-                self.size
-            } else {
-                1.0
-            };
-            b[(6 + k, 0)] = right[k] * unit;
+            b[(6 + k, 0)] = right[k] * self.rows.unit(k, self.size);
         }
         self.end.solve(&mut b);
         let wrench = Vector6::from_fn(|i, _| b[(i, 0)] / self.size);
@@ -126,7 +184,7 @@ impl<'s> Bordered<'s> {
                 break;
             }
             if attempt == 2 {
-                if worst > LOST * size {
+                if worst > self.lost * size {
                     return None;
                 }
                 break;
@@ -150,12 +208,20 @@ impl<'s> Bordered<'s> {
 pub(crate) fn unit_motions(sweep: &Sweep, range: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     END_SPRINGS
         .into_iter()
-        .find_map(|share| unit_motions_by(sweep, range, share))
+        .find_map(|spring| unit_motions_by(sweep, range, spring))
 }
 
-fn unit_motions_by(sweep: &Sweep, range: &DMatrix<f64>, share: f64) -> Option<DMatrix<f64>> {
-    let n = sweep.count();
-    let bordered = Bordered::new(sweep, Form::Exact, EndRows::held(range), share)?;
+fn unit_motions_by(sweep: &Sweep, range: &DMatrix<f64>, spring: EndSpring) -> Option<DMatrix<f64>> {
+    let bordered = Bordered::new(sweep, Form::Exact, EndRows::held(range), spring)?;
+    unit_motions_of(&bordered, range)
+}
+
+/// The same by a system whose end is held in `range`.
+pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
+    bordered: &Bordered<S>,
+    range: &DMatrix<f64>,
+) -> Option<DMatrix<f64>> {
+    let n = bordered.sweep.count();
     let mut answer = DMatrix::zeros(6 + n, 6);
     let torque = vec![0.0; n];
     for j in 0..6 {
@@ -194,7 +260,7 @@ impl<'s> Shifted<'s> {
     /// `None` where a pivot is lost in rounding.
     fn new(sweep: &'s Sweep, range: &'s DMatrix<f64>, form: Form) -> Option<Self> {
         let mut springs = END_SPRINGS.into_iter();
-        let factored = springs.find_map(|share| Factored::new(sweep, form, share))?;
+        let factored = springs.find_map(|spring| Factored::new(sweep, form, spring))?;
         if range.ncols() == 0 {
             return None;
         }

@@ -7,7 +7,7 @@ use crate::equilibrium::solve_along;
 use crate::stability::stability_within;
 use crate::stiffness::balanced_jacobian;
 use crate::sweep::{Form, Path};
-use crate::sweep_solve::{Bordered, EndRows};
+use crate::sweep_solve::{Bordered, END_SPRINGS, EndRows};
 use crate::system::{System, balance};
 use crate::*;
 
@@ -276,7 +276,7 @@ fn bordered_systems_are_solved_as_by_dense_matrices() {
             let mut b = DVector::from_fn(6 + n, |_, _| rng.next());
             let right = b.fixed_rows::<6>(0).into_owned();
             let torque = b.as_slice()[6..].to_vec();
-            let bordered = Bordered::new(sweep, form, rows, 1.0).expect("pivots");
+            let bordered = Bordered::new(sweep, form, rows, END_SPRINGS[0]).expect("pivots");
             let (wrench, x) = bordered.solve(&torque, &right).expect("solution");
             let lu = a.clone().full_piv_lu();
             assert!(lu.solve_mut(&mut b));

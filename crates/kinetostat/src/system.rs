@@ -71,7 +71,7 @@ impl System {
         factors: &[f64],
         path: Option<Path>,
     ) -> Self {
-        let long = chain.coordinate_count() >= SWEEP_FROM;
+        let long = chain.coordinate_count() >= SWEEP_FROM || disparate(factors, chain);
         let wanted = path.map_or(long, |path| path == Path::Sweep);
         let Some(sweep) = wanted
             .then(|| Sweep::new(chain, posture, factors))
@@ -253,6 +253,44 @@ impl System {
     pub fn unbalanced(&self, i: usize) -> f64 {
         self.torque[i] - self.spring_torque[i]
     }
+}
+
+/// Unbalanced torque (balanced) that the rounding of the coordinates leaves: where one spring is
+/// worlds stiffer than the others, its torque is no better known than this.
+pub(crate) fn rounding(chain: &Chain, factors: &[f64], x: &[f64]) -> f64 {
+    let length = chain.scale().length;
+    let (mut moved, mut stiffest) = (0.0_f64, 0.0_f64);
+    for ((c, factor), x) in chain.coordinates().iter().zip(&factors[6..]).zip(x) {
+        let unit = match c.kind {
+            MotionKind::Revolute => 1.0,
+            MotionKind::Prismatic => length,
+        };
+        moved = moved.max((x / unit).abs());
+        if c.role == Role::Spring {
+            stiffest = stiffest.max(unit / factor);
+        }
+    }
+    8.0 * f64::EPSILON * stiffest * moved.min(1.0)
+}
+
+/// From this ratio of the stiffest to the softest spring on, pivots of dense matrices are lost among
+/// the numbers that they come from; a sweep takes spring by spring.
+const DISPARATE: f64 = 1e7;
+
+/// Whether the springs' stiffnesses (rotations at the natural length) are worlds apart.
+fn disparate(factors: &[f64], chain: &Chain) -> bool {
+    let length = chain.scale().length;
+    let own = chain.coordinates().iter().zip(&factors[6..]);
+    let stiffnesses = own
+        .filter(|(c, _)| c.role == Role::Spring)
+        .map(|(c, factor)| match c.kind {
+            MotionKind::Prismatic => factor.powi(-2),
+            MotionKind::Revolute => (factor * length).powi(-2),
+        });
+    let (least, most) = stiffnesses.fold((f64::INFINITY, 0.0_f64), |(least, most), k| {
+        (least.min(k), most.max(k))
+    });
+    most > DISPARATE * least
 }
 
 /// Factors that make all unknowns of a bordered system comparable: six for the wrench, `n` for

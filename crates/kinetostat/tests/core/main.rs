@@ -43,6 +43,7 @@ mod loads_on_platforms;
 mod loads_that_follow;
 mod long_chains;
 mod lost_motions;
+mod machines_reach_what_chains_reach;
 mod machines_that_snap;
 mod machines_with_rigid_directions;
 mod orthoglide_reference;

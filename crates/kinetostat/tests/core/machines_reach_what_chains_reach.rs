@@ -1,0 +1,90 @@
+//! Machines of slender links reach what chains reach: axial stiffnesses of any ratio to bending, end
+//! moments that roll a link up, forces far beyond small deflections, in as many steps.
+
+use std::f64::consts::TAU;
+
+use kinetostat::*;
+use nalgebra::{Vector3, vector};
+
+/// Of unit length and bending stiffness.
+fn rod(segments: usize, axial: f64) -> Chain {
+    let section = BeamSection {
+        youngs_modulus: 1.0,
+        shear_modulus: 1.0,
+        area: axial,
+        second_moment_y: 1.0,
+        second_moment_z: 1.0,
+        torsion_constant: 0.8,
+    };
+    let link = LinkSpec::beam(section, 1.0).segments(segments);
+    Chain::builder("rod")
+        .link_with("rod", &link)
+        .build()
+        .unwrap()
+}
+
+fn straight() -> Pose {
+    Pose::new(vector![1.0, 0.0, 0.0], Vector3::zeros())
+}
+
+/// Equilibria of chain and machine.
+fn both(chain: &Chain, wrench: Wrench) -> (Equilibrium, MechanismEquilibrium) {
+    let problem = ChainProblem::new(chain, EndCondition::wrench(wrench));
+    let alone = solve_chain(&problem, &Settings::default()).unwrap();
+    let machine = Mechanism::serial(chain.clone(), straight(), Vector3::zeros()).unwrap();
+    let posture = machine.posture(&straight()).unwrap();
+    (alone, posture.deflected_by(&wrench).unwrap())
+}
+
+#[test]
+fn slender_links_bend_alike_in_chains_and_machines() {
+    // Few segments of the stiffest rod turn too far each to be a rod any more.
+    let axial = [
+        (8, 1e3),
+        (8, 1e6),
+        (8, 1e9),
+        (32, 1e6),
+        (32, 1e9),
+        (32, 1e11),
+    ];
+    let loads = [
+        (0.0, 1.0),
+        (0.0, 3.0),
+        (0.0, TAU),
+        (1.0, 0.0),
+        (10.0, 0.0),
+        (100.0, 0.0),
+        (30.0, -4.0),
+    ];
+    for (segments, axial) in axial {
+        for (force, moment) in loads {
+            let case = format!("{segments} segments, EA {axial:e}, force {force}, moment {moment}");
+            let wrench = Wrench::new(vector![0.0, 0.2 * force, force], vector![0.0, moment, 0.0]);
+            let (alone, machine) = both(&rod(segments, axial), wrench);
+            let off = pose_residual(&alone.tip, &machine.tool).0.norm();
+            assert!(off <= 1e-9, "{case}: off by {off:e}");
+            let (a, b) = (alone.stability.margin.unwrap(), machine.margin().unwrap());
+            assert!((a - b).abs() <= 1e-6 * (1.0 + a.abs()), "{case}: {a}, {b}");
+            // Judged by motion, not by what lacks, which grows with the axial stiffness.
+            let (few, own) = (alone.residual.iterations, machine.residual.iterations);
+            assert!(own <= 2 * few + 4, "{case}: {few}, {own} iterations");
+        }
+    }
+}
+
+/// A moment bends a rod to an arc: its tip is known whatever the axial stiffness.
+#[test]
+fn a_moment_rolls_a_long_machine_up() {
+    for (segments, axial) in [(32, 1e6), (32, 1e11), (100, 1e6), (100, 1e11)] {
+        for turn in [1.0, 3.0, TAU] {
+            let wrench = Wrench::new(Vector3::zeros(), vector![0.0, turn, 0.0]);
+            let (_, machine) = both(&rod(segments, axial), wrench);
+            let tip = machine.tool.translation.vector;
+            let arc = vector![turn.sin() / turn, 0.0, (turn.cos() - 1.0) / turn];
+            // Segments turn by their own small angle in the middle.
+            let coarse = (turn / segments as f64).powi(2);
+            let off = (tip - arc).norm();
+            assert!(off <= coarse, "{segments}, {axial:e}, {turn}: {tip}, {arc}");
+        }
+    }
+}
