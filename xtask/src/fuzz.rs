@@ -1,4 +1,5 @@
-//! `cargo xtask fuzz`: random chains under random loads through every question, for a stated time.
+//! `cargo xtask fuzz`: random chains under random loads through every question, and random programs under
+//! ridged tables of corrections, for a stated time.
 
 use anyhow::{Context, Result, bail};
 
@@ -52,9 +53,31 @@ pub fn run(options: &[&str]) -> Result<()> {
         "fuzz_chains",
         "--",
     ]);
-    match case {
-        Some(case) => command.args(["case", case]),
-        None => command.args([minutes, seed]),
+    let Some(case) = case else {
+        // Programs are many more cases in a minute: a sixth of the time does.
+        let minutes: f64 = minutes.parse()?;
+        maps(&[&(minutes / 6.0).to_string(), seed])?;
+        command.args([&(minutes * 5.0 / 6.0).to_string(), seed]);
+        return step("fuzz", &mut command);
     };
+    command.args(["case", case]);
     step("fuzz", &mut command)
+}
+
+/// Programs under ridged tables, looked at in random places. One case is repeated with
+/// `cargo run --package kinetostat-program --example fuzz_maps -- case SEED`.
+fn maps(words: &[&str]) -> Result<()> {
+    let mut command = cargo();
+    command.args([
+        "run",
+        "--quiet",
+        "--release",
+        "--package",
+        "kinetostat-program",
+        "--example",
+        "fuzz_maps",
+        "--",
+    ]);
+    command.args(words);
+    step("fuzz of programs under tables", &mut command)
 }

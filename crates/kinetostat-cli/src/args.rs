@@ -8,7 +8,7 @@ use crate::assemble_args::AssembleArgs;
 use crate::curve_args::{CurveArgs, EquilibriaArgs};
 use crate::draw::DrawArgs;
 use crate::import_link_args::{DisplacementsArgs, MatrixArgs};
-use crate::job::{Axes, BlockDeleteWord, UnitsWord};
+use crate::job::{Axes, BlockDeleteWord, CornerWord, UnitsWord};
 use crate::map_args::MapArgs;
 
 pub(crate) const EXIT_CODES: &str = "\
@@ -106,7 +106,7 @@ pub(crate) struct CompensateArgs {
     pub(crate) out: Option<PathBuf>,
     /// Corrections from a table instead of a model: CSV with the columns
     /// x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm on a full grid
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "force", "moment", "load_axes", "milling", "below_z_mm", "tool_length_mm", "part_origin_mm", "part_orientation", "tool_orientation", "scale", "report", "points"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "force", "moment", "load_axes", "milling", "load_at_corners", "below_z_mm", "tool_length_mm", "part_origin_mm", "part_orientation", "tool_orientation", "scale", "report", "points"])]
     pub(crate) map: Option<PathBuf>,
     /// Write the program as it was read, byte for byte
     #[arg(long, conflicts_with_all = ["map", "json", "report", "points", "again"])]
@@ -123,6 +123,13 @@ pub(crate) struct CompensateArgs {
     /// Digits after the point in mm, one more in inches [default: 4]
     #[arg(long, value_name = "N", help_heading = "Tolerances", value_parser = small)]
     pub(crate) decimals: Option<u8>,
+    /// How many times the programmed feed may be written at most, to keep the speed along the part
+    /// where the tool's own path is longer [default: 1.2]
+    #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) max_feed_factor: Option<f64>,
+    /// Warn of steps that cut backwards by more than this, micrometres [default: 50]
+    #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
+    pub(crate) backward_step_um: Option<f64>,
     /// Warn if the written program asks for more blocks per second than this
     #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) max_blocks_per_second: Option<f64>,
@@ -409,6 +416,10 @@ pub(crate) struct ProgramArgs {
     /// Milling force instead, N: to the right of the feed, along it, along the part's z
     #[arg(long, num_args = 3, value_names = ["RADIAL", "TANGENTIAL", "AXIAL"], allow_negative_numbers = true, conflicts_with_all = ["force", "moment", "load_axes"], help_heading = "Load", value_parser = number)]
     pub(crate) milling: Option<Vec<f64>>,
+    /// Load on the steps that are written at sharp corners: it turns evenly while the tool steps, or it
+    /// follows the feed; the program is the same, the claim about it is not [default: turns]
+    #[arg(long, value_enum, value_name = "READING", help_heading = "Load")]
+    pub(crate) load_at_corners: Option<CornerWord>,
     /// The load acts only below this height of the program, mm
     #[arg(long, value_name = "Z", allow_negative_numbers = true, help_heading = "Load", value_parser = number)]
     pub(crate) below_z_mm: Option<f64>,
@@ -505,6 +516,7 @@ A job file:
   milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }
   # or force_n = [0, 0, -200], moment_n_m = [0, 0, 1], axes = "base"
   # below_z_mm = 0, gentle_corner_deg = 30, turning_length_mm = 2
+  # at_corners = "turns"           # or "follows_feed"
 
   [reading]
   # units = "mm", arc_tolerance_mm = 0.005, block_delete = "run"
@@ -516,6 +528,7 @@ A job file:
   path_um = 0.5
   chord_um = 0.4
   # decimals = 4, max_blocks_per_second = 500
+  # max_feed_factor = 1.2, backward_step_um = 50
 
   [output]                         # below the job's own directory
   program = "compensated.ngc"

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use kinetostat_machining::{RESULT_SCHEMA, Warning, of_program};
 use kinetostat_program::{
-    Accounting, CorrectionMap, Program, interpret, verify_written, write_corrected,
+    Accounting, CorrectionMap, Program, interpret, verify_against_field, verify_written,
+    write_corrected,
 };
 use serde::Serialize;
 
@@ -32,6 +33,8 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
         tolerance_um: args.tolerance_um,
         decimals: args.decimals,
         max_blocks_per_second: args.max_blocks_per_second,
+        max_feed_factor: args.max_feed_factor,
+        backward_step_um: args.backward_step_um,
         no_header: args.no_header,
         again: args.again,
         out: args.out.as_deref(),
@@ -125,6 +128,14 @@ struct MapResult<'a> {
     program: &'a str,
     map: String,
     accounting: &'a Accounting,
+    /// No correction could be written: the program came back byte for byte.
+    unchanged: bool,
+    /// Places of the written program at which the table was asked again.
+    places_checked: usize,
+    /// Largest distance there between where the program goes and where the table wants it.
+    max_position_error_after_mm: f64,
+    /// What that may be at most.
+    max_position_error_allowed_mm: f64,
     largest_distance_mm: f64,
     largest_speed_error_percent: f64,
     warnings: Vec<Warning>,
@@ -177,6 +188,8 @@ fn from_map(
     let written = write_corrected(&program, &path, &field, &writing, &progress).map_err(refuse)?;
     let check =
         verify_written(&program, &path, &written, &setting.reading, &writing).map_err(refuse)?;
+    let against =
+        verify_against_field(&path, &written, &field, &writing, &progress).map_err(refuse)?;
     progress.finish();
     let a = &written.accounting;
     let warnings = of_program(&path, Some(&a.warnings));
@@ -186,6 +199,10 @@ fn from_map(
         program: &setting.program_name,
         map: name,
         accounting: a,
+        unchanged: written.bytes == program.bytes(),
+        places_checked: against.places,
+        max_position_error_after_mm: against.largest_mm,
+        max_position_error_allowed_mm: against.allowed_mm,
         largest_distance_mm: check.largest_distance_mm,
         largest_speed_error_percent: 100.0 * check.largest_speed_error,
         warnings,
@@ -205,10 +222,29 @@ fn from_map(
         ),
         0,
     );
+    if result.unchanged {
+        text.push('\n');
+        text.push_str(&wrapped(
+            "Nothing was to be corrected: no correction along the program reaches the last digit written, and it comes back byte for byte.",
+            2,
+        ));
+    }
     text.push('\n');
+    let per_second = |rate: Option<f64>| rate.map_or("-".into(), |rate| number(rate, 3));
+    let seconds = |time: Option<f64>| time.map_or("-".into(), |time| fixed(time, 1));
     text.push_str(&columns(
         &[
             row("largest correction", mm(a.largest_correction_mm), "mm"),
+            row(
+                "farthest from where the table wants it",
+                fixed(result.max_position_error_after_mm, 5),
+                "mm",
+            ),
+            row(
+                "places checked",
+                result.places_checked.to_string(),
+                "number",
+            ),
             row("rounding", fixed(a.largest_rounding_mm, 5), "mm"),
             row(
                 "speed along the part, error",
@@ -219,9 +255,30 @@ fn from_map(
             row("blocks written", a.blocks_out.to_string(), "number"),
             row("blocks unchanged", a.blocks_carried.to_string(), "number"),
             row(
-                "most blocks per second",
-                a.peak_blocks_per_second
-                    .map_or("?".into(), |b| number(b, 3)),
+                "length at feed, before",
+                fixed(a.feed_length_in_mm, 1),
+                "mm",
+            ),
+            row(
+                "length at feed, after",
+                fixed(a.feed_length_out_mm, 1),
+                "mm",
+            ),
+            row("time at feed, before", seconds(a.feed_time_in_s), "s"),
+            row("time at feed, after", seconds(a.feed_time_out_s), "s"),
+            row(
+                "blocks per second, before",
+                per_second(a.mean_blocks_per_second_in),
+                "1/s",
+            ),
+            row(
+                "blocks per second, after",
+                per_second(a.mean_blocks_per_second),
+                "1/s",
+            ),
+            row(
+                "most of 16 in a row, after",
+                per_second(a.peak_blocks_per_second),
                 "1/s",
             ),
         ],

@@ -240,6 +240,7 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
         ("--tool-orientation", p.tool_orientation.is_some()),
         ("--below-z-mm", p.below_z_mm.is_some()),
         ("--load-axes", p.load_axes.is_some()),
+        ("--load-at-corners", p.load_at_corners.is_some()),
         ("--scale", p.scale.is_some()),
         ("--units", p.units.is_some()),
         ("--arc-tolerance", p.arc_tolerance.is_some()),

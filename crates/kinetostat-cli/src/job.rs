@@ -99,6 +99,18 @@ pub(crate) struct LoadTable {
     pub gentle_corner_deg: Option<Spanned<f64>>,
     /// Length over which the load turns there, mm.
     pub turning_length_mm: Option<Spanned<f64>>,
+    /// What it is on the steps written at sharp corners.
+    pub at_corners: Option<CornerWord>,
+}
+
+/// The load on the steps that are written at sharp corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CornerWord {
+    /// It turns evenly while the tool steps
+    Turns,
+    /// It is that of a cut along the step
+    FollowsFeed,
 }
 
 /// Axes of a constant load.
@@ -166,6 +178,8 @@ pub(crate) struct TolerancesTable {
     pub chord_um: Option<Spanned<f64>>,
     pub decimals: Option<Spanned<u8>>,
     pub max_blocks_per_second: Option<Spanned<f64>>,
+    pub max_feed_factor: Option<Spanned<f64>>,
+    pub backward_step_um: Option<Spanned<f64>>,
 }
 
 /// What is written.

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, Warning, WarningCode, straight_tool,
+    CornerLoad, CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, Warning, WarningCode,
+    straight_tool,
 };
 use kinetostat_model::Model;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -13,7 +14,7 @@ use serde_spanned::Spanned;
 use crate::args::ProgramArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::job::{Axes, LoadTable};
+use crate::job::{Axes, CornerWord, LoadTable};
 use crate::orientation;
 use crate::screen::{fixed, triple};
 use crate::setting::{JobFile, above_zero, chosen, finite, vector};
@@ -346,6 +347,10 @@ fn load(
         CuttingLoad::None
     };
     let mut load = ProgramLoad::new(cutting);
+    load.at_corners = match flags.load_at_corners.or(table.at_corners) {
+        Some(CornerWord::FollowsFeed) => CornerLoad::FollowsFeed,
+        Some(CornerWord::Turns) | None => CornerLoad::Turns,
+    };
     load.below_z_mm = flags.below_z_mm.or(table.below_z_mm);
     if let Some(z) = load.below_z_mm {
         finite("the height below which the load acts", &[z])?;

@@ -77,6 +77,8 @@ pub(crate) struct WritingFlags<'a> {
     pub(crate) tolerance_um: Option<f64>,
     pub(crate) decimals: Option<u8>,
     pub(crate) max_blocks_per_second: Option<f64>,
+    pub(crate) max_feed_factor: Option<f64>,
+    pub(crate) backward_step_um: Option<f64>,
     pub(crate) no_header: bool,
     pub(crate) again: bool,
     pub(crate) out: Option<&'a Path>,
@@ -130,6 +132,25 @@ pub(crate) fn setting(
         micrometres,
     )? {
         write.chord_tolerance_mm = mm;
+    }
+    if let Some(factor) = chosen(
+        job,
+        ("--max-feed-factor", writing.max_feed_factor),
+        tolerances.max_feed_factor.as_ref(),
+        |factor| match (1.0..=1000.0).contains(&factor) {
+            true => Ok(factor),
+            false => Err("1 (never above the programmed feed) to 1000 are allowed"),
+        },
+    )? {
+        write.max_feed_factor = factor;
+    }
+    if let Some(mm) = chosen(
+        job,
+        ("--backward-step-um", writing.backward_step_um),
+        tolerances.backward_step_um.as_ref(),
+        micrometres,
+    )? {
+        write.backward_step_mm = mm;
     }
     write.decimals = chosen(
         job,

@@ -27,7 +27,12 @@ pub(crate) fn of_run(result: &RunResult) -> String {
 pub(crate) fn verdict(result: &RunResult) -> String {
     let s = &result.summary;
     let before = s.max_position_error_before_mm;
-    let mut text = if result.question.compensated {
+    let mut text = if let Some(unchanged) = result.unchanged_in_words() {
+        format!(
+            "{unchanged} The tool is up to {} mm off its path.",
+            fixed(s.max_position_error_after_mm, 5)
+        )
+    } else if result.question.compensated {
         let after = s.max_position_error_after_mm;
         let better = if after > 0.0 && before > 2.0 * after {
             format!(
@@ -48,6 +53,10 @@ pub(crate) fn verdict(result: &RunResult) -> String {
             mm(before)
         )
     };
+    if let Some(corners) = result.corners_in_words() {
+        text.push(' ');
+        text.push_str(&corners);
+    }
     if !s.stable {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }
@@ -98,6 +107,33 @@ fn figures(result: &RunResult) -> String {
             &fixed(s.max_speed_deviation_percent, 3),
             "%",
         ]);
+        if s.feed_limited_pieces > 0 {
+            row(&[
+                "pieces slower, feed limited",
+                "",
+                &s.feed_limited_pieces.to_string(),
+                "",
+            ]);
+        }
+        if s.corner_steps > 0 {
+            row(&["corner steps", "", &s.corner_steps.to_string(), ""]);
+            row(&["longest of them", "", &mm(s.largest_corner_step_mm), "mm"]);
+            row(&[
+                "longest way backwards",
+                "",
+                &mm(s.largest_backward_step_mm),
+                "mm",
+            ]);
+        }
+        row(&[
+            "length at feed",
+            &fixed(s.feed_length_before_mm, 1),
+            &fixed(s.feed_length_after_mm, 1),
+            "mm",
+        ]);
+        if let (Some(before), Some(after)) = (s.feed_time_before_s, s.feed_time_after_s) {
+            row(&["time at feed", &fixed(before, 1), &fixed(after, 1), "s"]);
+        }
         row(&[
             "blocks",
             &s.blocks.to_string(),
@@ -116,10 +152,17 @@ fn figures(result: &RunResult) -> String {
             &fixed(s.smallest_piece_mm, 3),
             "mm",
         ]);
+        let per_second = |rate: Option<f64>| rate.map_or("-".to_owned(), |rate| number(rate, 3));
         row(&[
-            "most blocks per second",
-            "",
-            &number(s.blocks_per_second, 3),
+            "blocks per second",
+            &per_second(s.mean_blocks_per_second_before),
+            &per_second(s.mean_blocks_per_second_after),
+            "1/s",
+        ]);
+        row(&[
+            "most of 16 in a row",
+            &per_second(s.peak_blocks_per_second_before),
+            &per_second(s.peak_blocks_per_second_after),
             "1/s",
         ]);
     } else {

@@ -1,10 +1,11 @@
 //! The model as a field of corrections for the program writer.
 
 use kinetostat::{Error, Mechanism, Pose, Wrench};
-use kinetostat_program::{CorrectionField, FieldFailure, Request};
+use kinetostat_program::{CorrectionField, Course, FieldFailure, Move, Request, Structure};
 use nalgebra::Vector3;
 
 use crate::load::LoadAlongPath;
+use crate::near::natural_length;
 use crate::placement::Placement;
 use crate::solve::in_chunks;
 use crate::together::Together;
@@ -18,9 +19,31 @@ pub struct ModelField<'a> {
     pub placement: Placement,
     /// Load along the path.
     pub load: &'a LoadAlongPath<'a>,
+    /// How far the correction can be continued to every side, program mm.
+    radius_mm: f64,
 }
 
-impl ModelField<'_> {
+/// Share of the machine's natural length within which its deflection under a load that does not change
+/// is taken for a power series of the tool's place: geometry and stiffness vary over lengths like the
+/// natural one.
+const SMOOTH: f64 = 0.25;
+
+impl<'a> ModelField<'a> {
+    /// The field of a machine with its tool, for a program that lies somewhere, under a load.
+    #[must_use]
+    pub fn new(
+        mechanism: &'a Mechanism,
+        placement: Placement,
+        load: &'a LoadAlongPath<'a>,
+    ) -> Self {
+        Self {
+            mechanism,
+            placement,
+            load,
+            radius_mm: SMOOTH * 1e3 * natural_length(mechanism) / placement.scale,
+        }
+    }
+
     fn wrench(&self, request: &Request) -> Wrench {
         match request.turning {
             None => self
@@ -39,6 +62,15 @@ impl ModelField<'_> {
 impl CorrectionField for ModelField<'_> {
     fn turns(&self) -> bool {
         true
+    }
+
+    fn structure(&self, move_index: usize, _motion: &Move) -> Structure {
+        Structure {
+            breaks: self.load.breaks(move_index),
+            course: Course::Smooth {
+                radius_mm: self.radius_mm,
+            },
+        }
     }
 
     fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {

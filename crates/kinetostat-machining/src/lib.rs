@@ -4,6 +4,8 @@
 //! cuts where it should and proves it by solving the written program again. [`map()`] tells stiffness
 //! and deflection on a grid of places.
 
+mod claims;
+mod corners;
 mod field;
 mod load;
 mod map;
@@ -18,7 +20,7 @@ mod tool;
 mod warning;
 
 pub use field::ModelField;
-pub use load::{CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
+pub use load::{CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
 pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;

@@ -8,10 +8,11 @@
 //! ```
 //!
 //! so that on a counter-clockwise circle `e_r` points outwards. At a gentle corner the load turns
-//! over the last and first millimetres of the two moves; at a sharp one it turns at once.
+//! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
+//! while the written program steps there is a matter of reading ([`CornerLoad`]).
 
 use kinetostat::{Pose, Wrench};
-use kinetostat_program::{MoveKind, Path};
+use kinetostat_program::{Curve, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +55,22 @@ pub enum CuttingLoad {
     },
 }
 
+/// What the load is while the written program steps at a sharp corner, or where a cut begins.
+///
+/// A step is written so that the tool stays at its place on the part while the load turns. That holds
+/// only if the load turns as evenly as the step is made. The bytes written are the same for both readings:
+/// no program can correct a load that turns at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CornerLoad {
+    /// It turns evenly from the one before to the one after while the tool steps.
+    #[default]
+    Turns,
+    /// It follows the feed: on a step it is that of a cut along the step. A load that does not turn with
+    /// the feed is already that after the step.
+    FollowsFeed,
+}
+
 /// The load of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProgramLoad {
@@ -65,6 +82,9 @@ pub struct ProgramLoad {
     pub gentle_corner: f64,
     /// Length over which the load turns before and after a gentle corner, mm. Default 2.
     pub turning_length_mm: f64,
+    /// What it is on the steps written at sharp corners. Default [`CornerLoad::Turns`].
+    #[serde(default)]
+    pub at_corners: CornerLoad,
 }
 
 impl ProgramLoad {
@@ -76,6 +96,7 @@ impl ProgramLoad {
             below_z_mm: None,
             gentle_corner: 30_f64.to_radians(),
             turning_length_mm: 2.0,
+            at_corners: CornerLoad::Turns,
         }
     }
 
@@ -210,6 +231,66 @@ impl<'a> LoadAlongPath<'a> {
     /// Wrench on the tool's tip (base axes, N, N m) at a share of a move.
     #[must_use]
     pub fn wrench(&self, placement: &Placement, move_index: usize, share: f64) -> Wrench {
+        let heading = match self.load_of(move_index).turns() {
+            true => self.heading_at(move_index, share),
+            false => None,
+        };
+        self.wrench_headed(placement, move_index, share, heading)
+    }
+
+    /// Wrench on the tool's tip at a share of a move, as [`Self::wrench`], of a cut in another direction
+    /// (program axes).
+    #[must_use]
+    pub fn wrench_towards(
+        &self,
+        placement: &Placement,
+        move_index: usize,
+        share: f64,
+        direction: &Vector3<f64>,
+    ) -> Wrench {
+        let along = heading(direction.try_normalize(1e-9));
+        self.wrench_headed(placement, move_index, share, along)
+    }
+
+    /// What is assumed on steps at corners.
+    #[must_use]
+    pub fn at_corners(&self) -> CornerLoad {
+        self.load.at_corners
+    }
+
+    /// Shares of a move at which the load or its slope jumps: where turning at gentle corners begins and
+    /// ends, and where an arc passes the height of the load. (A straight move passes it once, between
+    /// ends with different loads; the writer finds that by halving.)
+    #[must_use]
+    pub fn breaks(&self, move_index: usize) -> Vec<f64> {
+        let motion = &self.path.moves[move_index];
+        let load = self.load_of(move_index);
+        let mut shares = Vec::new();
+        if let Some(z) = load.below_z_mm
+            && motion.curve != Curve::Line
+        {
+            shares.extend(motion.shares_at(2, &[z]));
+        }
+        let h = &self.headings[move_index];
+        let (length, zone) = (motion.length_mm(), load.turning_length_mm);
+        if length > 2.0 * zone {
+            if h.lag_start != 0.0 {
+                shares.push(zone / length);
+            }
+            if h.lag_end != 0.0 {
+                shares.push(1.0 - zone / length);
+            }
+        }
+        shares
+    }
+
+    fn wrench_headed(
+        &self,
+        placement: &Placement,
+        move_index: usize,
+        share: f64,
+        heading: Option<f64>,
+    ) -> Wrench {
         let load = self.load_of(move_index);
         let motion = &self.path.moves[move_index];
         let position = motion.point(share);
@@ -232,7 +313,7 @@ impl<'a> LoadAlongPath<'a> {
             CuttingLoad::Constant {
                 axes: LoadAxes::Feed,
                 wrench,
-            } => match self.heading_at(move_index, share) {
+            } => match heading {
                 Some(angle) => {
                     in_base(wrench.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle)))
                 }
@@ -248,7 +329,7 @@ impl<'a> LoadAlongPath<'a> {
                 axial,
             } => {
                 let mut force = Vector3::new(0.0, 0.0, axial);
-                if let Some(angle) = self.heading_at(move_index, share) {
+                if let Some(angle) = heading {
                     let (s, c) = angle.sin_cos();
                     force +=
                         Vector3::new(s, -c, 0.0) * radial + Vector3::new(c, s, 0.0) * tangential;

@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::load::CornerLoad;
 use crate::near::NearSingular;
 use crate::warning::Warning;
 
@@ -83,6 +84,9 @@ pub struct Question {
     pub box_max_mm: [f64; 3],
     /// True if a compensated program was written.
     pub compensated: bool,
+    /// What the load is taken to be while the written program steps at sharp corners.
+    #[serde(default)]
+    pub load_at_corners: CornerLoad,
 }
 
 /// One actuator of the per-actuator lists.
@@ -119,6 +123,67 @@ pub struct Summary {
     pub corner_steps: usize,
     /// Longest of them, mm.
     pub largest_corner_step_mm: f64,
+    /// Nothing was to be corrected: the program came back byte for byte.
+    #[serde(default)]
+    pub unchanged: bool,
+    /// Share of the points that lie on corner steps, percent.
+    #[serde(default)]
+    pub corner_points_percent: f64,
+    /// Largest error on corner steps if the load turns evenly while the tool steps, mm; none without
+    /// such steps.
+    #[serde(default)]
+    pub max_corner_error_if_load_turns_mm: Option<f64>,
+    /// The same if the load there is that of a cut along the step; none also where the machine has no
+    /// equilibrium under it.
+    #[serde(default)]
+    pub max_corner_error_if_load_follows_feed_mm: Option<f64>,
+    /// Largest way of a step or piece against the direction of motion, mm.
+    #[serde(default)]
+    pub largest_backward_step_mm: f64,
+    /// Steps and pieces that go so by more than `backward_step_limit_mm`.
+    #[serde(default)]
+    pub backward_steps: usize,
+    /// From which length on they are warned of, mm.
+    #[serde(default)]
+    pub backward_step_limit_mm: f64,
+    /// How many times the programmed feed was allowed at most along the tool's own path.
+    #[serde(default)]
+    pub max_feed_factor: f64,
+    /// Pieces whose feed was held to that: they are slower along the part than programmed, and not
+    /// part of `max_speed_deviation_percent`.
+    #[serde(default)]
+    pub feed_limited_pieces: usize,
+    /// Line of the program with the first of them.
+    #[serde(default)]
+    pub feed_limited_line: Option<usize>,
+    /// Slowest speed along the part on them, percent of the programmed one.
+    #[serde(default)]
+    pub slowest_limited_speed_percent: Option<f64>,
+    /// Length of the program's feed moves from known places, mm.
+    #[serde(default)]
+    pub feed_length_before_mm: f64,
+    /// Length of what is written for them, steps included, mm.
+    #[serde(default)]
+    pub feed_length_after_mm: f64,
+    /// Time of the feed moves at the programmed feeds, without acceleration, s; none without feeds
+    /// per minute.
+    #[serde(default)]
+    pub feed_time_before_s: Option<f64>,
+    /// Time of what is written for them at the feeds written, s.
+    #[serde(default)]
+    pub feed_time_after_s: Option<f64>,
+    /// Feed blocks per second on average.
+    #[serde(default)]
+    pub mean_blocks_per_second_before: Option<f64>,
+    /// See `mean_blocks_per_second_before`.
+    #[serde(default)]
+    pub mean_blocks_per_second_after: Option<f64>,
+    /// Feed blocks per second over the densest sixteen in a row.
+    #[serde(default)]
+    pub peak_blocks_per_second_before: Option<f64>,
+    /// See `peak_blocks_per_second_before`.
+    #[serde(default)]
+    pub peak_blocks_per_second_after: Option<f64>,
     /// Shortest piece written, mm.
     pub smallest_piece_mm: f64,
     /// Most blocks per second at programmed feed.

@@ -9,8 +9,9 @@ use kinetostat_program::{
 };
 use nalgebra::Vector3;
 
+use crate::corners::by_the_other_reading;
 use crate::field::{ModelField, in_words};
-use crate::load::{LoadAlongPath, ProgramLoad};
+use crate::load::{CornerLoad, LoadAlongPath, ProgramLoad};
 use crate::near::{natural_length, near_singular};
 use crate::placement::Placement;
 use crate::result::{
@@ -160,7 +161,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let arc_tolerance_mm = 20.0 * task.writing.chord_tolerance_mm;
     let sites = || of_path(task.path, &load, &task.placement, arc_tolerance_mm);
     let (points, _) = solve(task, sites, false, watch)?;
-    Ok(conclude(task, &load, points, None, 0.0))
+    Ok(conclude(task, &load, points, None, &Checked::default()))
 }
 
 /// The compensated program, with deflections solved again from its bytes.
@@ -169,11 +170,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 /// [`RunError`] naming the line; nothing is to be written then.
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
-    let field = ModelField {
-        mechanism: task.mechanism,
-        placement: task.placement,
-        load: &load,
-    };
+    let field = ModelField::new(task.mechanism, task.placement, &load);
     watch.stage("corrections", 0);
     let written = write_corrected(
         task.program,
@@ -190,7 +187,8 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         &task.reading,
         &task.writing,
     )?;
-    let sites = || of_written(task.path, &written, &load, &task.placement);
+    let spacing_mm = SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale;
+    let sites = || of_written(task.path, &written, &load, &task.placement, spacing_mm);
     let (points, worse) = solve(task, sites, true, watch)?;
     if let Some(point) = points.iter().find(|p| !p.stable) {
         return Err(RunError::Unstable {
@@ -201,8 +199,23 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     if let Some(worse) = worse {
         return Err(worse);
     }
-    let speed = 100.0 * check.largest_speed_error;
-    Ok(conclude(task, &load, points, Some(written), speed))
+    let checked = Checked {
+        speed_percent: 100.0 * check.largest_speed_error,
+        other_reading_mm: by_the_other_reading(task, sites(), watch)?,
+    };
+    Ok(conclude(task, &load, points, Some(written), &checked))
+}
+
+/// Share of the natural length after which a long piece is looked at in one more place.
+const SPACING: f64 = 1.0 / 16.0;
+
+/// What was checked of a written program besides its points.
+#[derive(Clone, Copy, Debug, Default)]
+struct Checked {
+    /// Largest error of the speed along the part where the feed was not limited, percent.
+    speed_percent: f64,
+    /// Largest error on corner steps by the reading of the load that was not chosen, mm.
+    other_reading_mm: Option<f64>,
 }
 
 /// Everything that bends the machine along a program, in words: cutting load and own weight.
@@ -476,7 +489,7 @@ fn conclude(
     load: &LoadAlongPath<'_>,
     points: Vec<PointResult>,
     written: Option<Corrected>,
-    speed_percent: f64,
+    checked: &Checked,
 ) -> Run {
     let mut question = task.question.clone();
     let mechanism = task.mechanism;
@@ -485,6 +498,7 @@ fn conclude(
     question.chord_tolerance_mm = task.writing.chord_tolerance_mm;
     question.decimals = task.writing.decimals.unwrap_or(4);
     question.compensated = written.is_some();
+    question.load_at_corners = task.load.at_corners;
     question.actuators = mechanism
         .actuator_names()
         .into_iter()
@@ -511,7 +525,7 @@ fn conclude(
         (question.box_min_mm, question.box_max_mm) = ([0.0; 3], [0.0; 3]);
     }
 
-    let summary = summarise(task, &points, written.as_ref(), speed_percent);
+    let summary = summarise(task, &points, written.as_ref(), checked);
     let mut warnings = of_program(
         task.path,
         written.as_ref().map(|w| w.accounting.warnings.as_slice()),
@@ -588,7 +602,8 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
         writing
             .unwrap_or_default()
             .iter()
-            .filter(|warning| !path.warnings.contains(warning))
+            // The writer hands on what the reader said.
+            .filter(|w| !path.warnings.contains(w))
             .map(made(WarningCode::Writing)),
     );
     warnings.dedup();
@@ -636,7 +651,7 @@ fn summarise(
     task: &Task<'_>,
     points: &[PointResult],
     written: Option<&Corrected>,
-    speed_percent: f64,
+    checked: &Checked,
 ) -> Summary {
     let most = |f: &dyn Fn(&PointResult) -> f64| points.iter().map(f).fold(0.0, f64::max);
     let rms = |f: &dyn Fn(&PointResult) -> f64| {
@@ -667,7 +682,7 @@ fn summarise(
         rms_position_error_after_mm: rms(&after),
         max_correction_mm: most(&|p| size(&p.correction_mm)),
         max_residual_rotation_deg: most(&|p| p.residual_rotation_deg),
-        max_speed_deviation_percent: speed_percent,
+        max_speed_deviation_percent: checked.speed_percent,
         smallest_stiffness_n_per_mm: points
             .iter()
             .map(|p| p.smallest_stiffness_n_per_mm)
@@ -683,6 +698,7 @@ fn summarise(
         ..Summary::default()
     };
     if let Some(written) = written {
+        of_what_was_written(&mut summary, task, points, written, checked);
         let a = &written.accounting;
         summary.blocks_out = a.blocks_out;
         summary.blocks_split = a.blocks_split;
@@ -696,6 +712,44 @@ fn summarise(
         summary.max_rounding_error_mm = a.largest_rounding_mm;
     }
     summary
+}
+
+/// Corner steps, feeds, length and time of a written program.
+fn of_what_was_written(
+    summary: &mut Summary,
+    task: &Task<'_>,
+    points: &[PointResult],
+    written: &Corrected,
+    checked: &Checked,
+) {
+    let a = &written.accounting;
+    let corners = || points.iter().filter(|p| p.kind == PointKind::Corner);
+    let chosen = corners()
+        .map(|p| size(&p.error_after_mm))
+        .max_by(f64::total_cmp);
+    let (turns, follows) = match task.load.at_corners {
+        CornerLoad::Turns => (chosen, checked.other_reading_mm),
+        CornerLoad::FollowsFeed => (checked.other_reading_mm, chosen),
+    };
+    summary.unchanged = written.bytes == task.program.bytes();
+    summary.corner_points_percent = 100.0 * corners().count() as f64 / points.len().max(1) as f64;
+    summary.max_corner_error_if_load_turns_mm = turns;
+    summary.max_corner_error_if_load_follows_feed_mm = follows;
+    summary.largest_backward_step_mm = a.largest_backward_mm;
+    summary.backward_steps = a.backward_steps;
+    summary.backward_step_limit_mm = task.writing.backward_step_mm;
+    summary.max_feed_factor = task.writing.max_feed_factor;
+    summary.feed_limited_pieces = a.feed_limited_pieces;
+    summary.feed_limited_line = a.feed_limited_line;
+    summary.slowest_limited_speed_percent = a.slowest_limited_speed.map(|share| 100.0 * share);
+    summary.feed_length_before_mm = a.feed_length_in_mm;
+    summary.feed_length_after_mm = a.feed_length_out_mm;
+    summary.feed_time_before_s = a.feed_time_in_s;
+    summary.feed_time_after_s = a.feed_time_out_s;
+    summary.mean_blocks_per_second_before = a.mean_blocks_per_second_in;
+    summary.mean_blocks_per_second_after = a.mean_blocks_per_second;
+    summary.peak_blocks_per_second_before = a.peak_blocks_per_second_in;
+    summary.peak_blocks_per_second_after = a.peak_blocks_per_second;
 }
 
 /// Indices of the worst points before compensation, at most ten, not two from one line or from

@@ -1,10 +1,12 @@
 //! Where along a path, or along a written program, errors are looked at.
 
 use kinetostat::Wrench;
-use kinetostat_program::{Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece};
+use kinetostat_program::{
+    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, Turn, irregular,
+};
 use nalgebra::Vector3;
 
-use crate::load::LoadAlongPath;
+use crate::load::{CornerLoad, LoadAlongPath};
 use crate::placement::Placement;
 use crate::result::PointKind;
 
@@ -21,6 +23,8 @@ pub(crate) struct Site {
     /// What the written program commands, mm; the same without compensation.
     pub commanded: Vector3<f64>,
     pub wrench: Wrench,
+    /// On a corner step, the load by the reading that was not chosen.
+    pub other_wrench: Option<Wrench>,
     /// End of a piece (or block), where a full answer is wanted; otherwise its middle.
     pub end: bool,
 }
@@ -68,6 +72,7 @@ pub(crate) fn of_path<'a>(
                 desired,
                 commanded: desired,
                 wrench: load.wrench(placement, i, share),
+                other_wrench: None,
                 end,
             }
         };
@@ -88,12 +93,18 @@ pub(crate) fn of_path<'a>(
     })
 }
 
-/// Ends and middles of all pieces of a written program, one after the other.
+/// Seed of the irregular places: the division of blocks has another, so that what it overlooked is not
+/// overlooked here too.
+const SEED: u64 = 4;
+
+/// Ends of all pieces of a written program and irregular places inside them, no farther apart than twice
+/// `spacing_mm`, and the middles of pieces of divided blocks, one after the other.
 pub(crate) fn of_written<'a>(
     path: &'a Path,
     written: &'a Corrected,
     load: &'a LoadAlongPath<'a>,
     placement: &'a Placement,
+    spacing_mm: f64,
 ) -> impl Iterator<Item = Site> + 'a {
     let starts = starts(path);
     let pieces = written.pieces.iter().enumerate();
@@ -103,7 +114,7 @@ pub(crate) fn of_written<'a>(
         if !piece.corrected || motion.known == Knowledge::Nothing || motion.length_mm() == 0.0 {
             return sites;
         }
-        let mut push = |place: f64, wrench: Wrench, end: bool| {
+        let mut push = |place: f64, (wrench, other_wrench): (Wrench, Option<Wrench>), end: bool| {
             let share = piece.share_from + place * (piece.share_to - piece.share_from);
             sites.push(Site {
                 line: motion.line,
@@ -116,17 +127,16 @@ pub(crate) fn of_written<'a>(
                 share,
                 path_mm: starts[piece.move_index] + share * known_length(motion),
                 desired: motion.point(share),
-                commanded: commanded(piece, place),
+                commanded: commanded(motion, piece, place),
                 wrench,
+                other_wrench,
                 end,
             });
         };
+        let inside = |k: usize| irregular(SEED, index as u64, k as u64);
         if let Some(turn) = piece.turn {
-            for (place, end) in [(0.5, false), (1.0, true)] {
-                let part = turn.part_from + place * (turn.part_to - turn.part_from);
-                let from = (turn.from_move, turn.from_share);
-                let to = (piece.move_index, turn.to_share);
-                push(place, load.turning_wrench(placement, from, to, part), end);
+            for (place, end) in [(inside(0), false), (1.0, true)] {
+                push(place, on_step(piece, &turn, place, load, placement), end);
             }
             return sites;
         }
@@ -140,14 +150,49 @@ pub(crate) fn of_written<'a>(
         };
         let lowest = neighbour(index.checked_sub(1)).map_or(0.0, |turn| turn.to_share);
         let highest = neighbour(Some(index + 1)).map_or(1.0, |turn| turn.from_share);
-        let at =
-            |share: f64| load.wrench(placement, piece.move_index, share.max(lowest).min(highest));
+        let at = |share: f64| {
+            let share = share.max(lowest).min(highest);
+            (load.wrench(placement, piece.move_index, share), None)
+        };
         if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole {
-            push(0.5, at(0.5 * (piece.share_from + piece.share_to)), false);
+            let length = motion.length_between_mm(piece.share_from, piece.share_to);
+            let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
+            let mut places: Vec<f64> = (0..count)
+                .map(|k| (k as f64 + inside(k)) / count as f64)
+                .collect();
+            if piece.share_from > 0.0 || piece.share_to < 1.0 {
+                // Pieces of a block that was divided leave it farthest near their middle.
+                places.push(0.5);
+                places.sort_by(f64::total_cmp);
+            }
+            for place in places {
+                let share = piece.share_from + place * (piece.share_to - piece.share_from);
+                push(place, at(share), false);
+            }
         }
         push(1.0, at(piece.share_to), true);
         sites
     })
+}
+
+/// The load on a corner step, as chosen and by the other reading.
+fn on_step(
+    piece: &Piece,
+    turn: &Turn,
+    place: f64,
+    load: &LoadAlongPath<'_>,
+    placement: &Placement,
+) -> (Wrench, Option<Wrench>) {
+    let part = turn.part_from + place * (turn.part_to - turn.part_from);
+    let from = (turn.from_move, turn.from_share);
+    let to = (piece.move_index, turn.to_share);
+    let turns = load.turning_wrench(placement, from, to, part);
+    let along = piece.commanded_to - piece.commanded_from;
+    let follows = load.wrench_towards(placement, to.0, to.1, &along);
+    match load.at_corners() {
+        CornerLoad::Turns => (turns, Some(follows)),
+        CornerLoad::FollowsFeed => (follows, Some(turns)),
+    }
 }
 
 fn kind(motion: &Move) -> PointKind {
@@ -157,6 +202,9 @@ fn kind(motion: &Move) -> PointKind {
     }
 }
 
-fn commanded(piece: &Piece, place: f64) -> Vector3<f64> {
+fn commanded(motion: &Move, piece: &Piece, place: f64) -> Vector3<f64> {
+    if piece.kept_arc {
+        return motion.point(place);
+    }
     piece.commanded_from + (piece.commanded_to - piece.commanded_from) * place
 }

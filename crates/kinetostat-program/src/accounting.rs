@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use serde::Serialize;
 
-use crate::path::{FeedMode, Move, Warning};
+use crate::path::{Feed, FeedMode, Move, Warning};
 
 /// What was done to a program. All lengths in mm.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
@@ -50,9 +50,34 @@ pub struct Accounting {
     /// Largest jump of the correction that got no step, because it is below
     /// [`crate::WriteOptions::corner_step_mm`]; the piece after it starts that far from its place.
     pub largest_jump_taken_up_mm: f64,
-    /// Feed blocks of the output in a second at the programmed feed, on average; `None` without
+    /// Largest way of a step, or of a piece, against the direction of motion of its own block or of the
+    /// block before.
+    pub largest_backward_mm: f64,
+    /// Steps and pieces that go so by more than [`crate::WriteOptions::backward_step_mm`].
+    pub backward_steps: usize,
+    /// Line of the input with the largest of them.
+    pub largest_backward_line: Option<usize>,
+    /// Pieces whose feed was held to [`crate::WriteOptions::max_feed_factor`] times the programmed one.
+    pub feed_limited_pieces: usize,
+    /// Line of the input with the first of them.
+    pub feed_limited_line: Option<usize>,
+    /// Slowest speed along the part on these pieces, as a share of the programmed one; `None` if no feed
+    /// was limited.
+    pub slowest_limited_speed: Option<f64>,
+    /// Length of the feed moves of the input whose places are known.
+    pub feed_length_in_mm: f64,
+    /// Length of what is written for them, steps included.
+    pub feed_length_out_mm: f64,
+    /// Time of the input's feed moves at the programmed feed, without acceleration, in s; `None` without
     /// feeds per minute.
+    pub feed_time_in_s: Option<f64>,
+    /// Time of what is written for them at the feeds written.
+    pub feed_time_out_s: Option<f64>,
+    /// Feed blocks of the output in a second at the feeds written, on average; `None` without feeds
+    /// per minute.
     pub mean_blocks_per_second: Option<f64>,
+    /// The same for the input.
+    pub mean_blocks_per_second_in: Option<f64>,
     /// The same over the densest sixteen blocks in a row.
     pub peak_blocks_per_second: Option<f64>,
     /// The densest sixteen blocks of the input, for comparison.
@@ -94,6 +119,11 @@ impl Rate {
         }
     }
 
+    /// Sum of all durations.
+    pub fn seconds(&self) -> Option<f64> {
+        (self.blocks > 0).then_some(self.seconds)
+    }
+
     pub fn mean(&self) -> Option<f64> {
         (self.seconds > 0.0).then(|| self.blocks as f64 / self.seconds)
     }
@@ -114,6 +144,15 @@ pub(crate) fn duration(motion: &Move, length_mm: f64) -> Option<f64> {
             let whole = motion.length_mm();
             (whole > 0.0).then(|| 60.0 * length_mm / whole / feed.value)
         }
+        FeedMode::PerRevolution => None,
+    }
+}
+
+/// Duration of a motion of this length at this feed, in seconds.
+pub(crate) fn duration_at(feed: Feed, length_mm: f64) -> Option<f64> {
+    match feed.mode {
+        FeedMode::PerMinute => Some(60.0 * length_mm / feed.value),
+        FeedMode::InverseTime => Some(60.0 / feed.value),
         FeedMode::PerRevolution => None,
     }
 }

@@ -2,20 +2,30 @@
 //!
 //! The corrected curve of a move is `point(s) + c(s)`, `s` the share of its length. A piece from `a`
 //! to `b` is good if `c` differs from the straight line between `c(a)` and `c(b)` by no more than the
-//! tolerance; the whole vector is compared, so the bound holds for the way along the path too. It is
-//! tested in the middle, and in the quarters too unless the correction changes by less than the
-//! tolerance over the whole piece and the middle lies well within it: then no quarter of a correction
-//! that only rises or only falls can be off. Arcs are divided first, by their chords.
+//! tolerance; the whole vector is compared, so the bound holds for the way along the path too.
 //!
-//! Neighbouring pieces of a straight move are joined again where the tolerance allows it
+//! The field says where `c` or its slope may jump ([`Structure::breaks`]): those places are ends of
+//! stretches before anything else. Arcs are divided by their chords as well. A stretch is then asked in
+//! its middle, in the quarters where that does not settle it, and there at a place that follows no
+//! pattern too. It is good if
+//!
+//! - the polynomial through these values stays within the tolerance ([`crate::departure`], a bound and
+//!   no sample);
+//! - what that polynomial may miss is below a tenth of the tolerance: nothing for a field of third
+//!   degree, Hermite's remainder for a smooth one;
+//! - at the irregular place the polynomial agrees with the field.
+//!
+//! Otherwise it is halved. Neighbouring pieces are joined again where the same bound allows it
 //! ([`crate::merge`]). All blocks are divided together, in rounds, so that the field is asked in large batches.
 
 use nalgebra::Vector3;
 
-use crate::curve::NO_LENGTH_MM;
+use crate::curve::{Curve, NO_LENGTH_MM};
+use crate::departure::{Values, departure, parabola, polynomial, remainder};
 use crate::error::WriteError;
-use crate::field::{CorrectionField, Monitor, Request};
-use crate::merge::{Sample, merge};
+use crate::field::{CorrectionField, Course, Monitor, Request};
+use crate::irregular::irregular;
+use crate::merge::{Accepted, merge};
 use crate::path::{Knowledge, Move, MoveKind, Path};
 use crate::turn::{Jump, follow_turns};
 use crate::write::WriteOptions;
@@ -35,6 +45,8 @@ pub(crate) struct Node {
     pub bracket: [f64; 2],
     /// Index of the jump at this node, see [`Division::jumps`].
     pub jump: Option<usize>,
+    /// The end of an arc's chord: pieces on its two sides are never joined.
+    pub fixed: bool,
 }
 
 impl Node {
@@ -46,6 +58,7 @@ impl Node {
             after: value,
             bracket: [share; 2],
             jump: None,
+            fixed: false,
         }
     }
 }
@@ -59,13 +72,40 @@ pub(crate) struct Division {
     pub left_out_mm: f64,
 }
 
+/// Seed of the irregular places of a division; a check takes another.
+const SEED: u64 = 1;
+
+/// Part of the tolerance that may be unknown between the places asked.
+const UNKNOWN: f64 = 0.1;
+
+/// Part of the tolerance by which the field may differ from the polynomial at the irregular place.
+const SURPRISE: f64 = 0.25;
+
 /// A stretch of a move that is not accepted yet.
 struct Stretch {
     move_index: usize,
+    course: Course,
+    /// The whole of a straight move, or a chord of an arc: what is good as it is needs no joining.
+    entire: bool,
     share: [f64; 2],
     ends: [Vector3<f64>; 2],
+    /// Where the piece begins that the tool goes along; differs from the first end where a jump too
+    /// small for a step is taken up.
+    begins: Vector3<f64>,
     middle: Option<Vector3<f64>>,
     quarters: Option<[Vector3<f64>; 2]>,
+    /// An irregular part of the stretch and the correction there.
+    irregular: Option<(f64, Vector3<f64>)>,
+}
+
+/// What a look at a stretch comes to.
+enum Judged {
+    Good,
+    /// More places would settle it.
+    AskMore,
+    Halve,
+    /// Too short to be halved, and still off: the correction jumps.
+    Jump,
 }
 
 impl Stretch {
@@ -73,29 +113,87 @@ impl Stretch {
         self.share[0] + (self.share[1] - self.share[0]) * part
     }
 
-    /// Remembers what was asked inside, for [`merge`]: a straight move of several pieces may do with
-    /// fewer. The chords of an arc are needed for the arc.
-    fn keep_samples(&self, path: &Path, samples: &mut Vec<Sample>) {
-        let move_index = self.move_index;
-        if path.moves[move_index].curve != crate::Curve::Line || self.share == [0.0, 1.0] {
-            return;
-        }
-        let asked = [
-            (0.5, self.middle),
-            (0.25, self.quarters.map(|pair| pair[0])),
-            (0.75, self.quarters.map(|pair| pair[1])),
-        ];
-        samples.extend(asked.into_iter().filter_map(|(part, value)| {
-            Some(Sample {
-                move_index,
-                share: self.at(part),
-                value: value?,
-            })
-        }));
+    fn values(&self) -> Option<Values> {
+        let middle = self.middle?;
+        let [first, last] = self.ends;
+        Some(match self.quarters {
+            Some([low, high]) => [first, low, middle, high, last],
+            None => parabola(first, middle, last),
+        })
     }
 
-    fn deviation(&self, part: f64, value: &Vector3<f64>) -> f64 {
-        (value - self.ends[0].lerp(&self.ends[1], part)).norm()
+    fn irregular_part(&self) -> f64 {
+        // Not near the places that are asked anyway.
+        let place = irregular(SEED, self.move_index as u64, self.share[0].to_bits());
+        0.25 * ((4.0 * place).floor() + 0.2 + 0.6 * (4.0 * place).fract())
+    }
+
+    fn judge(&self, path: &Path, options: &WriteOptions) -> Judged {
+        let Some(values) = self.values() else {
+            return Judged::AskMore;
+        };
+        let motion = &path.moves[self.move_index];
+        let [from, to] = self.share;
+        let length = motion.length_between_mm(from, to);
+        let tolerance = options.tolerance_mm;
+        let asked_all = self.quarters.is_some();
+        let off = departure(&values, [self.begins, self.ends[1]]);
+        let (unknown, needs_quarters) = match self.course {
+            Course::Cubic => (0.0, true),
+            Course::Smooth { radius_mm } => {
+                // That nothing was seen yet does not make it small: it counts as the tolerance at least.
+                let seen = self.irregular.iter().map(|(_, value)| value);
+                let size = values
+                    .iter()
+                    .chain(seen)
+                    .map(Vector3::norm)
+                    .fold(tolerance, f64::max);
+                let radius = match &motion.curve {
+                    Curve::Line => radius_mm,
+                    Curve::Arc(arc) => radius_mm.min(arc.start_radius.min(arc.end_radius)),
+                };
+                let points = if asked_all { 5 } else { 3 };
+                let change = (self.ends[1] - self.ends[0]).norm();
+                (
+                    remainder(points, size, length, radius),
+                    off > 0.25 * tolerance || change > tolerance,
+                )
+            }
+        };
+        let surprised = self.irregular.is_some_and(|(part, value)| {
+            (value - polynomial(&values, part)).norm() > SURPRISE * tolerance
+        });
+        if off > tolerance || surprised {
+            let shortest =
+                length <= options.smallest_piece_mm || self.at(0.5) <= from || self.at(0.5) >= to;
+            return match (asked_all, shortest) {
+                // As ever: what is off is looked at once more before it is halved.
+                (false, _) => Judged::AskMore,
+                (true, true) => Judged::Jump,
+                (true, false) => Judged::Halve,
+            };
+        }
+        if !asked_all && (needs_quarters || unknown > UNKNOWN * tolerance) {
+            return Judged::AskMore;
+        }
+        if unknown > UNKNOWN * tolerance && length > options.smallest_piece_mm {
+            return Judged::Halve;
+        }
+        Judged::Good
+    }
+
+    /// Remembers what was found inside, for [`merge`].
+    fn accepted(&self, accepted: &mut Vec<Accepted>) {
+        if self.entire {
+            return;
+        }
+        if let Some(values) = self.values() {
+            accepted.push(Accepted {
+                move_index: self.move_index,
+                share: self.share[0],
+                values,
+            });
+        }
     }
 }
 
@@ -126,11 +224,11 @@ pub(crate) fn divide(
         left_out_mm: 0.0,
     };
     let mut nodes = Vec::new();
-    let mut samples = Vec::new();
+    let mut accepted = Vec::new();
     let mut open = first_round(&mut asker, options, &mut nodes)?;
     while !open.is_empty() {
         answer(&mut asker, &mut open, options)?;
-        open = next_round(path, open, options, &mut nodes, &mut samples);
+        open = next_round(path, open, options, &mut nodes, &mut accepted);
         if nodes.len() + open.len() > options.max_pieces {
             let line = open
                 .first()
@@ -146,12 +244,12 @@ pub(crate) fn divide(
             .cmp(&b.move_index)
             .then(a.share.total_cmp(&b.share))
     });
-    samples.sort_by(|a, b| {
+    accepted.sort_by(|a, b| {
         a.move_index
             .cmp(&b.move_index)
             .then(a.share.total_cmp(&b.share))
     });
-    let mut nodes = merge(nodes, &samples, options.tolerance_mm);
+    let mut nodes = merge(nodes, &accepted, options);
     let jumps = follow_turns(&mut asker, &mut nodes, options)?;
     Ok(Division {
         nodes,
@@ -161,7 +259,56 @@ pub(crate) fn divide(
     })
 }
 
-/// Asks for the ends of all pieces that chords make, and the middles between them.
+/// A place at which a move is divided before anything is known of the correction.
+struct Boundary {
+    share: f64,
+    fixed: bool,
+}
+
+/// Ends of chords and breaks of the field, in order, with the field's course between them.
+fn boundaries(
+    asker: &Asker<'_>,
+    move_index: usize,
+    options: &WriteOptions,
+) -> Result<(Vec<Boundary>, Course), WriteError> {
+    let motion = &asker.path.moves[move_index];
+    let too_many = WriteError::TooManyPieces {
+        line: motion.line,
+        limit: options.max_pieces,
+    };
+    let (chords, fixed) = match &motion.curve {
+        Curve::Line => (1, false),
+        Curve::Arc(arc) => (arc.chords_within(options.chord_tolerance_mm), true),
+    };
+    if chords > options.max_pieces {
+        return Err(too_many);
+    }
+    let structure = asker.field.structure(move_index, motion);
+    if structure.breaks.len() > options.max_pieces {
+        return Err(too_many);
+    }
+    let mut list: Vec<Boundary> = (0..=chords)
+        .map(|chord| Boundary {
+            share: chord as f64 / chords as f64,
+            fixed,
+        })
+        .collect();
+    let breaks = structure.breaks.into_iter();
+    list.extend(
+        breaks
+            .filter(|share| *share > 0.0 && *share < 1.0)
+            .map(|share| Boundary {
+                share,
+                fixed: false,
+            }),
+    );
+    // Of two at one place the end of a chord stays.
+    list.sort_by(|a, b| a.share.total_cmp(&b.share).then(b.fixed.cmp(&a.fixed)));
+    list.dedup_by(|b, a| a.share == b.share);
+    Ok((list, structure.course))
+}
+
+/// Asks for the ends of all first stretches, and the middles between them.
 fn first_round(
     asker: &mut Asker<'_>,
     options: &WriteOptions,
@@ -169,60 +316,82 @@ fn first_round(
 ) -> Result<Vec<Stretch>, WriteError> {
     let path = asker.path;
     let mut requests = Vec::new();
-    let mut chords = Vec::with_capacity(path.moves.len());
+    let mut first = Vec::new();
     for (move_index, motion) in path.moves.iter().enumerate() {
-        let count = if is_divided(motion) {
-            match &motion.curve {
-                crate::Curve::Line => 1,
-                crate::Curve::Arc(arc) => arc.chords_within(options.chord_tolerance_mm),
+        if is_divided(motion) {
+            let (list, course) = boundaries(asker, move_index, options)?;
+            for pair in list.windows(2) {
+                let [from, to] = [pair[0].share, pair[1].share];
+                requests.push(asker.request(move_index, from));
+                requests.push(asker.request(move_index, from + (to - from) * 0.5));
             }
-        } else {
-            0
-        };
-        if requests.len() / 2 + count > options.max_pieces {
+            requests.push(asker.request(move_index, 1.0));
+            first.push((move_index, list, course));
+        } else if is_corrected_at_end(motion) {
+            requests.push(asker.request(move_index, 1.0));
+            first.push((move_index, Vec::new(), Course::Cubic));
+        }
+        if requests.len() / 2 > options.max_pieces {
             return Err(WriteError::TooManyPieces {
                 line: motion.line,
                 limit: options.max_pieces,
             });
         }
-        chords.push(count);
-        if count > 0 {
-            for half in 0..=2 * count {
-                requests.push(asker.request(move_index, half as f64 / (2 * count) as f64));
-            }
-        } else if is_corrected_at_end(motion) {
-            requests.push(asker.request(move_index, 1.0));
-        }
     }
-    let answers = asker.ask(&requests)?;
-    let mut at = 0;
+    let mut answers = asker.ask(&requests)?.into_iter();
+    let mut answer = || answers.next().unwrap_or_default();
     let mut open = Vec::new();
-    for (move_index, motion) in path.moves.iter().enumerate() {
-        let count = chords[move_index];
-        if count > 0 {
-            let shares = &requests[at..=at + 2 * count];
-            let values = &answers[at..=at + 2 * count];
-            at += 2 * count + 1;
-            for chord in 0..=count {
-                let (share, value) = (shares[2 * chord].share, values[2 * chord]);
-                nodes.push(Node::smooth(move_index, share, value));
-            }
-            for chord in 0..count {
-                open.push(Stretch {
-                    move_index,
-                    share: [shares[2 * chord].share, shares[2 * chord + 2].share],
-                    ends: [values[2 * chord], values[2 * chord + 2]],
-                    middle: Some(values[2 * chord + 1]),
-                    quarters: None,
-                });
-            }
-        } else if is_corrected_at_end(motion) {
-            let value = answers[at];
-            at += 1;
+    // What holds before a move: the last answer of the one before it.
+    let mut before: Option<(usize, Vector3<f64>)> = None;
+    for (move_index, list, course) in first {
+        let mut value = answer();
+        if list.is_empty() {
             nodes.push(Node::smooth(move_index, 1.0, value));
+            before = Some((move_index, value));
+            continue;
         }
+        let earlier = before.filter(|(index, _)| *index + 1 == move_index);
+        let mut begins = taken_up(earlier.map(|(_, value)| value), value, options);
+        nodes.push(Node {
+            before: begins,
+            fixed: true,
+            ..Node::smooth(move_index, 0.0, value)
+        });
+        for pair in list.windows(2) {
+            let (middle, end) = (answer(), answer());
+            nodes.push(Node {
+                fixed: pair[1].fixed,
+                ..Node::smooth(move_index, pair[1].share, end)
+            });
+            open.push(Stretch {
+                move_index,
+                course,
+                entire: pair[0].fixed && pair[1].fixed || list.len() == 2,
+                share: [pair[0].share, pair[1].share],
+                ends: [value, end],
+                begins,
+                middle: Some(middle),
+                quarters: None,
+                irregular: None,
+            });
+            (value, begins) = (end, end);
+        }
+        before = Some((move_index, value));
     }
     Ok(open)
+}
+
+/// Where the first piece of a move begins: at its own first correction, or at the last one before it
+/// where the jump between them is too small for a step and small enough to be part of the tolerance.
+pub(crate) fn taken_up(
+    before: Option<Vector3<f64>>,
+    first: Vector3<f64>,
+    options: &WriteOptions,
+) -> Vector3<f64> {
+    let smallest = options.smallest_step_mm().min(options.tolerance_mm);
+    before
+        .filter(|before| (before - first).norm() <= smallest)
+        .unwrap_or(first)
 }
 
 /// Gets the values that the open stretches need next.
@@ -241,89 +410,85 @@ fn answer(
         stretch.middle = answers.next();
     }
 
-    let wants_quarters = |stretch: &Stretch| {
-        stretch.middle.is_some_and(|middle| {
-            let deviation = stretch.deviation(0.5, &middle);
-            let change = (stretch.ends[1] - stretch.ends[0]).norm();
-            deviation > 0.25 * options.tolerance_mm || change > options.tolerance_mm
-        })
-    };
-    let requests: Vec<Request> = open
-        .iter()
-        .filter(|stretch| wants_quarters(stretch))
-        .flat_map(|stretch| {
-            [0.25, 0.75].map(|part| asker.request(stretch.move_index, stretch.at(part)))
-        })
+    let wants: Vec<usize> = (0..open.len())
+        .filter(|i| matches!(open[*i].judge(asker.path, options), Judged::AskMore))
         .collect();
-    let answers = asker.ask(&requests)?;
-    let mut pairs = answers.chunks_exact(2);
-    for stretch in open.iter_mut().filter(|stretch| wants_quarters(stretch)) {
-        stretch.quarters = pairs.next().map(|pair| [pair[0], pair[1]]);
+    let mut requests = Vec::new();
+    for stretch in wants.iter().map(|i| &open[*i]) {
+        for part in [0.25, 0.75] {
+            requests.push(asker.request(stretch.move_index, stretch.at(part)));
+        }
+        if stretch.course != Course::Cubic {
+            requests.push(asker.request(stretch.move_index, stretch.at(stretch.irregular_part())));
+        }
+    }
+    let mut answers = asker.ask(&requests)?.into_iter();
+    let mut answer = || answers.next().unwrap_or_default();
+    for i in wants {
+        let stretch = &mut open[i];
+        stretch.quarters = Some([answer(), answer()]);
+        if stretch.course != Course::Cubic {
+            stretch.irregular = Some((stretch.irregular_part(), answer()));
+        }
     }
     Ok(())
 }
 
-/// Accepts the good stretches and bisects the others.
+/// Accepts the good stretches and halves the others.
 fn next_round(
     path: &Path,
     open: Vec<Stretch>,
     options: &WriteOptions,
     nodes: &mut Vec<Node>,
-    samples: &mut Vec<Sample>,
+    accepted: &mut Vec<Accepted>,
 ) -> Vec<Stretch> {
     let mut next = Vec::new();
     for stretch in open {
-        let Some(middle) = stretch.middle else {
+        let (Some(middle), move_index) = (stretch.middle, stretch.move_index) else {
             continue;
         };
-        let [low, high] = stretch.quarters.unwrap_or([
-            stretch.ends[0].lerp(&middle, 0.5),
-            middle.lerp(&stretch.ends[1], 0.5),
-        ]);
-        let worst = stretch
-            .deviation(0.5, &middle)
-            .max(stretch.deviation(0.25, &low))
-            .max(stretch.deviation(0.75, &high));
-        if worst <= options.tolerance_mm {
-            stretch.keep_samples(path, samples);
-            continue;
-        }
         let [from, to] = stretch.share;
         let [first, last] = stretch.ends;
         let share = stretch.at(0.5);
-        let move_index = stretch.move_index;
-        let length = path.moves[move_index].length_between_mm(from, to);
-        if length <= options.smallest_piece_mm || share <= from || share >= to {
-            // No piece is short enough: the correction jumps here. The tool steps at one place.
-            nodes.push(Node {
-                move_index,
-                share,
-                before: first,
-                after: last,
-                bracket: stretch.share,
-                jump: None,
-            });
-            continue;
+        match stretch.judge(path, options) {
+            Judged::Good | Judged::AskMore => stretch.accepted(accepted),
+            Judged::Jump => {
+                // No piece is short enough: the correction jumps here. The tool steps at one place.
+                nodes.push(Node {
+                    before: first,
+                    after: last,
+                    bracket: stretch.share,
+                    ..Node::smooth(move_index, share, first)
+                });
+                for (share, value) in [(from, first), (share, last)] {
+                    accepted.push(Accepted {
+                        move_index,
+                        share,
+                        values: [value; 5],
+                    });
+                }
+            }
+            Judged::Halve => {
+                nodes.push(Node::smooth(move_index, share, middle));
+                let [low, high] = match stretch.quarters {
+                    Some([low, high]) => [Some(low), Some(high)],
+                    None => [None, None],
+                };
+                let half = |share, ends: [Vector3<f64>; 2], begins, middle| Stretch {
+                    share,
+                    ends,
+                    begins,
+                    middle,
+                    move_index,
+                    course: stretch.course,
+                    entire: false,
+                    quarters: None,
+                    irregular: None,
+                };
+                next.push(half([from, share], [first, middle], stretch.begins, low));
+                next.push(half([share, to], [middle, last], middle, high));
+            }
         }
-        nodes.push(Node::smooth(move_index, share, middle));
-        let [low, high] = match stretch.quarters {
-            Some([low, high]) => [Some(low), Some(high)],
-            None => [None, None],
-        };
-        next.push(Stretch {
-            move_index,
-            share: [from, share],
-            ends: [first, middle],
-            middle: low,
-            quarters: None,
-        });
-        next.push(Stretch {
-            move_index,
-            share: [share, to],
-            ends: [middle, last],
-            middle: high,
-            quarters: None,
-        });
     }
     next
 }

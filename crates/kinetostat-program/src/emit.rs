@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::accounting::{Accounting, Rate, duration};
+use crate::accounting::{Accounting, Rate, duration, duration_at};
+use crate::curve::Curve;
 use crate::divide::{Division, Node, is_corrected_at_end, is_divided};
 use crate::error::WriteError;
 use crate::header::{header, lines_above};
@@ -10,7 +11,7 @@ use crate::path::{
     Change, Feed, Knowledge, Motion, Move, MoveKind, OffsetChange, Path, PositionOffset, Warning,
 };
 use crate::program::{Line, Program};
-use crate::render::{BlockWriter, ProgramStyle};
+use crate::render::{BlockWriter, ProgramStyle, UNCHANGED_MM};
 use crate::turn::{Jump, Turn};
 use crate::write::{Corrected, Piece, WriteOptions};
 
@@ -24,6 +25,8 @@ pub(crate) struct OutputState {
     pub offset: PositionOffset,
     pub feed: Option<Feed>,
     pub motion: Option<Motion>,
+    /// The feed of the piece written last was held to its largest.
+    pub feed_limited: bool,
 }
 
 /// One piece to be written.
@@ -53,6 +56,11 @@ pub(crate) struct Emitter<'a> {
     accounting: Accounting,
     rate: Rate,
     rate_in: Rate,
+    /// The position offset that the input has, and where the input is.
+    input_offset: PositionOffset,
+    input_position: Vector3<f64>,
+    /// Where the steps at one place began, and where that place is: move and share.
+    jump_from: Option<(usize, f64, Vector3<f64>)>,
 }
 
 impl<'a> Emitter<'a> {
@@ -109,6 +117,9 @@ impl<'a> Emitter<'a> {
             jumps: division.jumps,
             rate: Rate::default(),
             rate_in: Rate::default(),
+            input_offset: PositionOffset::default(),
+            input_position: start,
+            jump_from: None,
         }
     }
 
@@ -138,16 +149,61 @@ impl<'a> Emitter<'a> {
     }
 
     fn finish(mut self) -> Corrected {
+        if self.accounting.blocks_corrected == 0 {
+            // Nothing to correct: the program as it is, which no header tells from its copy.
+            self.bytes = self.program.bytes().to_vec();
+            for piece in &mut self.pieces {
+                piece.output_line -= self.accounting.header_lines;
+            }
+            self.accounting.header_lines = 0;
+        }
+        self.warn_of_steps_and_feeds();
         self.accounting.bytes_out = self.bytes.len();
         self.accounting.pieces = self.pieces.len();
         self.accounting.mean_blocks_per_second = self.rate.mean();
         self.accounting.peak_blocks_per_second = self.rate.peak();
         self.accounting.peak_blocks_per_second_in = self.rate_in.peak();
+        self.accounting.mean_blocks_per_second_in = self.rate_in.mean();
+        self.accounting.feed_time_in_s = self.rate_in.seconds();
+        self.accounting.feed_time_out_s = self.rate.seconds();
         Corrected {
             bytes: self.bytes,
             pieces: self.pieces,
             accounting: self.accounting,
         }
+    }
+
+    fn warn_of_steps_and_feeds(&mut self) {
+        let accounting = &mut self.accounting;
+        if let (Some(line), Some(speed)) = (
+            accounting.feed_limited_line,
+            accounting.slowest_limited_speed,
+        ) {
+            accounting.warnings.push(Warning {
+                line,
+                text: format!(
+                    "the feed of {} piece(s), first here, is held to {} times the programmed one, though the tool's own \
+                     path is longer: the part is cut more slowly there, at {:.0} % of the programmed speed at least",
+                    accounting.feed_limited_pieces,
+                    self.options.max_feed_factor,
+                    (100.0 * speed).floor()
+                ),
+            });
+        }
+        let Some(line) = accounting.largest_backward_line else {
+            return;
+        };
+        accounting.warnings.push(Warning {
+            line,
+            text: format!(
+                "{} step(s) or piece(s) of the written program go against the direction of motion by more than \
+                 {} mm, here by {:.4} mm, to follow a load that turns or begins at once: where the load does not do \
+                 so, the tool cuts backwards",
+                accounting.backward_steps,
+                self.options.backward_step_mm,
+                accounting.largest_backward_mm
+            ),
+        });
     }
 
     fn write_header(&mut self) {
@@ -183,6 +239,18 @@ impl<'a> Emitter<'a> {
                     }
                 }
                 self.state.offset.apply(change, &self.state.position);
+                if let OffsetChange::Here {
+                    coordinates_mm,
+                    work_offset_mm,
+                    establishes,
+                } = change
+                {
+                    for axis in (0..3).filter(|axis| establishes[*axis]) {
+                        self.input_position[axis] =
+                            coordinates_mm[axis].unwrap_or(0.0) + work_offset_mm[axis];
+                    }
+                }
+                self.input_offset.apply(change, &self.input_position);
             }
         }
     }
@@ -226,6 +294,7 @@ impl<'a> Emitter<'a> {
         move_index: usize,
         motion: &Move,
     ) -> Result<(), WriteError> {
+        self.input_position = motion.end;
         if motion.known == Knowledge::Nothing {
             self.carry(motion.line, line)?;
             let from = self.state.position;
@@ -250,26 +319,45 @@ impl<'a> Emitter<'a> {
                 corner_step: false,
                 turn: None,
                 corrected: false,
+                kept_arc: false,
+                feed_limited: false,
             });
             return Ok(());
         }
-        let steps = self.steps(move_index, motion);
+        let first_node = self.next_node;
+        let mut steps = self.steps(move_index, motion);
         let usual = self.program.usual_ending();
         let own = self.program.ending(line);
         let between = if own.is_empty() { usual } else { own };
         let before = self.bytes.len();
         let mut block = BlockWriter::new(self.program, line, motion, &self.style, self.options);
+        let nodes = &self.nodes[first_node..self.next_node];
+        let kept_arc = motion.curve != Curve::Line
+            && self.is_uncorrected(motion, nodes)
+            && block.words_still_hold(&self.state);
+        if kept_arc {
+            steps = vec![Step {
+                share_from: 0.0,
+                share_to: 1.0,
+                target: motion.end,
+                corner_step: false,
+                turn: None,
+                corrected: true,
+            }];
+        }
         for (index, step) in steps.iter().enumerate() {
             let last = index + 1 == steps.len();
             let from = self.state.position;
             let output_line = self.output_line;
-            let content = if index == 0 {
+            let content = if kept_arc {
+                block.arc_line(&mut self.state, step)
+            } else if index == 0 {
                 block.first_line(&mut self.state, &steps)?
             } else {
                 block.further_line(&mut self.state, &steps, index)?
             };
             self.push_line(motion.line, content, if last { own } else { between })?;
-            self.note_piece(motion, step, &from);
+            self.note_piece(move_index, motion, step, &from, kept_arc);
             self.pieces.push(Piece {
                 move_index,
                 share_from: step.share_from,
@@ -280,10 +368,25 @@ impl<'a> Emitter<'a> {
                 corner_step: step.corner_step,
                 turn: step.turn,
                 corrected: step.corrected,
+                kept_arc,
+                feed_limited: self.state.feed_limited,
             });
         }
         self.note_block(line, motion, steps.len(), before);
         Ok(())
+    }
+
+    /// Whether the output is where the input is, and no correction on the move can be written.
+    fn is_uncorrected(&self, motion: &Move, nodes: &[Node]) -> bool {
+        let half = self.options.half_digit_mm(motion.words.mm_per_unit);
+        let nothing = |correction: &Vector3<f64>| correction.iter().all(|part| part.abs() <= half);
+        !nodes.is_empty()
+            && is_divided(motion)
+            && nodes
+                .iter()
+                .all(|node| nothing(&node.before) && nothing(&node.after))
+            && (self.state.position - motion.start).norm() < UNCHANGED_MM
+            && (self.state.offset.active_mm - self.input_offset.active_mm).norm() < UNCHANGED_MM
     }
 
     /// The pieces of a move.
@@ -359,7 +462,19 @@ impl<'a> Emitter<'a> {
         steps
     }
 
-    fn note_piece(&mut self, motion: &Move, step: &Step, from: &Vector3<f64>) {
+    fn note_piece(
+        &mut self,
+        move_index: usize,
+        motion: &Move,
+        step: &Step,
+        from: &Vector3<f64>,
+        kept_arc: bool,
+    ) {
+        let written_mm = if kept_arc {
+            motion.length_mm()
+        } else {
+            (self.state.position - from).norm()
+        };
         let accounting = &mut self.accounting;
         let rounding = (self.state.position - step.target).norm();
         accounting.largest_rounding_mm = accounting.largest_rounding_mm.max(rounding);
@@ -371,20 +486,77 @@ impl<'a> Emitter<'a> {
             }
         }
         if step.corner_step {
-            let length = (self.state.position - from).norm();
             accounting.corner_steps += 1;
-            accounting.largest_corner_step_mm = accounting.largest_corner_step_mm.max(length);
+            accounting.largest_corner_step_mm = accounting.largest_corner_step_mm.max(written_mm);
         }
-        if motion.kind == MoveKind::Feed {
-            let length = if step.corner_step {
-                (self.state.position - from).norm()
-            } else {
-                motion.length_between_mm(step.share_from, step.share_to)
-            };
-            self.rate.note(duration(motion, length));
+        if motion.kind != MoveKind::Feed {
+            self.rate.note(None);
+            return;
+        }
+        let part_mm = motion.length_between_mm(step.share_from, step.share_to);
+        if self.state.feed_limited {
+            accounting.feed_limited_pieces += 1;
+            accounting.feed_limited_line.get_or_insert(motion.line);
+            let speed = self.options.max_feed_factor * part_mm / written_mm;
+            let slowest = accounting.slowest_limited_speed.get_or_insert(speed);
+            *slowest = slowest.min(speed);
+        }
+        if motion.known == Knowledge::Whole {
+            accounting.feed_length_out_mm += written_mm;
+            // A block that stays one keeps its inverse time; the pieces of others have their own.
+            let feed = self.state.feed.filter(|_| motion.feed.is_some());
+            self.rate
+                .note(feed.and_then(|feed| duration_at(feed, written_mm)));
+            self.note_backward(move_index, motion, step, from);
         } else {
             self.rate.note(None);
         }
+    }
+
+    /// How far the output goes against the direction in which the part is cut.
+    fn note_backward(
+        &mut self,
+        move_index: usize,
+        motion: &Move,
+        step: &Step,
+        from: &Vector3<f64>,
+    ) {
+        let began = match (step.corner_step, self.jump_from) {
+            (false, _) => {
+                self.jump_from = None;
+                *from
+            }
+            // Further pieces of one step count from where the first began.
+            (true, Some((index, share, began)))
+                if (index, share) == (move_index, step.share_to) =>
+            {
+                began
+            }
+            (true, _) => {
+                self.jump_from = Some((move_index, step.share_to, *from));
+                *from
+            }
+        };
+        let way = self.state.position - began;
+        let middle = 0.5 * (step.share_from + step.share_to);
+        let mut backward = motion.tangent(middle).map_or(0.0, |along| -way.dot(&along));
+        if step.corner_step && step.share_to == 0.0 {
+            let before = move_index
+                .checked_sub(1)
+                .map(|index| &self.path.moves[index]);
+            let before = before.filter(|before| is_divided(before));
+            if let Some(along) = before.and_then(|before| before.tangent(1.0)) {
+                backward = backward.max(-way.dot(&along));
+            }
+        }
+        let accounting = &mut self.accounting;
+        if backward > self.options.backward_step_mm {
+            accounting.backward_steps += 1;
+            if backward > accounting.largest_backward_mm {
+                accounting.largest_backward_line = Some(motion.line);
+            }
+        }
+        accounting.largest_backward_mm = accounting.largest_backward_mm.max(backward);
     }
 
     fn note_block(&mut self, line: &Line, motion: &Move, pieces: usize, before: usize) {
@@ -410,9 +582,13 @@ impl<'a> Emitter<'a> {
                 *smallest = smallest.min(length);
             }
         }
-        self.rate_in.note(match motion.kind {
-            MoveKind::Feed => duration(motion, motion.length_mm()),
-            MoveKind::Rapid => None,
+        let known = motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole;
+        if known {
+            self.accounting.feed_length_in_mm += motion.length_mm();
+        }
+        self.rate_in.note(match known {
+            true => duration(motion, motion.length_mm()),
+            false => None,
         });
     }
 }

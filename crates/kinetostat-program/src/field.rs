@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use crate::path::Move;
+
 /// A point of the path for which a correction is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
@@ -62,6 +64,43 @@ pub trait CorrectionField: Sync {
     /// such a step is one straight piece.
     fn turns(&self) -> bool {
         false
+    }
+
+    /// What the field knows of its own course along a move that is to be divided.
+    fn structure(&self, _move_index: usize, _motion: &Move) -> Structure {
+        Structure::default()
+    }
+}
+
+/// A field's own course along a move.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Structure {
+    /// Shares of the move, between 0 and 1 and in any order, at which the correction or its slope may
+    /// jump. Each of them is asked, and what lies between two is looked at by itself.
+    pub breaks: Vec<f64>,
+    /// What the correction is between two of them.
+    pub course: Course,
+}
+
+/// What a correction is on a stretch without breaks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Course {
+    /// Along a straight line a polynomial of third degree in the share, or of a lower one. Five values
+    /// say all about it.
+    Cubic,
+    /// Smooth: it could be continued as a power series this far (in mm) beyond every place of the
+    /// stretch, and would be at most twice as large there. The shorter this length, the more places are
+    /// asked.
+    Smooth {
+        /// The length, in mm.
+        radius_mm: f64,
+    },
+}
+
+impl Default for Course {
+    /// Of a field that says nothing of itself: smooth over 25 mm.
+    fn default() -> Self {
+        Self::Smooth { radius_mm: 25.0 }
     }
 }
 

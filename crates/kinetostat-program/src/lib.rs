@@ -9,7 +9,8 @@
 //!    codes is [`CODES`].
 //! 3. [`write_corrected`] asks a [`CorrectionField`] (a [`CorrectionMap`], a robot's model, a closure)
 //!    what to add to the path, divides blocks where the answer varies, and writes the program.
-//! 4. [`verify_written`] reads what was written with the same reader and checks every promise.
+//! 4. [`verify_written`] reads what was written with the same reader and checks every promise;
+//!    [`verify_against_field`] asks the field again, in places that the division did not choose.
 //!
 //! This crate knows no robot. It reads and writes bytes in memory; files are the caller's. Lengths are in
 //! mm and points in the part frame unless a name says otherwise; lines are counted from 1.
@@ -40,9 +41,12 @@
 //! ```
 
 mod accounting;
+mod against;
 mod arc;
 mod block;
+mod crossing;
 mod curve;
+mod departure;
 mod dialect;
 mod divide;
 mod emit;
@@ -51,6 +55,7 @@ mod extra;
 mod field;
 mod header;
 mod interpret;
+mod irregular;
 mod lex;
 mod map;
 mod merge;
@@ -69,13 +74,16 @@ mod verify_text;
 mod write;
 
 pub use accounting::Accounting;
+pub use against::{FieldCheck, verify_against_field};
 pub use curve::{Arc, Curve};
 pub use dialect::{CODES, Code, Treatment};
 pub use error::{MapError, ProgramError, WriteError};
 pub use field::{
-    CorrectionField, FieldFailure, Monitor, NoCorrection, Request, Turning, Unwatched,
+    CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure, Turning,
+    Unwatched,
 };
 pub use interpret::{faults, interpret};
+pub use irregular::irregular;
 pub use map::CorrectionMap;
 pub use moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
 pub use options::{BlockDelete, OtherAxes, ReadOptions, Units};

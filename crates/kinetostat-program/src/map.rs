@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use crate::error::MapError;
-use crate::field::{CorrectionField, FieldFailure, Request};
+use crate::field::{CorrectionField, Course, FieldFailure, Request, Structure};
+use crate::path::Move;
 
 /// Columns of the table, in the order of [`CorrectionMap::from_nodes`].
 const COLUMNS: [&str; 6] = ["x_mm", "y_mm", "z_mm", "dx_mm", "dy_mm", "dz_mm"];
@@ -196,6 +197,17 @@ impl CorrectionField for CorrectionMap {
             .iter()
             .map(|request| self.at(&request.position_mm))
             .collect()
+    }
+
+    /// In a cell the correction is linear in each coordinate, so along a line of third degree at most;
+    /// where the move passes from one cell to the next its slope jumps.
+    fn structure(&self, _move_index: usize, motion: &Move) -> Structure {
+        Structure {
+            breaks: (0..3)
+                .flat_map(|axis| motion.shares_at(axis, &self.axes[axis]))
+                .collect(),
+            course: Course::Cubic,
+        }
     }
 }
 

@@ -19,6 +19,9 @@ const EXTRA_DECIMALS: usize = 5;
 
 const AXES: [u8; 3] = *b"XYZ";
 
+/// Places nearer than this are the same, up to the arithmetic, in mm.
+pub(crate) const UNCHANGED_MM: f64 = 1e-9;
+
 /// What holds for all blocks of a program.
 pub(crate) struct ProgramStyle {
     /// Axes that may be written.
@@ -66,6 +69,7 @@ pub(crate) struct BlockWriter<'a> {
     decimals: usize,
     separator: &'static str,
     lower_case: bool,
+    max_feed_factor: f64,
 }
 
 /// Changes of the line: what replaces which bytes.
@@ -93,6 +97,7 @@ impl<'a> BlockWriter<'a> {
             stated: whole.stated,
             repeats_motion: whole.repeats_motion,
             decimals: options.decimals_for(motion.words.mm_per_unit),
+            max_feed_factor: options.max_feed_factor,
             separator: if spaced { " " } else { "" },
             lower_case: words
                 .iter()
@@ -209,6 +214,46 @@ impl<'a> BlockWriter<'a> {
         Ok(line)
     }
 
+    /// The block's own line where it stays an arc: its bytes, with the motion and the feed named where
+    /// the output has others in force.
+    pub fn arc_line(&mut self, state: &mut OutputState, step: &Step) -> Vec<u8> {
+        let own = arc_motion(self.motion);
+        let mut edits: Edits = Vec::new();
+        let mut added = String::new();
+        if motion_word(self.words).is_none() && state.motion != Some(own) {
+            self.add(&mut added, b'G', code_of(own));
+        }
+        let feed_word = self.word(b'F');
+        if feed_word.is_some() {
+            state.feed = self.motion.feed;
+        }
+        if let Some(text) = self.feed(state, step, 1, self.motion.length_mm()) {
+            match feed_word {
+                Some(word) => edits.push((number_span(word), text)),
+                None => self.add(&mut added, b'F', &text),
+            }
+        }
+        if !added.is_empty() {
+            let at = self.words.last().map_or(0, |word| word.end as usize);
+            edits.push((at..at, added));
+        }
+        state.position = self.motion.end;
+        state.target = self.motion.end;
+        state.motion = Some(own);
+        self.apply(edits)
+    }
+
+    /// Whether the axis words of the block would bring the output to the block's own end.
+    pub fn words_still_hold(&self, state: &OutputState) -> bool {
+        AXES.into_iter().enumerate().all(|(axis, letter)| {
+            let reached = match self.word(letter) {
+                Some(word) => self.place(state, axis, word.value),
+                None => state.position[axis],
+            };
+            (reached - self.motion.end[axis]).abs() < UNCHANGED_MM
+        })
+    }
+
     fn word(&self, letter: u8) -> Option<&'a Word> {
         self.words.iter().find(|word| word.letter == letter)
     }
@@ -307,18 +352,16 @@ impl<'a> BlockWriter<'a> {
                 Some(word) => word.start as usize,
                 None => self.place_for_added(),
             };
-            let code = if motion_of(self.motion) == Motion::Rapid {
-                "0"
-            } else {
-                "1"
-            };
             let letter = if self.lower_case { 'g' } else { 'G' };
             let after = if coordinate.is_some() {
                 self.separator
             } else {
                 ""
             };
-            edits.push((at..at, format!("{letter}{code}{after}")));
+            edits.push((
+                at..at,
+                format!("{letter}{}{after}", code_of(motion_of(self.motion))),
+            ));
         }
         if self.motion.curve != Curve::Line {
             for word in self
@@ -406,6 +449,7 @@ impl<'a> BlockWriter<'a> {
         pieces: usize,
         written_mm: f64,
     ) -> Option<String> {
+        state.feed_limited = false;
         let feed = self.motion.feed?;
         if motion_of(self.motion) == Motion::Rapid || self.motion.known != Knowledge::Whole {
             return None;
@@ -421,16 +465,23 @@ impl<'a> BlockWriter<'a> {
             0.0
         };
         let moves = part_mm > 0.0 && written_mm > 0.0;
+        // How many times the programmed speed the tool's own path would need.
+        let raised = match step.corner_step || !moves {
+            true => 1.0,
+            false => written_mm / part_mm,
+        };
+        state.feed_limited = raised > self.max_feed_factor;
+        let held = (self.max_feed_factor / raised).min(1.0);
         let value = match feed.mode {
-            FeedMode::InverseTime if pieces == 1 => return None,
+            FeedMode::InverseTime if pieces == 1 && !state.feed_limited => return None,
             // As long as the programmed speed takes for the step.
             FeedMode::InverseTime if step.corner_step && written_mm > 0.0 => {
                 feed.value * whole_mm / written_mm
             }
             FeedMode::InverseTime if step.corner_step => feed.value,
-            FeedMode::InverseTime => feed.value * whole_mm / part_mm,
+            FeedMode::InverseTime => held * feed.value * whole_mm / part_mm,
             _ if step.corner_step || !moves => feed.value,
-            _ => feed.value * written_mm / part_mm,
+            _ => held * feed.value * written_mm / part_mm,
         };
         let mm_per_unit = match feed.mode {
             FeedMode::InverseTime => 1.0,
@@ -502,6 +553,24 @@ impl<'a> BlockWriter<'a> {
         }
         line.extend_from_slice(&bytes[at..content.end]);
         line
+    }
+}
+
+/// The motion word of an arc: its angle grows counter-clockwise about the plane's normal.
+fn arc_motion(motion: &Move) -> Motion {
+    match &motion.curve {
+        Curve::Arc(arc) if arc.sweep < 0.0 => Motion::Clockwise,
+        Curve::Arc(_) => Motion::CounterClockwise,
+        Curve::Line => motion_of(motion),
+    }
+}
+
+fn code_of(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Rapid => "0",
+        Motion::Clockwise => "2",
+        Motion::CounterClockwise => "3",
+        Motion::Feed | Motion::Off => "1",
     }
 }
 

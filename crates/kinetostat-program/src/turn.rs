@@ -52,6 +52,10 @@ impl Jump {
 /// Halvings of one step at most: a thousandth of any jump is far below the tolerance.
 const DEPTH: u32 = 10;
 
+/// Where a step is looked at besides its middle: a load that turns round altogether has corrections
+/// that mirror each other about the middle, which then shows nothing.
+const BESIDE: f64 = 0.211_3;
+
 struct Stretch {
     jump: usize,
     node: usize,
@@ -105,27 +109,29 @@ pub(crate) fn follow_turns(
         return Ok(jumps);
     }
     while !open.is_empty() {
-        let requests: Vec<Request> = open
-            .iter()
-            .map(|stretch| {
-                let (node, jump) = (nodes[stretch.node], &jumps[stretch.jump]);
-                Request {
+        let mut requests: Vec<Request> = Vec::new();
+        for stretch in &open {
+            let (node, jump) = (nodes[stretch.node], &jumps[stretch.jump]);
+            for place in [0.5, BESIDE] {
+                requests.push(Request {
                     turning: Some(Turning {
                         from_move: jump.from_move,
                         from_share: jump.from_share,
                         to_share: jump.to_share,
-                        part: 0.5 * (stretch.part[0] + stretch.part[1]),
+                        part: stretch.part[0] + place * (stretch.part[1] - stretch.part[0]),
                     }),
                     ..asker.request(node.move_index, node.share)
-                }
-            })
-            .collect();
+                });
+            }
+        }
         let answers = asker.ask(&requests)?;
         let mut next = Vec::new();
-        for (stretch, middle) in open.into_iter().zip(answers) {
+        for (stretch, answers) in open.into_iter().zip(answers.chunks_exact(2)) {
+            let (middle, beside) = (answers[0], answers[1]);
             let [from, to] = stretch.part;
             let [first, last] = stretch.ends;
-            if (middle - first.lerp(&last, 0.5)).norm() <= options.tolerance_mm
+            let off = |value: Vector3<f64>, place| (value - first.lerp(&last, place)).norm();
+            if off(middle, 0.5).max(off(beside, BESIDE)) <= options.tolerance_mm
                 || stretch.depth == DEPTH
             {
                 continue;

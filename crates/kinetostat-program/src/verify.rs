@@ -6,6 +6,7 @@ use crate::accounting::Accounting;
 use crate::curve::{Curve, NO_LENGTH_MM};
 use crate::error::{ProgramError, WriteError};
 use crate::interpret::interpret;
+use crate::irregular::irregular;
 use crate::options::ReadOptions;
 use crate::path::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::program::Program;
@@ -17,6 +18,9 @@ const SAME_PLACE_MM: f64 = 1e-6;
 /// Largest relative error of the speed along the part.
 const SPEED_TOLERANCE: f64 = 1e-3;
 
+/// Seed of the places that this check looks at.
+const SEED: u64 = 2;
+
 /// What the check found in a program that passed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Verification {
@@ -26,8 +30,11 @@ pub struct Verification {
     pub moves: usize,
     /// Largest distance of the output's path from the input's, in mm.
     pub largest_distance_mm: f64,
-    /// Largest relative difference of the speed along the part from the programmed one.
+    /// Largest relative difference of the speed along the part from the programmed one, where the feed
+    /// was not limited.
     pub largest_speed_error: f64,
+    /// Pieces whose feed was limited ([`Piece::feed_limited`]): they are slower along the part.
+    pub feed_limited_pieces: usize,
     /// Longest line, in bytes.
     pub longest_line_bytes: usize,
 }
@@ -37,11 +44,11 @@ pub struct Verification {
 /// - the motions read are the pieces accounted for, in the order of the input's blocks, and their
 ///   shares cover every block without gap;
 /// - all are straight, no I J K R P is left in them, and the codes are those of the input (G1 for the
-///   arcs);
+///   arcs), but for arcs that are kept as they were;
 /// - no point is farther from the input's path than the largest correction (and the tolerances of
-///   chords and rounding);
-/// - the speed along the part is the programmed one within 0.1 %, and the other axes reach what the
-///   input wanted;
+///   chords and rounding), looked at in places that follow no pattern;
+/// - the speed along the part is the programmed one within 0.1 %, or slower where the feed was held to
+///   its largest, and the other axes reach what the input wanted;
 /// - what is not a coordinate is there byte for byte, numbers are fixed-point with the decimals asked
 ///   for, no line is too long, the header is ASCII and marks the file;
 /// - the blocks of the input are all accounted for.
@@ -120,10 +127,11 @@ impl Verifier<'_> {
             } else {
                 (piece.move_index, piece.share_to)
             };
-            if read.line != piece.output_line
-                || read.kind != motion.kind
-                || read.curve != Curve::Line
-            {
+            let same_curve = match piece.kept_arc {
+                true => is_same_arc(motion, read),
+                false => read.curve == Curve::Line,
+            };
+            if read.line != piece.output_line || read.kind != motion.kind || !same_curve {
                 return broken("the motion read is another than the one written".to_owned());
             }
             let start = (read.start - piece.commanded_from).norm();
@@ -135,7 +143,7 @@ impl Verifier<'_> {
                     start.max(end)
                 ));
             }
-            self.check_distance(motion, piece)?;
+            self.check_distance(motion, piece, read)?;
             self.check_speed(motion, piece, read)?;
             check_extra_axes(motion, piece, read)?;
         }
@@ -149,7 +157,12 @@ impl Verifier<'_> {
         Ok(())
     }
 
-    fn check_distance(&mut self, motion: &Move, piece: &Piece) -> Result<(), WriteError> {
+    fn check_distance(
+        &mut self,
+        motion: &Move,
+        piece: &Piece,
+        read: &Move,
+    ) -> Result<(), WriteError> {
         if motion.known != Knowledge::Whole {
             return Ok(());
         }
@@ -168,12 +181,13 @@ impl Verifier<'_> {
             // A chord is compared with its arc at equal shares, which are not quite the nearest points.
             allowed += 2.0 * self.writing.chord_tolerance_mm;
         }
-        for part in [0.25, 0.5, 0.75, 1.0] {
+        let place = |k: u64| irregular(SEED, piece.output_line as u64, k);
+        for part in [place(0), place(1), place(2), 1.0] {
             if motion.kind == MoveKind::Rapid && part < 1.0 {
                 continue;
             }
             let share = piece.share_from + (piece.share_to - piece.share_from) * part;
-            let commanded = piece.commanded_from.lerp(&piece.commanded_to, part);
+            let commanded = read.point(part);
             let distance = (commanded - motion.point(share)).norm();
             self.found.largest_distance_mm = self.found.largest_distance_mm.max(distance);
             if distance > allowed {
@@ -200,7 +214,10 @@ impl Verifier<'_> {
                 "the feed is lost".to_owned(),
             ));
         };
-        let length = (piece.commanded_to - piece.commanded_from).norm();
+        let length = match piece.kept_arc {
+            true => read.length_mm(),
+            false => (piece.commanded_to - piece.commanded_from).norm(),
+        };
         let part = motion.length_between_mm(piece.share_from, piece.share_to);
         let known = motion.known == Knowledge::Whole;
         let speed = match feed.mode {
@@ -215,6 +232,22 @@ impl Verifier<'_> {
             }
             _ => written.value,
         };
+        if piece.feed_limited {
+            self.found.feed_limited_pieces += 1;
+            let own = match feed.mode {
+                FeedMode::InverseTime => written.value * length / motion.length_mm(),
+                _ => written.value,
+            };
+            let most = self.writing.max_feed_factor * feed.value * (1.0 + SPEED_TOLERANCE);
+            if own > most || speed > feed.value * (1.0 + SPEED_TOLERANCE) {
+                return Err(fail(
+                    motion.line,
+                    piece.output_line,
+                    "its feed is above the largest that is allowed".to_owned(),
+                ));
+            }
+            return Ok(());
+        }
         let error = (speed / feed.value - 1.0).abs();
         self.found.largest_speed_error = self.found.largest_speed_error.max(error);
         if error > SPEED_TOLERANCE {
@@ -234,6 +267,14 @@ pub(crate) fn fail(line: usize, output_line: usize, what: String) -> WriteError 
         output_line,
         what,
     }
+}
+
+/// An arc read again is the one that was there.
+fn is_same_arc(motion: &Move, read: &Move) -> bool {
+    read.curve != Curve::Line
+        && (0..=8)
+            .map(|k| f64::from(k) / 8.0)
+            .all(|share| (read.point(share) - motion.point(share)).norm() <= SAME_PLACE_MM)
 }
 
 /// The other axes are where their share of the block wants them.

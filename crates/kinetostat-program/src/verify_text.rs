@@ -29,20 +29,24 @@ impl Verifier<'_> {
                 self.check_header(&mut output)?;
             }
             let mut group = Vec::new();
+            let mut kept_arc = false;
             let mut motion = None;
             if let Some((move_index, found)) = moves.next_if(|(_, motion)| motion.line == index + 1)
             {
                 motion = Some(found);
-                while pieces
-                    .next_if(|piece| piece.move_index == move_index)
-                    .is_some()
-                {
+                while let Some(piece) = pieces.next_if(|piece| piece.move_index == move_index) {
+                    kept_arc |= piece.kept_arc;
                     group.extend(output.next());
                 }
             } else {
                 group.extend(output.next());
             }
-            self.check_group(index + 1, line, motion, &group)?;
+            self.check_group(
+                index + 1,
+                line,
+                motion.map(|motion| (motion, kept_arc)),
+                &group,
+            )?;
             if !self.input.words(line).is_empty() {
                 blocks += group.len();
             }
@@ -96,6 +100,10 @@ impl Verifier<'_> {
                 ));
             }
         }
+        if self.accounting.blocks_corrected == 0 && self.output.bytes() == self.input.bytes() {
+            // A copy is no compensated program.
+            return Ok(());
+        }
         if self.writing.header.is_some() != (self.accounting.header_lines > 0)
             || self.writing.header.is_some() && !self.output.is_marked_compensated()
         {
@@ -113,7 +121,7 @@ impl Verifier<'_> {
         &mut self,
         number: usize,
         line: &Line,
-        motion: Option<&Move>,
+        motion: Option<(&Move, bool)>,
         group: &[(usize, &Line)],
     ) -> Result<(), WriteError> {
         let Some(((first_index, first), further)) = group.split_first() else {
@@ -137,14 +145,15 @@ impl Verifier<'_> {
         }
         let written = self.output.content(first);
         let original = self.input.content(line);
-        let Some(motion) = motion else {
+        let Some((motion, kept_arc)) = motion else {
             if self.output.bytes()[written] != self.input.bytes()[original] {
                 return broken("a line without a coordinate has changed");
             }
             return Ok(());
         };
         let split = !further.is_empty();
-        let is_arc = motion.curve != Curve::Line;
+        let is_arc = motion.curve != Curve::Line && !kept_arc;
+        let names_motion = motion_word(self.input.words(line)).is_some();
         let kept = |program: &Program, line: &Line| {
             bytes_without(
                 program,
@@ -153,6 +162,7 @@ impl Verifier<'_> {
                 |word| {
                     !(b"XYZF".contains(&word.letter)
                         || is_arc && (b"IJKRP".contains(&word.letter) || is_motion(word))
+                        || kept_arc && !names_motion && is_motion(word)
                         || split && (b"ABCEUVW".contains(&word.letter) || is_after_motion(word)))
                 },
             )
@@ -161,7 +171,6 @@ impl Verifier<'_> {
             return broken("something that is no coordinate has changed");
         }
         let mut codes = self.codes(self.output, first);
-        let names_motion = motion_word(self.input.words(line)).is_some();
         for (index, line) in further {
             self.check_further(number, motion, *index, line)?;
             let repeated = |code: &(u8, i64)| names_motion && *code == (b'G', 10);
@@ -173,6 +182,10 @@ impl Verifier<'_> {
             wanted.retain(|code| !(code.0 == b'G' && [20, 30].contains(&code.1)));
             // G1 takes the place of G2 and G3, or is added where the mode needs it.
             codes.retain(|code| *code != (b'G', 10));
+        }
+        if kept_arc && !names_motion {
+            // It may need to be named again behind arcs that were divided.
+            codes.retain(|code| !(code.0 == b'G' && [20, 30].contains(&code.1)));
         }
         wanted.sort_unstable();
         codes.sort_unstable();

@@ -27,6 +27,13 @@ pub struct WriteOptions {
     /// A stretch this short (in mm) over which the correction still varies by more than the
     /// tolerance is taken for a jump: the tool steps there. Default 0.001.
     pub smallest_piece_mm: f64,
+    /// How many times the programmed feed a piece may be written with, at least 1. More would be
+    /// needed to keep the speed along the part where the tool's own path is much longer; there the part
+    /// is cut more slowly instead. Default 1.2.
+    pub max_feed_factor: f64,
+    /// Length against the direction of motion from which on a step or a piece is warned of, in mm.
+    /// Default 0.05.
+    pub backward_step_mm: f64,
     /// Digits after the point in millimetres, one more in inches; `None` is 4 (and 5).
     pub decimals: Option<u8>,
     /// Lines of text for the header below the mark; `None` writes no header (and no mark).
@@ -46,6 +53,8 @@ impl Default for WriteOptions {
             corner_step_mm: None,
             chord_tolerance_mm: 0.0004,
             smallest_piece_mm: 0.001,
+            max_feed_factor: 1.2,
+            backward_step_mm: 0.05,
             decimals: None,
             header: Some(Vec::new()),
             max_line_bytes: 250,
@@ -62,6 +71,7 @@ impl WriteOptions {
             ("corner_step_mm", self.smallest_step_mm()),
             ("chord_tolerance_mm", self.chord_tolerance_mm),
             ("smallest_piece_mm", self.smallest_piece_mm),
+            ("backward_step_mm", self.backward_step_mm),
         ];
         for (name, value) in lengths {
             if !(1e-6..=10.0).contains(&value) {
@@ -71,6 +81,13 @@ impl WriteOptions {
                     allowed: "0.000001 to 10 mm are allowed",
                 });
             }
+        }
+        if !(1.0..=1000.0).contains(&self.max_feed_factor) {
+            return Err(WriteError::Option {
+                name: "max_feed_factor",
+                found: self.max_feed_factor.to_string(),
+                allowed: "1 to 1000 are allowed",
+            });
         }
         if let Some(decimals) = self.decimals
             && !(3..=8).contains(&decimals)
@@ -95,13 +112,18 @@ impl WriteOptions {
         self.corner_step_mm.unwrap_or(self.tolerance_mm)
     }
 
+    /// Half of the last digit that is written, in mm: what is smaller cannot be written.
+    pub(crate) fn half_digit_mm(&self, mm_per_unit: f64) -> f64 {
+        0.5 * mm_per_unit * 10_f64.powi(-(self.decimals_for(mm_per_unit) as i32))
+    }
+
     /// Digits after the point of coordinate words in a unit of this size.
     pub(crate) fn decimals_for(&self, mm_per_unit: f64) -> usize {
         usize::from(self.decimals.unwrap_or(4)) + usize::from(mm_per_unit > 1.0)
     }
 }
 
-/// One straight motion of the written program.
+/// One motion of the written program: straight, but for arcs that are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Piece {
     /// Index of the move it is a part of, in [`Path::moves`].
@@ -123,6 +145,11 @@ pub struct Piece {
     /// Whether the field's correction is in its end; otherwise the move is carried (its place is not
     /// known) or has no length.
     pub corrected: bool,
+    /// An arc that stays an arc, because no correction on it could be written.
+    pub kept_arc: bool,
+    /// Its feed was held to [`WriteOptions::max_feed_factor`] times the programmed one, so the part is
+    /// cut more slowly here than programmed.
+    pub feed_limited: bool,
 }
 
 /// A written program.
@@ -139,12 +166,13 @@ pub struct Corrected {
 /// Writes the program whose commanded path is the path plus the field's correction.
 ///
 /// Feed moves are divided so that straight pieces follow the corrected curve; rapids keep one piece
-/// and have their ends corrected. A feed move without length keeps the place of the move before.
-/// Everything else is carried byte for byte.
+/// and have their ends corrected. A feed move without length keeps the place of the move before. An
+/// arc on which no correction reaches the last digit stays an arc. Everything else is carried byte for
+/// byte, and a program of which nothing changes comes back as it is, without a header.
 ///
 /// The speed along the part stays the programmed one: F of a piece is the programmed F times the
 /// length written over the length on the part, written where the F in force is off by more than
-/// 0.05 %.
+/// 0.05 %, and never more than [`WriteOptions::max_feed_factor`] times the programmed F.
 ///
 /// Call [`crate::verify_written`] before putting the result in place of a file.
 ///

@@ -212,6 +212,15 @@ fn check_plainly(path: &Path, written: &Corrected) {
                 _ => (length / speed / motion.words.mm_per_unit, part / feed.value),
             };
             if part > 0.0 && length > 0.0 {
+                // Along its own path the tool is no faster than 1.2 times as programmed; where that
+                // limits it, the part is cut more slowly, and nowhere else.
+                let longer = length / part;
+                assert_eq!(piece.feed_limited, longer > 1.2);
+                let wanted = if longer > 1.2 {
+                    wanted * longer / 1.2
+                } else {
+                    wanted
+                };
                 assert!(
                     (is / wanted - 1.0).abs() < 1e-3,
                     "output line {}: {is} {wanted}",
@@ -234,14 +243,10 @@ fn check_one(ops: &[support::Op], style: &Style, waves: &Waves) {
         interpret(&program, &reading).unwrap_or_else(|error| panic!("{error}\n{}", generated.text));
     check_interpretation(&generated, &path);
 
-    let writing = WriteOptions {
-        header: None,
-        ..WriteOptions::default()
-    };
+    // Where nothing is to be corrected the bytes are the same: arcs stay arcs, no header.
+    let writing = WriteOptions::default();
     let unchanged = write_corrected(&program, &path, &NoCorrection, &writing, &Unwatched).unwrap();
-    if !generated.has_arcs {
-        assert_eq!(String::from_utf8_lossy(&unchanged.bytes), generated.text);
-    }
+    assert_eq!(String::from_utf8_lossy(&unchanged.bytes), generated.text);
     verify_written(&program, &path, &unchanged, &reading, &writing).unwrap();
 
     for decimals in [None, Some(6)] {
@@ -265,6 +270,10 @@ fn check_one(ops: &[support::Op], style: &Style, waves: &Waves) {
         check_plainly(&path, &written);
         let again = write_corrected(&program, &path, waves, &writing, &Unwatched).unwrap();
         assert!(again == written, "two runs differ");
+        if written.bytes == program.bytes() {
+            assert_eq!(written.accounting.header_lines, 0);
+            continue;
+        }
         let marked = Program::read(written.bytes).unwrap();
         let marked_path = interpret(&marked, &reading).unwrap();
         let refused = write_corrected(&marked, &marked_path, waves, &writing, &Unwatched);

@@ -139,10 +139,11 @@ fn what_arithmetic_leaves_of_two_equal_places_is_no_move() {
 #[test]
 fn a_circle_smaller_than_the_rounding_still_has_all_its_motions() {
     let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X1 F300\nG2 I0.00002\nG91\nI0.00002 F100\nG90 G1 X2\nM2\n";
+    assert_eq!(written(text, &NoCorrection), text);
     assert_eq!(
-        written(text, &NoCorrection),
-        "G21 G90\nG0 X0 Y0 Z0\nG1 X1 F300\nG1 X1.0000\nX1.0000\nX1.0000\nG91\n\
-         X0.0000 F100\nX0.0000\nX0.0000\nG90 G1 X2\nM2\n"
+        written(text, &shift),
+        "G21 G90\nG0 X0.0100 Y0 Z0\nG1 X1.0100 F300\nG1 X1.0100\nX1.0100\nX1.0100\nG91\n\
+         X0.0000 F100\nX0.0000\nX0.0000\nG90 G1 X2.0100\nM2\n"
     );
 }
 
@@ -454,19 +455,24 @@ fn the_header_is_in_the_files_own_style_below_tape_mark_and_number() {
         header: Some(vec!["model heavy_6r (v1)\n500 N \u{2192} x".to_owned()]),
         ..WriteOptions::default()
     };
-    let head = |text: &str| written_with(text, &NoCorrection, &at_origin(), &writing).0;
+    let head = |text: &str| written_with(text, &shift, &at_origin(), &writing).0;
     assert_eq!(
-        head("%\r\nO12 (part)\r\nG21\r\n%\r\n"),
+        head("%\r\nO12 (part)\r\nG21\r\nG0 X1.\r\n%\r\n"),
         "%\r\nO12 (part)\r\n(kinetostat: compensated program)\r\n(kinetostat: model heavy_6r [v1])\r\n\
-         (kinetostat: 500 N ? x)\r\nG21\r\n%\r\n"
+         (kinetostat: 500 N ? x)\r\nG21\r\nG0 X1.0100\r\n%\r\n"
     );
     assert_eq!(
-        head("G21 ; mm\n"),
-        "; kinetostat: compensated program\n; kinetostat: model heavy_6r [v1]\n; kinetostat: 500 N ? x\nG21 ; mm\n"
+        head("G21 ; mm\nG0 X1\n"),
+        "; kinetostat: compensated program\n; kinetostat: model heavy_6r [v1]\n; kinetostat: 500 N ? x\nG21 ; mm\nG0 X1.0100\n"
     );
-    // Nothing to stand above: the mark of a program without a block.
-    assert!(head("%").starts_with("(kinetostat: compensated program)\n"));
-    assert!(head("\u{feff}G21").starts_with("\u{feff}(kinetostat: compensated program)\n"));
+    assert!(head("\u{feff}G21 G0 X1").starts_with("\u{feff}(kinetostat: compensated program)\n"));
+    // A copy gets none.
+    for text in ["%", "G21\nG0 X1\nG2 X3 I1 F100\n"] {
+        assert_eq!(
+            written_with(text, &NoCorrection, &at_origin(), &writing).0,
+            text
+        );
+    }
 }
 
 #[test]
@@ -731,5 +737,108 @@ fn the_feed_mode_may_change_and_each_feed_is_shared_out_in_its_own_way() {
     assert_eq!(
         written(text, &stretch),
         "G21 G90\nG1 X101.0000 F1010\nG94\nG1 X202.0000\nG93\nG1 X101.0000 F2\nG95\nG1 X0 F0.202\n"
+    );
+}
+
+/// Corrects only where the tool is below the surface.
+fn below(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    Ok(match request.position_mm.z < -0.5 {
+        true => Vector3::new(0.02, 0.0, 0.0),
+        false => Vector3::zeros(),
+    })
+}
+
+#[test]
+fn an_arc_without_correction_stays_an_arc_among_blocks_that_are_corrected() {
+    let text = "G21 G90\nG0 X10 Y0 Z0\nG3 X-10 I-10 F300\nG1 Z-1\nG1 Y5 F200\nG1 Z0 F300\nG2 X10 Y5 I10\nI-5\nM2\n";
+    let (output, result) = written_with(text, &below, &at_origin(), &WriteOptions::default());
+    for kept in ["\nG3 X-10 I-10 F300\n", "\nG2 X10 Y5 I10\nI-5\nM2\n"] {
+        assert!(output.contains(kept), "{output}");
+    }
+    assert!(output.contains("X-9.9800"), "{output}");
+    assert_eq!(
+        result.pieces.iter().filter(|piece| piece.kept_arc).count(),
+        3
+    );
+}
+
+#[test]
+fn an_arc_is_named_again_where_the_arc_before_it_was_divided() {
+    // Both circles are G2 by the first word; the first lies where corrections are.
+    let field = |request: &Request| {
+        let far = request.position_mm.x < 49.0;
+        Ok(Vector3::new(0.0, 0.0, if far { 0.03 } else { 0.0 }))
+    };
+    let text = "G21 G90 G17\nG0 X0 Y0 Z0\nG2 I5 F300\nG0 X50\nG2 I5\nG1 X40\nG2 I1\nG0 X60\nG2 X62 R1\nX60 R1\nM2\n";
+    let (output, _) = written_with(text, &field, &at_origin(), &bare());
+    assert!(output.contains("\nG2 I5\nG1 X"), "{output}");
+    assert!(output.ends_with("\nG2 X62 R1\nX60 R1\nM2\n"), "{output}");
+}
+
+#[test]
+fn the_feed_is_not_raised_beyond_its_factor_and_the_pieces_are_counted() {
+    // 40 mm of correction over 10 mm of part: five times the feed would be needed.
+    let field = |request: &Request| Ok(Vector3::new(4.0 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nG93\nX0 F2\nM2\n";
+    let (output, result) = written_with(text, &field, &at_origin(), &bare());
+    assert_eq!(
+        output,
+        "G21 G90\nG0 X0 Y0 Z0\nG1 X50.0000 F120\nG93\nX0 F0.48\nM2\n"
+    );
+    let account = &result.accounting;
+    assert_eq!(
+        (account.feed_limited_pieces, account.feed_limited_line),
+        (2, Some(3))
+    );
+    assert!((account.slowest_limited_speed.unwrap() - 0.24).abs() < 1e-12);
+    assert_eq!(
+        (account.feed_length_in_mm, account.feed_length_out_mm),
+        (20.0, 100.0)
+    );
+    let seconds = (
+        account.feed_time_in_s.unwrap(),
+        account.feed_time_out_s.unwrap(),
+    );
+    assert!(
+        (seconds.0 - 36.0).abs() < 1e-9 && (seconds.1 - 150.0).abs() < 1e-9,
+        "{seconds:?}"
+    );
+    let free = WriteOptions {
+        max_feed_factor: 10.0,
+        ..bare()
+    };
+    let (output, _) = written_with(text, &field, &at_origin(), &free);
+    assert!(output.contains("G1 X50.0000 F500\nG93\nX0 F2"), "{output}");
+}
+
+#[test]
+fn a_step_that_cuts_backwards_is_warned_of_with_its_line() {
+    let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.2);
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nY10\nX0\n";
+    let (_, result) = written_with(text, &field, &at_origin(), &bare());
+    let account = &result.accounting;
+    assert!(
+        (account.largest_backward_mm - 0.2).abs() < 1e-9,
+        "{account:?}"
+    );
+    assert_eq!(
+        (account.backward_steps, account.largest_backward_line),
+        (3, Some(3))
+    );
+    assert!(
+        account
+            .warnings
+            .iter()
+            .any(|warning| warning.line == 3 && warning.text.contains("cuts backwards"))
+    );
+    let wide = WriteOptions {
+        backward_step_mm: 0.3,
+        ..bare()
+    };
+    let (_, result) = written_with(text, &field, &at_origin(), &wide);
+    assert!(
+        result.accounting.warnings.is_empty(),
+        "{:?}",
+        result.accounting
     );
 }

@@ -1,6 +1,6 @@
 //! Figures and tables of the report as text.
 
-use kinetostat_machining::{PointKind, PointResult, Question, RunResult};
+use kinetostat_machining::{PointKind, PointResult, Question, RunResult, Summary};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
@@ -234,10 +234,38 @@ pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
     rows.push(row(
         "Corner steps",
         steps,
-        "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
-         step there while the tool stays at its corner."
-            .to_owned(),
+        format!(
+            "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
+             step there while the tool stays at its corner. {}",
+            result.corners_in_words().unwrap_or_default()
+        )
+        .trim_end()
+        .to_owned(),
     ));
+    if summary.largest_backward_step_mm > 0.0 {
+        rows.push(row(
+            "Way backwards",
+            number::length(summary.largest_backward_step_mm, 2, Rounding::Up),
+            format!(
+                "The longest step or piece against the direction of motion; {} are longer than {}.",
+                number::count(summary.backward_steps),
+                number::length_setting(summary.backward_step_limit_mm)
+            ),
+        ));
+    }
+    if summary.feed_limited_pieces > 0 {
+        rows.push(row(
+            "Feed limited",
+            format!("{} pieces", number::count(summary.feed_limited_pieces)),
+            format!(
+                "Their feed is held to {} times the programmed one, so the part is cut more slowly there than \
+                 programmed, at {} % of its speed at least, first at line {}.",
+                summary.max_feed_factor,
+                number::fixed(summary.slowest_limited_speed_percent.unwrap_or(0.0).floor(), 0),
+                number::count(summary.feed_limited_line.unwrap_or(0))
+            ),
+        ));
+    }
     rows
 }
 
@@ -271,6 +299,29 @@ fn fact(name: &str, text: String) -> Value {
     context! { name, lines => vec![text] }
 }
 
+/// Length, time and blocks per second of the feed moves, before and after where a program was written.
+fn length_and_time(summary: &Summary) -> String {
+    let with = |value: Option<f64>, decimals: usize, unit: &str| {
+        value.map_or_else(
+            || "unknown".to_owned(),
+            |value| number::with_unit(&number::fixed(value, decimals), unit),
+        )
+    };
+    let mm = |value: f64| with(Some(value), 1, "mm");
+    if summary.feed_length_after_mm == 0.0 {
+        return mm(summary.feed_length_mm);
+    }
+    format!(
+        "{}, {}, {} blocks a second before; {}, {}, {} after",
+        mm(summary.feed_length_before_mm),
+        with(summary.feed_time_before_s, 1, "s"),
+        with(summary.mean_blocks_per_second_before, 1, "").trim(),
+        mm(summary.feed_length_after_mm),
+        with(summary.feed_time_after_s, 1, "s"),
+        with(summary.mean_blocks_per_second_after, 1, "").trim(),
+    )
+}
+
 /// What was asked and how the program was written.
 pub(crate) fn asked(result: &RunResult) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
@@ -292,6 +343,7 @@ pub(crate) fn asked(result: &RunResult) -> Vec<Value> {
         fact("Tool", or_unknown(&question.tool)),
         fact("Path cut", extent(question, summary.feed_length_mm)),
         fact("Actuators", actuator_names(question)),
+        fact("Length and time at feed", length_and_time(summary)),
         fact("Points calculated", number::count(summary.points)),
         fact(
             "Blocks read",

@@ -12,6 +12,8 @@ const SMALLEST_ROTATION: f64 = 0.000_5;
 pub(crate) enum Level {
     /// The written program does what was asked.
     Good,
+    /// Nothing was to be corrected.
+    Unchanged,
     /// An answer without a judgement: analysis only.
     Analysis,
     /// Usable only after a look at what is said.
@@ -25,7 +27,7 @@ impl Level {
     pub(crate) fn class(self) -> &'static str {
         match self {
             Self::Good => "good",
-            Self::Analysis => "analysis",
+            Self::Analysis | Self::Unchanged => "analysis",
             Self::Attention => "attention",
             Self::Stop => "stop",
         }
@@ -35,6 +37,7 @@ impl Level {
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Good => "Corrected",
+            Self::Unchanged => "Unchanged",
             Self::Analysis => "Analysis",
             Self::Attention => "Attention",
             Self::Stop => "Do not run",
@@ -100,6 +103,10 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
     } else {
         analysed(summary)
     };
+    if let Some(corners) = result.corners_in_words() {
+        judged.sentence.push(' ');
+        judged.sentence.push_str(&corners);
+    }
     if cuts_without_load(result) {
         judged.sentence = format!(
             "No cutting force acts on the tool in this run. {}",
@@ -138,6 +145,15 @@ fn compensated(result: &RunResult) -> Verdict {
     let after = result.summary.max_position_error_after_mm;
     if !before.is_finite() || !after.is_finite() {
         return unknown();
+    }
+    if let Some(unchanged) = result.unchanged_in_words() {
+        return Verdict {
+            level: Level::Unchanged,
+            sentence: format!(
+                "{unchanged} The tool is at most {} off.",
+                sentence_mm(after)
+            ),
+        };
     }
     let allowed = allowed_mm(result);
     let (before_text, after_text) = (sentence_mm(before), sentence_mm(after));

@@ -151,7 +151,6 @@ impl Truth {
 pub struct Generated {
     pub text: String,
     pub truths: Vec<Truth>,
-    pub has_arcs: bool,
 }
 
 struct Generator<'s> {
@@ -170,7 +169,6 @@ struct Generator<'s> {
     relative_extruder: bool,
     extruder: f64,
     motion: Option<u8>,
-    has_arcs: bool,
 }
 
 pub fn generate(ops: &[Op], style: &Style) -> Generated {
@@ -190,7 +188,6 @@ pub fn generate(ops: &[Op], style: &Style) -> Generated {
         relative_extruder: false,
         extruder: 0.0,
         motion: None,
-        has_arcs: false,
     };
     if style.tape {
         generator.lines.push("%".to_owned());
@@ -217,7 +214,6 @@ pub fn generate(ops: &[Op], style: &Style) -> Generated {
     Generated {
         text,
         truths: generator.truths,
-        has_arcs: generator.has_arcs,
     }
 }
 
@@ -498,7 +494,6 @@ impl Generator<'_> {
             (false, _) => signed,
         };
         self.speed_word(speed, radius * sweep.abs(), &mut words);
-        self.has_arcs = true;
         self.place = end;
         self.truths.push(Truth::Arc {
             axes,
@@ -519,12 +514,12 @@ pub struct Reached {
     pub line: usize,
 }
 
-/// Reads straight motions from text, with none of the crate's code.
+/// Reads the ends of motions from text, with none of the crate's code.
 pub fn read_plainly(text: &str) -> Vec<Reached> {
     let mut reached = Vec::new();
     let mut place = Vector3::from(START);
     let (mut here, mut work) = (Vector3::zeros(), Vector3::from(WORK[0]));
-    let (mut scale, mut incremental, mut motion, mut speed) = (1.0, false, String::new(), None);
+    let (mut scale, mut incremental, mut speed) = (1.0, false, None);
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let mut bare = String::new();
         let mut inside = false;
@@ -573,7 +568,6 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
                 ('G', "55") => work = Vector3::from(WORK[1]),
                 ('G', "92") => is_here = true,
                 ('G', "92.1") => here = Vector3::zeros(),
-                ('G', code @ ("0" | "1" | "2" | "3")) => motion = code.to_owned(),
                 _ => {}
             }
         }
@@ -593,11 +587,6 @@ pub fn read_plainly(text: &str) -> Vec<Reached> {
         if coordinates.iter().all(Option::is_none) && get('E').is_none() {
             continue;
         }
-        assert!(
-            motion == "0" || motion == "1",
-            "line {}: {line:?} is not straight",
-            index + 1
-        );
         for axis in 0..3 {
             if let Some(value) = coordinates[axis] {
                 let origin = if incremental {

@@ -1,0 +1,66 @@
+//! What becomes of the claim at sharp corners if the load does the other thing there.
+
+use kinetostat::{Pose, Wrench};
+
+use crate::run::{RunError, Task, Watch};
+use crate::sites::Site;
+use crate::solve::in_chunks;
+use crate::together::Together;
+
+/// Points between two looks at the watch.
+const BATCH: usize = 4096;
+
+/// Largest distance of the tool from its place on all corner steps under the load of the other reading
+/// ([`Site::other_wrench`]), mm. None without such steps, and where a step has no equilibrium by that
+/// reading.
+pub(crate) fn by_the_other_reading(
+    task: &Task<'_>,
+    sites: impl Iterator<Item = Site>,
+    watch: &dyn Watch,
+) -> Result<Option<f64>, RunError> {
+    let steps: Vec<(Site, Wrench)> = sites
+        .filter_map(|site| {
+            let other = site.other_wrench?;
+            Some((site, other))
+        })
+        .collect();
+    watch.stage("corner steps by the other reading", steps.len());
+    let together = Together::new(task.mechanism);
+    let place = &task.placement;
+    let mut largest: Option<f64> = None;
+    let mut done = 0;
+    for batch in steps.chunks(BATCH) {
+        if watch.cancelled() {
+            return Err(RunError::Cancelled);
+        }
+        let errors = in_chunks(batch, |memory, steps| {
+            let poses: Vec<Pose> = steps
+                .iter()
+                .map(|(site, _)| place.tool_pose(&site.commanded))
+                .collect();
+            let wrenches: Vec<Wrench> = steps.iter().map(|(_, wrench)| *wrench).collect();
+            let found = together.rest(&poses, &wrenches);
+            let [memory, _] = memory;
+            (0..steps.len())
+                .map(|i| {
+                    let tool = match &found {
+                        Some(found) => found.tool_pose(i),
+                        None => memory.rest(task.mechanism, &poses[i], &wrenches[i]).ok()?.1,
+                    };
+                    let wanted = place.tool_pose(&steps[i].0.desired);
+                    let off = tool.translation.vector - wanted.translation.vector;
+                    Some(place.to_program(&off).norm())
+                })
+                .collect::<Vec<Option<f64>>>()
+        });
+        for error in errors {
+            let Some(error) = error.filter(|error| error.is_finite()) else {
+                return Ok(None);
+            };
+            largest = Some(largest.map_or(error, |most: f64| most.max(error)));
+        }
+        done += batch.len();
+        watch.advance(done);
+    }
+    Ok(largest)
+}
