@@ -39,29 +39,32 @@ pub fn run(options: &[&str]) -> Result<()> {
             _ => bail!("{word} is unknown; there are --minutes, --seed and --case"),
         }
     }
-    if case.is_none() {
-        codes(minutes, seed)?;
+    if let Some(case) = case {
+        return chains(&["case", case]);
     }
+    codes(minutes, seed)?;
+    // Programs are many more cases in a minute: a sixth of the time does.
+    let time: f64 = minutes.parse()?;
+    maps(&[&(time / 6.0).to_string(), seed])?;
+    chains(&[&(time * 5.0 / 6.0).to_string(), seed])?;
+    absurd_units()
+}
+
+/// Chains under loads, through every question.
+fn chains(words: &[&str]) -> Result<()> {
     let mut command = cargo();
-    command.args([
-        "run",
-        "--quiet",
-        "--release",
-        "--package",
-        "kinetostat",
-        "--example",
-        "fuzz_chains",
-        "--",
-    ]);
-    let Some(case) = case else {
-        // Programs are many more cases in a minute: a sixth of the time does.
-        let minutes: f64 = minutes.parse()?;
-        maps(&[&(minutes / 6.0).to_string(), seed])?;
-        command.args([&(minutes * 5.0 / 6.0).to_string(), seed]);
-        return step("fuzz", &mut command);
-    };
-    command.args(["case", case]);
-    step("fuzz", &mut command)
+    command.args(["run", "--quiet", "--release", "--package", "kinetostat"]);
+    command.args(["--example", "fuzz_chains", "--"]).args(words);
+    step("fuzz of chains", &mut command)
+}
+
+/// One figure of a good job or model at a time, in every wrong unit.
+fn absurd_units() -> Result<()> {
+    let mut command = cargo();
+    command.args(["test", "--quiet", "--release", "--package", "kinetostat-cli"]);
+    command.args(["--test", "absurd"]);
+    command.env("KINETOSTAT_ABSURD", "all");
+    step("absurd units", &mut command)
 }
 
 /// Programs under ridged tables, looked at in random places. One case is repeated with

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use kinetostat_machining::{
-    LoadAlongPath, Run, RunResult, Task, Tool, Warning, WarningCode, analyse, compensate_program,
-    load_in_words,
+    Bounds, LoadAlongPath, Run, RunResult, Task, Tool, Warning, WarningCode, analyse,
+    compensate_program, load_in_words,
 };
 use kinetostat_program::{Path as ToolPath, Program, ProgramError, faults, interpret};
 
@@ -16,6 +16,7 @@ use crate::points_csv;
 use crate::progress::Progress;
 use crate::screen::{self, Stream};
 use crate::setting::{Setting, Targets};
+use crate::summary;
 
 /// What a run writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,6 +151,20 @@ pub(crate) fn solve(
     let mut question = machine.question.clone();
     question.program.clone_from(&setting.program_name);
     let mut writing = setting.writing.clone();
+    question.tolerance_from = "as stated".to_owned();
+    if aim == Aim::Compensate {
+        let (usual_mm, from) = &machine.usual_tolerance;
+        let [path_stated, chord_stated] = setting.stated;
+        if !path_stated {
+            writing.tolerance_mm = *usual_mm;
+            question.tolerance_from.clone_from(from);
+        }
+        if !chord_stated {
+            // Never finer than the program of a machine that is not known.
+            let in_proportion = 0.8 * usual_mm.min(writing.tolerance_mm);
+            writing.chord_tolerance_mm = writing.chord_tolerance_mm.max(in_proportion);
+        }
+    }
     if let Some(header) = &mut writing.header {
         *header = vec![
             format!("version {}", env!("CARGO_PKG_VERSION")),
@@ -178,6 +193,10 @@ pub(crate) fn solve(
         tools: &tools,
         writing,
         question,
+        bounds: Bounds {
+            limits: setting.limits,
+            ..machine.bounds.clone()
+        },
     };
     let progress = Progress::new();
     let work = || match aim {
@@ -225,6 +244,15 @@ pub(crate) fn json<T: serde::Serialize>(value: &T) -> Answer<String> {
     })?;
     text.push('\n');
     Ok(text)
+}
+
+/// A written program that misses its tolerance has an exit code of its own; files are in place.
+pub(crate) fn judged(result: &RunResult) -> Answer<()> {
+    if result.tolerance.held != Some(false) {
+        return Ok(());
+    }
+    let text = summary::missed(result);
+    Err(Failure::tolerance_missed(text).within(&result.question.program))
 }
 
 /// Where the text for people goes, and the JSON on the standard output if it is wanted there.

@@ -16,6 +16,7 @@ Exit codes:
   0    answered
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: not converged, or a point that cannot be reached
+  3    compensated and written, but the tolerance is missed; the line is said
   130  stopped with Ctrl-C; nothing was written";
 
 /// Elastostatics of robots that machine: how far a machine bends along a program, and a program
@@ -44,6 +45,7 @@ Exit codes:
         "  0    answered\n",
         "  1    wrong input: a file, a number or an option; the message says which\n",
         "  2    no answer: not converged, or a point that cannot be reached\n",
+        "  3    compensated and written, but the tolerance is missed; the line is said\n",
         "  130  stopped with Ctrl-C; nothing was written",
     )
 )]
@@ -75,6 +77,7 @@ pub(crate) enum Command {
 /// Writes the program, the compensated program, the report, the result and all points, and the
 /// model and job files that repeat the run.
 #[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
 pub(crate) struct DemoArgs {
     /// Directory for the files; it is made if it does not exist
     #[arg(long, value_name = "DIR", default_value = "kinetostat-demo")]
@@ -117,7 +120,8 @@ pub(crate) struct CompensateArgs {
     /// Leave out the header that marks the program as compensated
     #[arg(long, help_heading = "Outputs")]
     pub(crate) no_header: bool,
-    /// How far the straight pieces may leave the corrected path, micrometres [default: 0.5]
+    /// How far the straight pieces may leave the corrected path, micrometres [default: a third of the
+    /// repeatability that the model states, 20 for an arm that states none, else 0.5]
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,
     /// Digits after the point in mm, one more in inches [default: 4]
@@ -441,9 +445,15 @@ pub(crate) struct ProgramArgs {
     /// Where the tool stands before the first block, mm
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, help_heading = "Reading", value_parser = number)]
     pub(crate) start_position_mm: Option<Vec<f64>>,
-    /// How far the chords of arcs may leave them, micrometres [default: 0.4]
+    /// How far the chords of arcs may leave them, micrometres [default: 0.4, in a
+    /// compensated program at most 0.8 of the path's default tolerance]
     #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances", value_parser = number)]
     pub(crate) chord_tolerance_um: Option<f64>,
+    /// Move a limit, as in correction_mm=5 (repeat for more): correction_mm, tilt_deg, force_n,
+    /// moment_n_m, share_of_rating, share_of_buckling, blocks_per_second, shortest_tool_mm,
+    /// longest_tool_mm. A program that leaves a limit is refused
+    #[arg(long = "limit", value_name = "NAME=VALUE", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Limits")]
+    pub(crate) limits: Vec<String>,
     /// The report, one HTML file
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) report: Option<PathBuf>,
@@ -537,10 +547,16 @@ A job file:
   points = "points.csv"
   # header = true
 
+  [limits]                         # a program that leaves them is refused
+  # correction_mm = 2, tilt_deg = 1, force_n = 5000, moment_n_m = 200
+  # share_of_rating = 1, share_of_buckling = 0.5, blocks_per_second = 2000
+  # shortest_tool_mm = 1, longest_tool_mm = 1000
+
 Exit codes:
   0    answered
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: not converged, or a point that cannot be reached
+  3    compensated and written, but the tolerance is missed; the line is said
   130  stopped with Ctrl-C; nothing was written"#;
 
 const DEFLECT_HELP: &str = "\
@@ -550,7 +566,7 @@ Examples:
       --rotation a_b_c_kuka_deg=0,90,0 --force 0 0 -500 --moment 0 0 20
   kinetostat deflect job.toml --report report.html
   kinetostat deflect orthoglide --program part.ngc --part-origin-mm 0 0 100 \\
-      --tool-length-mm 100 --force 0 0 -200
+      --tool-length-mm 100 --force 0 0 200
 
 Force and moment act on the tool at its tip; axes are those of the base.
 

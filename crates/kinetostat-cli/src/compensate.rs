@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::{RESULT_SCHEMA, Warning, of_program};
+use kinetostat_machining::{
+    RESULT_SCHEMA, RunError, Warning, odd_correction, odd_tolerances, of_accounting, of_program,
+};
 use kinetostat_program::{
     Accounting, CorrectionMap, Program, interpret, verify_against_field, verify_written,
     write_corrected,
@@ -75,7 +77,8 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     targets.fill(&run)?;
     let paths = targets.outputs.commit()?;
     let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
-    tell(&text, to_screen.then_some(&run.result))
+    tell(&text, to_screen.then_some(&run.result))?;
+    along::judged(&run.result)
 }
 
 /// `--json job.toml` means the job: the file of `--json` may be left out, and nobody calls a result
@@ -186,13 +189,27 @@ fn from_map(
     };
     let progress = Progress::new();
     let written = write_corrected(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let a = &written.accounting;
+    let beyond = of_accounting(&setting.limits, a);
+    if !beyond.is_empty() {
+        return Err(Failure::from(RunError::BeyondLimits(beyond)).within(&setting.program_name));
+    }
     let check =
         verify_written(&program, &path, &written, &setting.reading, &writing).map_err(refuse)?;
     let against =
         verify_against_field(&path, &written, &field, &writing, &progress).map_err(refuse)?;
     progress.finish();
-    let a = &written.accounting;
-    let warnings = of_program(&path, Some(&a.warnings));
+    let mut warnings = of_program(&path, Some(&a.warnings));
+    warnings.extend(odd_correction(
+        &setting.limits,
+        a.largest_correction_mm,
+        a.largest_correction_line,
+        writing.tolerance_mm,
+    ));
+    warnings.extend(odd_tolerances(
+        writing.tolerance_mm,
+        writing.chord_tolerance_mm,
+    ));
     let result = MapResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

@@ -249,6 +249,7 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
         ("--axes-stand-still", p.axes_stand_still),
         ("--start-position-mm", p.start_position_mm.is_some()),
         ("--chord-tolerance-um", p.chord_tolerance_um.is_some()),
+        ("--limit", !p.limits.is_empty()),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((name, _)) => Err(Failure::input(format!(

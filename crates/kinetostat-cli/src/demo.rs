@@ -148,7 +148,8 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push('\n');
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
-    tell(&text, args.json.then_some(&run.result))
+    tell(&text, args.json.then_some(&run.result))?;
+    along::judged(&run.result)
 }
 
 fn next(out: &Path) -> String {

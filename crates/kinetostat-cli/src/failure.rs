@@ -15,6 +15,8 @@ pub(crate) enum Code {
     WrongInput = 1,
     /// The question is right but has no answer: no convergence, a point out of reach.
     Unanswered = 2,
+    /// A program was written, but it misses its tolerance.
+    ToleranceMissed = 3,
     /// Ctrl-C.
     Stopped = 130,
 }
@@ -40,6 +42,11 @@ impl Failure {
     /// No answer exists or none was found.
     pub(crate) fn unanswered(message: impl Display) -> Self {
         Self::new(Code::Unanswered, message)
+    }
+
+    /// A written program that misses its tolerance.
+    pub(crate) fn tolerance_missed(message: impl Display) -> Self {
+        Self::new(Code::ToleranceMissed, message)
     }
 
     fn new(code: Code, message: impl Display) -> Self {

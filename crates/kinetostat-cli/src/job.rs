@@ -41,6 +41,9 @@ pub(crate) struct Job {
     pub tolerances: TolerancesTable,
     #[serde(default)]
     pub output: OutputTable,
+    /// Limits moved by their names.
+    #[serde(default)]
+    pub limits: BTreeMap<Spanned<String>, Spanned<f64>>,
 }
 
 /// Where the program lies in the machine.

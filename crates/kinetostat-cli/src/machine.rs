@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    CornerLoad, CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, Warning, WarningCode,
-    straight_tool,
+    Bounds, CornerLoad, CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, ToolGiven, Warning,
+    WarningCode, straight_tool,
 };
 use kinetostat_model::Model;
+use kinetostat_program::WriteOptions;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde_spanned::Spanned;
 
@@ -27,6 +28,10 @@ pub(crate) struct Machine {
     /// Tools by number, each with its machine and load.
     pub(crate) tools: Vec<(u32, Mechanism, ProgramLoad)>,
     pub(crate) question: Question,
+    /// Ratings, tool and workspace; limits are those of the run.
+    pub(crate) bounds: Bounds,
+    /// Tolerance of a program that states none, mm, and where it comes from.
+    pub(crate) usual_tolerance: (f64, String),
     /// Of the model's text and deviations.
     pub(crate) fingerprint: u64,
 }
@@ -64,7 +69,13 @@ pub(crate) fn machine(
     let mechanism = model.mechanism.with_tool(&tool);
     let placement = placement(job, flags, &mechanism)?;
     let load = load(job, job.map(|j| &j.job.load), flags)?;
-    let tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words)?;
+    let mut given = vec![ToolGiven {
+        number: None,
+        pose: tool,
+        stated: flags.tool_length_mm.is_some()
+            || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
+    }];
+    let tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
     let source = match &path {
         Some(_) => named,
         None => format!("preset {named}"),
@@ -84,10 +95,36 @@ pub(crate) fn machine(
             load,
             tools,
             question,
+            bounds: Bounds {
+                ratings: model.ratings(),
+                tools: given,
+                workspace: model.workspace(),
+                ..Bounds::default()
+            },
+            usual_tolerance: usual_tolerance(&model),
             fingerprint,
         },
         model,
     ))
+}
+
+/// A program need not be better than its machine repeats: a third of that. Arms repeat within about
+/// 0.06 mm.
+fn usual_tolerance(model: &Model) -> (f64, String) {
+    match model.document.mechanism.repeatability_mm {
+        Some(mm) => (
+            mm / 3.0,
+            format!("a third of the machine's repeatability, {} mm", short(mm)),
+        ),
+        None if model.is_arm() => (
+            0.02,
+            "usual for an arm; the model states no repeatability".to_owned(),
+        ),
+        None => (
+            WriteOptions::default().tolerance_mm,
+            "the smallest in use; the model states no repeatability".to_owned(),
+        ),
+    }
 }
 
 /// What looks wrong in a model, for the list of a run.
@@ -140,6 +177,7 @@ fn numbered_tools(
     flags: &ProgramArgs,
     mechanism: &Mechanism,
     words: &mut String,
+    given: &mut Vec<ToolGiven>,
 ) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
     let mut tools: Vec<(u32, Mechanism, ProgramLoad)> = Vec::new();
     let Some(j) = job.filter(|j| !j.job.tools.is_empty()) else {
@@ -151,6 +189,7 @@ fn numbered_tools(
         ));
     }
     let mut all = Vec::new();
+    given.clear();
     for entry in &j.job.tools {
         let tool = entry.get_ref();
         if tools.iter().any(|(number, ..)| *number == tool.number) {
@@ -170,6 +209,11 @@ fn numbered_tools(
         let (pose, text) = tool_of(j, tool.length_mm.as_ref(), tool.pose.as_ref())?;
         let load = load(job, Some(tool.load.as_ref().unwrap_or(&j.job.load)), flags)?;
         all.push(format!("tool {}: {text}", tool.number));
+        given.push(ToolGiven {
+            number: Some(tool.number),
+            pose,
+            stated: true,
+        });
         tools.push((tool.number, mechanism.with_tool(&pose), load));
     }
     *words = all.join("; ");

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use kinetostat_machining::Limits;
 use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, Units, WriteOptions};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
@@ -66,6 +67,10 @@ pub(crate) struct Setting {
     pub(crate) reading: ReadOptions,
     pub(crate) writing: WriteOptions,
     pub(crate) max_blocks_per_second: Option<f64>,
+    /// What refuses a program.
+    pub(crate) limits: Limits,
+    /// Whether the tolerances of path and chords were stated.
+    pub(crate) stated: [bool; 2],
     pub(crate) targets: Targets,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
@@ -112,27 +117,26 @@ pub(crate) fn setting(
     let program = files.bytes("program", &path)?;
     inputs.push(path.clone());
     let reading = reading(job, flags)?;
+    let limits = limits(job, &flags.limits)?;
     let tolerances = job.map(|j| j.job.tolerances.clone()).unwrap_or_default();
     let mut write = WriteOptions {
         again: writing.again,
         ..WriteOptions::default()
     };
-    if let Some(mm) = chosen(
+    let path_mm = chosen(
         job,
         ("--tolerance-um", writing.tolerance_um),
         tolerances.path_um.as_ref(),
         micrometres,
-    )? {
-        write.tolerance_mm = mm;
-    }
-    if let Some(mm) = chosen(
+    )?;
+    let chord_mm = chosen(
         job,
         ("--chord-tolerance-um", flags.chord_tolerance_um),
         tolerances.chord_um.as_ref(),
         micrometres,
-    )? {
-        write.chord_tolerance_mm = mm;
-    }
+    )?;
+    write.tolerance_mm = path_mm.unwrap_or(write.tolerance_mm);
+    write.chord_tolerance_mm = chord_mm.unwrap_or(write.chord_tolerance_mm);
     if let Some(factor) = chosen(
         job,
         ("--max-feed-factor", writing.max_feed_factor),
@@ -182,6 +186,8 @@ pub(crate) fn setting(
         reading,
         writing: write,
         max_blocks_per_second,
+        limits,
+        stated: [path_mm.is_some(), chord_mm.is_some()],
         targets: targets(job, flags, writing, &path)?,
         inputs,
     })
@@ -275,6 +281,47 @@ pub(crate) fn above_zero(value: f64) -> Result<f64, &'static str> {
     } else {
         Err("a number above zero is needed")
     }
+}
+
+/// The limits of the job file, and over them those of the options.
+fn limits(job: Option<&JobFile>, options: &[String]) -> Answer<Limits> {
+    let names: Vec<&str> = Limits::ALL.iter().map(|limit| limit.name).collect();
+    let names = names.join(", ");
+    let mut limits = Limits::default();
+    for (j, (name, value)) in job
+        .into_iter()
+        .flat_map(|j| j.job.limits.iter().map(move |entry| (j, entry)))
+    {
+        let Some(limit) = Limits::named(name.get_ref()) else {
+            let message = format!("unknown key '{}'", name.get_ref());
+            return Err(j.error(name, &message, &format!("there are: {names}")));
+        };
+        if !value.get_ref().is_finite() {
+            return Err(j.error(
+                value,
+                &format!("the limit '{}' is {}", limit.name, value.get_ref()),
+                "write a finite number",
+            ));
+        }
+        limits.set(limit, *value.get_ref());
+    }
+    for text in options {
+        let refuse = |reason: &str| {
+            Failure::input(format!(
+                "--limit '{text}': {reason}; write NAME=VALUE, as in correction_mm=5. There are: {names}"
+            ))
+        };
+        let (name, value) = text.split_once('=').ok_or_else(|| refuse("no value"))?;
+        let limit = Limits::named(name.trim()).ok_or_else(|| refuse("unknown name"))?;
+        let value: f64 = value
+            .trim()
+            .parse()
+            .ok()
+            .filter(|v: &f64| v.is_finite())
+            .ok_or_else(|| refuse("the value is no finite number"))?;
+        limits.set(limit, value);
+    }
+    Ok(limits)
 }
 
 fn micrometres(value: f64) -> Result<f64, &'static str> {

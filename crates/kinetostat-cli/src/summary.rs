@@ -34,16 +34,20 @@ pub(crate) fn verdict(result: &RunResult) -> String {
         )
     } else if result.question.compensated {
         let after = s.max_position_error_after_mm;
-        let better = if after > 0.0 && before > 2.0 * after {
-            format!(
-                ", about {} times less",
-                number(two_digits(before / after), 2)
-            )
-        } else {
-            String::new()
+        let held = result.tolerance.held == Some(true);
+        let first = match held {
+            true => String::new(),
+            false => format!("{} ", missed(result)),
+        };
+        let bound = match held {
+            true => format!(
+                ", inside the {} mm that are allowed",
+                fixed(result.tolerance.allowed_mm, 5)
+            ),
+            false => String::new(),
         };
         format!(
-            "As programmed, the tool would be up to {} mm off its path. With the compensated program it stays within {} mm{better}, solved again from the bytes as written.",
+            "{first}As programmed, the tool would be up to {} mm off its path. With the compensated program it stays within {} mm{bound}, solved again from the bytes as written. These figures are the model's: they are as true as its stiffnesses and masses.",
             mm(before),
             fixed(after, 5)
         )
@@ -63,10 +67,20 @@ pub(crate) fn verdict(result: &RunResult) -> String {
     text
 }
 
-/// Rounded to two digits: a ratio is not known better.
-fn two_digits(value: f64) -> f64 {
-    let unit = 10_f64.powf(value.log10().floor() - 1.0);
-    (value / unit).round() * unit
+/// That the tolerance is missed, where, by how much and why.
+pub(crate) fn missed(result: &RunResult) -> String {
+    let t = &result.tolerance;
+    match &t.missed {
+        Some(m) => format!(
+            "THE TOLERANCE IS MISSED at line {} (line {} of the written program): the tool is {} mm off, more than the {} mm that are allowed; {}.",
+            m.line,
+            m.output_line,
+            fixed(m.error_mm, 5),
+            fixed(t.allowed_mm, 5),
+            m.reason
+        ),
+        None => format!("THE TOLERANCE of {} mm IS MISSED.", fixed(t.allowed_mm, 5)),
+    }
 }
 
 fn figures(result: &RunResult) -> String {
@@ -92,6 +106,12 @@ fn figures(result: &RunResult) -> String {
             "of that by rounding",
             "",
             &fixed(s.max_rounding_error_mm, 5),
+            "mm",
+        ]);
+        row(&[
+            "error allowed in all",
+            "",
+            &fixed(result.tolerance.allowed_mm, 5),
             "mm",
         ]);
         row(&["largest correction", "", &mm(s.max_correction_mm), "mm"]);

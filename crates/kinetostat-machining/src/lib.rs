@@ -7,6 +7,8 @@
 mod claims;
 mod corners;
 mod field;
+mod judge;
+mod limits;
 mod load;
 mod map;
 mod near;
@@ -20,13 +22,15 @@ mod tool;
 mod warning;
 
 pub use field::ModelField;
+pub use judge::{Bounds, ToolGiven, odd_correction, odd_tolerances, of_accounting};
+pub use limits::{Beyond, Limit, Limits};
 pub use load::{CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
 pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use result::{
-    ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
-    Summary,
+    ActuatorColumn, MissedTolerance, NearSingularPlace, PointKind, PointResult, Question,
+    RESULT_SCHEMA, RunResult, Summary, ToleranceVerdict,
 };
 pub use run::{
     Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words, of_program,

@@ -17,6 +17,9 @@ pub struct RunResult {
     pub schema: u32,
     /// Version of kinetostat that made it.
     pub kinetostat_version: String,
+    /// Whether the written program holds the tolerance that it was to hold.
+    #[serde(default)]
+    pub tolerance: ToleranceVerdict,
     /// Figures of the whole run.
     pub summary: Summary,
     /// What was asked.
@@ -39,6 +42,56 @@ impl RunResult {
     pub const MAX_POINTS: usize = 4000;
     /// Most places whose posture is compared with singular ones.
     pub const MAX_POSTURES: usize = 64;
+
+    /// Error that the written program may have, mm: the tolerances of the path and of chords in arcs,
+    /// and the rounding to decimals. By this bound it is judged everywhere.
+    #[must_use]
+    pub fn allowed_mm(&self) -> f64 {
+        [
+            self.question.tolerance_mm,
+            self.question.chord_tolerance_mm,
+            self.summary.max_rounding_error_mm,
+        ]
+        .into_iter()
+        .filter(|part| part.is_finite() && *part > 0.0)
+        .sum()
+    }
+
+    /// Whether the written program stays within [`Self::allowed_mm`]; none if none was written. A
+    /// figure that is no number holds nothing.
+    #[must_use]
+    pub fn holds_tolerance(&self) -> Option<bool> {
+        let after = self.summary.max_position_error_after_mm;
+        self.question
+            .compensated
+            .then(|| after <= self.allowed_mm())
+    }
+}
+
+/// How a written program stands to its tolerance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ToleranceVerdict {
+    /// [`RunResult::allowed_mm`].
+    pub allowed_mm: f64,
+    /// [`RunResult::holds_tolerance`].
+    pub held: Option<bool>,
+    /// Where it is missed most; none where it is held.
+    pub missed: Option<MissedTolerance>,
+}
+
+/// The place where a written program is farthest beyond its tolerance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MissedTolerance {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Line of the written program, from 1.
+    pub output_line: usize,
+    /// Where the tool should be, program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// Distance of the tool from it, mm.
+    pub error_mm: f64,
+    /// Why, and what can be done.
+    pub reason: String,
 }
 
 /// The place of a program that is nearest to a singular posture.
@@ -74,6 +127,9 @@ pub struct Question {
     pub actuators: Vec<ActuatorColumn>,
     /// Tolerance of the corrected path, mm.
     pub tolerance_mm: f64,
+    /// Where this tolerance comes from, in words; empty where it is not known.
+    #[serde(default)]
+    pub tolerance_from: String,
     /// Tolerance of arcs divided into chords, mm.
     pub chord_tolerance_mm: f64,
     /// Decimals written.
@@ -211,6 +267,10 @@ pub struct Summary {
     pub smallest_stiffness_n_per_mm: f64,
     /// Largest buckling margin mu of any limb (1 is buckling); none for limbs without inner freedom.
     pub largest_buckling_margin: Option<f64>,
+    /// Largest force or torque of a drive as a share of its rating, 1 is the rating; none where the
+    /// model states no rating.
+    #[serde(default)]
+    pub largest_share_of_rating: Option<f64>,
     /// Largest force or torque of each actuator (N or N m), in the order of `question.actuators`.
     #[serde(rename = "max_actuator_force_n_or_n_m")]
     pub max_actuator_force: Vec<f64>,

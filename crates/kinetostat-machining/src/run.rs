@@ -11,12 +11,14 @@ use nalgebra::Vector3;
 
 use crate::corners::by_the_other_reading;
 use crate::field::{ModelField, in_words};
+use crate::judge::{self, Bounds};
+use crate::limits::Beyond;
 use crate::load::{CornerLoad, LoadAlongPath, ProgramLoad};
 use crate::near::{natural_length, near_singular};
 use crate::placement::Placement;
 use crate::result::{
     ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
-    Summary,
+    Summary, ToleranceVerdict,
 };
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{Neighbour, in_chunks};
@@ -46,6 +48,8 @@ pub struct Task<'a> {
     pub writing: WriteOptions,
     /// Names and words for the result; figures are filled in by the run.
     pub question: Question,
+    /// What its figures are judged by.
+    pub bounds: Bounds,
 }
 
 impl<'a> Task<'a> {
@@ -107,6 +111,9 @@ pub enum RunError {
         /// Error with it, mm.
         after_mm: f64,
     },
+    /// Figures that no sensible question has.
+    #[error("{}; nothing was written", in_lines(.0))]
+    BeyondLimits(Vec<Beyond>),
     /// The machine would jump to another shape.
     #[error(
         "line {line}: at X{:.4} Y{:.4} Z{:.4} mm the machine is not stable under this load: it would jump to another shape; nothing was written. Reduce the load, move the part, or stiffen the machine; `kinetostat deflect` shows the rest of the path", position_mm[0], position_mm[1], position_mm[2]
@@ -125,6 +132,19 @@ pub enum RunError {
     /// Stopped on request.
     #[error("stopped on request; nothing was written")]
     Cancelled,
+}
+
+fn in_lines(list: &[Beyond]) -> String {
+    let lines: Vec<String> = list.iter().map(Beyond::to_string).collect();
+    lines.join("\n")
+}
+
+/// Refuses what is beyond its limits.
+fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
+    match beyond.is_empty() {
+        true => Ok(()),
+        false => Err(RunError::BeyondLimits(beyond)),
+    }
 }
 
 impl RunError {
@@ -169,6 +189,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 /// # Errors
 /// [`RunError`] naming the line; nothing is to be written then.
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
+    refuse(judge::of_question(task))?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     let field = ModelField::new(task.mechanism, task.placement, &load);
     watch.stage("corrections", 0);
@@ -196,6 +217,14 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
             position_mm: point.position_mm,
         });
     }
+    // A machine that gives way is the graver finding, so limits come after it.
+    let mut beyond = judge::of_accounting(&task.bounds.limits, &written.accounting);
+    for found in judge::of_points(task, &points) {
+        if beyond.iter().all(|b| b.limit != found.limit) {
+            beyond.push(found);
+        }
+    }
+    refuse(beyond)?;
     if let Some(worse) = worse {
         return Err(worse);
     }
@@ -451,7 +480,7 @@ fn point(
     }
 }
 
-fn kinds(mechanism: &Mechanism) -> impl Iterator<Item = MotionKind> + '_ {
+pub(crate) fn kinds(mechanism: &Mechanism) -> impl Iterator<Item = MotionKind> + '_ {
     mechanism
         .limbs()
         .iter()
@@ -547,6 +576,13 @@ fn conclude(
             ),
         ));
     }
+    if written.is_none() {
+        let beyond = judge::of_question(task)
+            .into_iter()
+            .chain(judge::of_points(task, &points));
+        warnings.extend(beyond.map(|b| judge::as_warning(&b)));
+    }
+    warnings.extend(judge::odd(task, &points, &summary, written.is_some()));
     let near_singularity = nearest_singular(task, &points);
     if let Some(near) = &near_singularity {
         let [x, y, z] = near.position_mm;
@@ -563,6 +599,7 @@ fn conclude(
     let mut result = RunResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION").into(),
+        tolerance: ToleranceVerdict::default(),
         summary,
         question,
         worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
@@ -570,6 +607,7 @@ fn conclude(
         near_singularity,
         points: Vec::new(),
     };
+    result.tolerance = judge::tolerance(&result, &points, written.as_ref());
     let stride = points
         .len()
         .div_ceil(RunResult::MAX_POINTS - worst.len())
@@ -653,7 +691,9 @@ fn summarise(
     written: Option<&Corrected>,
     checked: &Checked,
 ) -> Summary {
-    let most = |f: &dyn Fn(&PointResult) -> f64| points.iter().map(f).fold(0.0, f64::max);
+    // What is no number stays seen.
+    let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
+    let most = |f: &dyn Fn(&PointResult) -> f64| points.iter().map(f).fold(0.0, larger);
     let rms = |f: &dyn Fn(&PointResult) -> f64| {
         (points.iter().map(|p| f(p).powi(2)).sum::<f64>() / points.len().max(1) as f64).sqrt()
     };
@@ -691,6 +731,7 @@ fn summarise(
             .iter()
             .filter_map(|p| p.buckling_margin)
             .max_by(f64::total_cmp),
+        largest_share_of_rating: judge::largest_share_of_rating(task, points),
         max_actuator_force: per_actuator(&|p| &p.actuator_force),
         max_actuator_correction: per_actuator(&|p| &p.actuator_correction),
         converged: true,

@@ -24,6 +24,34 @@ pub enum WarningCode {
     NearSingular,
     /// More blocks per second than the controller takes.
     BlocksPerSecond,
+    /// A figure beyond a limit, in an analysis that writes no program.
+    OverLimit,
+    /// A figure that comes near a limit.
+    NearLimit,
+    /// Corrections that are allowed and unusually large.
+    LargeCorrection,
+    /// Corrections that are smaller than the tolerance.
+    SmallCorrection,
+    /// A tolerance that is unusually wide.
+    WideTolerance,
+    /// The tool is held unusually softly or stiffly.
+    OddStiffness,
+    /// A load that is unusually small.
+    SmallLoad,
+    /// A load that is unusually large.
+    LargeLoad,
+    /// A moment that does not belong to its force.
+    LongLever,
+    /// A force that pulls the tool into the part.
+    PullingForce,
+    /// A load that acts nowhere along the program.
+    LoadNeverActs,
+    /// The question says nothing of a tool.
+    NoTool,
+    /// A tool that is very short, or long beside the machine.
+    OddTool,
+    /// The program leaves the workspace that the model states.
+    OutsideWorkspace,
 }
 
 /// Something a person should know and did not ask for.

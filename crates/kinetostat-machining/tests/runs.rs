@@ -2,8 +2,8 @@
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    CuttingLoad, LoadAlongPath, Placement, ProgramLoad, Question, Run, RunError, Task, Unwatched,
-    analyse, compensate_program, straight_tool,
+    Bounds, CuttingLoad, LoadAlongPath, Placement, ProgramLoad, Question, Run, RunError, Task,
+    Unwatched, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -53,6 +53,7 @@ fn run(
         tools: &[],
         writing: WriteOptions::default(),
         question: Question::default(),
+        bounds: Bounds::default(),
     };
     if write {
         compensate_program(&task, &Unwatched)
@@ -210,6 +211,7 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
         tools: &[],
         writing: WriteOptions::default(),
         question: Question::default(),
+        bounds: Bounds::default(),
     };
     let summary = compensate_program(&task, &Unwatched)
         .expect("run")
@@ -298,6 +300,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
             tools: &[],
             writing: WriteOptions::default(),
             question: Question::default(),
+            bounds: Bounds::default(),
         };
         for written in [false, true] {
             let run = match written {

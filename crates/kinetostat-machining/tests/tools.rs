@@ -2,8 +2,8 @@
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{
-    CuttingLoad, Placement, ProgramLoad, Question, Run, RunError, Task, Tool, Unwatched, analyse,
-    compensate_program, straight_tool,
+    Bounds, CuttingLoad, Placement, ProgramLoad, Question, Run, RunError, Task, Tool, Unwatched,
+    analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -56,6 +56,7 @@ fn run(
         tools,
         writing: WriteOptions::default(),
         question: Question::default(),
+        bounds: Bounds::default(),
     };
     if write {
         compensate_program(&task, &Unwatched)

@@ -65,6 +65,13 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
         findings,
     );
     workspace(document, findings);
+    if let Some(mm) = document.mechanism.repeatability_mm.filter(|mm| *mm <= 0.0) {
+        findings.error(
+            &root.key("mechanism").key("repeatability_mm"),
+            format!("the repeatability is {mm} mm, a number above zero is needed"),
+            "write the figure of the data sheet, or leave the key out",
+        );
+    }
     let elastic = Elastic::new(document, &mut findings.errors, &mut findings.warnings);
     let platforms = platforms(document, findings);
     let templates: BTreeMap<&str, Option<Template>> = document

@@ -112,6 +112,20 @@ pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec
             format!("write {key}, or rigid_drive = true for a drive that does not give way"),
         ));
     }
+    let rating = by_kind(
+        place,
+        "rating",
+        kind,
+        &[choice("rated_force_n", e.rated_force_n, 1.0)],
+        &[choice("rated_torque_n_m", e.rated_torque_n_m, 1.0)],
+    )?;
+    if let Some(Given { key, value }) = rating.filter(|r| r.value <= 0.0) {
+        return Err(Finding::new(
+            &place.key(key),
+            format!("the rating is {value}, a number above zero is needed"),
+            "write the largest load that the drive may carry, or leave the key out",
+        ));
+    }
     let rest = rest(place, kind, [e.rest_mm, e.rest_m, e.rest_deg, e.rest_rad])?;
     let home = by_kind(
         place,

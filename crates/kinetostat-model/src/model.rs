@@ -9,7 +9,7 @@ use crate::controller::{Controller, controller};
 use crate::placement;
 use crate::presets;
 use crate::problem::{Finding, ModelError, Place, Problem, Severity};
-use crate::schema::{Deviation, Document};
+use crate::schema::{Deviation, Document, Element};
 use crate::source::Source;
 
 /// Longer texts are refused, bytes.
@@ -145,6 +145,33 @@ impl Model {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.document.mechanism.name
+    }
+
+    /// Largest force (N) or torque (N m) of every drive that the file states, in the order of
+    /// [`kinetostat::Mechanism::actuator_names`].
+    #[must_use]
+    pub fn ratings(&self) -> Vec<Option<f64>> {
+        let limbs = self.document.limb.iter();
+        limbs
+            .filter_map(|limb| self.document.chain.get(&limb.chain))
+            .flat_map(|chain| &chain.elements)
+            .filter_map(|element| match element {
+                Element::Actuator(a) => Some(a.rated_force_n.or(a.rated_torque_n_m)),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// Whether the machine is an arm: three turning drives follow one another in a limb.
+    #[must_use]
+    pub fn is_arm(&self) -> bool {
+        let turning = |limb: &kinetostat::Limb| {
+            let drives = limb.nominal.actuators().iter();
+            drives
+                .filter(|a| a.kind == kinetostat::MotionKind::Revolute)
+                .count()
+        };
+        self.mechanism.limbs().iter().any(|l| turning(l) >= 3)
     }
 
     /// Two opposite corners of the workspace in base axes, m: smallest and largest coordinates.

@@ -47,6 +47,18 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
             "write [0, 0, -9.81] for a base whose z points up; if the base hangs upside down, all is well",
         );
     }
+    if size > 0.0 && gravity.z.abs() < 0.7 * size {
+        let along = if gravity.x.abs() > gravity.y.abs() {
+            "x"
+        } else {
+            "y"
+        };
+        warn(
+            &place,
+            format!("gravity points along {along} of the base, not along z"),
+            "write [0, 0, -9.81] for a base whose z points up; if the base hangs on a wall, all is well",
+        );
+    }
     for (i, platform) in mechanism.platforms().iter().skip(1).enumerate() {
         if platform.mass > 1e5 {
             warn(

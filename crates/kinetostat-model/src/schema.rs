@@ -83,6 +83,10 @@ pub struct MechanismTable {
     /// Gravity in base axes, m/s^2: [0, 0, -9.81] for a machine on the floor, z up. Needed as soon
     /// as anything has a mass; [0, 0, 0] leaves the weights out.
     pub gravity_m_per_s2: Option<[f64; 3]>,
+    /// Repeatability of positions, mm: the spread when a place is approached again and again (ISO 9283
+    /// for robots, ISO 230-2 for machine tools). A third of it is the tolerance of programs that state
+    /// none.
+    pub repeatability_mm: Option<f64>,
 }
 
 /// A box in base axes, given by two opposite corners.

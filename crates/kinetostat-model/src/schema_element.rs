@@ -73,6 +73,10 @@ pub struct ActuatorElement {
     pub stiffness_n_m_per_rad: Option<f64>,
     /// Stiffness of a turning drive, N mm/rad.
     pub stiffness_n_mm_per_rad: Option<f64>,
+    /// Largest force of a sliding drive, N: programs that need more are refused.
+    pub rated_force_n: Option<f64>,
+    /// Largest torque of a turning drive at its joint, N m: programs that need more are refused.
+    pub rated_torque_n_m: Option<f64>,
     /// Deflection of the drive's spring at rest, mm (a preload where it is not zero).
     pub rest_mm: Option<f64>,
     /// Deflection of the drive's spring at rest, m.

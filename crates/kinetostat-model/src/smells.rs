@@ -52,6 +52,12 @@ const SECTION_KEYS: [&str; 8] = [
 ];
 
 fn smell(key: &str, x: f64) -> Option<(String, &'static str)> {
+    if key == "repeatability_mm" && !(5e-4..=1.0).contains(&x) {
+        return Some((
+            format!("a repeatability of {} mm", tidy(x)),
+            "arms repeat within 0.02 to 0.2 mm, machine tools within 0.001 to 0.01 mm; check the unit",
+        ));
+    }
     let compound = key.contains("_per_") || key.contains("n_m") || key.contains("kg_m");
     if x == 0.0 || compound {
         return None;
@@ -148,6 +154,7 @@ pub(crate) fn of_machine(document: &Document, mechanism: &Mechanism, warnings: &
             size,
         };
         look.stiffnesses(warnings);
+        look.windup(warnings);
         look.springs6(warnings);
         look.sag(warnings);
         look.masses(warnings);
@@ -196,10 +203,10 @@ impl Look<'_> {
         }
     }
 
-    /// Drives out of all proportion, by themselves and beside the others of the limb.
-    fn stiffnesses(&self, warnings: &mut Vec<Finding>) {
+    /// Drives with a stiffness of their own: name, kind, N/m or N m/rad.
+    fn drives(&self) -> Vec<(&str, MotionKind, f64)> {
         let chain = &self.mechanism.limbs()[self.limb].nominal;
-        let drives: Vec<(&str, MotionKind, f64)> = chain
+        chain
             .actuators()
             .iter()
             .filter_map(|a| {
@@ -212,7 +219,53 @@ impl Look<'_> {
                     _ => None,
                 }
             })
-            .collect();
+            .collect()
+    }
+
+    /// Drives that give way under their rating by what no drive does: gears wind up by 0.0004 to 0.02
+    /// rad (cycloidal gears by 0.001 of their own, with joint and castings around them by 0.004; strain
+    /// wave gears by 0.002 to 0.01), screws and motors by 0.003 to 1 mm.
+    fn windup(&self, warnings: &mut Vec<Finding>) {
+        for (name, kind, k) in self.drives() {
+            let Some((Element::Actuator(a), place)) = self.element(name) else {
+                continue;
+            };
+            let (key, rating, low, high, usual) = match kind {
+                MotionKind::Revolute => (
+                    "rated_torque_n_m",
+                    a.rated_torque_n_m,
+                    4e-4,
+                    2e-2,
+                    "gears wind up by 0.02 to 1 degree: check the units of stiffness (per radian, not per degree) and rating",
+                ),
+                MotionKind::Prismatic => (
+                    "rated_force_n",
+                    a.rated_force_n,
+                    3e-6,
+                    1e-3,
+                    "screws and motors give way by 0.003 to 1 mm: check the units of stiffness and rating",
+                ),
+            };
+            let Some(gives) = rating.map(|r| r / k) else {
+                continue;
+            };
+            if !(low..=high).contains(&gives) {
+                let amount = match kind {
+                    MotionKind::Revolute => format!("{:.3e} degrees", gives.to_degrees()),
+                    MotionKind::Prismatic => format!("{:.3e} mm", 1e3 * gives),
+                };
+                warnings.push(Finding::new(
+                    &place.key(key),
+                    format!("the drive '{name}' gives way by {amount} under its rating"),
+                    usual,
+                ));
+            }
+        }
+    }
+
+    /// Drives out of all proportion, by themselves and beside the others of the limb.
+    fn stiffnesses(&self, warnings: &mut Vec<Finding>) {
+        let drives = self.drives();
         const KEYS: [&str; 4] = [
             "stiffness_n_per_m",
             "stiffness_n_per_mm",
@@ -237,10 +290,24 @@ impl Look<'_> {
         }
         for (name, kind, k) in &drives {
             let (low, high, unit, mistake) = match kind {
-                MotionKind::Prismatic => (2e4, 1e12, "N/m", "_n_per_mm or _n_per_m"),
-                MotionKind::Revolute => (0.0, 1e10, "N m/rad", "_n_m_per_rad or _n_mm_per_rad"),
+                // Belts from 1e5, screws 2e7 to 1e9, linear motors 1e7 to 1e9 N/m.
+                MotionKind::Prismatic => (
+                    5e4,
+                    3e9,
+                    "N/m",
+                    "_n_per_mm or _n_per_m; belts have from 1e5, screws 2e7 to 1e9 N/m",
+                ),
+                // At the joint: strain wave gears of small arms 100 to 1e6, cycloidal (RV) gears 1e5
+                // to 2e7 N m/rad.
+                MotionKind::Revolute => (
+                    100.0,
+                    5e7,
+                    "N m/rad",
+                    "_n_m_per_rad or _n_mm_per_rad; strain wave gears have 100 to 1e6, cycloidal gears 1e5 to 2e7 N m/rad",
+                ),
             };
-            if *k < low || *k > high {
+            // Exactly 1 is the unit of a machine that teaches, not a figure of a drive.
+            if (*k < low && *k != 1.0) || *k > high {
                 warnings.push(Finding::new(
                     &self.place(name, &KEYS),
                     format!(

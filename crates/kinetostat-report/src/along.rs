@@ -157,7 +157,8 @@ fn after_panel(result: &RunResult, along: &Along) -> Option<Panel> {
         .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     let (unit, factor) = number::length_unit(worst);
     let most = number::length(worst, 2, Rounding::Up);
-    let tolerance = result.question.tolerance_mm;
+    // The bound that is judged, not a part of it.
+    let tolerance = result.allowed_mm();
     let mut span = Span {
         low: 0.0,
         high: worst * factor,
@@ -169,7 +170,10 @@ fn after_panel(result: &RunResult, along: &Along) -> Option<Panel> {
         span = span.including(tolerance * factor);
         limits.push(Limit {
             value: tolerance * factor,
-            label: format!("tolerance {}", number::length_setting(tolerance)),
+            label: format!(
+                "allowed {}",
+                number::length(tolerance, 2, Rounding::Nearest)
+            ),
         });
     }
     let mark = number::drawable(place.path_mm).map(|x| Mark {

@@ -5,7 +5,6 @@ use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
 use crate::text::{self, or_unknown};
-use crate::verdict::allowed_mm;
 
 /// A key figure: what, how much, and a line that helps to read it.
 fn card(name: &str, value: String, note: String) -> Value {
@@ -31,9 +30,9 @@ pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
         cards.push(card(
             "Error with compensation",
             up(summary.max_position_error_after_mm),
-            improvement(
-                summary.max_position_error_before_mm,
-                summary.max_position_error_after_mm,
+            format!(
+                "largest; {} allowed",
+                number::length(result.allowed_mm(), 2, Rounding::Nearest)
             ),
         ));
         cards.push(card(
@@ -79,18 +78,6 @@ pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
         )
     });
     cards
-}
-
-fn improvement(before: f64, after: f64) -> String {
-    let times = before / after;
-    if times.is_finite() && times >= 1.5 {
-        format!(
-            "largest; about {} times smaller",
-            number::significant(times, 2, Rounding::Down)
-        )
-    } else {
-        "checked by solving the written file again".to_owned()
-    }
 }
 
 fn stiffness_card(stiffness: f64) -> Value {
@@ -413,7 +400,10 @@ fn written(result: &RunResult) -> Vec<Value> {
         ),
         fact(
             "Tolerance of the path",
-            number::length_setting(question.tolerance_mm),
+            match text::clean(&question.tolerance_from) {
+                from if from.is_empty() => number::length_setting(question.tolerance_mm),
+                from => format!("{}: {from}", number::length_setting(question.tolerance_mm)),
+            },
         ),
         fact(
             "Tolerance of chords in arcs",
@@ -422,7 +412,7 @@ fn written(result: &RunResult) -> Vec<Value> {
         fact("Decimals written", question.decimals.to_string()),
         fact(
             "Error allowed in all",
-            number::length(allowed_mm(result), 2, Rounding::Up),
+            number::length(result.allowed_mm(), 2, Rounding::Up),
         ),
     ]
 }

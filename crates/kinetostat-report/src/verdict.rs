@@ -51,19 +51,6 @@ pub(crate) struct Verdict {
     pub(crate) sentence: String,
 }
 
-/// Error that the written program may have: the tolerance of the path, of chords in arcs, and the rounding.
-pub(crate) fn allowed_mm(result: &RunResult) -> f64 {
-    let parts = [
-        result.question.tolerance_mm,
-        result.question.chord_tolerance_mm,
-        result.summary.max_rounding_error_mm,
-    ];
-    parts
-        .into_iter()
-        .filter(|part| part.is_finite() && *part > 0.0)
-        .sum()
-}
-
 /// Judges a run.
 pub(crate) fn verdict(result: &RunResult) -> Verdict {
     let summary = &result.summary;
@@ -155,9 +142,9 @@ fn compensated(result: &RunResult) -> Verdict {
             ),
         };
     }
-    let allowed = allowed_mm(result);
+    let allowed = result.allowed_mm();
     let (before_text, after_text) = (sentence_mm(before), sentence_mm(after));
-    if after > allowed {
+    if result.holds_tolerance() != Some(true) {
         let sentence = if after < before {
             format!(
                 "Without compensation the tool is up to {before_text} off; with the compensated program it is still \
@@ -170,6 +157,14 @@ fn compensated(result: &RunResult) -> Verdict {
                  it and up to {after_text} with it, more than the {} asked for.",
                 sentence_mm(allowed)
             )
+        };
+        let sentence = match &result.tolerance.missed {
+            Some(missed) => format!(
+                "The tolerance is missed, most at line {}: {}. {sentence}",
+                number::count(missed.line),
+                crate::text::clean(&missed.reason)
+            ),
+            None => format!("The tolerance is missed. {sentence}"),
         };
         return Verdict {
             level: Level::Attention,

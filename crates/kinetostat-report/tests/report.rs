@@ -209,3 +209,31 @@ fn missing_numbers_are_words() {
             .contains("Points that lack a number")
     );
 }
+
+/// The plot, the card and the verdict speak of one bound: path, chords and rounding together.
+#[test]
+fn the_line_of_the_plot_is_the_bound_that_is_judged() {
+    let mut result = circle_groove();
+    let worst = result.summary.max_position_error_after_mm;
+    result.question.tolerance_mm = 3.0 * worst;
+    result.question.chord_tolerance_mm = 1.5 * worst;
+    result.summary.max_rounding_error_mm = 0.5 * worst;
+    assert!((result.allowed_mm() / (5.0 * worst) - 1.0).abs() < 1e-12);
+    let page = html(&result).expect("a page");
+    let told = |page: &str| page.matches("allowed").count();
+    assert!(told(&plain(&page)) >= 2, "card and plot");
+    assert!(page.contains("class=\"verdict good\""), "held");
+    result.question.tolerance_mm = 0.1 * worst;
+    result.question.chord_tolerance_mm = 0.0;
+    result.summary.max_rounding_error_mm = 0.0;
+    assert_eq!(result.holds_tolerance(), Some(false));
+    let page = html(&result).expect("a page");
+    assert!(page.contains("class=\"verdict attention\""), "missed");
+    assert!(page.contains("The tolerance is missed"), "said first");
+    result.summary.max_position_error_after_mm = f64::NAN;
+    assert_eq!(
+        result.holds_tolerance(),
+        Some(false),
+        "no number holds nothing"
+    );
+}

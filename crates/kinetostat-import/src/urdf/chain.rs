@@ -531,6 +531,8 @@ fn actuator(
         stiffness_n_per_mm: None,
         stiffness_n_m_per_rad: stiffness.filter(|_| turns),
         stiffness_n_mm_per_rad: None,
+        rated_force_n: None,
+        rated_torque_n_m: None,
         rest_mm: None,
         rest_m: None,
         rest_deg: None,

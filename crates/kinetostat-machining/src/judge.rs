@@ -1,0 +1,610 @@
+//! Does the question make sense, and does the answer? Figures beyond a limit refuse a program; those
+//! that are merely odd become warnings.
+
+use kinetostat::{MotionKind, Pose, Wrench};
+use kinetostat_program::{Accounting, Corrected};
+use nalgebra::Vector3;
+
+use crate::limits::{Beyond, Limits, digits};
+use crate::load::{CuttingLoad, LoadAxes, ProgramLoad};
+use crate::near::natural_length;
+use crate::placement::Placement;
+use crate::result::{
+    MissedTolerance, PointKind, PointResult, RunResult, Summary, ToleranceVerdict,
+};
+use crate::run::{Task, kinds};
+use crate::warning::{Warning, WarningCode};
+
+/// What the figures of a run are judged by.
+#[derive(Clone, Debug, Default)]
+pub struct Bounds {
+    /// What refuses a program.
+    pub limits: Limits,
+    /// Largest force (N) or torque (N m) of every drive, in the order of the actuators; empty where
+    /// no rating is known.
+    pub ratings: Vec<Option<f64>>,
+    /// The tools as they were given; empty where the platform's own point is the tool by construction.
+    pub tools: Vec<ToolGiven>,
+    /// Where the machine works without its tool: smallest and largest coordinates, base axes, m.
+    pub workspace: Option<(Vector3<f64>, Vector3<f64>)>,
+}
+
+/// A tool as a question states it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolGiven {
+    /// Its number, where the question numbers its tools.
+    pub number: Option<u32>,
+    /// Flange from tip, m.
+    pub pose: Pose,
+    /// Whether the question says anything of a tool.
+    pub stated: bool,
+}
+
+impl ToolGiven {
+    /// Along z of the flange where it points there, else the distance of the tip, mm.
+    fn length_mm(&self) -> f64 {
+        let tip = self.pose.translation.vector * 1e3;
+        if tip.xy().norm() <= 1e-9 {
+            tip.z
+        } else {
+            tip.norm()
+        }
+    }
+}
+
+/// Above this share of a limit a figure is allowed and odd.
+const ODD: f64 = 0.5;
+
+/// Softer tools than this are no machines that cut, N/mm.
+const SOFT: f64 = 50.0;
+
+/// Stiffer tools than this are no machines, N/mm.
+const STIFF: f64 = 1e6;
+
+/// A cutting load has a moment about the tip of at most its force by a large cutter's radius, m.
+const LEVER: f64 = 0.3;
+
+/// Shorter tools with their holder are odd, mm.
+const SHORT_MM: f64 = 15.0;
+
+/// Wider tolerances than this are not those of cutting, mm.
+const WIDE_MM: f64 = 0.1;
+
+/// The largest wrench that the load law gives, in part axes (of a law that turns: at one heading).
+fn of_law(cutting: CuttingLoad, placement: &Placement) -> Wrench {
+    let part_from_base = placement
+        .base_from_part
+        .rotation
+        .inverse()
+        .to_rotation_matrix();
+    match cutting {
+        CuttingLoad::None => Wrench::zero(),
+        CuttingLoad::Milling {
+            radial,
+            tangential,
+            axial,
+        } => Wrench::new(Vector3::new(tangential, -radial, axial), Vector3::zeros()),
+        CuttingLoad::Constant { axes, wrench } => match axes {
+            LoadAxes::Feed => wrench,
+            LoadAxes::Base => wrench.rotated(&part_from_base),
+            LoadAxes::Tool => wrench
+                .rotated(&placement.tool_orientation.to_rotation_matrix())
+                .rotated(&part_from_base),
+        },
+    }
+}
+
+fn numbered(tool: Option<u32>) -> String {
+    tool.map_or_else(String::new, |number| format!("tool {number}"))
+}
+
+/// Every load of a question, and whose it is.
+fn loads(task: &Task<'_>) -> Vec<(String, ProgramLoad)> {
+    let of_tools = task.tools.iter();
+    std::iter::once((String::new(), task.load))
+        .chain(of_tools.map(|tool| (numbered(Some(tool.number)), tool.load)))
+        .collect()
+}
+
+/// Collects figures beyond their limits.
+struct Over<'l> {
+    limits: &'l Limits,
+    found: Vec<Beyond>,
+}
+
+impl Over<'_> {
+    /// Notes a figure that is above its limit, or no number.
+    fn above(&mut self, name: &str, found: f64, line: Option<usize>, place: String) {
+        let Some(limit) = Limits::named(name) else {
+            return;
+        };
+        let allowed = self.limits.get(limit);
+        if found > allowed || found.is_nan() {
+            self.found.push(Beyond {
+                limit,
+                found,
+                allowed,
+                line,
+                place,
+            });
+        }
+    }
+}
+
+/// Figures of the question that are beyond their limits.
+pub(crate) fn of_question(task: &Task<'_>) -> Vec<Beyond> {
+    let limits = &task.bounds.limits;
+    let mut over = Over {
+        limits,
+        found: Vec::new(),
+    };
+    for (whose, load) in loads(task) {
+        let wrench = of_law(load.cutting, &task.placement);
+        over.above("force_n", wrench.force().norm(), None, whose.clone());
+        over.above("moment_n_m", wrench.moment().norm(), None, whose);
+    }
+    for tool in &task.bounds.tools {
+        let length = tool.length_mm();
+        over.above("longest_tool_mm", length, None, numbered(tool.number));
+        if length != 0.0 && length < limits.shortest_tool_mm {
+            let limit = Limits::named("shortest_tool_mm");
+            over.found.extend(limit.map(|limit| Beyond {
+                limit,
+                found: length,
+                allowed: limits.shortest_tool_mm,
+                line: None,
+                place: numbered(tool.number),
+            }));
+        }
+    }
+    over.found
+}
+
+/// The correction of a written program, and its rate of blocks, where they are beyond their limits.
+/// Shared by programs corrected with a model and with a table.
+#[must_use]
+pub fn of_accounting(limits: &Limits, accounting: &Accounting) -> Vec<Beyond> {
+    let mut over = Over {
+        limits,
+        found: Vec::new(),
+    };
+    over.above(
+        "correction_mm",
+        accounting.largest_correction_mm,
+        accounting.largest_correction_line,
+        String::new(),
+    );
+    let before = accounting.peak_blocks_per_second_in.unwrap_or(0.0);
+    // A program that was that dense before is not made so.
+    if let Some(rate) = accounting
+        .peak_blocks_per_second
+        .filter(|r| *r > 1.05 * before)
+    {
+        over.above(
+            "blocks_per_second",
+            rate,
+            None,
+            "widen the tolerances path_um and chord_um, or cut more slowly".to_owned(),
+        );
+    }
+    over.found
+}
+
+/// The place where a figure is largest; places without a number count as the largest.
+fn most<'p>(
+    points: &'p [PointResult],
+    figure: impl Fn(&PointResult) -> f64,
+) -> Option<(f64, &'p PointResult)> {
+    let key = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+    points
+        .iter()
+        .map(|p| (figure(p), p))
+        .max_by(|a, b| key(a.0).total_cmp(&key(b.0)))
+}
+
+fn place(point: &PointResult) -> String {
+    let [x, y, z] = point.position_mm;
+    format!("at X{x:.2} Y{y:.2} Z{z:.2}")
+}
+
+fn length(v: &[f64; 3]) -> f64 {
+    Vector3::from(*v).norm()
+}
+
+/// Share of its rating that a drive carries at a place, the largest of all drives.
+fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<(f64, usize, usize)> {
+    let mut worst: Option<(f64, usize, usize)> = None;
+    for (drive, rating) in task.bounds.ratings.iter().enumerate() {
+        let Some(rating) = rating else { continue };
+        let load = |p: &PointResult| p.actuator_force.get(drive).map_or(0.0, |f| f.abs());
+        if let Some((force, at)) = most(points, load) {
+            let share = force / rating;
+            if worst.is_none_or(|(largest, ..)| share > largest || share.is_nan()) {
+                worst = Some((share, drive, at.line));
+            }
+        }
+    }
+    worst
+}
+
+/// The largest share of a rating; none where no rating is known.
+pub(crate) fn largest_share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<f64> {
+    share_of_rating(task, points).map(|(share, ..)| share)
+}
+
+/// Figures of the answer that are beyond their limits.
+pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> {
+    let mut over = Over {
+        limits: &task.bounds.limits,
+        found: Vec::new(),
+    };
+    let mut largest = |name: &str, figure: &dyn Fn(&PointResult) -> f64| {
+        if let Some((value, at)) = most(points, figure) {
+            over.above(name, value, Some(at.line), place(at));
+        }
+    };
+    // Of an analysis: what a correction would have to make up for.
+    largest("correction_mm", &|p| {
+        length(&p.correction_mm).max(length(&p.error_before_mm))
+    });
+    largest("tilt_deg", &|p| p.residual_rotation_deg);
+    largest("share_of_buckling", &|p| p.buckling_margin.unwrap_or(0.0));
+    if let Some((share, drive, line)) = share_of_rating(task, points) {
+        let name = task.mechanism.actuator_names().get(drive).cloned();
+        let rating = task.bounds.ratings.get(drive).copied().flatten();
+        let unit = match kinds(task.mechanism).nth(drive) {
+            Some(MotionKind::Prismatic) => "N",
+            _ => "N m",
+        };
+        let place = format!(
+            "drive {}, {} of {} {unit}",
+            name.unwrap_or_default(),
+            digits(share * rating.unwrap_or(f64::NAN)),
+            digits(rating.unwrap_or(f64::NAN)),
+        );
+        over.above("share_of_rating", share, Some(line), place);
+    }
+    over.found
+}
+
+/// What was found beyond a limit, where nothing is refused.
+pub(crate) fn as_warning(beyond: &Beyond) -> Warning {
+    // The line is said once, by the warning itself.
+    let of_line = Beyond {
+        line: None,
+        ..beyond.clone()
+    };
+    Warning {
+        line: beyond.line,
+        ..Warning::new(WarningCode::OverLimit, of_line.to_string())
+    }
+}
+
+/// Corrections that are allowed and odd; for tables as for models.
+#[must_use]
+pub fn odd_correction(
+    limits: &Limits,
+    largest_mm: f64,
+    line: Option<usize>,
+    tolerance_mm: f64,
+) -> Option<Warning> {
+    let warning = if largest_mm > ODD * limits.correction_mm {
+        Warning::new(
+            WarningCode::LargeCorrection,
+            format!(
+                "corrections of up to {} mm are large: check units and signs of load and stiffnesses, or of the table",
+                digits(largest_mm)
+            ),
+        )
+    } else if largest_mm <= tolerance_mm {
+        Warning::new(
+            WarningCode::SmallCorrection,
+            format!(
+                "the largest correction, {} mm, is not more than the tolerance, {} mm: there is nothing to correct; check units, load and placement",
+                digits(largest_mm),
+                digits(tolerance_mm)
+            ),
+        )
+    } else {
+        return None;
+    };
+    Some(Warning { line, ..warning })
+}
+
+/// Tolerances that are allowed and odd.
+#[must_use]
+pub fn odd_tolerances(path_mm: f64, chord_mm: f64) -> Vec<Warning> {
+    [("path", path_mm), ("chord", chord_mm)]
+        .into_iter()
+        .filter(|(_, mm)| *mm > WIDE_MM)
+        .map(|(name, mm)| {
+            Warning::new(
+                WarningCode::WideTolerance,
+                format!(
+                    "the {name} tolerance is {} mm: machines that cut are judged by hundredths; {name}_um is in micrometres",
+                    digits(mm)
+                ),
+            )
+        })
+        .collect()
+}
+
+/// The merely odd: about the question and about its answer.
+pub(crate) fn odd(
+    task: &Task<'_>,
+    points: &[PointResult],
+    summary: &Summary,
+    compensated: bool,
+) -> Vec<Warning> {
+    let mut list: Vec<Warning> = loads(task)
+        .iter()
+        .flat_map(|(whose, load)| odd_load(task, whose, load))
+        .collect();
+    list.extend(never_acts(task, points));
+    list.extend(
+        task.bounds
+            .tools
+            .iter()
+            .filter_map(|tool| odd_tool(task, tool)),
+    );
+    list.extend(outside_workspace(task, points));
+    let limits = &task.bounds.limits;
+    let (size, at) = match most(points, |p| length(&p.correction_mm)) {
+        Some((size, at)) if compensated => (size, Some(at.line)),
+        _ => (f64::NAN, None),
+    };
+    if size <= limits.correction_mm {
+        list.extend(odd_correction(limits, size, at, task.writing.tolerance_mm));
+    }
+    if compensated {
+        list.extend(odd_tolerances(
+            task.writing.tolerance_mm,
+            task.writing.chord_tolerance_mm,
+        ));
+    }
+    let stiffness = summary.smallest_stiffness_n_per_mm;
+    if summary.stable && (stiffness < SOFT || stiffness > STIFF) {
+        let which = if stiffness < SOFT {
+            "softer"
+        } else {
+            "stiffer"
+        };
+        list.push(Warning::new(
+            WarningCode::OddStiffness,
+            format!(
+                "the tool gives way with {} N/mm in its softest direction, {which} than machines that cut (arms 100 to 2000, parallel machines up to 100000 N/mm): check the units of the stiffnesses",
+                digits(stiffness)
+            ),
+        ));
+    }
+    let mut near = |name: &str, odd: f64, value: f64, text: &str| {
+        let limit = Limits::named(name).map_or(f64::NAN, |l| limits.get(l));
+        if value > odd * limit && value <= limit {
+            list.push(Warning::new(
+                WarningCode::NearLimit,
+                format!(
+                    "{text} {} of the {} that are allowed",
+                    digits(value),
+                    digits(limit)
+                ),
+            ));
+        }
+    };
+    near(
+        "tilt_deg",
+        ODD,
+        summary.max_residual_rotation_deg,
+        "the tool is tilted, in degrees, by",
+    );
+    if let Some(share) = summary.largest_buckling_margin {
+        near(
+            "share_of_buckling",
+            0.4,
+            share,
+            "the share of the way to buckling is",
+        );
+    }
+    if let Some(share) = summary.largest_share_of_rating {
+        near(
+            "share_of_rating",
+            0.8,
+            share,
+            "a drive is loaded, as a share of its rating, by",
+        );
+    }
+    list
+}
+
+fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
+    let mut list = Vec::new();
+    let limits = &task.bounds.limits;
+    let wrench = of_law(load.cutting, &task.placement);
+    let (f, m) = (wrench.force(), wrench.moment());
+    let (force, moment) = (f.norm(), m.norm());
+    if force == 0.0 && moment == 0.0 {
+        return list;
+    }
+    let mut warn = |code, text: String| {
+        let text = match whose {
+            "" => text,
+            whose => format!("{whose}: {text}"),
+        };
+        list.push(Warning::new(code, text));
+    };
+    if force < 1.0 && moment < 0.01 {
+        warn(
+            WarningCode::SmallLoad,
+            format!(
+                "the load on the tool is only {} N and {} N m: cutting takes 10 to 1000 N; check the unit",
+                digits(force),
+                digits(moment)
+            ),
+        );
+    }
+    if force > ODD * limits.force_n && force <= limits.force_n {
+        warn(
+            WarningCode::LargeLoad,
+            format!(
+                "the force on the tool is {} N: robots mill with 50 to 1000 N; check the unit",
+                digits(force)
+            ),
+        );
+    }
+    if moment > ODD * limits.moment_n_m && moment <= limits.moment_n_m {
+        warn(
+            WarningCode::LargeLoad,
+            format!(
+                "the moment on the tool is {} N m: cutting torques are 0.1 to 100 N m; check the unit (N m, not N mm)",
+                digits(moment)
+            ),
+        );
+    }
+    if force > 0.0 && moment > LEVER * force {
+        warn(
+            WarningCode::LongLever,
+            format!(
+                "the moment on the tool, {} N m, is that of its force {} m away from the tip: check the unit (N m, not N mm)",
+                digits(moment),
+                digits(moment / force)
+            ),
+        );
+    }
+    // Even a helix of 45 degrees pulls no more along the axis than it pushes across.
+    if f.z < 0.0 && -f.z > f.xy().norm() && -f.z >= 1.0 {
+        warn(
+            WarningCode::PullingForce,
+            format!(
+                "the force on the tool is {} N along -z of the program: it pulls the tool into the part, more than it pushes across; cutting pushes a tool back, along +z: check the sign",
+                digits(-f.z)
+            ),
+        );
+    }
+    list
+}
+
+/// A load that was asked for and is nowhere along the program.
+fn never_acts(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
+    let asked = |(_, load): &(String, ProgramLoad)| {
+        of_law(load.cutting, &task.placement).force().norm() > 0.0
+    };
+    let cuts = |p: &&PointResult| p.kind != PointKind::Rapid;
+    let acts = |p: &PointResult| p.force_n.iter().any(|x| *x != 0.0);
+    if !loads(task).iter().any(asked) || points.iter().filter(cuts).any(acts) {
+        return None;
+    }
+    let why = match task.load.below_z_mm {
+        Some(z) => format!("no feed move goes below Z {} mm", digits(z)),
+        None => "the program has no feed move on which it could act".to_owned(),
+    };
+    Some(Warning::new(
+        WarningCode::LoadNeverActs,
+        format!("the load never acts: {why}; only weights and deviations are corrected"),
+    ))
+}
+
+fn odd_tool(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
+    let length = tool.length_mm();
+    if !tool.stated {
+        return Some(Warning::new(
+            WarningCode::NoTool,
+            "no tool is given: the load acts on the platform's own point. Write --tool-length-mm or, under [tool], length_mm (0 where the model has the tool in it)",
+        ));
+    }
+    let limits = &task.bounds.limits;
+    if length != 0.0 && length >= limits.shortest_tool_mm && length < SHORT_MM {
+        return Some(Warning::new(
+            WarningCode::OddTool,
+            format!(
+                "the tool is only {} mm long, from the flange to its tip: check the unit",
+                digits(length)
+            ),
+        ));
+    }
+    let machine = 1e3 * natural_length(task.mechanism);
+    (length > 0.4 * machine && length <= task.bounds.limits.longest_tool_mm).then(|| {
+        Warning::new(
+            WarningCode::OddTool,
+            format!(
+                "the tool is {} mm long, on limbs of {} mm: check the unit",
+                digits(length),
+                digits(machine)
+            ),
+        )
+    })
+}
+
+fn outside_workspace(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
+    let (low, high) = task.bounds.workspace?;
+    // With several tools the flange is not one.
+    let flange = match task.bounds.tools.as_slice() {
+        [] => Pose::identity(),
+        [tool] => tool.pose.inverse(),
+        _ => return None,
+    };
+    let slack = 1e-3;
+    let outside = |p: &&PointResult| {
+        let at = (task.placement.tool_pose(&p.position_mm.into()) * flange)
+            .translation
+            .vector;
+        (0..3).any(|k| at[k] < low[k] - slack || at[k] > high[k] + slack)
+    };
+    let first = points
+        .iter()
+        .filter(|p| p.kind != PointKind::Rapid)
+        .find(outside)?;
+    Some(Warning::at_line(
+        WarningCode::OutsideWorkspace,
+        first.line,
+        format!(
+            "{} the flange leaves the workspace that the model states: check where the part lies and the tool's length",
+            place(first)
+        ),
+    ))
+}
+
+/// How the written program stands to its tolerance, and where and why it misses it.
+pub(crate) fn tolerance(
+    result: &RunResult,
+    points: &[PointResult],
+    written: Option<&Corrected>,
+) -> ToleranceVerdict {
+    let allowed_mm = result.allowed_mm();
+    let held = result.holds_tolerance();
+    let error = |p: &PointResult| length(&p.error_after_mm);
+    let worst = points
+        .iter()
+        .max_by(|a, b| error(a).total_cmp(&error(b)))
+        .filter(|_| held == Some(false));
+    let missed = worst.zip(written).map(|(p, written)| {
+        let a = &written.accounting;
+        let reason = if a.left_out_mm > 0.5 * error(p) {
+            format!(
+                "a correction of {:.4} mm was left out because the program never states its axis; state X, Y and Z before the first cut",
+                a.left_out_mm
+            )
+        } else if p.kind == PointKind::Corner {
+            "the tool stands at a corner while the load turns, and the correction is written for its ends; round the corner, or reduce the load".to_owned()
+        } else if length(&p.correction_mm) == 0.0 {
+            "this block is carried over as it was: it comes before all axes are stated, or is of a kind that is not corrected".to_owned()
+        } else if a.largest_jump_taken_up_mm > 0.5 * error(p) {
+            format!(
+                "a jump of the correction of {:.4} mm got no step of its own; tighten the tolerance",
+                a.largest_jump_taken_up_mm
+            )
+        } else {
+            "the correction bends more between the ends of the written pieces than was expected; tighten the tolerance of the path".to_owned()
+        };
+        MissedTolerance {
+            line: p.line,
+            output_line: p.output_line,
+            position_mm: p.position_mm,
+            error_mm: error(p),
+            reason,
+        }
+    });
+    ToleranceVerdict {
+        allowed_mm,
+        held,
+        missed,
+    }
+}

@@ -1,0 +1,291 @@
+//! What a correction may be. A program that leaves these limits is not written: something in the
+//! question is most likely wrong, a unit, a sign, a decimal point. Each limit can be moved by its
+//! name where the figure is meant.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Limits of a run, by name; units in the names.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Largest correction of a place, mm. Default 2.
+    pub correction_mm: f64,
+    /// Largest tilt of the tool that stays, degrees. Default 1.
+    pub tilt_deg: f64,
+    /// Largest force on the tool, N. Default 5000.
+    pub force_n: f64,
+    /// Largest moment on the tool about its tip, N m. Default 200.
+    pub moment_n_m: f64,
+    /// Largest force or torque of a drive by its rating, 1 is the rating. Default 1.
+    pub share_of_rating: f64,
+    /// Largest share of the way to buckling, 1 is buckling. Default 0.5.
+    pub share_of_buckling: f64,
+    /// Most blocks per second of the written program. Default 2000.
+    pub blocks_per_second: f64,
+    /// Shortest tool, mm; a tool that is not there (length 0) is none. Default 1.
+    pub shortest_tool_mm: f64,
+    /// Longest tool, mm. Default 1000.
+    pub longest_tool_mm: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            correction_mm: 2.0,
+            tilt_deg: 1.0,
+            force_n: 5000.0,
+            moment_n_m: 200.0,
+            share_of_rating: 1.0,
+            share_of_buckling: 0.5,
+            blocks_per_second: 2000.0,
+            shortest_tool_mm: 1.0,
+            longest_tool_mm: 1000.0,
+        }
+    }
+}
+
+/// One of the [`Limits`].
+#[derive(Clone, Copy)]
+pub struct Limit {
+    /// Its name: the key under `[limits]` of a job file and the word of `--limit NAME=VALUE`.
+    pub name: &'static str,
+    /// Unit of its value; empty for shares.
+    pub unit: &'static str,
+    /// What it bounds, as the subject of a sentence.
+    pub what: &'static str,
+    /// What is usual and why.
+    pub usual: &'static str,
+    value: fn(&mut Limits) -> &mut f64,
+}
+
+impl fmt::Debug for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl PartialEq for Limit {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+macro_rules! limit {
+    ($name:ident, $unit:literal, $what:literal, $usual:literal) => {
+        Limit {
+            name: stringify!($name),
+            unit: $unit,
+            what: $what,
+            usual: $usual,
+            value: |limits| &mut limits.$name,
+        }
+    };
+}
+
+impl Limits {
+    /// All of them.
+    pub const ALL: [Limit; 9] = [
+        limit!(
+            correction_mm,
+            "mm",
+            "the correction",
+            "arms give way by 0.1 to 1 mm under a cutting force, parallel machines by hundredths; more is mostly a wrong unit (N m per degree, micrometres for mm), or a table of places instead of differences"
+        ),
+        limit!(
+            tilt_deg,
+            "deg",
+            "the tilt of the tool",
+            "cutting tilts a tool by hundredths of a degree, on soft arms by tenths; a program of positions cannot correct it"
+        ),
+        limit!(
+            force_n,
+            "N",
+            "the force on the tool",
+            "robots mill with 50 to 1000 N and drill with up to 3000 N"
+        ),
+        limit!(
+            moment_n_m,
+            "N m",
+            "the moment on the tool",
+            "cutting torques are 0.1 to 100 N m; the unit is N m, not N mm"
+        ),
+        limit!(
+            share_of_rating,
+            "",
+            "the load of a drive as a share of its rating",
+            "a drive carries at most its rating, cutting force and weights together"
+        ),
+        limit!(
+            share_of_buckling,
+            "",
+            "the share of the way to buckling",
+            "columns are loaded to at most a half, better a fifth, of their buckling load; stiffness falls on the way"
+        ),
+        limit!(
+            blocks_per_second,
+            "1/s",
+            "the number of blocks per second",
+            "controllers of robots take 50 to 250 blocks per second, those of machine tools 500 to 2000"
+        ),
+        limit!(
+            shortest_tool_mm,
+            "mm",
+            "the tool's length",
+            "tools with their holders are 20 to 400 mm long, from the flange outward; millimetres, not metres. Where the flange's z axis points into the machine, a negative length is meant"
+        ),
+        limit!(
+            longest_tool_mm,
+            "mm",
+            "the tool's length",
+            "tools with their holders are 20 to 400 mm long, with a spindle between up to 800 mm"
+        ),
+    ];
+
+    /// The limit of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Limit> {
+        Self::ALL.into_iter().find(|limit| limit.name == name)
+    }
+
+    /// Its value.
+    #[must_use]
+    pub fn get(&self, limit: Limit) -> f64 {
+        let mut own = *self;
+        *(limit.value)(&mut own)
+    }
+
+    /// Moves it.
+    pub fn set(&mut self, limit: Limit, value: f64) {
+        *(limit.value)(self) = value;
+    }
+}
+
+/// A figure beyond its limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beyond {
+    /// Which limit.
+    pub limit: Limit,
+    /// What was found, in the limit's unit.
+    pub found: f64,
+    /// What is allowed.
+    pub allowed: f64,
+    /// Line of the program, from 1; none where it concerns all of it.
+    pub line: Option<usize>,
+    /// Place in words, drive or direction; may be empty.
+    pub place: String,
+}
+
+/// Four digits, without an exponent where that is readable.
+pub(crate) fn digits(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    if !(1e-3..1e7).contains(&size) {
+        return format!("{value:.2e}");
+    }
+    let places = (2 - size.log10().floor() as i32).clamp(0, 5) as usize;
+    let text = format!("{value:.places$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+impl Beyond {
+    /// The option that would allow it: a value a little beyond what was found.
+    fn allowing(&self) -> f64 {
+        let room = if self.found < self.allowed {
+            self.found - 0.05 * self.found.abs()
+        } else {
+            1.05 * self.found
+        };
+        let unit = 10_f64.powf(room.abs().max(1e-9).log10().floor() - 1.0);
+        match self.found < self.allowed {
+            true => (room / unit).floor() * unit,
+            false => (room / unit).ceil() * unit,
+        }
+    }
+}
+
+impl fmt::Display for Beyond {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(f, "line {line}: ")?;
+        }
+        let unit = match self.limit.unit {
+            "" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        let place = match self.place.as_str() {
+            "" => String::new(),
+            place => format!(" ({place})"),
+        };
+        let side = if self.found < self.allowed {
+            "less"
+        } else {
+            "more"
+        };
+        let value = digits(self.allowing());
+        let name = self.limit.name;
+        write!(
+            f,
+            "{}{place} is {}{unit}, {side} than the {}{unit} that are allowed. Usual: {}. If it is meant, write  --limit {name}={value}  or, in the job file under [limits],  {name} = {value}",
+            self.limit.what,
+            digits(self.found),
+            digits(self.allowed),
+            self.limit.usual,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_limit_is_read_and_moved_by_its_name() {
+        for (i, limit) in Limits::ALL.into_iter().enumerate() {
+            let mut limits = Limits::default();
+            let value = 17.0 + i as f64;
+            limits.set(Limits::named(limit.name).expect("its own name"), value);
+            assert_eq!(limits.get(limit), value);
+            for other in Limits::ALL.into_iter().filter(|o| *o != limit) {
+                assert_eq!(limits.get(other), Limits::default().get(other), "{other:?}");
+            }
+        }
+        assert!(Limits::named("correction").is_none());
+    }
+
+    #[test]
+    fn the_advice_would_allow_what_was_found() {
+        for (limit, found) in [
+            ("correction_mm", 144.0),
+            ("share_of_rating", 1.003),
+            ("shortest_tool_mm", -180.0),
+            ("shortest_tool_mm", 0.18),
+            ("force_n", 215_000.0),
+        ] {
+            let limit = Limits::named(limit).expect("known");
+            let beyond = Beyond {
+                limit,
+                found,
+                allowed: Limits::default().get(limit),
+                line: Some(3),
+                place: String::new(),
+            };
+            let text = beyond.to_string();
+            let value: f64 = text
+                .rsplit(' ')
+                .next()
+                .and_then(|v| v.parse().ok())
+                .expect("a number at the end");
+            match limit.name {
+                "shortest_tool_mm" => assert!(value <= found, "{text}"),
+                _ => assert!(value >= found && value < 1.2 * found, "{text}"),
+            }
+            assert!(text.contains(&format!("--limit {}=", limit.name)), "{text}");
+        }
+    }
+}
