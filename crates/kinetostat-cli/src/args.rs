@@ -347,8 +347,9 @@ pub(crate) struct PlaceArgs {
     /// Place of the tool's tip in base axes, mm; home without it
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) at: Option<Vec<f64>>,
-    /// Orientation of the tool there by a named convention, as in a_b_c_kuka_deg=0,0,90; without it,
-    /// the orientation at home
+    /// Orientation of the tool there by a named convention, as in a_b_c_kuka_deg=0,0,90, or the word
+    /// follows: the one nearest to that at home which the machine can have there. Without it, the
+    /// orientation at home; it follows where the machine cannot hold one
     #[arg(long, value_name = "CONVENTION=A,B,C", conflicts_with_all = ["joints", "pendant"])]
     pub(crate) rotation: Option<String>,
     /// The place by the model's joint values instead, deg and mm, as in shoulder=30 rail=250; joints
@@ -402,7 +403,9 @@ pub(crate) struct ProgramArgs {
     /// Orientation of the program's axes in the base, as in a_b_c_kuka_deg=90,0,0
     #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Placement")]
     pub(crate) part_orientation: Option<String>,
-    /// Orientation of the tool in the base; without it, the one at home
+    /// Orientation of the tool in the base, or the word follows: everywhere the one nearest to that
+    /// at home which the machine can have. Without it, the one at home; it follows where the machine
+    /// cannot hold one
     #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Placement")]
     pub(crate) tool_orientation: Option<String>,
     /// Length in the machine per length in the program [default: 1]
@@ -513,6 +516,7 @@ A job file:
   part_origin_mm = [20, 20, 120]   # the program's zero point, base axes
   part_orientation = { a_b_c_kuka_deg = [0, 0, 0] }
   # tool_orientation = { ... }     # without it, as at home
+  # orientation = "follows"        # the nearest to it that the machine can have; "held": it alone
   # scale = 1
 
   [tool]

@@ -1,7 +1,7 @@
 //! Along a line: deviations alone, load alone, both together, and the sum of both alone
 //! [R 6.5.2, figures 6.6 and 6.7].
 
-use kinetostat::{Pose, Posture, Wrench};
+use kinetostat::{Mechanism, Pose, Posture, Wrench};
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -11,6 +11,7 @@ use crate::assemble_args::{AssembleArgs, Component};
 use crate::assemble_question::Question;
 use crate::failure::{Answer, Failure};
 use crate::machine::short;
+use crate::orientation;
 use crate::screen::{columns, fixed, triple, wrapped};
 use crate::setting::vector;
 use crate::summary;
@@ -57,6 +58,22 @@ struct Point {
     stable: bool,
 }
 
+/// The machine commanded for a point of the line, by its position only where its orientation follows.
+fn at<'m>(
+    mechanism: &'m Mechanism,
+    target: &Pose,
+    follows: bool,
+    near: Option<&Posture<'_>>,
+) -> kinetostat::Result<Posture<'m>> {
+    let (position, rotation) = (&target.translation.vector, &target.rotation);
+    match (follows, near) {
+        (false, None) => mechanism.posture(target),
+        (false, Some(near)) => mechanism.posture_near(target, near),
+        (true, None) => mechanism.posture_following(position, rotation),
+        (true, Some(near)) => mechanism.posture_following_near(position, rotation, near),
+    }
+}
+
 pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> Answer<AlongLine> {
     let spot = &question.spot;
     let count = args.points.unwrap_or(41);
@@ -74,6 +91,8 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
         ));
     }
     let mut points = Vec::with_capacity(count);
+    let follows = spot.mechanism.turns_as_it_moves();
+    let mut turned = 0.0_f64;
     let (mut near, mut near_drawn): (Option<Posture<'_>>, Option<Posture<'_>>) = (None, None);
     for k in 0..count {
         let share = k as f64 / (count - 1) as f64;
@@ -86,13 +105,11 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
                 triple(place.into(), short)
             ))
         };
-        let at = |mechanism, near: &Option<Posture<'_>>| match near {
-            Some(near) => kinetostat::Mechanism::posture_near(mechanism, &target, near),
-            None => mechanism.posture(&target),
-        };
-        let posture = at(&spot.mechanism, &near).map_err(located)?;
+        let posture = at(&spot.mechanism, &target, follows, near.as_ref()).map_err(located)?;
         posture.within_limits().map_err(located)?;
-        let drawn = at(&question.perfect, &near_drawn).map_err(located)?;
+        let drawn =
+            at(&question.perfect, &target, follows, near_drawn.as_ref()).map_err(located)?;
+        turned = turned.max(posture.target().rotation.angle_to(&target.rotation));
         near = Some(posture.clone());
         let solved = solve(posture, &drawn, &spot.wrench).map_err(located)?;
         near_drawn = Some(drawn);
@@ -125,6 +142,13 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
     }
     let apart = |p: &Point| (Vector3::from(p.sum_mm) - Vector3::from(p.together_mm)).norm();
     let mut warnings = spot.warnings.clone();
+    if follows {
+        warnings.push(orientation::follows_in_words(
+            turned.to_degrees(),
+            false,
+            true,
+        ));
+    }
     let unstable = points.iter().filter(|p| !p.stable).count();
     if unstable > 0 {
         warnings.push(format!(

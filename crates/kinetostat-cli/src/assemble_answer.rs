@@ -197,7 +197,10 @@ impl Solved<'_> {
 pub(crate) fn answer(question: &Question) -> Answer<Assembly> {
     let spot = &question.spot;
     let posture = spot.posture()?;
-    let drawn = question.perfect.posture(&spot.target)?;
+    let drawn = match &spot.followed {
+        Some(_) => spot.standing_in(&question.perfect)?,
+        None => question.perfect.posture(&spot.target)?,
+    };
     let over = posture.overconstraint();
     let solved = solve(posture, &drawn, &spot.wrench)?;
     let mechanism = &spot.mechanism;

@@ -15,7 +15,7 @@ use crate::curve_question::{Measure, Question, no_nodes};
 use crate::curve_work::Stage;
 use crate::deflect::PlaceAsked;
 use crate::failure::{Answer, Failure};
-use crate::place::Spot;
+use crate::place::{Followed, Spot};
 
 /// A machine commanded for a place.
 pub(crate) struct Machine {
@@ -23,6 +23,7 @@ pub(crate) struct Machine {
     target: Pose,
     /// Commands, where the place is given by them.
     joints: Option<Vec<f64>>,
+    followed: Option<Followed>,
     pub(crate) moves: Moves,
 }
 
@@ -49,14 +50,17 @@ impl Machine {
             mechanism: spot.mechanism.clone(),
             target: spot.target,
             joints: spot.joints.clone(),
+            followed: spot.followed.clone(),
         })
     }
 
     /// Commanded for its place.
     pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
-        Ok(match &self.joints {
-            Some(joints) => self.mechanism.posture_at(joints)?,
-            None => self.mechanism.posture(&self.target)?,
+        let m = &self.mechanism;
+        Ok(match (&self.joints, &self.followed) {
+            (Some(joints), _) => m.posture_at(joints)?,
+            (None, Some(f)) => m.posture_from_joints(&self.target, f.limbs.clone())?,
+            (None, None) => m.posture(&self.target)?,
         })
     }
 

@@ -140,6 +140,9 @@ struct Deflection {
 pub(crate) struct PlaceAsked {
     pub(crate) position_mm: [f64; 3],
     pub(crate) rotation_vector_deg: [f64; 3],
+    /// Where the orientation follows: how far the tool has turned from the one it is kept near to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) tool_turn_deg: Option<f64>,
     pub(crate) axes: &'static str,
     pub(crate) reference_point: &'static str,
 }
@@ -468,7 +471,7 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     } else {
         match a.smallest_stiffness_n_per_mm.is_finite() {
             true => format!(
-                "the platform stays; a force in the softest direction meets {} N/mm",
+                "the platform stays; its smallest stiffness against a force is {} N/mm",
                 number(a.smallest_stiffness_n_per_mm, 4)
             ),
             false => "the platform stays; no force moves it".to_owned(),

@@ -191,7 +191,7 @@ fn motion(posture: &Posture<'_>, rank: usize) -> Answer<(Moved, String)> {
     let kind = match direction.kind {
         DirectionKind::Free => "free direction: the tool".to_owned(),
         _ => format!(
-            "direction {rank} of {count}, counted from the softest ({} N/mm): the tool",
+            "direction {rank} of {count} by principal stiffness ({} N/mm): the tool",
             screen::number(1e-3 * direction.stiffness_n_per_m, 3)
         ),
     };

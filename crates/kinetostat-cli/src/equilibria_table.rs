@@ -62,7 +62,7 @@ fn table(a: &EquilibriaAnswer) -> String {
             "N/mm along {}",
             crate::curve_question::axis_in_words(&Vector3::from(d))
         ),
-        None => "softest, N/mm".to_owned(),
+        None => "smallest principal, N/mm".to_owned(),
     };
     let energy = if a.conservative {
         "energy, J"

@@ -56,8 +56,20 @@ pub(crate) struct PlacementTable {
     pub part_orientation: Option<Spanned<PoseTable>>,
     /// Orientation of the tool in the base; without it, the one that the tool has at home.
     pub tool_orientation: Option<Spanned<PoseTable>>,
+    /// Whether that orientation is held, or only kept near to; without it, held by machines that can.
+    pub orientation: Option<OrientationWord>,
     /// Length in the machine per length in the program.
     pub scale: Option<Spanned<f64>>,
+}
+
+/// What the machine does with its orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum OrientationWord {
+    /// The orientation asked for, everywhere
+    Held,
+    /// The nearest to it that the machine can have
+    Follows,
 }
 
 /// The tool on the flange.

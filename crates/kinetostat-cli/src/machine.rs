@@ -15,7 +15,7 @@ use serde_spanned::Spanned;
 use crate::args::ProgramArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::job::{Axes, CornerWord, LoadTable};
+use crate::job::{Axes, CornerWord, LoadTable, OrientationWord};
 use crate::orientation;
 use crate::screen::{fixed, triple};
 use crate::setting::{JobFile, above_zero, chosen, finite, vector};
@@ -300,10 +300,18 @@ fn placement(
         None => written(&table.part_orientation)?.unwrap_or_default(),
     };
     let home = mechanism.platforms()[mechanism.tool()].home.rotation;
-    let tool = match &flags.tool_orientation {
-        Some(text) => orientation::option("--tool-orientation", text)?,
-        None => written(&table.tool_orientation)?.unwrap_or(home),
+    let flag = match &flags.tool_orientation {
+        Some(text) => Some(orientation::option_or_follows("--tool-orientation", text)?),
+        None => None,
     };
+    let in_job = written(&table.tool_orientation)?;
+    let follows = match (flag, table.orientation) {
+        (Some(None), _) | (None, Some(OrientationWord::Follows)) => true,
+        (Some(Some(_)), _) | (None, Some(OrientationWord::Held)) => false,
+        // Unless it was asked for, no machine is held to what it cannot do.
+        (None, None) => in_job.is_none() && mechanism.turns_as_it_moves(),
+    };
+    let tool = flag.flatten().or(in_job).unwrap_or(home);
     let scale = chosen(
         job,
         ("--scale", flags.scale),
@@ -314,6 +322,7 @@ fn placement(
     Ok(Placement {
         base_from_part: Pose::from_parts((1e-3 * origin).into(), part),
         tool_orientation: tool,
+        orientation_follows: follows,
         scale,
     })
 }
@@ -324,7 +333,13 @@ fn placement_in_words(placement: &Placement) -> String {
         "program zero at {} mm in the base, axes {}; tool {}",
         triple(origin.into(), short),
         orientation::in_words(&placement.base_from_part.rotation),
-        orientation::in_words(&placement.tool_orientation),
+        match placement.orientation_follows {
+            true => format!(
+                "as near as it can be to the orientation {} (the orientation follows)",
+                orientation::in_words(&placement.tool_orientation)
+            ),
+            false => orientation::in_words(&placement.tool_orientation),
+        },
     );
     if placement.scale != 1.0 {
         text.push_str(&format!("; scaled by {}", placement.scale));

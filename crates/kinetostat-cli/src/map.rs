@@ -11,7 +11,7 @@ use crate::input::Files;
 use crate::machine::{deviations_in_words, short};
 use crate::map_answer::{Figures, MapAnswer};
 use crate::map_args::{MapArgs, Quantity};
-use crate::map_table;
+use crate::map_table::{self, Columns};
 use crate::orientation;
 use crate::output::{Existing, Outputs};
 use crate::progress::Progress;
@@ -37,10 +37,12 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let mechanism = model.mechanism.with_tool(&straight_tool(1e-3 * length));
     let home = mechanism.platforms()[mechanism.tool()].home;
     let grid = grid(args, (home.translation.vector * 1e3).into())?;
-    let rotation = match &args.rotation {
-        Some(text) => orientation::option("--rotation", text)?,
-        None => home.rotation,
+    let asked = match &args.rotation {
+        Some(text) => Some(orientation::option_or_follows("--rotation", text)?),
+        None => None,
     };
+    let rotation = asked.flatten().unwrap_or(home.rotation);
+    let follows = asked.map_or_else(|| mechanism.turns_as_it_moves(), |a| a.is_none());
     let load = load(args)?;
     if load.is_none() && matches!(args.show, Quantity::Displacement | Quantity::Rotation) {
         return Err(Failure::input(
@@ -52,6 +54,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         mechanism: &mechanism,
         grid,
         orientation: rotation,
+        orientation_follows: follows,
         load,
     };
     let existing = match args.force_overwrite {
@@ -75,6 +78,15 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
             p.outside_limits
         )));
     }
+    let mut warnings: Vec<String> = model
+        .warnings
+        .iter()
+        .map(|w| format!("model: {}", w.message))
+        .collect();
+    let turned = figures.largest_turn_deg;
+    if follows {
+        warnings.push(orientation::follows_in_words(turned, asked.is_some(), true));
+    }
     let answer = MapAnswer {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -88,6 +100,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
             length => format!("{} mm along z of the flange", short(length)),
         },
         rotation_vector_deg: rotation.scaled_axis().map(f64::to_degrees).into(),
+        max_tool_turn_deg: follows.then_some(turned),
         grid: grid.into(),
         loaded: load.is_some(),
         force_n: load.map_or([0.0; 3], |w| w.force().into()),
@@ -95,11 +108,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         deviations: deviations_in_words(&model),
         places: figures.places,
         figures: figures.answer(load.is_some()),
-        warnings: model
-            .warnings
-            .iter()
-            .map(|w| format!("model: {}", w.message))
-            .collect(),
+        warnings,
     };
     if let Some(index) = plot {
         outputs.fill(index, picture.svg(&answer).as_bytes())?;
@@ -121,15 +130,18 @@ fn solve(
     csv: Option<usize>,
     mut picture: Picture,
 ) -> Answer<(Figures, Picture)> {
-    let loaded = task.load.is_some();
+    let columns = Columns {
+        loaded: task.load.is_some(),
+        follows: task.orientation_follows,
+    };
     if let Some(index) = csv {
-        outputs.append(index, map_table::header(loaded).as_bytes())?;
+        outputs.append(index, map_table::header(columns).as_bytes())?;
     }
     let mut figures = Figures::default();
     let progress = Progress::new();
     let shown = picture.clone();
     let block = |places: &[MapPlace]| {
-        let lines = csv.map(|_| map_table::lines(places, loaded));
+        let lines = csv.map(|_| map_table::lines(places, columns));
         let cells: Vec<(usize, Cell)> = places.iter().filter_map(|p| shown.cell(p)).collect();
         (Figures::of(places), lines, cells)
     };

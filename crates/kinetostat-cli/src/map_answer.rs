@@ -16,6 +16,9 @@ pub(crate) struct MapAnswer {
     pub(crate) tool: String,
     /// Of the tool, everywhere, base axes.
     pub(crate) rotation_vector_deg: [f64; 3],
+    /// Where the orientation follows: how far the tool turns from that one at most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) max_tool_turn_deg: Option<f64>,
     pub(crate) grid: GridAnswer,
     pub(crate) loaded: bool,
     pub(crate) force_n: [f64; 3],
@@ -115,7 +118,7 @@ impl Quantity {
     pub(crate) fn of(self, place: &MapPlace) -> f64 {
         let size = |v: [f64; 3]| Vector3::from(v).norm();
         match self {
-            Self::Softest => place.softest_n_per_mm,
+            Self::Softest => place.smallest_stiffness_n_per_mm,
             Self::X => place.stiffness_n_per_mm[0],
             Self::Y => place.stiffness_n_per_mm[1],
             Self::Z => place.stiffness_n_per_mm[2],
@@ -127,7 +130,7 @@ impl Quantity {
     /// Name in the JSON.
     pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::Softest => "softest_n_per_mm",
+            Self::Softest => "smallest_stiffness_n_per_mm",
             Self::X => "stiffness_x_n_per_mm",
             Self::Y => "stiffness_y_n_per_mm",
             Self::Z => "stiffness_z_n_per_mm",
@@ -146,7 +149,7 @@ impl Quantity {
 
     pub(crate) fn in_words(self) -> &'static str {
         match self {
-            Self::Softest => "stiffness in the softest direction",
+            Self::Softest => "smallest stiffness against a force",
             Self::X => "stiffness against a force along x",
             Self::Y => "stiffness against a force along y",
             Self::Z => "stiffness against a force along z",
@@ -200,6 +203,8 @@ impl Gathered {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Figures {
     pub(crate) places: Places,
+    /// How far the tool turns where the orientation follows.
+    pub(crate) largest_turn_deg: f64,
     figures: [Gathered; Quantity::LOADED.len()],
 }
 
@@ -208,6 +213,8 @@ impl Figures {
         let mut own = Self::default();
         for place in places {
             own.places.count(place.state);
+            // Places without figures have none.
+            own.largest_turn_deg = own.largest_turn_deg.max(place.tool_turn_deg);
             for (figure, quantity) in own.figures.iter_mut().zip(Quantity::LOADED) {
                 figure.take(quantity.of(place), place.position_mm);
             }
@@ -217,6 +224,7 @@ impl Figures {
 
     pub(crate) fn add(&mut self, other: &Self) {
         self.places.add(&other.places);
+        self.largest_turn_deg = self.largest_turn_deg.max(other.largest_turn_deg);
         for (own, other) in self.figures.iter_mut().zip(&other.figures) {
             own.add(other);
         }

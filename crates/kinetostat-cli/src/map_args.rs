@@ -27,8 +27,9 @@ pub(crate) struct MapArgs {
     /// The same along z
     #[arg(long, num_args = 1..=3, value_names = ["FROM", "TO", "N"], allow_negative_numbers = true, help_heading = "Grid", value_parser = number)]
     pub(crate) z: Option<Vec<f64>>,
-    /// Orientation of the tool everywhere by a named convention, as in a_b_c_kuka_deg=0,0,90; without
-    /// it, the orientation at home
+    /// Orientation of the tool everywhere by a named convention, as in a_b_c_kuka_deg=0,0,90, or the
+    /// word follows: at every place the one nearest to that at home which the machine can have.
+    /// Without it, the orientation at home; it follows where the machine cannot hold one
     #[arg(long, value_name = "CONVENTION=A,B,C", help_heading = "Grid")]
     pub(crate) rotation: Option<String>,
     /// Distance of the tool's tip along z of the flange, mm

@@ -10,12 +10,22 @@ use crate::orientation;
 use crate::screen::{columns, number, triple, wrapped};
 use crate::summary;
 
+/// Which columns a table has besides stiffness.
+#[derive(Clone, Copy)]
+pub(crate) struct Columns {
+    pub(crate) loaded: bool,
+    pub(crate) follows: bool,
+}
+
 /// First line of the table.
-pub(crate) fn header(loaded: bool) -> String {
+pub(crate) fn header(columns: Columns) -> String {
     let mut out = String::from(
-        "x_mm,y_mm,z_mm,softest_n_per_mm,stiffness_x_n_per_mm,stiffness_y_n_per_mm,stiffness_z_n_per_mm",
+        "x_mm,y_mm,z_mm,smallest_stiffness_n_per_mm,stiffness_x_n_per_mm,stiffness_y_n_per_mm,stiffness_z_n_per_mm",
     );
-    if loaded {
+    if columns.follows {
+        out.push_str(",tool_turn_deg");
+    }
+    if columns.loaded {
         out.push_str(",dx_mm,dy_mm,dz_mm,rx_deg,ry_deg,rz_deg");
     }
     out.push_str(",status\n");
@@ -23,7 +33,7 @@ pub(crate) fn header(loaded: bool) -> String {
 }
 
 /// One line for each place; a number that does not exist is an empty cell.
-pub(crate) fn lines(places: &[MapPlace], loaded: bool) -> String {
+pub(crate) fn lines(places: &[MapPlace], columns: Columns) -> String {
     let mut out = String::with_capacity(160 * places.len());
     let cell = |out: &mut String, x: f64| {
         // Writing to a string cannot fail.
@@ -34,10 +44,13 @@ pub(crate) fn lines(places: &[MapPlace], loaded: bool) -> String {
     };
     for place in places {
         place.position_mm.iter().for_each(|x| cell(&mut out, *x));
-        cell(&mut out, place.softest_n_per_mm);
+        cell(&mut out, place.smallest_stiffness_n_per_mm);
         let along = place.stiffness_n_per_mm.iter();
         along.for_each(|x| cell(&mut out, *x));
-        if loaded {
+        if columns.follows {
+            cell(&mut out, place.tool_turn_deg);
+        }
+        if columns.loaded {
             let moved = place.displacement_mm.iter().chain(&place.rotation_deg);
             moved.for_each(|x| cell(&mut out, *x));
         }
@@ -117,7 +130,7 @@ fn figures(a: &MapAnswer) -> String {
 
 fn row(figure: &FigureAnswer) -> Vec<String> {
     let name = match figure.name {
-        "softest_n_per_mm" => "softest, N/mm",
+        "smallest_stiffness_n_per_mm" => "smallest, N/mm",
         "stiffness_x_n_per_mm" => "along x, N/mm",
         "stiffness_y_n_per_mm" => "along y, N/mm",
         "stiffness_z_n_per_mm" => "along z, N/mm",

@@ -41,6 +41,30 @@ pub(crate) fn pose(placement: &Placement) -> Result<Pose, (String, String)> {
     Ok(model.mechanism.platforms()[model.mechanism.tool()].home)
 }
 
+/// The word for an orientation that is the machine's affair.
+pub(crate) const FOLLOWS: &str = "follows";
+
+/// `CONVENTION=A,B,C` of an option, or none for the word `follows`.
+pub(crate) fn option_or_follows(flag: &str, text: &str) -> Answer<Option<UnitQuaternion<f64>>> {
+    match text.trim() {
+        FOLLOWS => Ok(None),
+        _ => option(flag, text).map(Some),
+    }
+}
+
+/// What a machine does that is asked for positions only: how far its tool turns, or turns at most.
+pub(crate) fn follows_in_words(turned_deg: f64, asked: bool, at_most: bool) -> String {
+    let by = if at_most { "by up to" } else { "by" };
+    let why = match asked {
+        true => "the orientation follows",
+        false => "this machine cannot hold an orientation as it moves, so its orientation follows",
+    };
+    format!(
+        "{why}: the tool turns {by} {} deg from the orientation it is kept near to",
+        crate::joints::plain(turned_deg)
+    )
+}
+
 /// `CONVENTION=A,B,C` of an option.
 pub(crate) fn option(flag: &str, text: &str) -> Answer<UnitQuaternion<f64>> {
     let refuse = |reason: String| Failure::input(format!("{flag} '{text}': {reason}"));

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat::{Mechanism, Pose, Posture, Wrench};
+use kinetostat::{LimbPosture, Mechanism, Pose, Posture, Wrench};
 use kinetostat_machining::{NearSingular, natural_length, near_singular, straight_tool};
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
@@ -26,8 +26,13 @@ pub(crate) struct Spot {
     pub(crate) mechanism: Mechanism,
     /// Names of the loads on every limb.
     pub(crate) load_names: Vec<Vec<String>>,
+    /// Springs, gas springs, tensions and counterweights in words: they act without a load on the tool.
+    pub(crate) own_loads: Vec<String>,
     pub(crate) target: Pose,
     pub(crate) at_home: bool,
+    /// Joints and how far the tool has turned from the orientation it is kept near to, deg, where the
+    /// place is asked for by its position only.
+    pub(crate) followed: Option<Followed>,
     /// Commands, m or rad, where the place is given by them.
     pub(crate) joints: Option<Vec<f64>>,
     pub(crate) controller: Option<Controller>,
@@ -35,6 +40,13 @@ pub(crate) struct Spot {
     pub(crate) inputs: Vec<PathBuf>,
     pub(crate) deviations: Vec<String>,
     pub(crate) warnings: Vec<String>,
+}
+
+/// A place whose orientation follows.
+#[derive(Clone, Debug)]
+pub(crate) struct Followed {
+    pub(crate) limbs: Vec<LimbPosture>,
+    pub(crate) turned_deg: f64,
 }
 
 pub(crate) fn spot(
@@ -68,14 +80,13 @@ pub(crate) fn spot_of(
     let mechanism = read.mechanism.with_tool(&straight_tool(1e-3 * length));
     let home = mechanism.platforms()[mechanism.tool()].home;
     let joints = joints::given(read, place)?;
+    let wanted = match &place.rotation {
+        Some(text) => Some(orientation::option_or_follows("--rotation", text)?),
+        None => None,
+    };
+    let rotation = wanted.flatten().unwrap_or(home.rotation);
     let target = match (&place.at, &joints) {
-        (None, None) => match &place.rotation {
-            Some(text) => {
-                let rotation = orientation::option("--rotation", text)?;
-                Pose::from_parts(home.translation, rotation)
-            }
-            None => home,
-        },
+        (None, None) => Pose::from_parts(home.translation, rotation),
         (None, Some(joints)) => *mechanism.posture_at(joints)?.target(),
         (Some(at), _) => {
             let position = vector("--at", at)? * 1e-3;
@@ -84,10 +95,6 @@ pub(crate) fn spot_of(
                     "--at lies more than 10 km away; coordinates are in mm",
                 ));
             }
-            let rotation = match &place.rotation {
-                Some(text) => orientation::option("--rotation", text)?,
-                None => home.rotation,
-            };
             Pose::from_parts(position.into(), rotation)
         }
     };
@@ -96,9 +103,17 @@ pub(crate) fn spot_of(
         .iter()
         .map(|w| format!("model: {}", w.message))
         .collect();
-    let target = match joints {
-        Some(_) => target,
-        None => reachable(&mechanism, target, &mut warnings)?,
+    let (target, followed) = match (&joints, wanted) {
+        (Some(_), _) => (target, None),
+        (None, Some(None)) => followed(&mechanism, &target, true, &mut warnings)?,
+        (None, _) => match reachable(&mechanism, target, &mut warnings) {
+            Ok(target) => (target, None),
+            // Unless an orientation was asked for, no machine is held to what it cannot do.
+            Err(_) if wanted.is_none() && mechanism.turns_as_it_moves() => {
+                followed(&mechanism, &target, false, &mut warnings)?
+            }
+            Err(error) => return Err(error),
+        },
     };
     let load = |name: &str, values: Option<&[f64]>| {
         values.map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
@@ -115,8 +130,10 @@ pub(crate) fn spot_of(
             format!("{} mm along z of the flange", short(length))
         },
         load_names: load_names(read),
+        own_loads: own_loads(read),
         target,
         at_home: !place.given(),
+        followed,
         joints,
         controller: read.controller.clone(),
         wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),
@@ -125,6 +142,51 @@ pub(crate) fn spot_of(
         warnings,
         mechanism,
     })
+}
+
+/// Loads of the model between nodes and platforms, in words.
+fn own_loads(model: &Model) -> Vec<String> {
+    let document = &model.document;
+    let between = document
+        .load
+        .iter()
+        .map(|load| format!("'{}'", load.name()));
+    let of_limbs = document.limb.iter().flat_map(|limb| {
+        let loads = limb.load.iter();
+        loads.map(|load| format!("'{}' of limb '{}'", load.name(), limb.name))
+    });
+    between.chain(of_limbs).collect()
+}
+
+/// The pose at the position of `target`, or at the nearest one where only its digits keep the machine
+/// from it, whose orientation is nearest to that of `target`.
+fn followed(
+    m: &Mechanism,
+    target: &Pose,
+    asked: bool,
+    warnings: &mut Vec<String>,
+) -> Answer<(Pose, Option<Followed>)> {
+    let rotation = &target.rotation;
+    let posture = match m.posture_following(&target.translation.vector, rotation) {
+        Err(kinetostat::Error::Unreachable {
+            distance_m,
+            nearest,
+            ..
+        }) if distance_m <= ROUNDED * natural_length(m) => {
+            warnings.push(format!(
+                "the machine cannot take this place exactly; the nearest is used, {} mm away: {}",
+                number(1e3 * distance_m, 3),
+                pose_in_words(&nearest)
+            ));
+            m.posture_following(&nearest.translation.vector, rotation)?
+        }
+        answer => answer?,
+    };
+    let pose = *posture.target();
+    let turned_deg = pose.rotation.angle_to(rotation).to_degrees();
+    warnings.push(orientation::follows_in_words(turned_deg, asked, false));
+    let limbs = posture.limbs().to_vec();
+    Ok((pose, Some(Followed { limbs, turned_deg })))
 }
 
 /// Share of the natural length by which an asked pose may miss what the machine can take.
@@ -186,9 +248,18 @@ impl Spot {
     }
 
     fn standing(&self) -> kinetostat::Result<Posture<'_>> {
-        match &self.joints {
-            Some(joints) => self.mechanism.posture_at(joints),
-            None => self.mechanism.posture(&self.target),
+        self.standing_in(&self.mechanism)
+    }
+
+    /// Another machine of the same nominal geometry, commanded for the place.
+    pub(crate) fn standing_in<'m>(
+        &self,
+        mechanism: &'m Mechanism,
+    ) -> kinetostat::Result<Posture<'m>> {
+        match (&self.joints, &self.followed) {
+            (Some(joints), _) => mechanism.posture_at(joints),
+            (None, Some(f)) => mechanism.posture_from_joints(&self.target, f.limbs.clone()),
+            (None, None) => mechanism.posture(&self.target),
         }
     }
 
@@ -211,6 +282,7 @@ impl Spot {
                 .scaled_axis()
                 .map(f64::to_degrees)
                 .into(),
+            tool_turn_deg: self.followed.as_ref().map(|f| f.turned_deg),
             axes: "base",
             reference_point: "tip of the tool",
         }

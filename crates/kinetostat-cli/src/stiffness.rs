@@ -2,7 +2,7 @@
 
 use kinetostat::{
     CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, MotionKind,
-    Posture, Role,
+    Posture, Role, Wrench,
 };
 use kinetostat_machining::NearSingular;
 use nalgebra::Matrix6;
@@ -42,6 +42,16 @@ struct Stiffness {
     /// Where directions are free: the motion under a load that pushes along none of them, up to
     /// motions along them.
     compliance_besides_free_motions_m_rad_per_n: Option<[[f64; 6]; 6]>,
+    /// Smallest stiffness against a force: in its softest direction, the tool free to turn; null if no
+    /// force moves the tool. As in `map`, `deflect` and along programs.
+    smallest_stiffness_n_per_mm: f64,
+    /// What acts in the model and is not in the unloaded stiffness: springs and other loads between
+    /// nodes and platforms, and weight.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<String>,
+    /// The same figures with what is left out: the tangent at rest, without a load on the tool.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_rest: Option<AtRest>,
     rank: usize,
     free_directions: usize,
     rigid_directions: usize,
@@ -51,6 +61,14 @@ struct Stiffness {
     /// The nearest singular posture, where one is near.
     near_singularity: Option<NearSingular>,
     warnings: Vec<String>,
+}
+
+/// Stiffness of the machine as it stands, without a load on the tool.
+#[derive(Serialize)]
+struct AtRest {
+    stiffness_n_m_rad: [[f64; 6]; 6],
+    smallest_stiffness_n_per_mm: f64,
+    stable: bool,
 }
 
 /// One principal direction.
@@ -108,7 +126,7 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         answer(
             &spot,
             &posture,
-            true,
+            (true, e.stiffness_against_force()),
             &e.stiffness,
             &e.compliance(),
             &directions,
@@ -118,15 +136,17 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         let k = posture.stiffness()?;
         let limbs: Vec<&ChainStiffness> = k.limbs.iter().collect();
         let directions = with_causes(&k.directions, |d| k.behind(&posture, &d.twist));
-        answer(
+        let mut answer = answer(
             &spot,
             &posture,
-            false,
+            (false, k.stiffness_against_force()),
             &k.cartesian,
             &k.compliance(),
             &directions,
             &limbs,
-        )
+        );
+        with_own_loads(&mut answer, &spot, &posture);
+        answer
     };
     let text = in_words(&spot, &answer);
     if args.json {
@@ -150,10 +170,30 @@ fn with_causes(
     list
 }
 
+/// Names what acts in the model and is not in its unloaded stiffness, and adds the stiffness with it.
+fn with_own_loads(answer: &mut Stiffness, spot: &Spot, posture: &Posture<'_>) {
+    if spot.own_loads.is_empty() {
+        return;
+    }
+    answer.left_out.clone_from(&spot.own_loads);
+    match posture.deflected_by(&Wrench::zero()) {
+        Ok(rest) => {
+            answer.at_rest = Some(AtRest {
+                stiffness_n_m_rad: rows(&rest.stiffness.matrix),
+                smallest_stiffness_n_per_mm: 1e-3 * rest.stiffness_against_force(),
+                stable: rest.stable(),
+            });
+        }
+        Err(error) => answer.warnings.push(format!(
+            "there is no stiffness with what acts in the model besides: {error}"
+        )),
+    }
+}
+
 fn answer(
     spot: &Spot,
     posture: &Posture<'_>,
-    loaded: bool,
+    (loaded, against_force): (bool, f64),
     cartesian: &CartesianStiffness,
     compliance: &CartesianCompliance,
     directions: &[Direction],
@@ -181,6 +221,9 @@ fn answer(
         compliance_m_rad_per_n: (free == 0).then(|| rows(&compliance.springs)),
         compliance_besides_free_motions_m_rad_per_n: (free > 0 && held)
             .then(|| rows(&compliance.springs)),
+        smallest_stiffness_n_per_mm: 1e-3 * against_force,
+        left_out: Vec::new(),
+        at_rest: None,
         free_directions: free,
         rigid_directions: count(DirectionKind::Rigid),
         negative_directions: count(DirectionKind::Negative),
@@ -268,7 +311,16 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
             triple(a.moment_n_m, short)
         )
     } else {
-        "Stiffness of the unloaded machine as drawn (weights, preloads and deviations left out; give --force for the loaded one).".to_owned()
+        let with = match a.left_out.is_empty() {
+            true => String::new(),
+            false => format!(
+                " Left out are {}; the stiffness with them stands below.",
+                a.left_out.join(", ")
+            ),
+        };
+        format!(
+            "Stiffness of the unloaded machine as drawn (weights, preloads and deviations left out; give --force for the loaded one).{with}"
+        )
     };
     out.push_str(&wrapped(&state, 0));
     out.push_str(&wrapped(
@@ -276,18 +328,13 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
         0,
     ));
     out.push('\n');
-    out.push_str(&matrix(
-        &a.stiffness_n_m_rad,
-        ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"],
-        [
-            "per mm", "per mm", "per mm", "per rad", "per rad", "per rad",
-        ],
-        |i, j| {
-            let _ = i;
-            if j < 3 { 1e-3 } else { 1.0 }
-        },
-    ));
+    out.push_str(&table(&a.stiffness_n_m_rad));
     out.push_str(&asymmetry(spot, a));
+    out.push('\n');
+    out.push_str(&wrapped(&against_force(a), 0));
+    if let Some(rest) = &a.at_rest {
+        out.push_str(&at_rest(rest));
+    }
     if let Some(c) = &a.compliance_m_rad_per_n {
         out.push_str(match a.rigid_directions {
             0 => "\nCompliance, its inverse: micrometres and microradians\n\n",
@@ -399,6 +446,48 @@ fn matrix(
     columns(&rows, 1)
 }
 
+/// The smallest stiffness against a force, one sentence.
+fn against_force(a: &Stiffness) -> String {
+    match a.smallest_stiffness_n_per_mm.is_finite() {
+        true => format!(
+            "Smallest stiffness against a force: {} N/mm (the tip pushed in its softest direction, the tool free to turn).",
+            number(a.smallest_stiffness_n_per_mm, 4)
+        ),
+        false => "No force on the tip moves it.".to_owned(),
+    }
+}
+
+/// The stiffness with the loads of the model.
+fn at_rest(rest: &AtRest) -> String {
+    let mut out = String::from("\n");
+    out.push_str(&wrapped(
+        &format!(
+            "With all that acts in the model and without a load on the tool{}: smallest stiffness against a force {} N/mm.",
+            match rest.stable {
+                true => "",
+                false => " (the machine is NOT stable so)",
+            },
+            number(rest.smallest_stiffness_n_per_mm, 4)
+        ),
+        0,
+    ));
+    out.push('\n');
+    out.push_str(&table(&rest.stiffness_n_m_rad));
+    out
+}
+
+/// A stiffness matrix with its units.
+fn table(stiffness: &[[f64; 6]; 6]) -> String {
+    matrix(
+        stiffness,
+        ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"],
+        [
+            "per mm", "per mm", "per mm", "per rad", "per rad", "per rad",
+        ],
+        |_, j| if j < 3 { 1e-3 } else { 1.0 },
+    )
+}
+
 /// Under a moment the matrix is not symmetric, which surprises who compares it with a table.
 fn asymmetry(spot: &Spot, a: &Stiffness) -> String {
     let moment = spot.wrench.moment();
@@ -437,7 +526,7 @@ pub(crate) fn principals(list: &[Principal]) -> String {
     }
     let mut out = columns(&rows, 2);
     out.push_str(&wrapped(
-        "Rotations count at the machine's natural length, so that N/mm compares them.",
+        "Rotations count at the machine's natural length, so that N/mm compares them: the smallest here is another figure than the smallest stiffness against a force.",
         2,
     ));
     out

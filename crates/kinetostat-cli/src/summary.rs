@@ -213,7 +213,7 @@ fn figures(result: &RunResult) -> String {
     last("path at feed", fixed(s.feed_length_mm, 1), "mm");
     last("points solved", s.points.to_string(), "");
     last(
-        "softest direction of the tool",
+        "smallest stiffness against a force",
         number(s.smallest_stiffness_n_per_mm, 4),
         "N/mm",
     );

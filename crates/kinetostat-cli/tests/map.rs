@@ -26,7 +26,7 @@ fn a_place_of_the_map_is_what_stiffness_says_there() {
     let table = std::fs::read_to_string(here.path().join("map.csv")).expect("the table");
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 19);
-    assert!(lines[0].starts_with("x_mm,y_mm,z_mm,softest_n_per_mm,"));
+    assert!(lines[0].starts_with("x_mm,y_mm,z_mm,smallest_stiffness_n_per_mm,"));
     // x runs fastest.
     let row: Vec<&str> = lines[3].split(',').collect();
     assert_eq!(row[..3], ["-20", "25", "70"]);
@@ -60,7 +60,7 @@ fn a_place_of_the_map_is_what_stiffness_says_there() {
         cells.map(|c| c.parse().expect("a number")).collect()
     };
     let softest = &answer["figures"][0];
-    assert_eq!(softest["name"], "softest_n_per_mm");
+    assert_eq!(softest["name"], "smallest_stiffness_n_per_mm");
     let least = column(3).into_iter().fold(f64::INFINITY, f64::min);
     let most = column(3).into_iter().fold(0.0, f64::max);
     assert_eq!(softest["least"]["value"].as_f64(), Some(least));

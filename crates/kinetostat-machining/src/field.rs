@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::load::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
-use crate::solve::in_chunks;
+use crate::solve::{Orientation, in_chunks};
 use crate::together::Together;
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
@@ -92,7 +92,9 @@ impl ModelField<'_> {
         mechanism: &Mechanism,
         requests: &[Request],
     ) -> Vec<Result<Vector3<f64>, FieldFailure>> {
-        let together = Together::new(mechanism);
+        let load = self.load.load_of(requests[0].move_index);
+        let orientation = Orientation::of(&self.placement, load);
+        let together = Together::new(mechanism, orientation.follows);
         in_chunks(requests, |memory, requests| {
             let poses: Vec<Pose> = requests
                 .iter()
@@ -110,7 +112,7 @@ impl ModelField<'_> {
             let both = poses.iter().zip(&wrenches);
             both.map(|(pose, wrench)| {
                 memory[0]
-                    .target(mechanism, pose, wrench)
+                    .target(mechanism, pose, wrench, orientation)
                     .map(|posture| correction(pose, posture.target()))
                     .map_err(|error| FieldFailure::new(in_words(&error)))
             })

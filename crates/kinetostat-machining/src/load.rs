@@ -88,6 +88,17 @@ pub struct ProgramLoad {
 }
 
 impl ProgramLoad {
+    /// The load is fixed in the tool and turns with it.
+    pub(crate) fn in_tool_axes(&self) -> bool {
+        matches!(
+            self.cutting,
+            CuttingLoad::Constant {
+                axes: LoadAxes::Tool,
+                ..
+            }
+        )
+    }
+
     /// This law on all feed moves.
     #[must_use]
     pub fn new(cutting: CuttingLoad) -> Self {
@@ -223,7 +234,8 @@ impl<'a> LoadAlongPath<'a> {
         tool_on(self.tools, self.path, self.path.moves[move_index].line)
     }
 
-    fn load_of(&self, move_index: usize) -> &ProgramLoad {
+    /// What acts on the tool that a move is made with.
+    pub(crate) fn load_of(&self, move_index: usize) -> &ProgramLoad {
         self.tool_of(move_index)
             .map_or(&self.load, |tool| &tool.load)
     }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::near::natural_length;
 use crate::run::{RunError, Watch};
+use crate::solve::{NEAR, Orientation, reach_of_neighbours};
 
 /// Evenly spaced positions of the tool, base axes, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +64,9 @@ pub struct MapTask<'a> {
     pub grid: Grid,
     /// Orientation of the tool everywhere, base from tool.
     pub orientation: UnitQuaternion<f64>,
+    /// The machine turns its tool as it moves: at every place it takes the orientation nearest to
+    /// `orientation` that it can have there, instead of that one.
+    pub orientation_follows: bool,
     /// Dead wrench on the tool, base axes, about its reference point. With it, figures are those of
     /// the machine as it is under this load, its own weight, preloads and deviations; without it, of
     /// the unloaded machine as drawn.
@@ -115,9 +119,12 @@ pub struct MapPlace {
     pub state: PlaceState,
     /// Force that moves the tool's tip by 1 mm in its softest direction while the tool may turn,
     /// N/mm: zero if a direction is free, negative if the tool runs away.
-    pub softest_n_per_mm: f64,
+    pub smallest_stiffness_n_per_mm: f64,
     /// The same for a force along x, y and z (base axes), by the motion along it, N/mm.
     pub stiffness_n_per_mm: [f64; 3],
+    /// How far the unloaded tool has turned from the orientation that was asked for, deg: zero unless
+    /// the orientation follows.
+    pub tool_turn_deg: f64,
     /// From where the tool is commanded to where it goes under the load, base axes, mm.
     pub displacement_mm: [f64; 3],
     /// Rotation vector of the tool under the load, base axes, deg.
@@ -171,19 +178,58 @@ fn solved(task: &MapTask<'_>, batch: &Batch<'_>, places: std::ops::Range<usize>)
             index,
             position_mm,
             state: PlaceState::Unanswered,
-            softest_n_per_mm: f64::NAN,
+            smallest_stiffness_n_per_mm: f64::NAN,
             stiffness_n_per_mm: [f64::NAN; 3],
+            tool_turn_deg: f64::NAN,
             displacement_mm: [f64::NAN; 3],
             rotation_deg: [f64::NAN; 3],
         });
         let position = Vector3::from(position_mm) * 1e-3;
         poses.push(Pose::from_parts(position.into(), task.orientation));
     }
+    if task.orientation_follows {
+        following(task, &poses, &mut out);
+        return out;
+    }
     match &task.load {
         None => unloaded(task, batch, &poses, &mut out),
         Some(wrench) => loaded(task, batch, wrench, &poses, &mut out),
     }
+    for place in out.iter_mut().filter(|p| p.state.has_figures()) {
+        place.tool_turn_deg = 0.0;
+    }
     out
+}
+
+/// Places by their positions only, one after the other: each followed from the one before where that
+/// is near.
+fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
+    let asked = Orientation {
+        follows: true,
+        load_turns: false,
+    };
+    let near = NEAR * reach_of_neighbours(task.mechanism);
+    let mut last: Option<Posture<'_>> = None;
+    for (place, pose) in out.iter_mut().zip(poses) {
+        let close = last.as_ref().filter(|posture| {
+            let at = posture.target().translation.vector;
+            (at - pose.translation.vector).norm() < near
+        });
+        let posture = asked.posture(task.mechanism, pose, close);
+        let Some(posture) = place.within_limits(posture) else {
+            last = None;
+            continue;
+        };
+        match &task.load {
+            None => place.take_stiffness(&posture),
+            Some(wrench) => place.take_loaded(&posture, wrench),
+        }
+        if place.state.has_figures() {
+            let turned = posture.target().rotation.angle_to(&pose.rotation);
+            place.tool_turn_deg = turned.to_degrees();
+        }
+        last = Some(posture);
+    }
 }
 
 fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
@@ -228,10 +274,11 @@ fn loaded(
 impl MapPlace {
     /// The machine commanded for the place; none if it cannot be, and the state says why.
     fn posture<'m>(&mut self, mechanism: &'m Mechanism, pose: &Pose) -> Option<Posture<'m>> {
-        match mechanism
-            .posture(pose)
-            .and_then(|p| p.within_limits().map(|()| p))
-        {
+        self.within_limits(mechanism.posture(pose))
+    }
+
+    fn within_limits<'m>(&mut self, posture: Result<Posture<'m>, Error>) -> Option<Posture<'m>> {
+        match posture.and_then(|p| p.within_limits().map(|()| p)) {
             Ok(posture) => return Some(posture),
             Err(Error::OutsideLimits { .. }) => self.state = PlaceState::OutsideLimits,
             Err(_) => self.state = PlaceState::Unreachable,
@@ -266,7 +313,7 @@ impl MapPlace {
         let compliance = Matrix6::from_fn(|r, c| balanced[(r, c)] / (unit(r) * unit(c)));
         self.state = PlaceState::Regular;
         self.stiffness_n_per_mm = along(&compliance);
-        self.softest_n_per_mm = softest(&compliance);
+        self.smallest_stiffness_n_per_mm = softest(&compliance);
         true
     }
 
@@ -299,22 +346,25 @@ impl MapPlace {
             false => PlaceState::Unstable,
         };
         self.stiffness_n_per_mm = along(&compliance);
-        self.softest_n_per_mm = 1e-3 * verdict.stiffness_against_force;
+        self.smallest_stiffness_n_per_mm = 1e-3 * verdict.stiffness_against_force;
         self.moved(&pose_residual(&found.tool_pose(i), pose));
         true
     }
 
     fn take_equilibrium_alone(&mut self, mechanism: &Mechanism, pose: &Pose, wrench: &Wrench) {
-        let Some(posture) = self.posture(mechanism, pose) else {
-            return;
-        };
+        if let Some(posture) = self.posture(mechanism, pose) {
+            self.take_loaded(&posture, wrench);
+        }
+    }
+
+    fn take_loaded(&mut self, posture: &Posture<'_>, wrench: &Wrench) {
         let Ok(e) = posture.deflected_by(wrench) else {
             self.state = PlaceState::Unanswered;
             return;
         };
         let compliance = e.compliance();
         self.stiffness_n_per_mm = along(&compliance.springs);
-        self.softest_n_per_mm = 1e-3 * e.stiffness_against_force();
+        self.smallest_stiffness_n_per_mm = 1e-3 * e.stiffness_against_force();
         self.moved(&e.displacement);
         self.state = if e.platform.free > 0 {
             self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
@@ -332,20 +382,22 @@ impl MapPlace {
     }
 
     fn take_alone(&mut self, mechanism: &Mechanism, pose: &Pose) {
-        let Some(posture) = self.posture(mechanism, pose) else {
-            return;
-        };
+        if let Some(posture) = self.posture(mechanism, pose) {
+            self.take_stiffness(&posture);
+        }
+    }
+
+    fn take_stiffness(&mut self, posture: &Posture<'_>) {
         let Ok(stiffness) = posture.stiffness() else {
             self.state = PlaceState::Unanswered;
             return;
         };
         let compliance = stiffness.compliance();
         self.stiffness_n_per_mm = along(&compliance.springs);
-        self.softest_n_per_mm = softest(&compliance.springs);
+        self.smallest_stiffness_n_per_mm = 1e-3 * stiffness.stiffness_against_force();
         self.state = PlaceState::Regular;
         if !compliance.free.is_empty() {
             self.state = PlaceState::Singular;
-            self.softest_n_per_mm = 0.0;
             self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
         }
     }

@@ -11,6 +11,10 @@ pub struct Placement {
     pub base_from_part: Pose,
     /// Orientation of the tool frame at every point, base from tool.
     pub tool_orientation: UnitQuaternion<f64>,
+    /// The machine turns its tool as it moves: at every point it takes the orientation nearest to
+    /// `tool_orientation` that it can have there, instead of that one.
+    #[serde(default)]
+    pub orientation_follows: bool,
     /// Length in the machine per length in the program: 1 for real work; other values try a
     /// program of another size.
     pub scale: f64,
@@ -23,6 +27,7 @@ impl Placement {
         Self {
             base_from_part: Pose::from_parts(origin.into(), UnitQuaternion::identity()),
             tool_orientation: UnitQuaternion::identity(),
+            orientation_follows: false,
             scale: 1.0,
         }
     }
@@ -32,7 +37,14 @@ impl Placement {
         1e-3 * self.scale
     }
 
-    /// Pose of the tool at a point of the program (mm).
+    /// A displacement in the program (mm, part frame) as one in the machine (m, base axes).
+    #[must_use]
+    pub fn to_metres(&self, displacement_mm: &Vector3<f64>) -> Vector3<f64> {
+        self.base_from_part.rotation * displacement_mm * self.metres()
+    }
+
+    /// Pose of the tool at a point of the program (mm); where the orientation follows, the one that
+    /// it is kept near to.
     #[must_use]
     pub fn tool_pose(&self, position_mm: &Vector3<f64>) -> Pose {
         let point = self.base_from_part * nalgebra::Point3::from(position_mm * self.metres());

@@ -260,6 +260,10 @@ pub struct Summary {
     pub max_correction_mm: f64,
     /// Largest rotation of the tool that a program of positions cannot correct, deg.
     pub max_residual_rotation_deg: f64,
+    /// Where the orientation follows: how far the unloaded tool turns from the orientation that it
+    /// is kept near to, deg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_tool_turn_deg: Option<f64>,
     /// Largest deviation of the tool's speed along the part from the programmed one, percent.
     pub max_speed_deviation_percent: f64,
     /// Smallest stiffness of the tool's tip against a force along the path (softest direction, the
@@ -321,6 +325,10 @@ pub struct PointResult {
     pub force_n: [f64; 3],
     /// Rotation of the tool that stays, deg.
     pub residual_rotation_deg: f64,
+    /// Where the orientation follows: rotation vector of the unloaded tool from the orientation that
+    /// it is kept near to, base axes, deg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tool_turn_deg: Option<[f64; 3]>,
     /// Force (N) or torque (N m) of every actuator.
     #[serde(rename = "actuator_force_n_or_n_m")]
     pub actuator_force: Vec<f64>,

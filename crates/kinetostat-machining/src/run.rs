@@ -7,7 +7,7 @@ use kinetostat_program::{
     Corrected, Monitor, MoveKind, Path, Program, ReadOptions, WriteError, WriteOptions,
     verify_written, write_corrected,
 };
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::corners::by_the_other_reading;
 use crate::field::{ModelField, in_words};
@@ -21,8 +21,8 @@ use crate::result::{
     Summary, ToleranceVerdict,
 };
 use crate::sites::{Site, of_path, of_written};
-use crate::solve::{Neighbour, in_chunks};
-use crate::together::Together;
+use crate::solve::{NEAR, Neighbour, Orientation, in_chunks, reach_of_neighbours};
+use crate::together::{JUMP, Together};
 use crate::tool::{Tool, tool_on};
 use crate::warning::{Warning, WarningCode};
 
@@ -124,6 +124,14 @@ pub enum RunError {
         /// Program coordinates, mm.
         position_mm: [f64; 3],
     },
+    /// The orientation that follows is not continuous.
+    #[error(
+        "line {line}: the orientation of the tool jumps here: the machine would have to change its branch, or passes close to a singular posture; nothing was written. Move the part, or give an orientation to keep near to (`kinetostat deflect` shows how far the tool turns)"
+    )]
+    Jump {
+        /// Line of the program, from 1.
+        line: usize,
+    },
     /// The program has no move whose place is known.
     #[error(
         "the program has no motion whose place is known: state X, Y and Z before the first cut, or give the start position"
@@ -153,9 +161,10 @@ impl RunError {
     pub fn is_unanswered(&self) -> bool {
         match self {
             Self::Point { cause, .. } => cause.is_unanswered(),
-            Self::Write(WriteError::Field { .. }) | Self::Worse { .. } | Self::Unstable { .. } => {
-                true
-            }
+            Self::Write(WriteError::Field { .. })
+            | Self::Worse { .. }
+            | Self::Unstable { .. }
+            | Self::Jump { .. } => true,
             _ => false,
         }
     }
@@ -227,6 +236,9 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     refuse(beyond)?;
     if let Some(worse) = worse {
         return Err(worse);
+    }
+    if let Some(line) = jump(task, &points) {
+        return Err(RunError::Jump { line });
     }
     let checked = Checked {
         speed_percent: 100.0 * check.largest_speed_error,
@@ -304,9 +316,11 @@ fn solve<S: Iterator<Item = Site>>(
     watch.stage(name, total);
     let mut points: Vec<PointResult> = Vec::with_capacity(total);
     let mut worse = None;
+    let follows = task.placement.orientation_follows;
     let machines = std::iter::once(task.mechanism).chain(task.tools.iter().map(|t| t.mechanism));
-    let together: Vec<Together<'_>> = machines.map(Together::new).collect();
-    let number = |site: &Site| tool_on(task.tools, task.path, site.line).map(|tool| tool.number);
+    let together: Vec<Together<'_>> = machines.map(|m| Together::new(m, follows)).collect();
+    let tool = |site: &Site| tool_on(task.tools, task.path, site.line);
+    let number = |site: &Site| tool(site).map(|tool| tool.number);
     // The first is the machine without one of the tools.
     let machine = |site: &Site| {
         let tool = number(site);
@@ -325,8 +339,10 @@ fn solve<S: Iterator<Item = Site>>(
         let of_one_tool = batch.chunk_by(|a, b| number(a) == number(b));
         let solved = of_one_tool.flat_map(|run| {
             let together = machine(&run[0]);
+            let load = tool(&run[0]).map_or(&task.load, |tool| &tool.load);
+            let orientation = Orientation::of(&task.placement, load);
             in_chunks(run, |memory, sites| {
-                chunk(task, together, memory, sites, written)
+                chunk(task, together, memory, sites, (orientation, written))
             })
         });
         for (site, point) in batch.iter().zip(solved) {
@@ -344,7 +360,7 @@ fn chunk<'m>(
     together: &Together<'m>,
     memory: &mut [Neighbour<'m>; 2],
     sites: &[Site],
-    written: bool,
+    (orientation, written): (Orientation, bool),
 ) -> Vec<Result<PointResult, RunError>> {
     let (place, mechanism) = (&task.placement, together.mechanism());
     let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
@@ -366,7 +382,8 @@ fn chunk<'m>(
             None => None,
             Some(Some(found)) => Some((found.commands.row(i).collect(), found.tool_pose(i))),
             Some(None) => {
-                let (posture, tool) = before_memory.rest(mechanism, &wanted[i], wrench)?;
+                let pose = &wanted[i];
+                let (posture, tool) = before_memory.rest(mechanism, pose, wrench, orientation)?;
                 Some((posture.commands(), tool))
             }
         };
@@ -377,7 +394,8 @@ fn chunk<'m>(
         let after = match after {
             Some(after) => after,
             None => {
-                let found = after_memory.equilibrium(mechanism, &commanded[i], wrench)?;
+                let pose = &commanded[i];
+                let found = after_memory.equilibrium(mechanism, pose, wrench, orientation)?;
                 Loaded::of_posture(&found.0, &found.1)
             }
         };
@@ -399,6 +417,8 @@ fn chunk<'m>(
 struct Loaded {
     tool: Pose,
     rotation: f64,
+    /// Orientation of the unloaded tool.
+    nominal: UnitQuaternion<f64>,
     commands: Vec<f64>,
     actuator_forces: Vec<f64>,
     stiffness_against_force: f64,
@@ -412,6 +432,7 @@ impl Loaded {
         Self {
             tool: equilibrium.tool,
             rotation: turned.angle(),
+            nominal: posture.target().rotation,
             commands: posture.commands(),
             actuator_forces: equilibrium.actuator_forces(),
             stiffness_against_force: equilibrium.stiffness_against_force(),
@@ -426,6 +447,7 @@ impl Loaded {
         Some(Self {
             rotation: (tool.rotation * commanded.rotation.inverse()).angle(),
             tool,
+            nominal: commanded.rotation,
             commands: found.commands.row(i).collect(),
             actuator_forces: found.actuator_forces.row(i).collect(),
             stiffness_against_force: verdict.stiffness_against_force,
@@ -472,12 +494,49 @@ fn point(
         correction_mm: (site.commanded - site.desired).into(),
         force_n: place.to_part_axes(&site.wrench.force()).into(),
         residual_rotation_deg: after.rotation.to_degrees(),
+        tool_turn_deg: place
+            .orientation_follows
+            .then(|| turn_deg(&wanted.rotation, &after.nominal)),
         actuator_force: after.actuator_forces,
         actuator_correction,
         smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
         buckling_margin: after.margin.filter(|mu| mu.is_finite()),
         stable: after.stable,
     }
+}
+
+fn turn_deg(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> [f64; 3] {
+    let turn = (to * from.inverse()).scaled_axis();
+    turn.map(f64::to_degrees).into()
+}
+
+/// Neighbours on the path between which a tool whose orientation follows turns farther than the way
+/// between them explains: the machine has changed its branch. The line of the second.
+fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
+    let near = NEAR * reach_of_neighbours(task.mechanism);
+    points.windows(2).find_map(|pair| {
+        let [a, b] = [pair[0].tool_turn_deg?, pair[1].tool_turn_deg?];
+        let way = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);
+        let way = task.placement.to_metres(&way).norm();
+        let turn = (Vector3::from(b) - Vector3::from(a)).norm().to_radians();
+        (way < near && turn > JUMP).then_some(pair[1].line)
+    })
+}
+
+/// What a tool whose orientation follows does.
+fn following(task: &Task<'_>, points: &[PointResult], summary: &Summary) -> Vec<Warning> {
+    let code = WarningCode::OrientationFollows;
+    let turns = summary.max_tool_turn_deg.map(|turn| {
+        let text = format!(
+            "the orientation follows: the tool turns by up to {turn:.4} deg from the orientation it is kept near to"
+        );
+        Warning::new(code, text)
+    });
+    let jumps = jump(task, points).map(|line| {
+        let text = "the orientation of the tool jumps here: the machine would have to change its branch, or passes close to a singular posture";
+        Warning::at_line(code, line, text)
+    });
+    turns.into_iter().chain(jumps).collect()
 }
 
 pub(crate) fn kinds(mechanism: &Mechanism) -> impl Iterator<Item = MotionKind> + '_ {
@@ -583,6 +642,7 @@ fn conclude(
         warnings.extend(beyond.map(|b| judge::as_warning(&b)));
     }
     warnings.extend(judge::odd(task, &points, &summary, written.is_some()));
+    warnings.extend(following(task, &points, &summary));
     let near_singularity = nearest_singular(task, &points);
     if let Some(near) = &near_singularity {
         let [x, y, z] = near.position_mm;
@@ -653,17 +713,17 @@ pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) 
 fn nearest_singular(task: &Task<'_>, points: &[PointResult]) -> Option<NearSingularPlace> {
     let stride = points.len().div_ceil(RunResult::MAX_POSTURES).max(1);
     let length_mm = 1e3 * natural_length(task.mechanism);
+    let orientation = Orientation {
+        follows: task.placement.orientation_follows,
+        load_turns: false,
+    };
     let mut last: Option<Posture<'_>> = None;
     let mut found: Option<(f64, NearSingularPlace)> = None;
     for point in points.iter().step_by(stride) {
         let pose = task.placement.tool_pose(&point.position_mm.into());
         let mechanism = task.mechanism_on(point.line);
-        let posture = match &last {
-            Some(near) if std::ptr::eq(near.mechanism(), mechanism) => {
-                mechanism.posture_near(&pose, near)
-            }
-            _ => mechanism.posture(&pose),
-        };
+        let near = last.as_ref().filter(|near| std::ptr::eq(near.mechanism(), mechanism));
+        let posture = orientation.posture(mechanism, &pose, near);
         let Ok(posture) = posture else { continue };
         if let Some(near) = near_singular(&posture) {
             let far = near
@@ -723,6 +783,10 @@ fn summarise(
         max_correction_mm: most(&|p| size(&p.correction_mm)),
         max_residual_rotation_deg: most(&|p| p.residual_rotation_deg),
         max_speed_deviation_percent: checked.speed_percent,
+        max_tool_turn_deg: points
+            .iter()
+            .filter_map(|p| p.tool_turn_deg.as_ref().map(size))
+            .max_by(f64::total_cmp),
         smallest_stiffness_n_per_mm: points
             .iter()
             .map(|p| p.smallest_stiffness_n_per_mm)

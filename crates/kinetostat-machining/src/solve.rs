@@ -4,15 +4,61 @@
 
 use kinetostat::{
     Error, Mechanism, MechanismEquilibrium, MechanismState, Pose, Posture, Wrench,
-    target_under_load,
+    target_under_load, target_under_load_following,
 };
 use rayon::prelude::*;
+
+use crate::load::ProgramLoad;
+use crate::placement::Placement;
 
 /// Points that share a chain of starting values.
 pub(crate) const CHUNK: usize = 64;
 
 /// Directions that a program of positions can correct.
 pub(crate) const POSITIONS: [bool; 6] = [true, true, true, false, false, false];
+
+/// What is done with the orientation of a pose that is asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Orientation {
+    /// It is the one to keep near to; otherwise it is held.
+    pub follows: bool,
+    /// The load is fixed in the tool and turns with it.
+    pub load_turns: bool,
+}
+
+impl Orientation {
+    pub fn of(placement: &Placement, load: &ProgramLoad) -> Self {
+        Self {
+            follows: placement.orientation_follows,
+            load_turns: placement.orientation_follows && load.in_tool_axes(),
+        }
+    }
+
+    /// The machine commanded for a pose, or for its position.
+    pub fn posture<'m>(
+        self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        near: Option<&Posture<'m>>,
+    ) -> Result<Posture<'m>, Error> {
+        let (position, rotation) = (&pose.translation.vector, &pose.rotation);
+        match (self.follows, near) {
+            (false, None) => mechanism.posture(pose),
+            (false, Some(near)) => mechanism.posture_near(pose, near),
+            (true, None) => mechanism.posture_following(position, rotation),
+            (true, Some(near)) => mechanism.posture_following_near(position, rotation, near),
+        }
+    }
+
+    /// The load that was given for the orientation of `pose`, where the tool has another one.
+    fn load(self, wrench: &Wrench, pose: &Pose, posture: &Posture<'_>) -> Wrench {
+        if !self.load_turns {
+            return *wrench;
+        }
+        let turn = posture.target().rotation * pose.rotation.inverse();
+        wrench.rotated(&turn.to_rotation_matrix())
+    }
+}
 
 /// Posture and state of the last point solved in a chunk, one memory per kind of question.
 #[derive(Default)]
@@ -38,11 +84,14 @@ impl<'m> Neighbour<'m> {
         })
     }
 
-    fn posture(&self, mechanism: &'m Mechanism, pose: &Pose) -> Result<Posture<'m>, Error> {
-        let posture = match self.near(pose) {
-            Some((near, _)) => mechanism.posture_near(pose, near)?,
-            None => mechanism.posture(pose)?,
-        };
+    fn posture(
+        &self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        orientation: Orientation,
+    ) -> Result<Posture<'m>, Error> {
+        let near = self.near(pose).map(|(posture, _)| posture);
+        let posture = orientation.posture(mechanism, pose, near)?;
         posture.within_limits()?;
         Ok(posture)
     }
@@ -58,16 +107,26 @@ impl<'m> Neighbour<'m> {
         mechanism: &'m Mechanism,
         pose: &Pose,
         wrench: &Wrench,
+        orientation: Orientation,
     ) -> Result<Posture<'m>, Error> {
-        let (near, state) = match self.near(pose) {
-            Some(found) => found.clone(),
-            None => {
-                let posture = mechanism.posture(pose)?;
-                let state = posture.rest_state();
-                (posture, state)
-            }
+        let answer = if orientation.follows {
+            let near = self.near(pose).map(|(posture, _)| posture);
+            let near = orientation.posture(mechanism, pose, near)?;
+            let start = self.start(&near, pose);
+            let wrench = orientation.load(wrench, pose, &near);
+            let (position, rotation) = (&pose.translation.vector, &pose.rotation);
+            target_under_load_following(&near, position, rotation, &wrench, start)?
+        } else {
+            let (near, state) = match self.near(pose) {
+                Some(found) => found.clone(),
+                None => {
+                    let posture = mechanism.posture(pose)?;
+                    let state = posture.rest_state();
+                    (posture, state)
+                }
+            };
+            target_under_load(&near, pose, wrench, POSITIONS, state)?
         };
-        let answer = target_under_load(&near, pose, wrench, POSITIONS, state)?;
         answer.0.within_limits()?;
         self.last = Some(answer.clone());
         Ok(answer.0)
@@ -79,10 +138,12 @@ impl<'m> Neighbour<'m> {
         mechanism: &'m Mechanism,
         pose: &Pose,
         wrench: &Wrench,
+        orientation: Orientation,
     ) -> Result<(Posture<'m>, Pose), Error> {
-        let posture = self.posture(mechanism, pose)?;
+        let posture = self.posture(mechanism, pose, orientation)?;
         let start = self.start(&posture, pose);
-        let state = posture.rest_under(wrench, start)?;
+        let wrench = orientation.load(wrench, pose, &posture);
+        let state = posture.rest_under(&wrench, start)?;
         let tool = state.platforms[mechanism.tool()];
         self.last = Some((posture.clone(), state));
         Ok((posture, tool))
@@ -94,10 +155,12 @@ impl<'m> Neighbour<'m> {
         mechanism: &'m Mechanism,
         pose: &Pose,
         wrench: &Wrench,
+        orientation: Orientation,
     ) -> Result<(Posture<'m>, MechanismEquilibrium), Error> {
-        let posture = self.posture(mechanism, pose)?;
+        let posture = self.posture(mechanism, pose, orientation)?;
         let start = self.start(&posture, pose);
-        let equilibrium = posture.deflected_from(wrench, start)?;
+        let wrench = orientation.load(wrench, pose, &posture);
+        let equilibrium = posture.deflected_from(&wrench, start)?;
         self.last = Some((posture.clone(), equilibrium.state.clone()));
         Ok((posture, equilibrium))
     }

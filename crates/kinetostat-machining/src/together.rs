@@ -18,7 +18,7 @@ use crate::solve::{NEAR, POSITIONS, reach_of_neighbours};
 
 /// A joint that moves farther than this between neighbours (rad, or share of the natural length) may
 /// be on another branch.
-const JUMP: f64 = 0.1;
+pub(crate) const JUMP: f64 = 0.1;
 
 /// A machine with its batch.
 pub(crate) struct Together<'m> {
@@ -30,9 +30,11 @@ pub(crate) struct Together<'m> {
 }
 
 impl<'m> Together<'m> {
-    pub fn new(mechanism: &'m Mechanism) -> Self {
-        let batch = Batch::new(mechanism);
-        let batch = batch.alone().is_none().then_some(batch);
+    /// `follows`: the orientation follows, which is a matter of neighbours: nothing is solved
+    /// together.
+    pub fn new(mechanism: &'m Mechanism, follows: bool) -> Self {
+        let batch = (!follows).then(|| Batch::new(mechanism));
+        let batch = batch.filter(|b| b.alone().is_none());
         // One at home tells whether there are kernels for it.
         let home = mechanism.platforms()[mechanism.tool()].home;
         let judged = batch

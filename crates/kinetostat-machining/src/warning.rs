@@ -20,6 +20,8 @@ pub enum WarningCode {
     NotStable,
     /// The program is scaled.
     Scaled,
+    /// The machine turns its tool as it moves.
+    OrientationFollows,
     /// A singular posture is near.
     NearSingular,
     /// More blocks per second than the controller takes.

@@ -88,6 +88,7 @@ fn a_constant_wrench_is_meant_in_the_axes_asked_for() {
             UnitQuaternion::from_scaled_axis(vector![0.0, 0.0, std::f64::consts::FRAC_PI_2]),
         ),
         tool_orientation: UnitQuaternion::from_scaled_axis(vector![std::f64::consts::PI, 0.0, 0.0]),
+        orientation_follows: false,
         scale: 1.0,
     };
     let at = |axes| {

@@ -51,7 +51,10 @@ fn same_as_alone(task: &MapTask<'_>) -> Vec<PlaceState> {
                 let e = posture.deflected_by(wrench).expect("an equilibrium");
                 assert_eq!(place.state == PlaceState::Regular, e.stable(), "{place:?}");
                 let softest = 1e-3 * e.stiffness_against_force();
-                assert!(near(place.softest_n_per_mm, softest, 1e-7), "{place:?}");
+                assert!(
+                    near(place.smallest_stiffness_n_per_mm, softest, 1e-7),
+                    "{place:?}"
+                );
                 for k in 0..3 {
                     let (d, r) = (e.displacement.0[k] * 1e3, e.displacement.0[3 + k]);
                     assert!((place.displacement_mm[k] - d).abs() < 1e-7, "{place:?} {d}");
@@ -62,7 +65,7 @@ fn same_as_alone(task: &MapTask<'_>) -> Vec<PlaceState> {
             }
         };
         if place.state == PlaceState::Singular {
-            assert_eq!(place.softest_n_per_mm, 0.0);
+            assert_eq!(place.smallest_stiffness_n_per_mm, 0.0);
             continue;
         }
         let forces: Matrix3<f64> = compliance.springs.fixed_view::<3, 3>(0, 0).into();
@@ -76,7 +79,7 @@ fn same_as_alone(task: &MapTask<'_>) -> Vec<PlaceState> {
         if task.load.is_none() {
             let own = 1e-3 / forces.symmetric_eigenvalues().max();
             assert!(
-                near(place.softest_n_per_mm, own, tolerance),
+                near(place.smallest_stiffness_n_per_mm, own, tolerance),
                 "{place:?} {own}"
             );
         }
@@ -127,6 +130,7 @@ fn every_place_is_what_the_general_engine_says() {
                     counts: [7, 6, 3],
                 },
                 orientation: tilted(turn.into()) * home.rotation,
+                orientation_follows: false,
                 load,
             };
             let states = same_as_alone(&task);
@@ -148,6 +152,7 @@ fn a_singular_machine_has_no_stiffness_in_its_free_direction() {
             counts: [1; 3],
         },
         orientation: home.rotation,
+        orientation_follows: false,
         load: None,
     };
     assert_eq!(same_as_alone(&task), [PlaceState::Singular]);
@@ -172,6 +177,7 @@ fn threads_change_nothing_and_a_watch_stops_it() {
             counts: [13, 11, 9],
         },
         orientation: UnitQuaternion::identity(),
+        orientation_follows: false,
         load: None,
     };
     let bits = |threads: usize| {

@@ -199,6 +199,7 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
     let placement = Placement {
         base_from_part: Pose::from_parts(home.translation, nalgebra::UnitQuaternion::identity()),
         tool_orientation: home.rotation,
+        orientation_follows: false,
         scale: 1.0,
     };
     let task = Task {
@@ -294,6 +295,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
             path: &path,
             placement: Placement {
                 tool_orientation: home.rotation,
+                orientation_follows: false,
                 ..Placement::at(origin)
             },
             load: milling(),

@@ -7,6 +7,35 @@ use crate::directions::{Direction, DirectionKind};
 use crate::saddle::column_space;
 use crate::spatial::{Twist, Wrench};
 
+/// Compliances below this share of the largest, rotations at the natural length, are rounding.
+const NO_MOTION: f64 = 1e-12;
+
+/// Smallest stiffness against a force: the force (N) that moves the tool's origin by 1 m in its softest
+/// direction while the tool may turn as it likes. The inverse of the largest eigenvalue of the
+/// translational block of the compliance [R 3.13]. Zero if a direction is free, negative if the tool
+/// runs away by itself, infinite if no force moves it.
+pub(crate) fn stiffness_against_force(
+    symmetric: &Matrix6<f64>,
+    directions: &[Direction],
+    length: f64,
+) -> f64 {
+    if directions.iter().any(|d| d.kind == DirectionKind::Free) {
+        return 0.0;
+    }
+    let moves = CartesianCompliance::of(symmetric, directions, length).springs;
+    let unit = |i: usize| if i < 3 { 1.0 } else { length };
+    let most = Matrix6::from_fn(|i, j| moves[(i, j)] * unit(i) * unit(j)).amax();
+    let eigenvalues = moves.fixed_view::<3, 3>(0, 0).symmetric_eigenvalues();
+    let (least, largest) = (eigenvalues.min(), eigenvalues.max());
+    if least < -NO_MOTION * most {
+        1.0 / least
+    } else if largest > NO_MOTION * most {
+        1.0 / largest
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// `twist = springs * wrench + any combination of free`, for wrenches that do no work on the free
 /// directions. Base axes, at the tip.
 #[derive(Clone, Debug, PartialEq)]

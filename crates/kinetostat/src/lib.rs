@@ -127,6 +127,7 @@ mod near_singular;
 mod nearest;
 mod network;
 mod no_equilibrium;
+mod orientation_follows;
 mod overcome;
 mod parallelogram;
 mod passive_rules;
@@ -198,6 +199,7 @@ pub use logarithm::LogarithmLaw;
 pub use machine_equilibria::{MachineEquilibria, MachineFound, SpreadSettings};
 pub use mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
 pub use near_singular::{NearSingularity, SingularityKind};
+pub use orientation_follows::{compensate_following, target_under_load_following};
 pub use overcome::OvercomeSpring;
 pub use parallelogram::ParallelogramLaw;
 pub use passive_rules::{

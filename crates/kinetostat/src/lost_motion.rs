@@ -84,10 +84,10 @@ fn step_joints(chain: &Chain, joints: &mut LimbPosture, by: &[f64], length: f64)
 }
 
 /// A search on all joints of the machine.
-struct Search<'p, 'm> {
-    at: Posture<'m>,
+pub(crate) struct Search<'p, 'm> {
+    pub(crate) at: Posture<'m>,
     start: &'p Posture<'m>,
-    length: f64,
+    pub(crate) length: f64,
     /// Unknowns: motions of platforms, then joints limb by limb.
     first: Vec<usize>,
     count: usize,
@@ -96,7 +96,7 @@ struct Search<'p, 'm> {
 }
 
 impl<'p, 'm> Search<'p, 'm> {
-    fn new(start: &'p Posture<'m>) -> Self {
+    pub(crate) fn new(start: &'p Posture<'m>) -> Self {
         let m = start.mechanism;
         let length = m.scale().length;
         let mut count = 6 * (m.platforms.len() - 1);
@@ -119,7 +119,8 @@ impl<'p, 'm> Search<'p, 'm> {
         self.first[limb]..self.first.get(limb + 1).copied().unwrap_or(self.count)
     }
 
-    fn tool(&self) -> usize {
+    /// First unknown of the tool's motion.
+    pub(crate) fn tool(&self) -> usize {
         6 * (self.at.mechanism.tool - 1)
     }
 
@@ -134,7 +135,7 @@ impl<'p, 'm> Search<'p, 'm> {
     }
 
     /// Gaps between limbs and platforms, and how they change.
-    fn closure(&self) -> (DMatrix<f64>, DVector<f64>) {
+    pub(crate) fn closure(&self) -> (DMatrix<f64>, DVector<f64>) {
         let m = self.at.mechanism;
         let moving = m.platforms.len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { self.length };
@@ -241,7 +242,7 @@ impl<'p, 'm> Search<'p, 'm> {
         Some([particular, free * z])
     }
 
-    fn go(&mut self, step: &DVector<f64>) {
+    pub(crate) fn go(&mut self, step: &DVector<f64>) {
         let m = self.at.mechanism;
         for p in 1..m.platforms.len() {
             let part = step.rows(6 * (p - 1), 6);
@@ -306,7 +307,10 @@ impl<'p, 'm> Search<'p, 'm> {
 }
 
 /// Shortest solution and an orthonormal basis of what is left free.
-fn solve(rows: &DMatrix<f64>, wanted: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+pub(crate) fn solve(
+    rows: &DMatrix<f64>,
+    wanted: &DVector<f64>,
+) -> Option<(DVector<f64>, DMatrix<f64>)> {
     if rows.ncols() == 0 {
         return Some((DVector::zeros(0), DMatrix::zeros(0, 0)));
     }

@@ -7,7 +7,7 @@ use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 use crate::chain::MotionKind;
-use crate::compliance::CartesianCompliance;
+use crate::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::equilibrium::{ChainProblem, EndCondition, Residual, unloaded_tip};
 use crate::error::{Error, Result};
 use crate::graph::{GraphPosture, graph_inverse};
@@ -25,9 +25,6 @@ use crate::sparse::RigidRows;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 use crate::stability::ShapeStability;
 use crate::stiffness::{ChainStiffness, Direction, DirectionKind};
-
-/// Compliances below this share of the largest, rotations at the natural length, are rounding.
-const NO_MOTION: f64 = 1e-12;
 
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
 #[derive(Clone, Debug)]
@@ -152,22 +149,7 @@ impl MechanismEquilibrium {
     /// negative if the tool runs away by itself, infinite if no force moves it.
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
-        if self.platform.free > 0 {
-            return 0.0;
-        }
-        let own = self.stiffness.symmetric();
-        let moves = CartesianCompliance::of(&own, &self.directions, self.length).springs;
-        let unit = |i: usize| if i < 3 { 1.0 } else { self.length };
-        let most = Matrix6::from_fn(|i, j| moves[(i, j)] * unit(i) * unit(j)).amax();
-        let eigenvalues = moves.fixed_view::<3, 3>(0, 0).symmetric_eigenvalues();
-        let (least, largest) = (eigenvalues.min(), eigenvalues.max());
-        if least < -NO_MOTION * most {
-            1.0 / least
-        } else if largest > NO_MOTION * most {
-            1.0 / largest
-        } else {
-            f64::INFINITY
-        }
+        stiffness_against_force(&self.stiffness.symmetric(), &self.directions, self.length)
     }
 
     /// Forces (N) or torques (N m) of the loads on all actuators, in the mechanism's order.
@@ -549,7 +531,7 @@ impl<'m> Posture<'m> {
         values.try_for_each(|value| crate::chain::sensible(&place, || what.to_owned(), *value))
     }
 
-    fn settled(
+    pub(crate) fn settled(
         &self,
         wrench: &Wrench,
         start: MechanismState,
@@ -604,6 +586,13 @@ impl UnloadedStiffness {
     #[must_use]
     pub fn compliance(&self) -> CartesianCompliance {
         CartesianCompliance::of(&self.cartesian.matrix, &self.directions, self.length)
+    }
+
+    /// As [`MechanismEquilibrium::stiffness_against_force`].
+    #[must_use]
+    pub fn stiffness_against_force(&self) -> f64 {
+        let own = self.cartesian.symmetric();
+        stiffness_against_force(&own, &self.directions, self.length)
     }
 
     /// Number of directions with stiffness.
