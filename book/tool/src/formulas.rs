@@ -1,10 +1,11 @@
 //! Formulas as MathML, which every current browser draws by itself: no script, no fonts, no network.
 //!
-//! `$...$` is a formula in the line, a fence named `math` one on its own. Code stays as it is. A
-//! formula that cannot be read is an error with its chapter.
+//! `$...$` is a formula in the line, a fence named `math` one on its own, with a number and an anchor
+//! (`eq-CHAPTER-3` in the file `CHAPTER.md`; `math #name` makes it `eq-CHAPTER-name`). Code stays as it
+//! is. A formula that cannot be read is an error with its chapter.
 
 use anyhow::{Context, Result, bail};
-use mdbook_driver::book::Book;
+use mdbook_driver::book::{Book, Chapter};
 use mdbook_preprocessor::{Preprocessor, PreprocessorContext};
 use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{Parser, Storage, push_mathml};
@@ -19,7 +20,7 @@ impl Preprocessor for Formulas {
 
     fn run(&self, _context: &PreprocessorContext, mut book: Book) -> Result<Book> {
         let mut wrong = None;
-        book.for_each_chapter_mut(|chapter| match rendered(&chapter.content) {
+        book.for_each_chapter_mut(|chapter| match rendered(&chapter.content, &anchor(chapter)) {
             Ok(text) => chapter.content = text,
             Err(error) => {
                 wrong.get_or_insert(error.context(format!("chapter '{}'", chapter.name)));
@@ -29,8 +30,16 @@ impl Preprocessor for Formulas {
     }
 }
 
+/// Beginning of the anchors of a chapter's formulas: all chapters stand on one printed page.
+fn anchor(chapter: &Chapter) -> String {
+    let stem = chapter.path.as_ref().and_then(|p| p.file_stem());
+    format!("eq-{}", stem.unwrap_or_default().to_string_lossy())
+}
+
 /// Markdown with every formula replaced.
-fn rendered(text: &str) -> Result<String> {
+fn rendered(text: &str, anchor: &str) -> Result<String> {
+    let mut count = 0;
+    let mut names: Vec<String> = Vec::new();
     let mut out = String::with_capacity(2 * text.len());
     let mut lines = text.lines();
     while let Some(line) = lines.next() {
@@ -43,9 +52,24 @@ fn rendered(text: &str) -> Result<String> {
         }
         let closing = "`".repeat(ticks);
         let body: Vec<&str> = lines.by_ref().take_while(|l| l.trim() != closing).collect();
-        if fence[ticks..].trim() == "math" {
+        let (word, name) = match fence[ticks..].trim().split_once(" #") {
+            Some((word, name)) => (word.trim(), Some(name.trim())),
+            None => (fence[ticks..].trim(), None),
+        };
+        if word == "math" {
             let formula = mathml(&body.join("\n"), DisplayMode::Block)?;
-            out.push_str(&format!("<div class=\"formula\">{formula}</div>\n"));
+            count += 1;
+            let id = match name {
+                Some(name) => format!("{anchor}-{name}"),
+                None => format!("{anchor}-{count}"),
+            };
+            if names.contains(&id) {
+                bail!("two formulas have the anchor {id}");
+            }
+            out.push_str(&format!(
+                "<div class=\"formula\" id=\"{id}\"><div class=\"scroll\">{formula}</div><a class=\"number\" href=\"#{id}\">({count})</a></div>\n"
+            ));
+            names.push(id);
         } else {
             out.push_str(line);
             out.push('\n');
@@ -135,7 +159,7 @@ mod tests {
     #[test]
     fn formulas_are_replaced_and_code_is_not() {
         let text = "a $x_1$ and `$y$`\n```sh\necho $HOME\n```\n```math\nE = \\frac12 k x^2\n```\n";
-        let out = rendered(text).expect("both formulas are right");
+        let out = rendered(text, "eq-a").expect("both formulas are right");
         assert_eq!(out.matches("<math").count(), 2, "{out}");
         assert!(out.contains("`$y$`") && out.contains("echo $HOME"));
         assert!(!out.contains('_'), "{out}");
@@ -143,7 +167,7 @@ mod tests {
 
     #[test]
     fn scripts_have_two_parts_and_spaces_are_spaces() {
-        let out = rendered("$2\\sin^2 x,\\ y$").expect("a right formula");
+        let out = rendered("$2\\sin^2 x,\\ y$", "eq-a").expect("a right formula");
         assert!(
             !out.contains("nbsp") && !out.contains("<msup><mspace"),
             "{out}"
@@ -152,9 +176,22 @@ mod tests {
     }
 
     #[test]
+    fn formulas_on_their_own_have_numbers_and_anchors() {
+        let text = "```math\na\n```\n\n$b$\n\n```math #energy\nE\n```\n";
+        let out = rendered(text, "eq-page").expect("right formulas");
+        for (id, number) in [("eq-page-1", "(1)"), ("eq-page-energy", "(2)")] {
+            let link = format!("href=\"#{id}\">{number}</a>");
+            assert!(out.contains(&format!("id=\"{id}\"")), "{out}");
+            assert!(out.contains(&link), "{out}");
+        }
+        let twice = "```math #a\nx\n```\n```math #a\ny\n```\n";
+        assert!(rendered(twice, "eq-page").is_err());
+    }
+
+    #[test]
     fn a_wrong_formula_is_named() {
         for wrong in ["$\\frac{1}$", "$\\nosuchword$", "one $ only"] {
-            assert!(rendered(wrong).is_err(), "{wrong}");
+            assert!(rendered(wrong, "eq-a").is_err(), "{wrong}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -186,26 +187,27 @@ pub(crate) struct StiffnessArgs {
     pub(crate) json: bool,
 }
 
-/// What a model file says, in words
+/// What a model file or a job file says, in words
 ///
-/// Platforms, limbs, actuators with units and limits, passive joints, springs, masses; mobility,
-/// stiffness at home, effect of deviations, stability under gravity; and everything that looks
-/// wrong.
+/// Of a model: platforms, limbs, actuators with units and limits, passive joints, springs, masses;
+/// mobility, stiffness at home, effect of deviations, stability under gravity; and everything that
+/// looks wrong. Of a job: its model, program, placement, load and outputs, and whether the ends of
+/// the program can be reached; the program is read, not run.
 #[derive(Debug, Args)]
-#[command(after_help = EXIT_CODES)]
+#[command(after_help = EXIT_CODES, after_long_help = CHECK_HELP)]
 pub(crate) struct CheckArgs {
-    /// Preset or model file
-    #[arg(value_name = "MODEL")]
+    /// Preset, model file or job file
+    #[arg(value_name = "MODEL|JOB")]
     pub(crate) model: String,
     /// Load on the tool by which deflections are judged, N, base axes; 1 kN along each axis without it
-    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true)]
+    #[arg(long, num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
     pub(crate) force: Option<Vec<f64>>,
     /// Compare with poses jogged on the machine instead: a table (CSV) or TOML with joint values and
     /// the measured pose of the tool
     #[arg(long, value_name = "FILE")]
     pub(crate) pose: Option<PathBuf>,
     /// How far apart such poses may be, mm; 0.1 degrees for each millimetre
-    #[arg(long, value_name = "MM", default_value = "1", requires = "pose", value_parser = number)]
+    #[arg(long, value_name = "MM", default_value = "1", requires = "pose", allow_negative_numbers = true, value_parser = number)]
     pub(crate) pose_tolerance_mm: f64,
     /// Print the findings as JSON; the text goes to the standard error
     #[arg(long)]
@@ -471,6 +473,30 @@ pub(crate) struct ProgramArgs {
     pub(crate) threads: Option<usize>,
 }
 
+/// Negative numbers as in `-5e-12` and `-.5` in plain digits: the reader of the command line takes them
+/// for options. The value stays the same to the last bit.
+pub(crate) fn plain_numbers(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut options_ended = false;
+    words
+        .map(|word| {
+            options_ended |= word == "--";
+            let plain = word
+                .to_str()
+                .filter(|w| !options_ended && looks_negative(w))
+                .and_then(|w| w.parse::<f64>().ok())
+                .filter(|value| value.is_finite());
+            // Written in full by Rust: the shortest digits that give the same number again.
+            plain.map_or(word, |value| format!("{value}").into())
+        })
+        .collect()
+}
+
+/// A minus and a digit, or a point.
+fn looks_negative(word: &str) -> bool {
+    let after = word.strip_prefix('-').and_then(|w| w.chars().next());
+    after.is_some_and(|c| c.is_ascii_digit() || c == '.')
+}
+
 /// A finite number with a decimal point.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
@@ -502,9 +528,11 @@ fn small(text: &str) -> Result<u8, String> {
 const COMPENSATE_HELP: &str = r#"Examples:
   kinetostat compensate job.toml
   kinetostat compensate job.toml --tolerance-um 1 --out tighter.ngc
-  kinetostat compensate --model orthoglide --program part.ngc --tool-length-mm 100 \
-      --part-origin-mm 20 20 120 --milling 215 -10 -25 --out part-compensated.ngc
-  kinetostat compensate --map measured.csv --program part.ngc --out corrected.ngc
+  kinetostat compensate --model orthoglide --program part.ngc \
+      --tool-length-mm 100 --part-origin-mm 20 20 120 --milling 215 -10 -25 \
+      --out part-compensated.ngc
+  kinetostat compensate --map measured.csv --program part.ngc \
+      --out corrected.ngc
   kinetostat compensate --no-compensation --program part.ngc --out copy.ngc
 
 A job file:
@@ -580,13 +608,110 @@ Exit codes:
   2    no answer: not converged, or a point that cannot be reached
   130  stopped with Ctrl-C; nothing was written";
 
+const CHECK_HELP: &str = "\
+Examples:
+  kinetostat check orthoglide
+  kinetostat check my_robot.toml --force 0 0 -500
+  kinetostat check job.toml
+
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: not converged, or a point that cannot be reached
+  130  stopped with Ctrl-C; nothing was written";
+
 const STIFFNESS_HELP: &str = "\
 Examples:
   kinetostat stiffness orthoglide --at 0 0 0
   kinetostat stiffness heavy_6r --tool-length-mm 200
-  kinetostat stiffness orthoglide --at 50 50 150 --tool-length-mm 100 --force 215 -10 -25
+  kinetostat stiffness orthoglide --at 50 50 150 --tool-length-mm 100 \\
+      --force 215 -10 -25
 
 Exit codes:
   0    answered
   1    wrong input: a file, a number or an option; the message says which
   2    no answer: not converged, or a point that cannot be reached";
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+    use clap::builder::ValueParser;
+
+    use super::*;
+
+    /// Every option of every command that takes numbers, with the words that lead to it.
+    fn options_of_numbers(
+        command: &clap::Command,
+        way: &[String],
+        found: &mut Vec<(Vec<String>, String, usize)>,
+    ) {
+        let number = ValueParser::from(number).type_id();
+        for argument in command.get_arguments() {
+            if argument.get_value_parser().type_id() == number {
+                let name = argument.get_long().expect("numbers are options");
+                let count = argument.get_num_args().expect("built").min_values();
+                found.push((way.to_vec(), format!("--{name}"), count));
+            }
+        }
+        for inner in command.get_subcommands() {
+            let mut way = way.to_vec();
+            way.push(inner.get_name().to_owned());
+            options_of_numbers(inner, &way, found);
+        }
+    }
+
+    #[test]
+    fn negative_numbers_of_all_kinds_are_numbers_for_every_option() {
+        let mut command = Cli::command();
+        command.build();
+        let mut options = Vec::new();
+        options_of_numbers(&command, &["kinetostat".to_owned()], &mut options);
+        assert!(options.len() >= 50, "{}", options.len());
+        for (way, name, count) in &options {
+            for written in ["-5e-12", "-1.5E+3", "-2e3", "-.5", "-0", "-1e-320", "-7.25"] {
+                let mut words = way.clone();
+                words.push(name.clone());
+                words.extend(std::iter::repeat_n(written.to_owned(), *count));
+                let words = plain_numbers(words.into_iter().map(OsString::from));
+                // What else the command needs is missing here; no number may be the reason.
+                if let Err(error) = Cli::try_parse_from(words) {
+                    use clap::error::ErrorKind as Kind;
+                    assert!(
+                        matches!(
+                            error.kind(),
+                            Kind::MissingRequiredArgument | Kind::ArgumentConflict
+                        ),
+                        "{name} {written} of {way:?}: {error}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn plain_numbers_keep_their_value_and_words_stay() {
+        let told = |word: &str| {
+            let words = plain_numbers(["k".into(), word.into()].into_iter());
+            words[1].to_str().expect("text").to_owned()
+        };
+        for written in [
+            "-5e-12",
+            "-1.7976931348623157e308",
+            "-5e-324",
+            "-0.1e1",
+            "-123.456e-7",
+        ] {
+            let plain = told(written);
+            let [a, b]: [f64; 2] = [written, &plain].map(|t| t.parse().expect("a number"));
+            assert_eq!(a.to_bits(), b.to_bits(), "{written}");
+            assert!(!plain.contains(['e', 'E']), "{plain}");
+        }
+        for word in [
+            "-e", "--at", "-1e999", "-inf", "5e3", "--e5", "-5", "file-1e5",
+        ] {
+            assert_eq!(told(word), word);
+        }
+        let after = plain_numbers(["--".into(), "-1e3".into()].into_iter());
+        assert_eq!(after[1], "-1e3");
+    }
+}

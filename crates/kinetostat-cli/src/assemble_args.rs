@@ -78,10 +78,11 @@ pub(crate) enum Component {
 
 const HELP: &str = "\
 Examples:
-  kinetostat assemble orthoglide --deviation \"*:line:1deg about x\" --at 126.35 126.35 126.35
+  kinetostat assemble orthoglide --deviation \"*:line:1deg about x\" \\
+      --at 126.35 126.35 126.35
   kinetostat assemble my_machine.toml --force 215 -10 -25 --csv locked-in.csv
-  kinetostat assemble my_machine.toml --along -70 -70 -70  -70 120 -70 --force 215 -10 -25 \\
-      --plot line.svg --component x
+  kinetostat assemble my_machine.toml --along -70 -70 -70  -70 120 -70 \\
+      --force 215 -10 -25 --plot line.svg --component x
 
 Deviations are the [[deviation]] tables of the model and those of --deviation. They belong to the
 machine as built; the controller commands the machine as drawn.

@@ -12,12 +12,14 @@ use crate::args::CheckArgs;
 use crate::check_assumptions::AssumptionsFinding;
 use crate::check_frames::{Frames, frames};
 use crate::check_home::{HomeFinding, at_home};
+use crate::check_job;
 use crate::check_limbs::{LimbFinding, LoadFinding, limb, platform_loads};
 use crate::check_pose;
 use crate::check_reach::ReachFinding;
 use crate::check_words::in_words;
-use crate::failure::Answer;
+use crate::failure::{Answer, Failure};
 use crate::input::Files;
+use crate::job::looks_like_a_job;
 use crate::machine::deviations_in_words;
 use crate::overcome::load_names;
 use crate::place::pose_in_words;
@@ -61,6 +63,19 @@ pub(crate) struct PlatformFinding {
 }
 
 pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
+    let file = Path::new(&args.model);
+    let is_job = file.is_file()
+        && Files::default()
+            .job(file)
+            .is_ok_and(|text| looks_like_a_job(&text));
+    if is_job {
+        if args.pose.is_some() || args.force.is_some() {
+            return Err(Failure::input(
+                "--pose and --force judge a model, and this is a job file: name its model instead",
+            ));
+        }
+        return check_job::run(file, args.json);
+    }
     let (model, path) = Files::default().model(&args.model, Path::new(""))?;
     let source = match path {
         Some(_) => args.model.clone(),

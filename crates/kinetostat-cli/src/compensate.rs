@@ -14,6 +14,7 @@ use serde::Serialize;
 use crate::along::{self, Aim, Files as Targets, tell};
 use crate::args::CompensateArgs;
 use crate::failure::{Answer, Failure};
+use crate::faults::{Asked, with_all_others};
 use crate::input::Files;
 use crate::machine::{machine, of_model};
 use crate::output::{Existing, Outputs};
@@ -23,26 +24,32 @@ use crate::setting::{JobFile, Setting, WritingFlags, setting};
 use crate::summary;
 
 pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
-    let files = Files::default();
     job_after_json(&mut args);
+    let files = Files::default();
+    compensate(&files, &args).map_err(|failure| {
+        let asked = Asked {
+            // A table and a copy need no machine: not all of the job is read for them.
+            job: args
+                .run
+                .job
+                .as_deref()
+                .filter(|_| args.map.is_none() && !args.no_compensation),
+            model: args.run.model.as_deref(),
+            program: &args.run.program,
+            writing: flags(&args),
+        };
+        with_all_others(&files, &asked, failure)
+    })
+}
+
+fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
     let job = args
         .run
         .job
         .as_deref()
-        .map(|path| JobFile::read(&files, path))
+        .map(|path| JobFile::read(files, path))
         .transpose()?;
-    let flags = WritingFlags {
-        tolerance_um: args.tolerance_um,
-        decimals: args.decimals,
-        max_blocks_per_second: args.max_blocks_per_second,
-        max_feed_factor: args.max_feed_factor,
-        backward_step_um: args.backward_step_um,
-        no_header: args.no_header,
-        again: args.again,
-        out: args.out.as_deref(),
-        json: args.run.json.as_deref(),
-    };
-    let mut setting = setting(&files, job.as_ref(), &args.run.program, &flags)?;
+    let mut setting = setting(files, job.as_ref(), &args.run.program, &flags(args))?;
     let existing = if args.run.program.force_overwrite {
         Existing::Replace
     } else {
@@ -55,10 +62,10 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     if let Some(map) = &args.map {
         // A table of corrections knows no tools: a second one is warned of.
         setting.reading.tools = None;
-        return from_map(&files, map, &setting, existing, to_screen);
+        return from_map(files, map, &setting, existing, to_screen);
     }
     let (machine, model) = machine(
-        &files,
+        files,
         job.as_ref(),
         args.run.model.as_deref(),
         &args.run.program,
@@ -79,6 +86,20 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
     tell(&text, to_screen.then_some(&run.result))?;
     along::judged(&run.result)
+}
+
+fn flags(args: &CompensateArgs) -> WritingFlags<'_> {
+    WritingFlags {
+        tolerance_um: args.tolerance_um,
+        decimals: args.decimals,
+        max_blocks_per_second: args.max_blocks_per_second,
+        max_feed_factor: args.max_feed_factor,
+        backward_step_um: args.backward_step_um,
+        no_header: args.no_header,
+        again: args.again,
+        out: args.out.as_deref(),
+        json: args.run.json.as_deref(),
+    }
 }
 
 /// `--json job.toml` means the job: the file of `--json` may be left out, and nobody calls a result

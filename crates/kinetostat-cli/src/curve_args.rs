@@ -153,15 +153,16 @@ pub(crate) struct CurveOutputs {
 
 const CURVE_HELP: &str = "\
 Examples:
-  kinetostat curve three_link_z --direction -1 0 0 --displacement-mm 0 400 --plot z.svg
+  kinetostat curve three_link_z --direction -1 0 0 --displacement-mm 0 400 \\
+      --plot z.svg
       push a Z-shaped chain together by 400 mm: where does it buckle?
   kinetostat curve two_link --direction 1 0 0 --displacement-mm -100 60 \\
       --load elbow=0,-0.5,0
       the same with a load of 0.5 N down on the node 'elbow'
   kinetostat curve three_link_s --force -1 0 0 --factor 0 2 --hold y
       grow a force along the chain: critical load factor, buckling mode
-  kinetostat curve heavy_6r --at 1200 0 900 --direction 0 0 1 --displacement-mm -2 2 \\
-      --free others --csv points.csv
+  kinetostat curve heavy_6r --at 1200 0 900 --direction 0 0 1 \\
+      --displacement-mm -2 2 --free others --csv points.csv
   kinetostat curve orthoglide --at -120 -120 -120 --direction -1 -1 -1 \\
       --displacement-mm -20 40 --plot flat.svg
       a parallel machine pushed through its flat posture

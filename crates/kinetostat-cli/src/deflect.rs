@@ -11,6 +11,7 @@ use serde::Serialize;
 use crate::along::{self, Aim, Files as Targets, tell};
 use crate::args::DeflectArgs;
 use crate::failure::{Answer, Failure};
+use crate::faults::{Asked, with_all_others};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
 use crate::joints::{self, JointValue};
@@ -36,7 +37,15 @@ pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
                 "--at, --joints and --pendant ask for one place, --program for all of a program: keep one of them",
             ));
         }
-        return along_program(&args, is_job);
+        return along_program(&args, is_job).map_err(|failure| {
+            let asked = Asked {
+                job: is_job.then_some(subject),
+                model: None,
+                program: &args.program,
+                writing: WritingFlags::default(),
+            };
+            with_all_others(&Files::default(), &asked, failure)
+        });
     }
     at_place(&args)
 }

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use kinetostat_model::{Problem, Severity};
 use serde::de::DeserializeOwned;
+use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::failure::{Failure, safe};
@@ -16,63 +17,53 @@ pub(crate) struct Source<'t> {
     pub(crate) text: &'t str,
 }
 
-/// Longest line shown whole, characters.
-const LINE: usize = 160;
-
 impl Source<'_> {
     /// An error at a place of the text.
     pub(crate) fn error(&self, span: Range<usize>, message: &str, help: &str) -> Failure {
-        let (title, help) = (safe(message).replace('\n', " "), safe(help));
-        let start = floor(self.text, span.start);
-        let end = floor(self.text, span.end.max(start));
-        let first = self.text[..start].rfind('\n').map_or(0, |i| i + 1);
-        let last = self.text[start..]
-            .find('\n')
-            .map_or(self.text.len(), |i| start + i);
-        let line = self.text[..first].matches('\n').count() + 1;
-        // Every character of the line becomes one: places stay what they are.
-        let plain: String = self.text[first..last]
-            .trim_end_matches('\r')
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .take(LINE)
-            .collect();
-        let length = plain.chars().count();
-        let count = |to: usize| self.text[first..to].chars().count().min(length);
-        let (from, to) = (count(start), count(end.min(last)));
-        let bytes = |characters: usize| {
-            plain
-                .char_indices()
-                .nth(characters)
-                .map_or(plain.len(), |(i, _)| i)
-        };
-        let file = safe(self.file);
-        let mut group = Level::ERROR.primary_title(title.as_str()).element(
-            Snippet::source(plain.as_str())
-                .path(file.as_str())
-                .line_start(line)
-                .annotation(AnnotationKind::Primary.span(bytes(from)..bytes(to))),
+        let [message, help] = [message, help].map(|t| safe(t).replace('\n', " "));
+        let problem = Problem::found(
+            Severity::Error,
+            self.file,
+            self.text,
+            span.clone(),
+            "",
+            [message, help],
         );
-        if !help.is_empty() {
-            group = group.element(Level::HELP.message(help.as_str()));
-        }
-        let report = [group];
-        let text = Renderer::plain().render(&report);
-        let styled = Renderer::styled().render(&report);
-        Failure::input(text.strip_prefix("error: ").unwrap_or(&text)).with_style(styled)
+        let plain = problem.rendered(false);
+        let plain = plain.strip_prefix("error: ").unwrap_or(plain).to_owned();
+        Failure::located(plain, problem.rendered(true).to_owned(), span)
     }
 
     /// Reads TOML into a type; every mistake is told with its line and what to do.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T, Failure> {
         let tree = DeTable::parse(self.text).map_err(|error| self.syntax(&error))?;
-        if let Some(span) = not_finite(&DeValue::Table(tree.into_inner()), 0..0) {
-            return Err(self.error(
-                span,
-                "this is no finite number",
-                "write a number such as 12.5",
-            ));
+        if let Some(span) = self.not_finite(&tree).into_iter().next() {
+            return Err(self.endless(span));
         }
         toml::from_str(self.text).map_err(|error| self.content(&error))
+    }
+
+    /// Places of all numbers that are nan or infinite.
+    pub(crate) fn not_finite(&self, tree: &Spanned<DeTable<'_>>) -> Vec<Range<usize>> {
+        let mut found = Vec::new();
+        for value in tree.get_ref().values() {
+            not_finite(value, &mut found);
+        }
+        found
+    }
+
+    /// What is said of such a number.
+    pub(crate) fn endless(&self, span: Range<usize>) -> Failure {
+        self.error(
+            span,
+            "this is no finite number",
+            "write a number such as 12.5",
+        )
+    }
+
+    /// The key that the reader misses, if that is its complaint.
+    pub(crate) fn missing(error: &toml::de::Error) -> Option<String> {
+        quoted(error.message(), "missing field ")
     }
 
     fn syntax(&self, error: &toml::de::Error) -> Failure {
@@ -84,7 +75,7 @@ impl Source<'_> {
         )
     }
 
-    fn content(&self, error: &toml::de::Error) -> Failure {
+    pub(crate) fn content(&self, error: &toml::de::Error) -> Failure {
         let message = error.message();
         let span = error.span().unwrap_or(0..0);
         if let Some(found) = quoted(message, "unknown field ") {
@@ -149,14 +140,6 @@ impl Source<'_> {
     }
 }
 
-fn floor(text: &str, index: usize) -> usize {
-    let mut index = index.min(text.len());
-    while !text.is_char_boundary(index) {
-        index -= 1;
-    }
-    index
-}
-
 /// The word in backticks after `prefix`.
 fn quoted(message: &str, prefix: &str) -> Option<String> {
     let rest = message.strip_prefix(prefix)?.strip_prefix('`')?;
@@ -193,16 +176,16 @@ fn advice(found: &str, known: &[&str]) -> String {
     }
 }
 
-fn not_finite(value: &DeValue<'_>, span: Range<usize>) -> Option<Range<usize>> {
-    match value {
+fn not_finite(value: &Spanned<DeValue<'_>>, found: &mut Vec<Range<usize>>) {
+    match value.get_ref() {
         DeValue::Float(f) => {
             let number: f64 = f.as_str().replace('_', "").parse().unwrap_or(f64::NAN);
-            (!number.is_finite()).then_some(span)
+            if !number.is_finite() {
+                found.push(value.span());
+            }
         }
-        DeValue::Array(list) => list.iter().find_map(|v| not_finite(v.get_ref(), v.span())),
-        DeValue::Table(table) => table
-            .iter()
-            .find_map(|(_, v)| not_finite(v.get_ref(), v.span())),
-        _ => None,
+        DeValue::Array(list) => list.iter().for_each(|v| not_finite(v, found)),
+        DeValue::Table(table) => table.values().for_each(|v| not_finite(v, found)),
+        _ => {}
     }
 }

@@ -45,7 +45,7 @@ pub(crate) struct DrawArgs {
     #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, value_parser = number)]
     moment: Option<Vec<f64>>,
     /// How many times larger the deflection is drawn; without it, a round number that shows it
-    #[arg(long, value_name = "S", value_parser = number)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = number)]
     scale: Option<f64>,
     /// The drawing; without it, it goes to the standard output
     #[arg(long, short, value_name = "FILE", help_heading = "Outputs")]
@@ -70,7 +70,8 @@ enum ViewWord {
 const HELP: &str = "\
 Examples:
   kinetostat model draw orthoglide --out orthoglide.svg
-  kinetostat model draw my_robot.toml --at 1200 0 800 --view front --out robot.svg
+  kinetostat model draw my_robot.toml --at 1200 0 800 --view front \\
+      --out robot.svg
   kinetostat model draw stewart_gough_a --motion --out free.svg
   kinetostat model draw heavy_6r --force 0 500 -1000 --out bent.svg
 

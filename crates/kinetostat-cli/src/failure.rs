@@ -3,9 +3,10 @@
 use crate::place::pose_in_words;
 use crate::screen::number;
 use std::fmt::Display;
+use std::ops::Range;
 
 use kinetostat_machining::RunError;
-use kinetostat_model::ModelError;
+use kinetostat_model::{ModelError, shortened};
 use kinetostat_program::WriteError;
 
 /// Exit codes, as in the table of `kinetostat --help`.
@@ -29,6 +30,8 @@ pub(crate) struct Failure {
     pub(crate) plain: String,
     /// The same with colours, where there are some.
     pub(crate) styled: Option<String>,
+    /// Where in the job file, bytes.
+    pub(crate) place: Option<Range<usize>>,
 }
 
 pub(crate) type Answer<T> = Result<T, Failure>;
@@ -52,14 +55,36 @@ impl Failure {
     fn new(code: Code, message: impl Display) -> Self {
         Self {
             code,
-            plain: safe(&message.to_string()),
+            plain: safe(&shortened(&message.to_string())),
             styled: None,
+            place: None,
         }
     }
 
-    pub(crate) fn with_style(mut self, styled: String) -> Self {
-        self.styled = Some(styled);
-        self
+    /// Several failures, told one after the other.
+    pub(crate) fn together(failures: Vec<Self>) -> Self {
+        let styled = |f: &Self| {
+            let plain = || format!("\u{1b}[1;31merror\u{1b}[0m: {}", f.plain);
+            f.styled.clone().unwrap_or_else(plain)
+        };
+        let styled: Vec<String> = failures.iter().map(styled).collect();
+        let plain: Vec<String> = failures.iter().map(|f| f.plain.clone()).collect();
+        Self {
+            code: Code::WrongInput,
+            plain: plain.join("\n\nerror: "),
+            styled: Some(styled.join("\n\n")),
+            place: None,
+        }
+    }
+
+    /// Found at a place of the job file: the text with its line is whole, and safe.
+    pub(crate) fn located(plain: String, styled: String, place: Range<usize>) -> Self {
+        Self {
+            code: Code::WrongInput,
+            plain,
+            styled: Some(styled),
+            place: Some(place),
+        }
     }
 
     /// The same failure, told to be in a file.
@@ -78,6 +103,7 @@ impl From<ModelError> for Failure {
             // The model crate has made its text safe; its line structure is wanted.
             plain: plain.strip_prefix("error: ").unwrap_or(&plain).to_owned(),
             styled: Some(error.rendered(true)),
+            place: None,
         }
     }
 }

@@ -11,8 +11,8 @@ Examples:
   kinetostat import matrix forearm.csv --name forearm
       six rows of six numbers; the header says units and order:
       stiffness_n_mm_rad,x,y,z,rx,ry,rz
-  kinetostat import matrix link.sti --dofs link.dof --nodes link.inp --units n-mm \\
-      --interface TIP --fixed ROOT --end-mm 600 0 0
+  kinetostat import matrix link.sti --dofs link.dof --nodes link.inp \\
+      --units n-mm --interface TIP --fixed ROOT --end-mm 600 0 0
       the stiffness matrix of a mesh that CalculiX stored
   kinetostat import matrix link.pch --nodes link.bdf --units n-mm \\
       --interface 101 --fixed 100

@@ -212,17 +212,23 @@ impl Job {
     /// Reads a job file's text.
     pub(crate) fn read(source: Source<'_>) -> Result<Self, Failure> {
         let job: Self = source.read()?;
-        if *job.schema.get_ref() != SCHEMA {
-            return Err(source.error(
-                job.schema.span(),
-                &format!(
-                    "this is version {} of the format; version {SCHEMA} is read here",
-                    job.schema.get_ref()
-                ),
-                "use the program that wrote the file, or convert the file",
-            ));
-        }
+        Self::version(source, &job)?;
         Ok(job)
+    }
+
+    /// The version is one that is read here.
+    pub(crate) fn version(source: Source<'_>, job: &Self) -> Result<(), Failure> {
+        if *job.schema.get_ref() == SCHEMA {
+            return Ok(());
+        }
+        Err(source.error(
+            job.schema.span(),
+            &format!(
+                "this is version {} of the format; version {SCHEMA} is read here",
+                job.schema.get_ref()
+            ),
+            "use the program that wrote the file, or convert the file",
+        ))
     }
 }
 

@@ -16,6 +16,7 @@ use crate::args::ProgramArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::job::{Axes, CornerWord, LoadTable, OrientationWord};
+use crate::journal::{FNV1A, fnv1a};
 use crate::orientation;
 use crate::screen::{fixed, triple};
 use crate::setting::{JobFile, above_zero, chosen, finite, vector};
@@ -441,7 +442,5 @@ fn load(
 /// tells in a program's header which model it was made for.
 fn fingerprint(model: &Model) -> u64 {
     let text = model.to_toml().unwrap_or_else(|_| model.text.clone());
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+    fnv1a(FNV1A, text.as_bytes())
 }

@@ -18,6 +18,7 @@ mod check;
 mod check_assumptions;
 mod check_frames;
 mod check_home;
+mod check_job;
 mod check_limbs;
 mod check_pose;
 mod check_pose_file;
@@ -48,6 +49,7 @@ mod equilibria_answer;
 mod equilibria_machine;
 mod equilibria_table;
 mod failure;
+mod faults;
 mod free_machine;
 mod import;
 mod import_link;
@@ -55,6 +57,7 @@ mod import_link_args;
 mod input;
 mod job;
 mod joints;
+mod journal;
 mod machine;
 mod map;
 mod map_answer;
@@ -79,11 +82,11 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use crate::args::{Cli, Command};
+use crate::args::{Cli, Command, plain_numbers};
 use crate::failure::{Answer, Code};
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let cli = match Cli::try_parse_from(plain_numbers(std::env::args_os())) {
         Ok(cli) => cli,
         Err(error) => {
             let _ = error.print();

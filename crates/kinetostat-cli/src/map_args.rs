@@ -92,7 +92,8 @@ const HELP: &str = "\
 Examples:
   kinetostat map orthoglide --x -60 60 41 --y -60 60 41 --plot xy.svg
   kinetostat map my_robot.toml --tool-length-mm 180 --x 800 1600 81 \\
-      --y -400 400 81 --z 400 1200 17 --rotation a_b_c_kuka_deg=0,90,0 --csv map.csv
+      --y -400 400 81 --z 400 1200 17 --rotation a_b_c_kuka_deg=0,90,0 \\
+      --csv map.csv
   kinetostat map my_robot.toml --x 800 1600 --z 400 1200 --force 300 0 -500 \\
       --plot bent.svg --show displacement
 

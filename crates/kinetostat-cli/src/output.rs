@@ -1,15 +1,17 @@
 //! Files that a command writes: all of them are written beside their targets first, and only then
 //! renamed into place, so that a failure leaves none. Nothing is overwritten without leave, an
-//! input never, and no link is followed.
+//! input never, and no link is followed. What a killed run left there is removed or named (see
+//! `journal`).
 
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
-use std::sync::Mutex;
 
 use tempfile::NamedTempFile;
 
 use crate::failure::{Answer, Failure};
+use crate::journal::{self, Contents, Entry, Journal};
+use crate::screen;
 
 /// What to do about an output that exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +29,10 @@ struct Claimed {
     what: &'static str,
     target: PathBuf,
     file: NamedTempFile,
+    contents: Contents,
     identical: bool,
+    /// Which of the journals lies in its directory.
+    journal: usize,
 }
 
 impl Claimed {
@@ -46,18 +51,8 @@ pub(crate) struct Outputs {
     existing: Existing,
     inputs: Vec<PathBuf>,
     claimed: Vec<Claimed>,
-}
-
-/// Temporary files of this process, for a second Ctrl-C that does not wait.
-static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-/// Removes what an impatient end would leave.
-pub(crate) fn remove_temporary() {
-    if let Ok(list) = TEMPORARY.try_lock() {
-        for path in list.iter() {
-            let _ = fs::remove_file(path);
-        }
-    }
+    /// One in each directory that is written to; they end after the files above.
+    journals: Vec<Journal>,
 }
 
 impl Outputs {
@@ -66,6 +61,7 @@ impl Outputs {
             existing,
             inputs,
             claimed: Vec::new(),
+            journals: Vec::new(),
         }
     }
 
@@ -77,9 +73,9 @@ impl Outputs {
                 target.display()
             ))
         };
-        let Some(name) = target.file_name() else {
+        if target.file_name().is_none() {
             return Err(refuse("this is no file name; name a file"));
-        };
+        }
         let parent = parent_of(target);
         match fs::metadata(&parent) {
             Ok(found) if !found.is_dir() => {
@@ -121,6 +117,7 @@ impl Outputs {
                 other.what
             )));
         }
+        let journal = self.journal(&parent);
         match fs::symlink_metadata(target) {
             Ok(found) if found.file_type().is_symlink() => {
                 return Err(refuse(
@@ -142,14 +139,35 @@ impl Outputs {
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             Err(error) => return Err(refuse(&in_words(&error))),
         }
-        let file = temporary(&parent, name).map_err(|error| refuse(&in_words(&error)))?;
+        let (journal, file) = journal
+            .and_then(|index| Ok((index, self.journals[index].part()?)))
+            .map_err(|error| refuse(&in_words(&error)))?;
         self.claimed.push(Claimed {
             what,
             target: target.to_owned(),
             file,
+            contents: Contents::default(),
             identical: false,
+            journal,
         });
         Ok(self.claimed.len() - 1)
+    }
+
+    /// The journal of a directory; with the first output there, what dead runs left is put in order.
+    fn journal(&mut self, directory: &Path) -> std::io::Result<usize> {
+        let known = |j: &Journal| same_file(&j.directory, directory);
+        if let Some(index) = self.journals.iter().position(known) {
+            return Ok(index);
+        }
+        for note in journal::tidy(directory) {
+            // Text for people beside the answer: it is no reason to end.
+            let _ = screen::print(
+                screen::Stream::Err,
+                &screen::wrapped(&format!("warning: {note}"), 0),
+            );
+        }
+        self.journals.push(Journal::begin(directory)?);
+        Ok(self.journals.len() - 1)
     }
 
     /// Writes the bytes of a claimed output beside its target.
@@ -163,6 +181,7 @@ impl Outputs {
     pub(crate) fn append(&mut self, index: usize, bytes: &[u8]) -> Answer<()> {
         let claimed = &mut self.claimed[index];
         let written = claimed.file.as_file_mut().write_all(bytes);
+        claimed.contents.append(bytes);
         written.map_err(|error| claimed.refused(&error))
     }
 
@@ -189,65 +208,120 @@ impl Outputs {
     /// Renames all outputs into place. If one cannot be, those before it are taken back.
     pub(crate) fn commit(self) -> Answer<Vec<PathBuf>> {
         let replace = self.existing == Existing::Replace;
+        let mut journals = self.journals;
+        let entries: Vec<Entry> = self
+            .claimed
+            .iter()
+            .filter(|c| !c.identical)
+            .map(|c| Entry::new(&c.target, c.contents))
+            .collect();
+        // One rename is whole or not at all; with several a kill between them must be seen later.
+        if entries.len() > 1 {
+            for journal in &mut journals {
+                journal.list(&entries).map_err(|error| {
+                    Failure::input(format!(
+                        "nothing can be written to '{}': {}; no output was changed",
+                        journal.directory.display(),
+                        in_words(&error)
+                    ))
+                })?;
+            }
+        }
         let mut done: Vec<(PathBuf, Option<tempfile::TempPath>)> = Vec::new();
         for claimed in self.claimed {
             if claimed.identical {
                 done.push((claimed.target, None));
                 continue;
             }
-            let (target, what) = (claimed.target, claimed.what);
-            // The old file stays reachable under a second name until all is done.
-            let kept = match fs::symlink_metadata(&target) {
-                Ok(found) if replace && found.is_file() => keep(&target).map(Some),
-                _ => Ok(None),
-            };
-            let (kept, ready) = match kept {
-                Ok(kept) => (kept, Ok(())),
-                Err(error) => (None, Err(error)),
-            };
-            let result = if ready.is_err() {
-                ready
-            } else if replace {
-                // Between the first look and now the name may have become a link.
-                match fs::symlink_metadata(&target) {
-                    Ok(found) if !found.is_file() => Err(std::io::Error::other(
-                        "something else has taken its name meanwhile",
-                    )),
-                    _ => claimed.file.persist(&target).map(drop).map_err(|e| e.error),
+            let (target, what) = (claimed.target.clone(), claimed.what);
+            match put_in_place(claimed, replace, &mut journals) {
+                Ok(kept) => done.push((target, kept)),
+                Err(error) => {
+                    take_back(done);
+                    return Err(Failure::input(format!(
+                        "the {what} cannot be put in place as '{}': {}; no output was changed",
+                        target.display(),
+                        in_words(&error)
+                    )));
                 }
-            } else {
-                claimed
-                    .file
-                    .persist_noclobber(&target)
-                    .map(drop)
-                    .map_err(|e| e.error)
-            };
-            if let Err(error) = result {
-                for (path, kept) in done.into_iter().rev() {
-                    match kept {
-                        Some(kept) => drop(kept.persist(&path)),
-                        None => drop(fs::remove_file(&path)),
-                    }
-                }
-                return Err(Failure::input(format!(
-                    "the {what} cannot be put in place as '{}': {}; no output was changed",
-                    target.display(),
-                    in_words(&error)
-                )));
             }
-            done.push((target, kept));
         }
-        let paths: Vec<PathBuf> = done.into_iter().map(|(path, _)| path).collect();
+        let paths: Vec<PathBuf> = done.iter().map(|(path, _)| path.clone()).collect();
         for path in &paths {
             // A rename is on disk once its directory is.
             if let Ok(directory) = fs::File::open(parent_of(path)) {
                 let _ = directory.sync_all();
             }
         }
-        if let Ok(mut list) = TEMPORARY.lock() {
-            list.clear();
+        // The old files go before the journals that name them.
+        drop(done);
+        for journal in journals {
+            let directory = journal.directory.clone();
+            drop(journal);
+            // What an earlier run left apart may be whole now.
+            drop(journal::tidy(&directory));
         }
+        journal::done();
         Ok(paths)
+    }
+}
+
+/// Renames one output; the file that it replaces stays reachable under a second name.
+fn put_in_place(
+    claimed: Claimed,
+    replace: bool,
+    journals: &mut [Journal],
+) -> std::io::Result<Option<tempfile::TempPath>> {
+    let target = &claimed.target;
+    if !replace {
+        claimed
+            .file
+            .persist_noclobber(target)
+            .map_err(|e| e.error)?;
+        return Ok(None);
+    }
+    let kept = match fs::symlink_metadata(target) {
+        Ok(found) if found.is_file() => {
+            like(&claimed.file, &found);
+            Some(journals[claimed.journal].keep(target)?)
+        }
+        // Between the first look and now the name may have become a link.
+        Ok(_) => {
+            return Err(std::io::Error::other(
+                "something else has taken its name meanwhile",
+            ));
+        }
+        Err(_) => None,
+    };
+    claimed.file.persist(target).map_err(|e| e.error)?;
+    Ok(kept)
+}
+
+/// A file that is overwritten keeps who may read and write it.
+fn like(file: &NamedTempFile, old: &fs::Metadata) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
+        // The group first: a change of it takes rights away. Not everyone may give a file to it.
+        let kept = fchown(file.as_file(), None, Some(old.gid())).is_ok();
+        let all = old.permissions().mode() & 0o777;
+        // Rights of the old group are not for another one.
+        let mode = if kept { all } else { all & 0o707 };
+        let _ = file
+            .as_file()
+            .set_permissions(fs::Permissions::from_mode(mode));
+    }
+    #[cfg(not(unix))]
+    let _ = file.as_file().set_permissions(old.permissions());
+}
+
+/// Puts the old files back, the last first.
+fn take_back(done: Vec<(PathBuf, Option<tempfile::TempPath>)>) {
+    for (path, kept) in done.into_iter().rev() {
+        match kept {
+            Some(kept) => drop(kept.persist(&path)),
+            None => drop(fs::remove_file(&path)),
+        }
     }
 }
 
@@ -256,38 +330,12 @@ fn same_bytes(one: &Path, other: &Path) -> Option<bool> {
     Some(fs::read(one).ok()? == fs::read(other).ok()?)
 }
 
-fn parent_of(path: &Path) -> PathBuf {
+/// The directory of a file.
+pub(crate) fn parent_of(path: &Path) -> PathBuf {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
         _ => PathBuf::from("."),
     }
-}
-
-fn temporary(parent: &Path, name: &std::ffi::OsStr) -> std::io::Result<NamedTempFile> {
-    let prefix = format!(".{}.", name.to_string_lossy());
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any file that a program makes: the umask decides.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let file = builder.tempfile_in(parent)?;
-    if let Ok(mut list) = TEMPORARY.lock() {
-        list.push(file.path().to_owned());
-    }
-    Ok(file)
-}
-
-/// A second name of the file as it is now; a copy where the disk knows no second names.
-fn keep(target: &Path) -> std::io::Result<tempfile::TempPath> {
-    let name = target.file_name().unwrap_or_default().to_string_lossy();
-    let path = parent_of(target).join(format!(".{name}.{}.kept", std::process::id()));
-    if fs::hard_link(target, &path).is_err() {
-        fs::copy(target, &path)?;
-    }
-    tempfile::TempPath::try_from_path(path)
 }
 
 /// The same file under two names: links of either kind included.

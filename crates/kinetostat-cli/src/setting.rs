@@ -114,7 +114,6 @@ pub(crate) fn setting(
             }));
         }
     };
-    let program = files.bytes("program", &path)?;
     inputs.push(path.clone());
     let reading = reading(job, flags)?;
     let limits = limits(job, &flags.limits)?;
@@ -180,15 +179,17 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
+    let targets = targets(job, flags, writing, &path)?;
     Ok(Setting {
-        program,
+        // The last, so that nothing else is hidden by a program that is not there.
+        program: files.bytes("program", &path)?,
         program_name,
         reading,
         writing: write,
         max_blocks_per_second,
         limits,
         stated: [path_mm.is_some(), chord_mm.is_some()],
-        targets: targets(job, flags, writing, &path)?,
+        targets,
         inputs,
     })
 }

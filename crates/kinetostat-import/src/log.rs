@@ -92,8 +92,11 @@ pub(crate) fn refusal(file: &str, message: impl Display, help: impl Display) -> 
 /// `; did you mean 'NAME'?` where a known name is near, else the list of what exists.
 pub(crate) fn suggestion<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.collect();
+    // Long names are no slips, and the comparison costs the product of the lengths.
+    let short = |text: &str| text.chars().take(61).count() <= 60;
     let nearest = known
         .iter()
+        .filter(|k| short(name) && short(k))
         .map(|k| (strsim::damerau_levenshtein(name, k), *k))
         .min()
         .filter(|(away, k)| *away <= 2.max(k.chars().count() / 4));

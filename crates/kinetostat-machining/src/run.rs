@@ -61,7 +61,7 @@ impl<'a> Task<'a> {
 
 /// Who watches a run and may stop it.
 pub trait Watch: Sync {
-    /// A stage begins; `total` points.
+    /// A stage begins; `total` points, 0 where nobody knows how many there will be.
     fn stage(&self, name: &str, total: usize);
     /// Points done in this stage.
     fn advance(&self, done: usize);
@@ -284,8 +284,9 @@ pub fn load_in_words(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> String 
 struct Forward<'w>(&'w dyn Watch);
 
 impl Monitor for Forward<'_> {
-    fn progress(&self, done: usize, total: usize) {
-        self.0.stage("corrections", total);
+    fn progress(&self, done: usize, _so_far: usize) {
+        // Every division asks for more points.
+        self.0.stage("corrections", 0);
         self.0.advance(done);
     }
     fn cancelled(&self) -> bool {

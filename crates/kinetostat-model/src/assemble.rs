@@ -22,6 +22,9 @@ use crate::template::{Template, template};
 pub(crate) struct Findings {
     pub(crate) errors: Vec<Finding>,
     pub(crate) warnings: Vec<Finding>,
+    /// The document is a file without its faulty parts: it is searched for more mistakes, but no
+    /// machine is made of it.
+    pub(crate) incomplete: bool,
 }
 
 impl Findings {
@@ -83,7 +86,7 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
     let platform_loads = platform_loads(document, findings);
     weights(document, findings);
     unused(document, findings);
-    if !findings.errors.is_empty() {
+    if findings.incomplete || !findings.errors.is_empty() {
         return None;
     }
     let gravity = Vector3::from(document.mechanism.gravity_m_per_s2.unwrap_or_default());

@@ -77,6 +77,13 @@ impl Checker {
             .push(Finding::new(place, message, help).at(span));
     }
 
+    /// What may stand where the last finding is, for reading on.
+    fn stand_in(&mut self, value: Option<String>) {
+        if let Some(finding) = self.findings.last_mut() {
+            finding.stand_in = value;
+        }
+    }
+
     fn resolve(&self, schema: &'static Value) -> &'static Value {
         let name = schema.get("$ref").and_then(Value::as_str);
         name.and_then(|n| n.strip_prefix("#/$defs/"))
@@ -141,6 +148,7 @@ impl Checker {
             ),
             help,
         );
+        self.stand_in(kinds.first().and_then(|kind| stand_in(kind)));
     }
 
     fn variant(
@@ -298,6 +306,14 @@ impl Checker {
                         _ => format!("write '{key}': {about}"),
                     },
                 );
+                let kind = properties
+                    .get(key)
+                    .and_then(|p| p.get("type"))
+                    .and_then(Value::as_str);
+                self.stand_in(kind.and_then(stand_in));
+                if let Some(finding) = self.findings.last_mut() {
+                    finding.missing = Some(key.to_owned());
+                }
             }
         }
     }
@@ -344,12 +360,14 @@ impl Checker {
                 (Some(l), None) => format!("at least {l}"),
                 (None, most) => format!("at most {}", most.unwrap_or_default()),
             };
-            return self.report(
+            self.report(
                 place,
                 value.span(),
                 format!("'{place}' needs {wanted} entries, {count} were found"),
                 about.to_owned(),
             );
+            let zeros = |count: u64| format!("[{}]", vec!["0"; count as usize].join(", "));
+            return self.stand_in(least.map(zeros));
         }
         if let Some(inner) = schema.get("items") {
             for (i, item) in list.iter().enumerate() {
@@ -388,6 +406,7 @@ impl Checker {
                 format!("'{place}' is {text}, {wanted} is needed"),
                 help.into(),
             );
+            self.stand_in(stand_in(kind));
         }
     }
 
@@ -420,11 +439,23 @@ impl Checker {
             format!("'{place}' cannot be '{text}'"),
             help,
         );
+        self.stand_in(words.first().map(|word| format!("'{word}'")));
     }
 }
 
 fn description(schema: &'static Value) -> Option<&'static str> {
     schema.get("description").and_then(Value::as_str)
+}
+
+/// A value of a kind, as TOML.
+fn stand_in(kind: &str) -> Option<String> {
+    let value = match kind {
+        "number" | "integer" => "0",
+        "string" => "''",
+        "boolean" => "false",
+        _ => return None,
+    };
+    Some(value.to_owned())
 }
 
 fn in_words(kind: &str) -> &'static str {

@@ -9,6 +9,7 @@ use crate::controller::{Controller, controller};
 use crate::placement;
 use crate::presets;
 use crate::problem::{Finding, ModelError, Place, Problem, Severity};
+use crate::repair;
 use crate::schema::{Deviation, Document, Element};
 use crate::source::Source;
 
@@ -66,8 +67,9 @@ impl Model {
             );
         }
         let source = Source::parse(file, text)?;
-        let findings = check::check(&source.tree);
+        let mut findings = check::check(&source.tree);
         if !findings.is_empty() {
+            findings.extend(repair::others(&source, &findings));
             return Err(source.error(&findings));
         }
         let document =

@@ -55,6 +55,10 @@ pub(crate) struct Finding {
     pub(crate) span: Option<Range<usize>>,
     pub(crate) message: String,
     pub(crate) help: String,
+    /// A key that the table at the place should have.
+    pub(crate) missing: Option<String>,
+    /// A value of the right form, as TOML, for reading on; none where there is no simple one.
+    pub(crate) stand_in: Option<String>,
 }
 
 impl Finding {
@@ -64,6 +68,8 @@ impl Finding {
             span: None,
             message: message.into(),
             help: help.into(),
+            missing: None,
+            stand_in: None,
         }
     }
 
@@ -123,7 +129,7 @@ impl Problem {
     ) -> Self {
         let finding = Finding::new(&Place::root(), message, help);
         let mut problem = Self::in_text(severity, file, text, span, &finding);
-        problem.path = path.to_owned();
+        problem.path = shortened(path);
         problem
     }
 
@@ -159,12 +165,12 @@ impl Problem {
     fn bare(severity: Severity, file: &str, message: String, help: String, path: String) -> Self {
         Self {
             severity,
-            message,
-            help,
+            message: shortened(&message),
+            help: shortened(&help),
             file: file.to_owned(),
             line: None,
             column: None,
-            path,
+            path: shortened(&path),
             plain: String::new(),
             styled: String::new(),
         }
@@ -208,11 +214,51 @@ impl fmt::Display for Problem {
     }
 }
 
-/// Text from a file, made safe for a terminal.
+/// Text from a file, made safe for a terminal and short enough for it.
 fn visible(text: &str) -> String {
-    text.chars()
+    shortened(text)
+        .chars()
         .map(|c| if c.is_control() { '\u{fffd}' } else { c })
         .collect()
+}
+
+/// Longest word that a message shows whole, characters.
+const LONGEST_WORD: usize = 200;
+/// Longest message that is shown whole, characters.
+const LONGEST_MESSAGE: usize = 4000;
+
+/// A message that may hold text from a file (a key of megabytes): words and the whole are cut in
+/// their middle where no reader would want them, so that what is said around them stays.
+///
+/// ```
+/// let key = "x".repeat(10_000_000);
+/// let message = kinetostat_model::shortened(&format!("unknown key '{key}'; did you mean 'x'?"));
+/// assert!(message.starts_with("unknown key 'xxx") && message.ends_with("did you mean 'x'?"));
+/// assert!(message.len() < 400);
+/// assert_eq!(kinetostat_model::shortened("plain words\nstay"), "plain words\nstay");
+/// ```
+#[must_use]
+pub fn shortened(text: &str) -> String {
+    let words = text.split_inclusive(char::is_whitespace);
+    let cut = words.map(|word| middle_cut(word, LONGEST_WORD, 60));
+    middle_cut(
+        &cut.collect::<String>(),
+        LONGEST_MESSAGE,
+        LONGEST_MESSAGE / 3,
+    )
+}
+
+/// Text of more than `most` characters as its first and last `side` ones.
+fn middle_cut(text: &str, most: usize, side: usize) -> String {
+    // Few characters are few bytes: most texts need not be counted.
+    if text.len() <= most || text.chars().count() <= most {
+        return text.to_owned();
+    }
+    let first: String = text.chars().take(side).collect();
+    let last: Vec<char> = text.chars().rev().take(side).collect();
+    let last: String = last.into_iter().rev().collect();
+    let left_out = text.chars().count() - 2 * side;
+    format!("{first}… ({left_out} characters are left out) …{last}")
 }
 
 /// The line a span begins in. A line that is too long for a screen is cut around the span.
@@ -298,7 +344,7 @@ pub struct ModelError {
 
 impl ModelError {
     /// More than this many are counted, not shown.
-    const SHOWN: usize = 10;
+    const SHOWN: usize = 100;
 
     /// For readers of other formats that lead to a model.
     #[must_use]

@@ -245,13 +245,96 @@ fn all_mistakes_are_shown_at_once_in_the_order_of_the_file() {
     assert!(error.rendered(true).contains('\u{1b}') && !error.to_string().contains('\u{1b}'));
 }
 
+/// Every two of these mistakes, of form and of meaning, are shown together, in the order of lines.
+#[test]
+fn every_pair_of_mistakes_is_shown_in_one_run() {
+    let text = GOOD;
+    // What is written, what goes there instead, and a word of the message.
+    let mistakes = [
+        (
+            "mass_kg = 2\n",
+            "mass_kg = 2\nwait = 1\n",
+            "unknown key 'wait'",
+        ),
+        ("length_mm = 800", "length_mm = -1", "-1"),
+        ("length_mm = 800", "length_mm = \"800\"", "needs a number"),
+        ("length_mm = 800", "lenght_mm = 800", "lenght_mm"),
+        ("mass_kg = 5", "mass_kg = -5", "-5"),
+        ("mass_kg = 5", "mass_kg = true", "needs a number"),
+        ("to = \"tool\"\n", "to = \"tooll\"\n", "tooll"),
+        ("youngs_modulus_gpa = 70", "youngs_modulus_gpa = -70", "-70"),
+        (
+            "youngs_modulus_gpa = 70",
+            "youngs_modulus_gpa = [70]",
+            "needs a number",
+        ),
+        ("youngs_modulus_gpa = 70", "", "youngs"),
+        (
+            "position_mm = [800, 0, 0]",
+            "position_mm = [800, 0]",
+            "3 entries",
+        ),
+    ];
+    let mut pairs = 0;
+    for (i, one) in mistakes.iter().enumerate() {
+        for other in &mistakes[i + 1..] {
+            if one.0 == other.0 {
+                continue;
+            }
+            assert!(
+                text.contains(one.0) && text.contains(other.0),
+                "{one:?} {other:?}"
+            );
+            let bad = text.replacen(one.0, one.1, 1).replacen(other.0, other.1, 1);
+            let error = Model::from_toml(&bad, "bad.toml").expect_err("two mistakes");
+            for word in [one.2, other.2] {
+                let told = |p: &kinetostat_model::Problem| format!("{} {}", p.message, p.help);
+                assert!(
+                    error.problems().iter().any(|p| told(p).contains(word)),
+                    "{word} is missing:\n{error}"
+                );
+            }
+            assert_eq!(error.problems().len(), 2, "{one:?} {other:?}:\n{error}");
+            assert!(
+                error.problems()[0].line <= error.problems()[1].line,
+                "{error}"
+            );
+            pairs += 1;
+        }
+    }
+    assert_eq!(pairs, 48);
+}
+
+#[test]
+fn text_of_megabytes_is_not_shown_whole() {
+    let long = "x".repeat(10_000_000);
+    let spaced = "x y ".repeat(2_500_000);
+    for text in [long, spaced] {
+        for bad in [
+            edited("mass_kg = 2\n", &format!("\"{text}\" = 2\n")),
+            edited("name = \"tool\"\n", &format!("name = \"{text}\"\n")),
+            edited("to = \"tool\"\n", &format!("to = \"{text}\"\n")),
+            edited("mass_kg = 2\n", &format!("mass_kg = \"{text}\"\n")),
+            edited("[[limb]]\n", &format!("[\"{text}\"]\na = 1\n[[limb]]\n")),
+        ] {
+            let error = Model::from_toml(&bad, "bad.toml").expect_err("a mistake");
+            for shown in [error.to_string(), error.rendered(true)] {
+                assert!(shown.len() < 20_000, "{} bytes", shown.len());
+            }
+            for p in error.problems() {
+                assert!(p.message.len() + p.help.len() + p.path.len() < 20_000);
+            }
+        }
+    }
+}
+
 #[test]
 fn too_many_mistakes_are_counted() {
-    let many: String = (0..30).map(|i| format!("wrong_{i} = {i}\n")).collect();
+    let many: String = (0..130).map(|i| format!("wrong_{i} = {i}\n")).collect();
     let error = Model::from_toml(&edited("mass_kg = 2\n", &many), "bad.toml").expect_err("wrong");
-    assert_eq!(error.problems().len(), 30);
+    assert_eq!(error.problems().len(), 130);
     assert!(
-        error.to_string().ends_with("and 20 more problems"),
+        error.to_string().ends_with("and 30 more problems"),
         "{error}"
     );
 }

@@ -244,15 +244,22 @@ pub(crate) fn homes(
     loops: &Loops,
     log: &mut Log,
 ) -> Vec<f64> {
+    // Nothing is said of where a joint would stand if its home were not given.
+    let given = |v: &Variable| {
+        loops.home.iter().any(|(_, n, _, _)| *n == v.name) || options.home.contains_key(&v.name)
+    };
     let mut home: Vec<f64> = variables
         .iter()
         .map(|v| match v.limits {
             Some((low, high)) if !(low <= 0.0 && 0.0 <= high) => {
                 let middle = 0.5 * (low + high);
-                if v.moves {
+                if v.moves && !given(v) {
                     log.notice(
                         &v.at,
-                        format!("zero lies outside the limits: at home the joint stands in their middle, {middle:.4}"),
+                        format!(
+                            "zero lies outside the limits: at home the joint stands in their middle, {}",
+                            with_unit(middle, v.kind)
+                        ),
                         "choose another home with --home if you like",
                     );
                 }
@@ -274,10 +281,11 @@ pub(crate) fn homes(
     for (written, name, value, turning) in told {
         let from_file = written.is_some();
         let at = written.unwrap_or(&robot.at);
+        let from_option = if from_file { "home" } else { "--home" };
         let Some(joint) = robot.joints.iter().position(|j| j.name == *name) else {
             log.error(
                 at,
-                format!("home: there is no joint '{name}'"),
+                format!("{from_option}: there is no joint '{name}'"),
                 suggestion(name, robot.joints.iter().map(|j| j.name.as_str())),
             );
             continue;
@@ -288,14 +296,14 @@ pub(crate) fn homes(
         if j.mimic.is_some() || !matches!(j.kind, JointType::Moving(_)) {
             log.error(
                 at,
-                format!("home: the joint '{name}' does not move by itself"),
+                format!("{from_option}: the joint '{name}' does not move by itself"),
                 "name the joint that it follows",
             );
         } else if turning != (variables[joint].kind == MotionKind::Revolute) {
             log.error(
                 at,
                 format!(
-                    "home: the joint '{name}' is {}, the value is {}",
+                    "{from_option}: the joint '{name}' is {}, the value is {}",
                     j.word,
                     if turning { "an angle" } else { "a distance" }
                 ),
@@ -318,7 +326,7 @@ pub(crate) fn homes(
             log.error(
                 at,
                 format!(
-                    "home: {} {unit} is outside the limits of the joint '{name}', {} to {} {unit}",
+                    "{from_option}: {} {unit} is outside the limits of the joint '{name}', {} to {} {unit}",
                     shown(value),
                     shown(low),
                     shown(high)
@@ -330,6 +338,14 @@ pub(crate) fn homes(
         }
     }
     home
+}
+
+/// A joint's value in degrees or millimetres.
+pub(crate) fn with_unit(value: f64, kind: MotionKind) -> String {
+    match kind {
+        MotionKind::Revolute => format!("{} deg", tidy(value.to_degrees())),
+        MotionKind::Prismatic => format!("{} mm", tidy(1e3 * value)),
+    }
 }
 
 /// A number for people: at most four digits after the point.

@@ -9,6 +9,7 @@ use crate::log::{Log, some_names};
 use crate::urdf::chain::{Plan, Variable, Written};
 use crate::urdf::close::product;
 use crate::urdf::graph::Graph;
+use crate::urdf::question::with_unit;
 use crate::urdf::robot::Robot;
 use crate::urdf::tree::{Step, Tree};
 
@@ -105,7 +106,7 @@ pub(crate) fn standing(
                 &joint.at,
                 format!(
                     "the joint is not between the base and the tip: it stands at {}",
-                    home[i]
+                    with_unit(home[i], variables[i].kind)
                 ),
                 "masses behind it are carried along in that position; choose another tip, or say how it is held by a loop file (--loops)",
             );

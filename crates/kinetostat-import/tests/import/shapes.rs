@@ -94,7 +94,7 @@ fn joints_beside_the_way_stand_still() {
         );
     }
     // 'slide' cannot stand at zero: the middle of 0.1 and 0.9.
-    assert!(said.contains("it stands at 0.5"), "{said}");
+    assert!(said.contains("it stands at 500 mm"), "{said}");
 }
 
 #[test]

@@ -1,0 +1,218 @@
+//! All faults of a job file in one run: what is wrong is taken out of the file and the rest is read
+//! again, until nothing is left to say.
+
+use std::ops::Range;
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_spanned::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::along;
+use crate::args::ProgramArgs;
+use crate::diagnose::Source;
+use crate::failure::{Answer, Code, Failure};
+use crate::input::Files;
+use crate::job::Job;
+use crate::machine::machine;
+use crate::setting::{JobFile, WritingFlags, setting};
+
+/// More faults than this are not looked for.
+const MOST: usize = 100;
+
+/// What a run along a program is asked: enough to read everything that its job file says.
+pub(crate) struct Asked<'a> {
+    pub(crate) job: Option<&'a Path>,
+    pub(crate) model: Option<&'a str>,
+    pub(crate) program: &'a ProgramArgs,
+    pub(crate) writing: WritingFlags<'a>,
+}
+
+/// The failure of a run, or all faults of its job file if there are more.
+pub(crate) fn with_all_others(files: &Files, asked: &Asked<'_>, first: Failure) -> Failure {
+    match asked.job {
+        Some(path) if first.code == Code::WrongInput => {
+            all(files, path, asked, &first).unwrap_or(first)
+        }
+        _ => first,
+    }
+}
+
+fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option<Failure> {
+    let text = files.job(path).ok()?;
+    let name = path.display().to_string();
+    let source = Source {
+        file: &name,
+        text: &text,
+    };
+    let mut tree = DeTable::parse(&text).ok()?;
+    let mut found = Vec::new();
+    // What has the wrong form: unknown keys, words for numbers, numbers that are none.
+    for span in source.not_finite(&tree) {
+        add(&mut found, source.endless(span.clone()));
+        take_out(tree.get_mut(), &span);
+    }
+    while Job::deserialize(toml::de::Deserializer::from(tree.clone()))
+        .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found))
+    {}
+    // What has no meaning: each part of the question as far as it can be read.
+    if let Ok(job) = Job::deserialize(toml::de::Deserializer::from(tree.clone()))
+        && let Err(failure) = Job::version(source, &job)
+    {
+        add(&mut found, failure);
+    }
+    let parts: [&dyn Fn(&JobFile) -> Answer<()>; 3] = [
+        &|job| setting(files, Some(job), asked.program, &asked.writing).map(drop),
+        &|job| {
+            let mut inputs = Vec::new();
+            machine(files, Some(job), asked.model, asked.program, &mut inputs).map(drop)
+        },
+        &|job| {
+            // Without a model that can be read: tool, placement and load all the same.
+            let mut job = job.clone();
+            job.job.deviation.clear();
+            let mut inputs = Vec::new();
+            machine(
+                files,
+                Some(&job),
+                Some("orthoglide"),
+                asked.program,
+                &mut inputs,
+            )
+            .map(drop)
+        },
+    ];
+    for part in parts {
+        for _ in 0..MOST {
+            let Ok(job) = Job::deserialize(toml::de::Deserializer::from(tree.clone())) else {
+                break;
+            };
+            let job = JobFile {
+                path: path.to_owned(),
+                text: text.clone(),
+                job,
+            };
+            let Err(failure) = part(&job) else { break };
+            if failure.code != Code::WrongInput {
+                break;
+            }
+            let span = failure.place.clone();
+            add(&mut found, failure);
+            if !span.is_some_and(|span| take_out(tree.get_mut(), &span)) {
+                break;
+            }
+        }
+    }
+    if found.is_empty() {
+        // The program's own faults are said with the whole job read.
+        let job = JobFile::read(files, path).ok()?;
+        let setting = setting(files, Some(&job), asked.program, &asked.writing).ok()?;
+        add(&mut found, along::read_program(&setting).err()?);
+    }
+    add(&mut found, first.clone());
+    // In the order of the file; what has no line there comes last.
+    found.sort_by_key(|f| f.place.as_ref().map_or(usize::MAX, |span| span.start));
+    Some(Failure::together(found))
+}
+
+fn add(found: &mut Vec<Failure>, failure: Failure) {
+    // A message of several faults holds those that were found before.
+    if !found
+        .iter()
+        .any(|known| failure.plain.contains(&known.plain))
+    {
+        found.push(failure);
+    }
+}
+
+/// Notes what the reader does not accept and takes it out, or puts in what is missing; false where
+/// that leads nowhere.
+fn put_right(
+    source: &Source<'_>,
+    tree: &mut Spanned<DeTable<'_>>,
+    error: &toml::de::Error,
+    found: &mut Vec<Failure>,
+) -> bool {
+    let span = error.span().unwrap_or(0..0);
+    let before = found.len();
+    add(found, source.content(error));
+    if found.len() == before || before >= MOST {
+        return false;
+    }
+    if let Some(key) = Source::missing(error) {
+        // Version 1, and any number for a number.
+        let Ok(value) = DeValue::parse("1") else {
+            return false;
+        };
+        let key = Spanned::new(span.clone(), key.into());
+        let at = table_of(tree.get_mut(), &span);
+        let table = match at {
+            Some(table) => table,
+            None => tree.get_mut(),
+        };
+        return table.insert(key, value).is_none();
+    }
+    take_out(tree.get_mut(), &span)
+}
+
+fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {
+    outer.start <= inner.start && inner.end <= outer.end && !outer.is_empty()
+}
+
+/// Takes out the innermost entry that a place lies in; false if there is none.
+fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
+    let mut own = None;
+    for (key, value) in table.iter_mut() {
+        let mine = holds(&key.span(), span) || holds(&value.span(), span);
+        if mine {
+            own = Some(key.clone());
+        }
+        match value.get_mut() {
+            DeValue::Table(inner) => {
+                if take_out(inner, span) {
+                    return true;
+                }
+            }
+            DeValue::Array(list) => {
+                let mut whole = None;
+                for (i, entry) in list.iter_mut().enumerate() {
+                    let place = entry.span();
+                    if let DeValue::Table(inner) = entry.get_mut() {
+                        if take_out(inner, span) {
+                            return true;
+                        }
+                        if holds(&place, span) {
+                            whole = Some(i);
+                        }
+                    }
+                }
+                if let Some(i) = whole {
+                    let others = list.iter().enumerate().filter(|(other, _)| *other != i);
+                    *list = others.map(|(_, entry)| entry.clone()).collect();
+                    return true;
+                }
+            }
+            _ => {}
+        }
+    }
+    own.is_some_and(|key| table.remove(&key).is_some())
+}
+
+/// The table that is written at a place.
+fn table_of<'a, 't>(
+    table: &'a mut DeTable<'t>,
+    span: &Range<usize>,
+) -> Option<&'a mut DeTable<'t>> {
+    for (_, value) in table.iter_mut() {
+        let place = value.span();
+        if let DeValue::Table(inner) = value.get_mut() {
+            if place == *span {
+                return Some(inner);
+            }
+            if let Some(found) = table_of(inner, span) {
+                return Some(found);
+            }
+        }
+    }
+    None
+}
