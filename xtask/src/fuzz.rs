@@ -61,7 +61,13 @@ fn chains(words: &[&str]) -> Result<()> {
 /// One figure of a good job or model at a time, in every wrong unit.
 fn absurd_units() -> Result<()> {
     let mut command = cargo();
-    command.args(["test", "--quiet", "--release", "--package", "kinetostat-cli"]);
+    command.args([
+        "test",
+        "--quiet",
+        "--release",
+        "--package",
+        "kinetostat-cli",
+    ]);
     command.args(["--test", "absurd"]);
     command.env("KINETOSTAT_ABSURD", "all");
     step("absurd units", &mut command)

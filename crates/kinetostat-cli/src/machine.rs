@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    Bounds, CornerLoad, CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, ToolGiven, Warning,
-    WarningCode, straight_tool,
+    Bounds, CornerLoad, CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, ToolGiven,
+    Warning, WarningCode, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::WriteOptions;

@@ -235,10 +235,7 @@ fn examples_in_the_help_can_be_copied() {
         let help = run(here.path(), &words).answered().out;
         // A longer line would be broken where nobody can copy it.
         let mut examples_of = help.lines().filter(|l| l.starts_with("  kinetostat "));
-        assert!(
-            examples_of.all(|l| l.chars().count() <= 80),
-            "{of}: {help}"
-        );
+        assert!(examples_of.all(|l| l.chars().count() <= 80), "{of}: {help}");
         let joined = help.replace("\\\n", " ");
         let found = joined
             .lines()

@@ -5,7 +5,7 @@ use kinetostat::{Pose, Wrench};
 use crate::run::{RunError, Task, Watch};
 use crate::sites::Site;
 use crate::solve::in_chunks;
-use crate::together::Together;
+use crate::tool::Machines;
 
 /// Points between two looks at the watch.
 const BATCH: usize = 4096;
@@ -25,7 +25,7 @@ pub(crate) fn by_the_other_reading(
         })
         .collect();
     watch.stage("corner steps by the other reading", steps.len());
-    let together = Together::new(task.mechanism);
+    let machines = Machines::new(task);
     let place = &task.placement;
     let mut largest: Option<f64> = None;
     let mut done = 0;
@@ -33,25 +33,35 @@ pub(crate) fn by_the_other_reading(
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
-        let errors = in_chunks(batch, |memory, steps| {
-            let poses: Vec<Pose> = steps
-                .iter()
-                .map(|(site, _)| place.tool_pose(&site.commanded))
-                .collect();
-            let wrenches: Vec<Wrench> = steps.iter().map(|(_, wrench)| *wrench).collect();
-            let found = together.rest(&poses, &wrenches);
-            let [memory, _] = memory;
-            (0..steps.len())
-                .map(|i| {
-                    let tool = match &found {
-                        Some(found) => found.tool_pose(i),
-                        None => memory.rest(task.mechanism, &poses[i], &wrenches[i]).ok()?.1,
-                    };
-                    let wanted = place.tool_pose(&steps[i].0.desired);
-                    let off = tool.translation.vector - wanted.translation.vector;
-                    Some(place.to_program(&off).norm())
-                })
-                .collect::<Vec<Option<f64>>>()
+        let of_one_tool = batch.chunk_by(|a, b| machines.same(&a.0, &b.0));
+        let errors = of_one_tool.flat_map(|run| {
+            let (together, orientation) = machines.at(&run[0].0);
+            let mechanism = together.mechanism();
+            in_chunks(run, |memory, steps| {
+                let poses: Vec<Pose> = steps
+                    .iter()
+                    .map(|(site, _)| place.tool_pose(&site.commanded))
+                    .collect();
+                let wrenches: Vec<Wrench> = steps.iter().map(|(_, wrench)| *wrench).collect();
+                let found = together.rest(&poses, &wrenches);
+                let [memory, _] = memory;
+                let mut tool = |i: usize| -> Option<Pose> {
+                    match &found {
+                        Some(found) => Some(found.tool_pose(i)),
+                        None => {
+                            let rest = memory.rest(mechanism, &poses[i], &wrenches[i], orientation);
+                            Some(rest.ok()?.1)
+                        }
+                    }
+                };
+                (0..steps.len())
+                    .map(|i| {
+                        let wanted = place.tool_pose(&steps[i].0.desired);
+                        let off = tool(i)?.translation.vector - wanted.translation.vector;
+                        Some(place.to_program(&off).norm())
+                    })
+                    .collect::<Vec<Option<f64>>>()
+            })
         });
         for error in errors {
             let Some(error) = error.filter(|error| error.is_finite()) else {

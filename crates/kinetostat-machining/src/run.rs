@@ -23,7 +23,7 @@ use crate::result::{
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{NEAR, Neighbour, Orientation, in_chunks, reach_of_neighbours};
 use crate::together::{JUMP, Together};
-use crate::tool::{Tool, tool_on};
+use crate::tool::{Machines, Tool, tool_on};
 use crate::warning::{Warning, WarningCode};
 
 /// Everything that decides a run.
@@ -317,17 +317,7 @@ fn solve<S: Iterator<Item = Site>>(
     watch.stage(name, total);
     let mut points: Vec<PointResult> = Vec::with_capacity(total);
     let mut worse = None;
-    let follows = task.placement.orientation_follows;
-    let machines = std::iter::once(task.mechanism).chain(task.tools.iter().map(|t| t.mechanism));
-    let together: Vec<Together<'_>> = machines.map(|m| Together::new(m, follows)).collect();
-    let tool = |site: &Site| tool_on(task.tools, task.path, site.line);
-    let number = |site: &Site| tool(site).map(|tool| tool.number);
-    // The first is the machine without one of the tools.
-    let machine = |site: &Site| {
-        let tool = number(site);
-        let index = tool.and_then(|n| task.tools.iter().position(|tool| tool.number == n));
-        &together[index.map_or(0, |index| index + 1)]
-    };
+    let machines = Machines::new(task);
     let mut sites = sites();
     loop {
         let batch: Vec<Site> = sites.by_ref().take(BATCH).collect();
@@ -337,11 +327,9 @@ fn solve<S: Iterator<Item = Site>>(
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
-        let of_one_tool = batch.chunk_by(|a, b| number(a) == number(b));
+        let of_one_tool = batch.chunk_by(|a, b| machines.same(a, b));
         let solved = of_one_tool.flat_map(|run| {
-            let together = machine(&run[0]);
-            let load = tool(&run[0]).map_or(&task.load, |tool| &tool.load);
-            let orientation = Orientation::of(&task.placement, load);
+            let (together, orientation) = machines.at(&run[0]);
             in_chunks(run, |memory, sites| {
                 chunk(task, together, memory, sites, (orientation, written))
             })
@@ -723,7 +711,9 @@ fn nearest_singular(task: &Task<'_>, points: &[PointResult]) -> Option<NearSingu
     for point in points.iter().step_by(stride) {
         let pose = task.placement.tool_pose(&point.position_mm.into());
         let mechanism = task.mechanism_on(point.line);
-        let near = last.as_ref().filter(|near| std::ptr::eq(near.mechanism(), mechanism));
+        let near = last
+            .as_ref()
+            .filter(|near| std::ptr::eq(near.mechanism(), mechanism));
         let posture = orientation.posture(mechanism, &pose, near);
         let Ok(posture) = posture else { continue };
         if let Some(near) = near_singular(&posture) {

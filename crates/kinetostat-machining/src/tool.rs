@@ -4,6 +4,10 @@ use kinetostat::Mechanism;
 use kinetostat_program::Path;
 
 use crate::load::ProgramLoad;
+use crate::run::Task;
+use crate::sites::Site;
+use crate::solve::Orientation;
+use crate::together::Together;
 
 /// A tool of the machine's magazine.
 ///
@@ -30,4 +34,46 @@ pub(crate) fn tool_on<'t, 'a>(
     }
     let number = path.tool_on(line)?;
     tools.iter().find(|tool| tool.number == number)
+}
+
+/// The machine of a run with each of its tools, ready to solve several postures together.
+pub(crate) struct Machines<'t, 'm> {
+    task: &'t Task<'m>,
+    /// The first is the machine without one of the tools.
+    together: Vec<Together<'m>>,
+}
+
+impl<'t, 'm> Machines<'t, 'm> {
+    pub fn new(task: &'t Task<'m>) -> Self {
+        let follows = task.placement.orientation_follows;
+        let machines = std::iter::once(task.mechanism);
+        let machines = machines.chain(task.tools.iter().map(|tool| tool.mechanism));
+        Self {
+            task,
+            together: machines.map(|m| Together::new(m, follows)).collect(),
+        }
+    }
+
+    fn tool(&self, site: &Site) -> Option<&'t Tool<'m>> {
+        tool_on(self.task.tools, self.task.path, site.line)
+    }
+
+    /// Whether two places are cut with one tool.
+    pub fn same(&self, one: &Site, other: &Site) -> bool {
+        let number = |site: &Site| self.tool(site).map(|tool| tool.number);
+        number(one) == number(other)
+    }
+
+    /// The machine that cuts at a place, and what is done with the orientation there.
+    pub fn at(&self, site: &Site) -> (&Together<'m>, Orientation) {
+        let tool = self.tool(site);
+        let position = |tool: &Tool<'_>| {
+            let own = |other: &Tool<'_>| other.number == tool.number;
+            self.task.tools.iter().position(own)
+        };
+        let index = tool.and_then(position).map_or(0, |index| index + 1);
+        let load = tool.map_or(&self.task.load, |tool| &tool.load);
+        let orientation = Orientation::of(&self.task.placement, load);
+        (&self.together[index], orientation)
+    }
 }

@@ -485,7 +485,10 @@ fn every_bad_program_is_refused_with_line_reason_and_remedy() {
         assert_eq!(error.line, *line, "{text:?}: {message}");
         assert!(error.reason.contains(reason), "{text:?}: {message}");
         assert!(error.remedy.contains(remedy), "{text:?}: {message}");
-        assert!(!message.contains("by option"), "the option has a name: {message}");
+        assert!(
+            !message.contains("by option"),
+            "the option has a name: {message}"
+        );
         assert!(message.starts_with(&format!("line {line}: `")), "{message}");
         assert!(
             error.span.end <= text.len() && error.span.start <= error.span.end,

@@ -276,7 +276,8 @@ fn bordered_systems_are_solved_as_by_dense_matrices() {
             let mut b = DVector::from_fn(6 + n, |_, _| rng.next());
             let right = b.fixed_rows::<6>(0).into_owned();
             let torque = b.as_slice()[6..].to_vec();
-            let bordered = Bordered::new(sweep, form, rows, END_SPRINGS[0]).expect("pivots");
+            let bordered =
+                Bordered::new(sweep.as_ref(), form, rows, END_SPRINGS[0]).expect("pivots");
             let (wrench, x) = bordered.solve(&torque, &right).expect("solution");
             let lu = a.clone().full_piv_lu();
             assert!(lu.solve_mut(&mut b));

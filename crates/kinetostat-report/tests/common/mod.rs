@@ -149,6 +149,7 @@ pub fn circle_groove() -> RunResult {
             correction_mm: before.map(|b| -b),
             force_n: force,
             residual_rotation_deg: 0.31 + 0.11 * (turn + 0.7).sin(),
+            tool_turn_deg: None,
             actuator_force: vec![
                 force[0] * 1.1 + 8.0,
                 force[1] * 1.1 - 5.0,
@@ -232,6 +233,7 @@ pub fn pocket_on_serial_robot(points: usize) -> RunResult {
                 correction_mm: before.map(|b| -b),
                 force_n: [200.0, 50.0, -120.0],
                 residual_rotation_deg: 0.09,
+                tool_turn_deg: None,
                 actuator_force: (1..=6).map(|k| torque(f64::from(k * k))).collect(),
                 actuator_correction: (1..=6)
                     .map(|k| 0.05 / f64::from(k) + 0.0001 * x + 0.002 * noise(i + k as usize))
