@@ -2,8 +2,8 @@
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    CuttingLoad, Grid, LoadAxes, MapPlace, MapTask, PlaceState, Placement, ProgramLoad, Question,
-    Run, RunError, Task, Unwatched, analyse, compensate_program, map, straight_tool,
+    Bounds, CuttingLoad, Grid, LoadAxes, MapPlace, MapTask, PlaceState, Placement, ProgramLoad,
+    Question, Run, RunError, Task, Unwatched, analyse, compensate_program, map, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -75,6 +75,7 @@ fn task<'a>(
         tools: &[],
         writing: WriteOptions::default(),
         question: Question::default(),
+        bounds: Bounds::default(),
     }
 }
 
