@@ -97,8 +97,11 @@ pub(crate) fn of_path<'a>(
 /// overlooked here too.
 const SEED: u64 = 4;
 
+/// Share of the spacing below which a block that was not divided is straight in every respect.
+const SHORT: f64 = 0.05;
+
 /// Ends of all pieces of a written program and irregular places inside them, no farther apart than twice
-/// `spacing_mm`, and the middles of pieces of divided blocks, one after the other.
+/// `spacing_mm`, and the middles of pieces that are not very short, one after the other.
 pub(crate) fn of_written<'a>(
     path: &'a Path,
     written: &'a Corrected,
@@ -160,8 +163,10 @@ pub(crate) fn of_written<'a>(
             let mut places: Vec<f64> = (0..count)
                 .map(|k| (k as f64 + inside(k)) / count as f64)
                 .collect();
-            if piece.share_from > 0.0 || piece.share_to < 1.0 {
-                // Pieces of a block that was divided leave it farthest near their middle.
+            let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
+            if divided || length > SHORT * spacing_mm {
+                // A piece leaves its block farthest near its middle; one of a short block that was not
+                // divided does not leave it by anything that could be seen.
                 places.push(0.5);
                 places.sort_by(f64::total_cmp);
             }

@@ -98,18 +98,22 @@ fn kind(kind: MoveKind) -> &'static str {
     }
 }
 
+fn arc(curve: &Curve) -> String {
+    match curve {
+        Curve::Line => "null".to_owned(),
+        Curve::Arc(arc) => format!(
+            "{{\"centre\":{},\"axis\":{},\"sweep\":{:?},\"rise\":{:?}}}",
+            point(&arc.centre),
+            point(&arc.axis),
+            arc.sweep,
+            arc.rise
+        ),
+    }
+}
+
 fn of_path(path: &Path) -> String {
     let line = |motion: &Move| {
-        let arc = match &motion.curve {
-            Curve::Line => "null".to_owned(),
-            Curve::Arc(arc) => format!(
-                "{{\"centre\":{},\"axis\":{},\"sweep\":{:?},\"rise\":{:?}}}",
-                point(&arc.centre),
-                point(&arc.axis),
-                arc.sweep,
-                arc.rise
-            ),
-        };
+        let arc = arc(&motion.curve);
         format!(
             "{{\"line\":{},\"kind\":\"{}\",\"start\":{},\"end\":{},\"feed\":{},\"length\":{:?},\"arc\":{arc}}}\n",
             motion.line,
@@ -164,19 +168,30 @@ fn corrected(
         let share = (piece.share_from, piece.share_to);
         format!(
             "{{\"line\":{},\"of\":{},\"kind\":\"{}\",\"start\":{},\"end\":{},\"feed\":{},\"length\":{:?},\
-             \"programmed\":{},\"part\":{:?},\"whole\":{:?},\"step\":{},\"known\":{},\"arc\":null}}\n",
+             \"programmed\":{},\"part\":{:?},\"whole\":{:?},\"step\":{},\"known\":{},\"limited\":{},\"arc\":{}}}\n",
             piece.output_line,
             motion.line,
             kind(motion.kind),
             point(&piece.commanded_from),
             point(&piece.commanded_to),
             feed(read.feed),
-            (piece.commanded_to - piece.commanded_from).norm(),
+            // A piece is straight, unless an arc was kept as it was.
+            if piece.kept_arc {
+                read.length_mm()
+            } else {
+                (piece.commanded_to - piece.commanded_from).norm()
+            },
             feed(motion.feed),
             motion.length_between_mm(share.0, share.1),
             motion.length_mm(),
             piece.corner_step,
-            motion.known == Knowledge::Whole
+            motion.known == Knowledge::Whole,
+            piece.feed_limited,
+            arc(if piece.kept_arc {
+                &read.curve
+            } else {
+                &Curve::Line
+            })
         )
     };
     Ok(written.pieces.iter().zip(&again.moves).map(line).collect())

@@ -48,11 +48,15 @@ impl ToolWords {
             self.selected = Some(number);
             push(&mut self.named, line, number);
         }
-        let has_change = block
-            .words
-            .iter()
-            .any(|word| word.letter == b'M' && word.tenths() == 60);
-        if let (true, Some(number)) = (has_change, self.selected) {
+        let has = |tenths: u32| {
+            let mut words = block.words.iter();
+            words.any(|word| word.letter == b'M' && word.tenths() == tenths)
+        };
+        if let (true, Some(number)) = (has(60), self.selected) {
+            push(&mut self.changed, line, number);
+        }
+        // M61 Q2 says which tool was put in by hand (LinuxCNC).
+        if let (true, Some(number)) = (has(610), whole(b'Q')) {
             push(&mut self.changed, line, number);
         }
         if block.codes.tool_length == Some(430)

@@ -33,6 +33,7 @@ fn a_second_tool_is_warned_of_by_line() {
     for (text, line) in [
         ("G21 G90\nT1\nG0 X0 Y0 Z0\nT2\nG1 X5 F9\n", 4),
         ("G21 G90\nG43 H1 G0 Z5\nG0 X0 Y0\nG43 H2 G0 Z5\n", 4),
+        ("G21 G90\nT1 M6\nG0 X0 Y0 Z0\nM61 Q2\nG1 X5 F9\n", 4),
         ("G21 G90\nT1 M6\nT2 (ready)\nG0 X0 Y0 Z0\nM6\nG1 X5 F9\n", 5),
     ] {
         let path = path_with(text, &ReadOptions::default()).unwrap();
