@@ -6,8 +6,8 @@
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
-    CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Question, Run, Task,
-    Unwatched, compensate_program, straight_tool,
+    Bounds, CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Question,
+    Run, Task, Unwatched, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret, irregular};
@@ -73,6 +73,7 @@ fn run(
         tools: &[],
         writing: WriteOptions::default(),
         question: Question::default(),
+        bounds: Bounds::default(),
     };
     let run = compensate_program(&task, &Unwatched).unwrap_or_else(|e| panic!("{e}\n{text}"));
     (run, path)
@@ -143,6 +144,7 @@ fn written_programs_are_within_their_bound_in_random_places() {
                 base_from_part: Pose::from_parts(home.translation, UnitQuaternion::identity()),
                 tool_orientation: home.rotation,
                 scale: 1.0,
+                orientation_follows: false,
             },
         ),
     ];
