@@ -77,7 +77,10 @@ pub(crate) fn at_home(
         .deflected_by(&Wrench::zero())
         .map_err(|e| e.to_string())?;
     let over = posture.overconstraint();
-    let assumptions = assumptions(posture, &rest, force);
+    let mut assumptions = assumptions(posture, &rest, force);
+    assumptions
+        .warnings
+        .extend(kinetostat::uneven_in_words(&stiffness.directions));
     let home = HomeFinding {
         mobility,
         actuators: m.actuator_count(),

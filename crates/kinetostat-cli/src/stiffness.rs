@@ -203,7 +203,9 @@ fn answer(
     let free = count(DirectionKind::Free);
     let held = free + count(DirectionKind::Rigid) < 6;
     let near_singularity = spot.near_singular();
+    let uneven = kinetostat::uneven_in_words(directions);
     let near = near_singularity.iter().map(|n| n.in_words.clone());
+    let near = near.chain(uneven);
     let warnings = spot.warnings.iter().cloned().chain(near).collect();
     Stiffness {
         schema: 1,

@@ -99,7 +99,7 @@ fn sizes_that_do_not_fit_the_length() {
     // A link of 6 m in a model that says 600 mm.
     let long = BeamSection::tube(7e10, 2.6e10, 0.2, 0.15)
         .cantilever(6.0)
-        .unwrap();
+        .expect("a section");
     let doubts = doubts_of_link_matrix(&long, Some(0.6));
     assert!(doubts[0].0.contains("3000 mm behind the end"), "{doubts:?}");
 }
@@ -110,7 +110,7 @@ fn beams_of_all_lengths_say_nothing() {
         for share in [0.02, 0.1, 0.5] {
             let bar = BeamSection::tube(2.1e11, 8e10, share * length, 0.0)
                 .cantilever(length)
-                .unwrap();
+                .expect("a section");
             for known in [None, Some(length)] {
                 assert_eq!(doubts_of_link_matrix(&bar, known), [], "{length} {share}");
             }

@@ -355,10 +355,10 @@ fn puu3_is_the_benchmark_machine() {
     let model = preset("puu3");
     let tube = kinetostat::BeamSection::tube(2.1e11, 2.1e11 / 2.6, 0.022, 0.014);
     let found = spring(&model, "strut");
-    assert!((found - tube.cantilever(0.31).unwrap()).amax() <= 1e-12 * found.amax());
+    assert!((found - tube.cantilever(0.31).expect("a section")).amax() <= 1e-12 * found.amax());
     let bar = kinetostat::BeamSection::tube(2.1e11, 2.1e11 / 2.6, 0.04, 0.0);
     let found = spring(&model, "foot");
-    assert!((found - bar.cantilever(0.08).unwrap()).amax() <= 1e-12 * found.amax());
+    assert!((found - bar.cantilever(0.08).expect("a section")).amax() <= 1e-12 * found.amax());
     // Closed-form commands at a point inside (bench: rho = d_x - L cos q1 cos q2).
     let target = Vector3::new(0.05, -0.07, 0.03);
     let posture = model
@@ -413,7 +413,7 @@ fn heavy_arm_is_the_benchmark_machine() {
         let mut big = Matrix6::zeros();
         big.fixed_view_mut::<3, 3>(0, 0).copy_from(&turn);
         big.fixed_view_mut::<3, 3>(3, 3).copy_from(&turn);
-        let expected = big * tube.cantilever(v.norm()).unwrap() * big.transpose();
+        let expected = big * tube.cantilever(v.norm()).expect("a section") * big.transpose();
         let found = spring(&model, name);
         assert!(
             (found - expected).amax() <= 1e-12 * expected.amax(),

@@ -1,4 +1,5 @@
-//! Random chains under random loads through every question, for a stated time: `cargo xtask fuzz`.
+//! Random chains under random loads through every question, struts, stiffness ratios and stiff links with
+//! known answers, for a stated time: `cargo xtask fuzz`.
 //!
 //! `fuzz_chains MINUTES SEED [COUNT]`, or `fuzz_chains case SEED` to repeat one case and show it.
 

@@ -184,6 +184,22 @@ pub(crate) fn spread(list: &[Direction]) -> f64 {
     if most > 0.0 { most / least } else { 1.0 }
 }
 
+/// Stiffnesses of principal directions that differ by more lose digits in a 6 x 6 matrix.
+const SAID: f64 = 1e9;
+
+/// What very different stiffnesses of principal directions mean for a 6 x 6 matrix, in a sentence; `None`
+/// where they differ by less than 1e9.
+#[must_use]
+pub fn uneven_in_words(directions: &[Direction]) -> Option<String> {
+    let spread = spread(directions);
+    (spread > SAID).then(|| {
+        let digits = (15.0 - spread.log10()).floor().max(0.0);
+        format!(
+            "the stiffest direction is {spread:.1e} times as stiff as the softest: the entries of the 6 x 6 matrix hold the soft ones to about {digits} digits only, the principal directions hold them all; under a load, directions softer than 1e-9 of the stiffest count as free. Is the stiff one meant, or is a unit wrong?"
+        )
+    })
+}
+
 /// Rows `r_i` with `K = sum r_i r_i^T` (SI) of principal directions that are all positive or free.
 pub(crate) fn root_rows(list: &[Direction], length: f64) -> Option<Vec<Vector6<f64>>> {
     let unit = |i: usize| if i < 3 { 1.0 } else { length };

@@ -185,6 +185,7 @@ pub use equilibrium::{
 pub use error::{Error, Result};
 pub use follower::{Follower, PointForce};
 pub use function_load::FunctionLoad;
+pub use graded::uneven_in_words;
 pub use inverse::{LimbPosture, inverse_kinematics};
 pub use jumps::Jump;
 pub use kinematics::Kinematics;

@@ -371,6 +371,9 @@ fn rotate(columns: &mut DMatrix<f64>, turns: &mut DMatrix<f64>) -> Vec<f64> {
     order.sort_by(|&i, &j| sizes[j].total_cmp(&sizes[i]));
     *columns = columns.select_columns(&order);
     *turns = turns.select_columns(&order);
+    // What many rotations have added up to, by one step towards the nearest orthonormal matrix.
+    let off = turns.transpose() * &*turns - DMatrix::identity(k, k);
+    *turns -= &*turns * off * 0.5;
     order.into_iter().map(|i| sizes[i]).collect()
 }
 

@@ -11,7 +11,7 @@ use crate::{apart, text};
 fn bar() -> Matrix6<f64> {
     BeamSection::tube(2.1e11, 8.0e10, 0.06, 0.04)
         .cantilever(0.4)
-        .unwrap()
+        .expect("a section")
 }
 
 /// A CSV of the bar in N and mm with rows and columns in the given order.

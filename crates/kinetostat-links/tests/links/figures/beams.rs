@@ -23,7 +23,10 @@ fn a_prismatic_link_without_shear_is_the_core_s_cantilever() {
         top_wall: 0.006,
     };
     let p = shape.properties(NU).expect("section");
-    let core = p.section(E, E / (2.0 + 2.0 * NU)).cantilever(L).unwrap();
+    let core = p
+        .section(E, E / (2.0 + 2.0 * NU))
+        .cantilever(L)
+        .expect("a section");
     let k = cantilever(&shape, &shape, L, E, NU, Shear::None).expect("link");
     at_most(
         "prismatic cantilever 6 x 6 against closed form",
@@ -133,7 +136,7 @@ fn a_tapered_link_agrees_with_fine_segmentation() {
             let mut own = p
                 .section(E, g)
                 .cantilever(h)
-                .unwrap()
+                .expect("a section")
                 .try_inverse()
                 .expect("regular");
             own[(1, 1)] += h / (g * p.shear_area_y);
@@ -190,7 +193,7 @@ fn any_change_along_the_link_by_a_function() {
             &custom
                 .section(E, E / (2.0 + 2.0 * NU))
                 .cantilever(L)
-                .unwrap()
+                .expect("a section")
         ) < 1e-12
     );
     for (error, word) in [

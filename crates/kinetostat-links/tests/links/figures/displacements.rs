@@ -29,7 +29,7 @@ impl Noise {
 fn truth() -> Matrix6<f64> {
     let k = BeamSection::tube(7e10, 2.7e10, 0.08, 0.07)
         .cantilever(0.5)
-        .unwrap();
+        .expect("a section");
     let turn = kinetostat::turn_matrix(&nalgebra::Rotation3::new(Vector3::new(0.3, -0.7, 0.4)));
     let shift = kinetostat::shift_matrix(&Vector3::new(0.03, -0.05, 0.02));
     shift.transpose() * turn * k * turn.transpose() * shift
@@ -148,7 +148,7 @@ fn noise_gives_honest_confidence() {
 fn the_filter_finds_zeros() {
     let k = BeamSection::tube(7e10, 2.7e10, 0.08, 0.07)
         .cantilever(0.5)
-        .unwrap();
+        .expect("a section");
     let compliance = k.try_inverse().expect("regular");
     let mut noise = Noise(11);
     let (mut kept, mut zeros) = (0, 0);

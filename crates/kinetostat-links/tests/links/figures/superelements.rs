@@ -36,7 +36,7 @@ fn frame() -> (Text, Nodes, Superelement) {
 fn free_beam() -> (DMatrix<f64>, Matrix6<f64>) {
     let si = BeamSection::tube(2.1e11, 8.0e10, 0.06, 0.04)
         .cantilever(0.4)
-        .unwrap();
+        .expect("a section");
     let k = kinetostat_links::in_n_mm(&si);
     let mut shift = Matrix6::identity();
     shift
