@@ -57,6 +57,11 @@ const SIX: [(MotionKind, usize); 6] = [
 ];
 const SIX_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
+/// Finite, and so that powers are finite too.
+fn usable(x: f64) -> bool {
+    x.abs() <= crate::chain::LARGEST
+}
+
 fn unit(axis: usize) -> Vector3<f64> {
     let mut v = Vector3::zeros();
     v[axis] = 1.0;
@@ -137,8 +142,8 @@ impl ChainBuilder {
     /// A constant offset.
     #[must_use]
     pub fn rigid(mut self, pose: Pose) -> Self {
-        if pose.to_homogeneous().iter().any(|x| !x.is_finite()) {
-            self.fault("a rigid offset holds a number that is not finite".into());
+        if pose.to_homogeneous().iter().any(|x| !usable(*x)) {
+            self.fault("a rigid offset holds a number that is not finite, or beyond 1e60".into());
         }
         self.chain.elements.push(Element::Rigid(pose));
         self
@@ -481,8 +486,10 @@ impl ChainBuilder {
             law,
             segment: None,
         };
-        if block.rest.iter().any(|x| !x.is_finite()) {
-            self.fault(format!("spring '{name}': its rest position is not finite"));
+        if block.rest.iter().any(|x| !usable(*x)) {
+            self.fault(format!(
+                "spring '{name}': its rest position is not finite, or beyond 1e60"
+            ));
         }
         self.chain.springs.push(block);
     }
@@ -509,9 +516,9 @@ impl ChainBuilder {
                 "spring '{name}': the length of its segment is not a positive number of metres"
             ));
         }
-        if k.iter().any(|x| !x.is_finite()) {
+        if k.iter().any(|x| !usable(*x)) {
             return Some(format!(
-                "spring '{name}': its stiffness holds a number that is not finite"
+                "spring '{name}': its stiffness holds a number that is not finite, or beyond 1e60"
             ));
         }
         // Balance the units so that metres and radians are judged alike.

@@ -291,7 +291,7 @@ pub(crate) fn sensible_pose(place: &str, what: &str, pose: &crate::spatial::Pose
 }
 
 /// Numbers beyond this lose themselves when they are multiplied.
-const LARGEST: f64 = 1e60;
+pub(crate) const LARGEST: f64 = 1e60;
 
 /// Refuses a number that is not finite, or so large that its powers are not.
 pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Result<()> {

@@ -6,6 +6,7 @@
 
 use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
+use crate::chain::{LARGEST, sensible};
 use crate::error::{Error, Result};
 
 /// A pivot below this share of the terms that make it up is rounding: the direction is free.
@@ -34,12 +35,9 @@ pub fn eliminate_passive<const N: usize>(
     column: &SVector<f64, N>,
 ) -> Result<Elimination<N>> {
     check(stiffness)?;
-    if let Some(&value) = column.iter().find(|x| !x.is_finite()) {
-        return Err(Error::NotFinite {
-            place: PLACE.into(),
-            what: "the motion of the end per unit of the joint".into(),
-            value,
-        });
+    for &value in column {
+        let what = || "the motion of the end per unit of the joint".to_owned();
+        sensible(PLACE, what, value)?;
     }
     if column.amax() == 0.0 {
         let reason = "the joint moves the end in no direction: its column is zero";
@@ -52,10 +50,8 @@ const PLACE: &str = "passive joint rule";
 
 /// Refuses what is no stiffness of an unloaded link.
 fn check<const N: usize>(k: &SMatrix<f64, N, N>) -> Result<()> {
-    if let Some(&value) = k.iter().find(|x| !x.is_finite()) {
-        let what = "an entry of the stiffness".to_owned();
-        let place = PLACE.to_owned();
-        return Err(Error::NotFinite { place, what, value });
+    for &value in k {
+        sensible(PLACE, || "an entry of the stiffness".to_owned(), value)?;
     }
     for i in 0..N {
         // A direction that another joint freed is zero to rounding.
@@ -255,9 +251,9 @@ pub fn planar_with_hinge_at_end(stiffness: &Matrix3<f64>) -> Result<Matrix3<f64>
 
 /// Refuses what is not a positive, finite number.
 pub(crate) fn positive(place: &str, what: &str, value: f64) -> Result<()> {
-    if value > 0.0 && value.is_finite() {
+    if value > 0.0 && value < LARGEST {
         return Ok(());
     }
-    let reason = format!("{what} is {value}, a positive number is needed");
+    let reason = format!("{what} is {value:?}, a positive number below {LARGEST:e} is needed");
     Err(Error::model(place, reason))
 }

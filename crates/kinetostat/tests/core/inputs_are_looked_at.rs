@@ -161,7 +161,13 @@ fn inputs() -> Vec<(&'static str, Ask)> {
         ),
         (
             "iterations",
-            settings(|s, x| s.iterations = x.clamp(0.0, 60.0) as usize),
+            settings(|s, x| {
+                s.iterations = if x.is_finite() {
+                    x.clamp(0.0, 60.0)
+                } else {
+                    0.0
+                } as usize
+            }),
         ),
         ("end", conditions(|p, x| p.end.wrench.0[5] = x)),
         (
