@@ -1,5 +1,5 @@
-//! `cargo xtask fuzz`: random chains under random loads through every question, and random programs under
-//! ridged tables of corrections, for a stated time.
+//! `cargo xtask fuzz`: random chains under random loads through every question, struts, stiffness ratios and
+//! stiff links with known answers, and random programs under ridged tables of corrections, for a stated time.
 
 use anyhow::{Context, Result, bail};
 
