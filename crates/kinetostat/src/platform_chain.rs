@@ -6,6 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
+use crate::chain::{Coordinate, Role};
 use crate::platform::{PlatformSolver, Unknowns};
 use crate::platform_step::{PlatformStep, Tangents};
 use crate::saddle::complement;
@@ -25,9 +26,19 @@ pub(crate) struct ToolBalance {
 }
 
 impl PlatformSolver<'_> {
-    /// One limb from the base to the only moving platform, which goes where the limb leads.
+    /// One limb without passive joints from the base to the only moving platform, which goes where
+    /// the limb leads. Passive joints may leave motions that nothing holds: then the shortest motion
+    /// of the tool is wanted.
     pub fn is_one_chain(&self) -> bool {
-        self.linear.len() == 1 && self.state.platforms.len() == 2 && self.follows()
+        let passive = |c: &Coordinate| c.role == Role::Passive;
+        self.linear.len() == 1
+            && self.state.platforms.len() == 2
+            && self.follows()
+            && !self.mechanism.limbs[0]
+                .actual
+                .coordinates()
+                .iter()
+                .any(passive)
     }
 
     /// Number of conditions of the guide.
