@@ -7,6 +7,7 @@
 mod claims;
 mod corners;
 mod field;
+mod following;
 mod judge;
 mod limits;
 mod load;

@@ -11,6 +11,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::corners::by_the_other_reading;
 use crate::field::{ModelField, in_words};
+use crate::following::{following, jump, turn_deg};
 use crate::judge::{self, Bounds};
 use crate::limits::Beyond;
 use crate::load::{CornerLoad, LoadAlongPath, ProgramLoad};
@@ -21,8 +22,8 @@ use crate::result::{
     Summary, ToleranceVerdict,
 };
 use crate::sites::{Site, of_path, of_written};
-use crate::solve::{NEAR, Neighbour, Orientation, in_chunks, reach_of_neighbours};
-use crate::together::{JUMP, Together};
+use crate::solve::{Neighbour, Orientation, in_chunks};
+use crate::together::Together;
 use crate::tool::{Machines, Tool, tool_on};
 use crate::warning::{Warning, WarningCode};
 
@@ -492,40 +493,6 @@ fn point(
         buckling_margin: after.margin.filter(|mu| mu.is_finite()),
         stable: after.stable,
     }
-}
-
-fn turn_deg(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> [f64; 3] {
-    let turn = (to * from.inverse()).scaled_axis();
-    turn.map(f64::to_degrees).into()
-}
-
-/// Neighbours on the path between which a tool whose orientation follows turns farther than the way
-/// between them explains: the machine has changed its branch. The line of the second.
-fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
-    let near = NEAR * reach_of_neighbours(task.mechanism);
-    points.windows(2).find_map(|pair| {
-        let [a, b] = [pair[0].tool_turn_deg?, pair[1].tool_turn_deg?];
-        let way = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);
-        let way = task.placement.to_metres(&way).norm();
-        let turn = (Vector3::from(b) - Vector3::from(a)).norm().to_radians();
-        (way < near && turn > JUMP).then_some(pair[1].line)
-    })
-}
-
-/// What a tool whose orientation follows does.
-fn following(task: &Task<'_>, points: &[PointResult], summary: &Summary) -> Vec<Warning> {
-    let code = WarningCode::OrientationFollows;
-    let turns = summary.max_tool_turn_deg.map(|turn| {
-        let text = format!(
-            "the orientation follows: the tool turns by up to {turn:.4} deg from the orientation it is kept near to"
-        );
-        Warning::new(code, text)
-    });
-    let jumps = jump(task, points).map(|line| {
-        let text = "the orientation of the tool jumps here: the machine would have to change its branch, or passes close to a singular posture";
-        Warning::at_line(code, line, text)
-    });
-    turns.into_iter().chain(jumps).collect()
 }
 
 pub(crate) fn kinds(mechanism: &Mechanism) -> impl Iterator<Item = MotionKind> + '_ {
