@@ -131,6 +131,19 @@ fn faults_in_words(all: &[ProgramError]) -> String {
     text
 }
 
+/// The tools of a job, where it names several.
+pub(crate) fn tools(machine: &Machine) -> Vec<Tool<'_>> {
+    machine
+        .tools
+        .iter()
+        .map(|(number, mechanism, load)| Tool {
+            number: *number,
+            mechanism,
+            load: *load,
+        })
+        .collect()
+}
+
 /// Solves the machine along the program.
 pub(crate) fn solve(
     aim: Aim,
@@ -139,15 +152,7 @@ pub(crate) fn solve(
     threads: Option<usize>,
 ) -> Answer<Run> {
     let (program, path) = read_program(setting)?;
-    let tools: Vec<Tool<'_>> = machine
-        .tools
-        .iter()
-        .map(|(number, mechanism, load)| Tool {
-            number: *number,
-            mechanism,
-            load: *load,
-        })
-        .collect();
+    let tools = tools(machine);
     let mut question = machine.question.clone();
     question.program.clone_from(&setting.program_name);
     let mut writing = setting.writing.clone();

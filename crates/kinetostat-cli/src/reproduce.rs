@@ -143,9 +143,10 @@ fn tell(out: &mut String, entry: &Entry, everything: bool) {
         cells.push([print, computed_text(item), item.unit.clone(), status]);
         formulas.push(formula);
     }
+    const HEADINGS: [&str; 4] = ["printed", "computed", "unit", "status"];
     let width = |column: usize| {
         let widths = cells.iter().map(|row| row[column].chars().count());
-        widths.max().unwrap_or(0)
+        widths.max().unwrap_or(0).max(HEADINGS[column].len())
     };
     // Names that find no room in the row stand above it.
     let taken: usize = (0..4).map(|column| width(column) + 2).sum();
@@ -168,8 +169,20 @@ fn tell(out: &mut String, entry: &Entry, everything: bool) {
             ]
         })
         .collect();
-    let table = listed(&table, 2);
-    for ((item, formula), line) in shown.iter().zip(&formulas).zip(table.lines()) {
+    let [printed, computed, unit, status] = HEADINGS;
+    let heading = vec![
+        "number".to_owned(),
+        format!("{printed:>width$}", width = width(0)),
+        format!("{computed:>width$}", width = width(1)),
+        unit.to_owned(),
+        status.to_owned(),
+    ];
+    let table = listed(&[vec![heading], table].concat(), 2);
+    let mut lines = table.lines();
+    if let Some(heading) = lines.next().filter(|_| !shown.is_empty()) {
+        out.push_str(&format!("{heading}\n"));
+    }
+    for ((item, formula), line) in shown.iter().zip(&formulas).zip(lines) {
         if !fits(item) {
             out.push_str(&wrapped(&item.name, 2));
         }

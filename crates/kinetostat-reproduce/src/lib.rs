@@ -13,6 +13,7 @@ mod curves;
 mod cutting;
 mod elastic_figures;
 mod entry;
+mod formula;
 mod models;
 mod orthoglide;
 mod page;

@@ -3,7 +3,7 @@
 use kinetostat_report::Plot;
 use minijinja::{Environment, Value, context};
 
-use crate::{Entry, Item, ReproduceError, Status};
+use crate::{Entry, Item, ReproduceError, Status, formula};
 
 /// The name ends in `.html`, which switches automatic escaping on.
 const PAGE: &str = "reproduce.html";
@@ -79,11 +79,13 @@ fn row<'i>(item: &'i Item, notes: &mut Vec<&'i str>) -> Value {
         Status::NoPrint => ("point", ""),
     };
     context! {
-        name => &item.name,
-        printed => item.printed.as_ref().map(|text| text.replace('-', "\u{2212}")),
+        name => Value::from_safe_string(formula::html(&item.name)),
+        printed => item.printed.as_ref().map(|text| {
+            Value::from_safe_string(formula::html(&text.replace('-', "\u{2212}")))
+        }),
         formula => item.printed.as_ref().is_some_and(|p| p.chars().count() > 12),
         computed => item.computed.map(shown),
-        unit => &item.unit,
+        unit => Value::from_safe_string(formula::html(&item.unit)),
         class,
         word,
         note,
