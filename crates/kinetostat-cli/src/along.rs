@@ -7,12 +7,13 @@ use kinetostat_machining::{
     Bounds, LoadAlongPath, Run, RunResult, Task, Tool, Warning, WarningCode, analyse,
     compensate_program, load_in_words,
 };
+use kinetostat_model::Model;
 use kinetostat_program::{Path as ToolPath, Program, ProgramError, faults, interpret};
 
 use crate::failure::{Answer, Failure};
 use crate::machine::Machine;
 use crate::output::{Existing, Outputs};
-use crate::points_csv;
+use crate::points_csv::{self, Listing};
 use crate::progress::Progress;
 use crate::screen::{self, Stream};
 use crate::setting::{Setting, Targets};
@@ -32,6 +33,7 @@ pub(crate) struct Files {
     report: Option<usize>,
     json: Option<usize>,
     points: Option<usize>,
+    listing: Listing,
 }
 
 impl Files {
@@ -58,8 +60,26 @@ impl Files {
             report: claim("report", &targets.report)?,
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
+            listing: Listing::default(),
             outputs,
         })
+    }
+
+    /// How points are listed.
+    pub(crate) fn list(&mut self, all: bool, model: &Model) {
+        self.listing = Listing {
+            all,
+            controller: model.controller.clone(),
+        };
+    }
+
+    /// What a person should know about the files.
+    pub(crate) fn note(&self, run: &Run) -> String {
+        self.points
+            .and_then(|_| points_csv::note(&run.result.question, &run.points, &self.listing))
+            .map_or_else(String::new, |note| {
+                format!("\n{}", screen::wrapped(&note, 2))
+            })
     }
 
     /// Writes a run beside its targets; nothing is in place yet.
@@ -72,13 +92,13 @@ impl Files {
         }
         if let Some(index) = self.points {
             let outputs = &mut self.outputs;
-            points_csv::table(&run.result.question, &run.points, |bytes| {
+            points_csv::table(&run.result.question, &run.points, &self.listing, |bytes| {
                 outputs.append(index, bytes)
             })?;
             outputs.complete(index)?;
         }
         if let Some(index) = self.report {
-            let page = kinetostat_report::html(&run.result)
+            let page = kinetostat_report::html_of_run(run)
                 .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
             self.outputs.fill(index, page.as_bytes())?;
         }
@@ -155,6 +175,9 @@ pub(crate) fn solve(
     let tools = tools(machine);
     let mut question = machine.question.clone();
     question.program.clone_from(&setting.program_name);
+    question.files.insert(0, setting.program_file.clone());
+    question.files.extend(setting.job_file.clone());
+    question.date = crate::origin::day();
     let mut writing = setting.writing.clone();
     question.tolerance_from = "as stated".to_owned();
     if aim == Aim::Compensate {

@@ -75,7 +75,7 @@ pub(crate) enum Command {
 
 /// Mill a circular groove on a bending machine: the first look
 ///
-/// Writes the program, the compensated program, the report, the result and all points, and the
+/// Writes the program, the compensated program, the report, the result and the points, and the
 /// model and job files that repeat the run.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
@@ -462,9 +462,12 @@ pub(crate) struct ProgramArgs {
     /// The report, one HTML file
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) report: Option<PathBuf>,
-    /// All points of the path as a table (CSV)
+    /// Points of the path as a table (CSV); of long programs the worst of every stretch
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     pub(crate) points: Option<PathBuf>,
+    /// Every point in the table, however large it becomes
+    #[arg(long, help_heading = "Outputs")]
+    pub(crate) all_points: bool,
     /// Overwrite outputs that exist (never an input)
     #[arg(long, help_heading = "Outputs")]
     pub(crate) force_overwrite: bool,

@@ -130,7 +130,7 @@ fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findi
     }
     warnings.extend(assumptions.iter().flat_map(|a| a.warnings.clone()));
     Findings {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: model.name().to_owned(),
         model_source: source,

@@ -2,6 +2,7 @@
 //! singular posture near.
 
 use kinetostat::{Error, MechanismEquilibrium, Posture, Wrench};
+use kinetostat_machining::number as formatter;
 use kinetostat_machining::{NEAR_SINGULAR, NearSingular, natural_length, near_singular};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
@@ -42,8 +43,8 @@ pub(crate) struct AssumptionsFinding {
     pub(crate) linear_error_percent: Option<f64>,
     /// Force in the softest direction that moves the tool by 1 % of the natural length, N.
     pub(crate) small_up_to_n: Option<f64>,
-    /// Largest buckling margin of any limb, with and without the load; 1 is buckling.
-    pub(crate) largest_buckling_margin: Option<f64>,
+    /// Largest share of the way to buckling of any limb, with and without the load; 1 is buckling.
+    pub(crate) largest_share_to_buckling: Option<f64>,
     /// Largest compression of a link as a share of its Euler load.
     pub(crate) largest_share_of_euler_load: Option<f64>,
     /// How near the loads bring the machine with its tool free to instability, 1 is there.
@@ -75,7 +76,7 @@ pub(crate) fn assumptions(
         reference_deflection_mm: None,
         linear_error_percent: None,
         small_up_to_n: None,
-        largest_buckling_margin: None,
+        largest_share_to_buckling: None,
         largest_share_of_euler_load: None,
         largest_share_to_instability_of_free_machine: None,
         near_singularity: near_singular(posture),
@@ -285,7 +286,7 @@ impl AssumptionsFinding {
                     .map(move |k| (k.share, &l.name, &k.link))
             })
             .max_by(|a, b| a.0.total_cmp(&b.0));
-        self.largest_buckling_margin = margin.map(|(m, _)| m);
+        self.largest_share_to_buckling = margin.map(|(m, _)| m);
         self.largest_share_of_euler_load = link.map(|(s, _, _)| s);
         let mut text = String::new();
         let mut most = 0.0_f64;
@@ -293,9 +294,8 @@ impl AssumptionsFinding {
             most = most.max(mu);
             text = if mu > 1e-9 {
                 format!(
-                    "the load brings limb '{limb}' {} % of the way to buckling (margin mu {})",
-                    number(100.0 * mu, 2),
-                    number(mu, 2)
+                    "the load brings limb '{limb}' {} of the way to buckling",
+                    formatter::share(mu)
                 )
             } else {
                 "no load brings a limb towards buckling".to_owned()

@@ -3,6 +3,7 @@
 use kinetostat::{
     DirectionKind, Kinematics, Mechanism, MechanismEquilibrium, Posture, Role, Wrench,
 };
+use kinetostat_machining::number as formatter;
 use nalgebra::{DMatrix, Vector3};
 use serde::Serialize;
 
@@ -11,7 +12,7 @@ use crate::check_assumptions::{AssumptionsFinding, assumptions};
 use crate::check_limbs::{LimbFinding, counted};
 use crate::check_reach;
 use crate::overcome::{Overcome, overcome};
-use crate::screen::{fixed, item, number, triple};
+use crate::screen::{fixed, item, triple};
 use crate::stiffness::{Principal, principal, principals, what_moves};
 
 #[derive(Serialize)]
@@ -43,7 +44,7 @@ pub(crate) struct HomeFinding {
     /// Joints whose springs the loads beat; empty where it is stable.
     pub(crate) overcome_joints: Vec<Overcome>,
     pub(crate) conservative: bool,
-    pub(crate) largest_buckling_margin: Option<f64>,
+    pub(crate) largest_share_to_buckling: Option<f64>,
 }
 
 const DIRECTIONS: [&str; 6] = [
@@ -117,7 +118,7 @@ pub(crate) fn at_home(
         stable: rest.stable(),
         overcome_joints: overcome(posture, &rest, load_names),
         conservative: rest.conservative,
-        largest_buckling_margin: rest.margin().filter(|m| m.is_finite()),
+        largest_share_to_buckling: rest.margin().filter(|m| m.is_finite()),
     };
     Ok((home, assumptions))
 }
@@ -274,11 +275,11 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
     } else {
         out.push_str(&item("without load the tool is where it is commanded"));
     }
-    out.push_str(&item(&match (h.stable, h.largest_buckling_margin) {
+    out.push_str(&item(&match (h.stable, h.largest_share_to_buckling) {
         (true, Some(mu)) if mu.abs() > 1e-9 && h.stiffness_rank == 6 => {
             format!(
                 "stable; largest share of the way to buckling {}",
-                number(mu, 3)
+                formatter::share(mu)
             )
         }
         (true, _) if h.stiffness_rank < 6 => format!(

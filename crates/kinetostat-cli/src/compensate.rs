@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use kinetostat_machining::number::{MISSING, fixed, largest, largest_length, with_unit};
 use kinetostat_machining::{
     RESULT_SCHEMA, RunError, Warning, odd_correction, odd_tolerances, of_accounting, of_program,
 };
@@ -19,7 +20,7 @@ use crate::input::Files;
 use crate::machine::{machine, of_model};
 use crate::output::{Existing, Outputs};
 use crate::progress::Progress;
-use crate::screen::{self, Stream, columns, fixed, mm, number, wrapped};
+use crate::screen::{self, Stream, columns, wrapped};
 use crate::setting::{JobFile, Setting, WritingFlags, setting};
 use crate::summary;
 
@@ -81,9 +82,15 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
         args.run.program.threads,
     )?;
     run.result.warnings.extend(of_model(&model));
+    targets.list(args.run.program.all_points, &model);
     targets.fill(&run)?;
+    let note = targets.note(&run);
     let paths = targets.outputs.commit()?;
-    let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
+    let text = format!(
+        "{}{}{note}",
+        summary::of_run(&run.result),
+        along::written(&paths)
+    );
     tell(&text, to_screen.then_some(&run.result))?;
     along::judged(&run.result)
 }
@@ -252,7 +259,7 @@ fn from_map(
         outputs.fill(index, &written.bytes)?;
     }
     let paths = outputs.commit()?;
-    let row = |name: &str, value: String, unit: &str| vec![format!("{name}, {unit}"), value];
+    let row = |name: &str, value: String| vec![name.to_owned(), value];
     let mut text = wrapped(
         &format!(
             "{} corrected by the table {}",
@@ -268,56 +275,54 @@ fn from_map(
         ));
     }
     text.push('\n');
-    let per_second = |rate: Option<f64>| rate.map_or("-".into(), |rate| number(rate, 3));
-    let seconds = |time: Option<f64>| time.map_or("-".into(), |time| fixed(time, 1));
+    let per_second =
+        |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |rate| largest(rate, "1/s"));
+    let seconds = |time: Option<f64>| {
+        time.map_or_else(
+            || MISSING.to_owned(),
+            |time| with_unit(&fixed(time, 1), "s"),
+        )
+    };
     text.push_str(&columns(
         &[
-            row("largest correction", mm(a.largest_correction_mm), "mm"),
+            row(
+                "largest correction",
+                largest_length(a.largest_correction_mm),
+            ),
             row(
                 "farthest from where the table wants it",
-                fixed(result.max_position_error_after_mm, 5),
-                "mm",
+                largest_length(result.max_position_error_after_mm),
             ),
-            row(
-                "places checked",
-                result.places_checked.to_string(),
-                "number",
-            ),
-            row("rounding", fixed(a.largest_rounding_mm, 5), "mm"),
+            row("places checked", result.places_checked.to_string()),
+            row("rounding", largest_length(a.largest_rounding_mm)),
             row(
                 "speed along the part, error",
-                fixed(result.largest_speed_error_percent, 3),
-                "%",
+                largest(result.largest_speed_error_percent, "%"),
             ),
-            row("blocks read", a.blocks_in.to_string(), "number"),
-            row("blocks written", a.blocks_out.to_string(), "number"),
-            row("blocks unchanged", a.blocks_carried.to_string(), "number"),
+            row("blocks read", a.blocks_in.to_string()),
+            row("blocks written", a.blocks_out.to_string()),
+            row("blocks unchanged", a.blocks_carried.to_string()),
             row(
                 "length at feed, before",
-                fixed(a.feed_length_in_mm, 1),
-                "mm",
+                with_unit(&fixed(a.feed_length_in_mm, 1), "mm"),
             ),
             row(
                 "length at feed, after",
-                fixed(a.feed_length_out_mm, 1),
-                "mm",
+                with_unit(&fixed(a.feed_length_out_mm, 1), "mm"),
             ),
-            row("time at feed, before", seconds(a.feed_time_in_s), "s"),
-            row("time at feed, after", seconds(a.feed_time_out_s), "s"),
+            row("time at feed, before", seconds(a.feed_time_in_s)),
+            row("time at feed, after", seconds(a.feed_time_out_s)),
             row(
                 "blocks per second, before",
                 per_second(a.mean_blocks_per_second_in),
-                "1/s",
             ),
             row(
                 "blocks per second, after",
                 per_second(a.mean_blocks_per_second),
-                "1/s",
             ),
             row(
                 "most of 16 in a row, after",
                 per_second(a.peak_blocks_per_second),
-                "1/s",
             ),
         ],
         2,

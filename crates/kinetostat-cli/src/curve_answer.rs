@@ -117,7 +117,7 @@ pub(crate) struct PointAnswer {
     pub(crate) stable_under_prescribed_motion: bool,
     /// Largest share of the way to buckling while the motion is prescribed; null without inner
     /// freedom, and where a passive joint is pushed out of line.
-    pub(crate) buckling_margin: Option<f64>,
+    pub(crate) share_to_buckling: Option<f64>,
     pub(crate) spring_energy_j: f64,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
@@ -383,7 +383,7 @@ pub(crate) fn solve(
     let own = curves.branches.first().map_or(&[][..], |b| &b.points);
     let [model, model_source, tool] = spot;
     Ok(CurveAnswer {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,
@@ -539,7 +539,7 @@ impl Found {
             slope_per_j: of(work, slope),
             stable_under_dead_load: p.stable[0],
             stable_under_prescribed_motion: p.stable[1],
-            buckling_margin: p.margin.filter(|m| m.is_finite()),
+            share_to_buckling: p.margin.filter(|m| m.is_finite()),
             spring_energy_j: p.energy,
             force_n: p.wrench.force().into(),
             moment_n_m: p.wrench.moment().into(),

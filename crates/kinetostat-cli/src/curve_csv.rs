@@ -37,7 +37,7 @@ pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
         [
             "stable_under_dead_load",
             "stable_under_prescribed_motion",
-            "buckling_margin",
+            "share_to_buckling",
             "spring_energy_j",
         ]
         .map(String::from),
@@ -53,7 +53,7 @@ pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
         row.extend(p.shown.iter().map(|x| cell(*x)));
         row.push(yes(p.stable_under_dead_load));
         row.push(yes(p.stable_under_prescribed_motion));
-        row.push(p.buckling_margin.map_or_else(String::new, cell));
+        row.push(p.share_to_buckling.map_or_else(String::new, cell));
         row.push(cell(p.spring_energy_j));
         row.extend(
             [
@@ -97,7 +97,7 @@ pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {
         "energy_j",
         "stable",
         "shape_stable",
-        "buckling_margin",
+        "share_to_buckling",
         "singular",
         "found_by_spread_starts",
         "stiffness_n_per_mm",
@@ -113,7 +113,7 @@ pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {
             cell(e.energy_j),
             yes(e.stable),
             yes(e.shape_stable),
-            e.buckling_margin.map_or_else(String::new, cell),
+            e.share_to_buckling.map_or_else(String::new, cell),
             yes(e.singular),
             e.found_by_spread_starts.to_string(),
             cell(e.stiffness_n_per_mm),

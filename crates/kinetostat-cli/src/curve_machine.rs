@@ -190,7 +190,7 @@ pub(crate) fn solve(
     let own = path.points.iter().map(|p| q.shown(p.parameter));
     let [model, model_source, tool] = spot;
     Ok(CurveAnswer {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,

@@ -3,7 +3,9 @@
 use kinetostat::BranchEnd;
 
 use crate::curve_answer::{CriticalAnswer, CurveAnswer, NamedPoint, PointAnswer, kind_in_words};
-use crate::screen::{columns, fixed, item, number, wrapped};
+use kinetostat_machining::number::share;
+
+use crate::screen::{columns, item, number, wrapped};
 use crate::summary;
 
 /// More ends of branches than this are only counted.
@@ -352,28 +354,27 @@ fn branches(a: &CurveAnswer) -> String {
         1 => format!("One branch was followed, {points} points."),
         n => format!("{n} branches were followed, {points} points."),
     };
-    let margins: Vec<f64> = a
+    let shares: Vec<f64> = a
         .branches
         .first()
         .into_iter()
         .flat_map(|b| &b.points)
-        .filter_map(|p| p.buckling_margin)
+        .filter_map(|p| p.share_to_buckling)
         .collect();
-    let most = margins.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let at_start = a.named_points.first().and_then(|p| p.point.buckling_margin);
+    let most = shares.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let at_start = a
+        .named_points
+        .first()
+        .and_then(|p| p.point.share_to_buckling);
     if let Some(mu) = at_start {
         let words = if mu < 0.0 {
             "its load stretches the shape".to_owned()
         } else {
-            format!(
-                "the shape is {} % of the way to buckling",
-                fixed(100.0 * mu, 1)
-            )
+            format!("the shape is {} of the way to buckling", share(mu))
         };
         text.push_str(&format!(
-            " Held at the start, {words} (mu {}); on branch 1 mu reaches {}.",
-            fixed(mu, 4),
-            fixed(most, 4)
+            " Held at the start, {words}; the largest share of the way to buckling on branch 1 is {}.",
+            share(most)
         ));
     }
     format!("\n{}", wrapped(&text, 0))

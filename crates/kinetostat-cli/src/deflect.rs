@@ -5,7 +5,7 @@ use std::path::Path;
 use kinetostat::{
     DirectionKind, LoadLimit, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench,
 };
-use kinetostat_machining::NearSingular;
+use kinetostat_machining::{NearSingular, number as formatter};
 use serde::Serialize;
 
 use crate::along::{self, Aim, Files as Targets, tell};
@@ -78,9 +78,15 @@ fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     let mut targets = Targets::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let mut run = along::solve(Aim::Analyse, &machine, &setting, args.program.threads)?;
     run.result.warnings.extend(of_model(&model));
+    targets.list(args.program.all_points, &model);
     targets.fill(&run)?;
+    let note = targets.note(&run);
     let paths = targets.outputs.commit()?;
-    let text = format!("{}{}", summary::of_run(&run.result), along::written(&paths));
+    let text = format!(
+        "{}{}{note}",
+        summary::of_run(&run.result),
+        along::written(&paths)
+    );
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     tell(&text, to_screen.then_some(&run.result))
 }
@@ -174,7 +180,7 @@ struct LimbAnswer {
     moment_without_load_n_m: [f64; 3],
     stable: bool,
     /// None without inner freedom; also where a passive motion is pushed out of line (then unstable).
-    buckling_margin: Option<f64>,
+    share_to_buckling: Option<f64>,
     neutral_passive_joints: Vec<String>,
     links: Vec<LinkAnswer>,
 }
@@ -246,6 +252,7 @@ fn refuse_program_flags(args: &DeflectArgs) -> Answer<()> {
     let given = [
         ("--report", p.report.is_some()),
         ("--points", p.points.is_some()),
+        ("--all-points", p.all_points),
         ("--milling", p.milling.is_some()),
         ("--part-origin-mm", p.part_origin_mm.is_some()),
         ("--part-orientation", p.part_orientation.is_some()),
@@ -308,7 +315,7 @@ fn answer(
         ));
     }
     Deflection {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: spot.name.clone(),
         model_source: spot.source.clone(),
@@ -333,7 +340,7 @@ fn answer(
                 force_without_load_n: r.wrench.force().into(),
                 moment_without_load_n_m: r.wrench.moment().into(),
                 stable: l.stability.stable,
-                buckling_margin: l.stability.margin.filter(|m| m.is_finite()),
+                share_to_buckling: l.stability.margin.filter(|m| m.is_finite()),
                 neutral_passive_joints: l.stability.neutral.clone(),
                 links: l
                     .link_loads
@@ -418,9 +425,9 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     let mut out = spot.heading();
     out.push_str(&wrapped(
         &format!(
-            "The tool's tip moves by {} mm and turns by {} deg.",
-            fixed(a.displacement_size_mm, 4),
-            fixed(a.rotation_size_deg, 5)
+            "The tool's tip moves by {} and turns by {}.",
+            formatter::length(a.displacement_size_mm, 4, formatter::Rounding::Nearest),
+            formatter::with_unit(&number(a.rotation_size_deg, 4), "deg")
         ),
         2,
     ));
@@ -522,14 +529,10 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
 }
 
 fn limb_in_words(limb: &LimbAnswer) -> String {
-    let margin = match limb.buckling_margin {
-        Some(mu) if mu.abs() < 1e-6 => "mu 0: no load bends or buckles it".to_owned(),
-        Some(mu) if mu < 0.0 => format!("mu {}: the load stretches it", number(mu, 3)),
-        Some(mu) => format!(
-            "mu {}, {} % of the way to buckling",
-            number(mu, 3),
-            number(100.0 * mu, 2)
-        ),
+    let share = match limb.share_to_buckling {
+        Some(mu) if mu.abs() < 1e-6 => "no load bends or buckles it".to_owned(),
+        Some(mu) if mu < 0.0 => format!("{}: the load stretches it", formatter::share(mu)),
+        Some(mu) => format!("{} of the way to buckling", formatter::share(mu)),
         None if limb.stable => "it has no inner freedom that could buckle".to_owned(),
         None => "a passive joint is pushed out of line".to_owned(),
     };
@@ -546,7 +549,7 @@ fn limb_in_words(limb: &LimbAnswer) -> String {
             limb.neutral_passive_joints.join(", ")
         )
     };
-    format!("limb '{}' {verdict} ({margin}){neutral}", limb.name)
+    format!("limb '{}' {verdict} ({share}){neutral}", limb.name)
 }
 
 /// Axial loads of the links.

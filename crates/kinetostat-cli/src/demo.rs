@@ -110,10 +110,10 @@ fn directory(path: &Path) -> Answer<bool> {
 fn in_directory(args: &DemoArgs) -> Answer<()> {
     let preset = preset_text("orthoglide")
         .ok_or_else(|| Failure::input("the preset orthoglide is missing"))?;
-    let model = format!("{preset}{DEVIATIONS}");
+    let model_text = format!("{preset}{DEVIATIONS}");
     let at = |name: &str| args.out.join(name);
     let sources = [
-        ("model", at("model.toml"), model.as_str()),
+        ("model", at("model.toml"), model_text.as_str()),
         ("job file", at("job.toml"), JOB),
         ("program", at("original.ngc"), PROGRAM),
     ];
@@ -125,7 +125,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     let job = JobFile::read(&files, &at("job.toml"))?;
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
     let mut inputs = Vec::new();
-    let (machine, _) = machine(&files, Some(&job), None, &flags, &mut inputs)?;
+    let (machine, model) = machine(&files, Some(&job), None, &flags, &mut inputs)?;
     // The demo's own inputs are written together with its results.
     setting.inputs.clear();
     let existing = if args.force_overwrite {
@@ -138,7 +138,10 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
         let index = targets.outputs.claim(what, path)?;
         targets.outputs.fill(index, text.as_bytes())?;
     }
-    let run = along::solve(Aim::Compensate, &machine, &setting, args.threads)?;
+    let mut run = along::solve(Aim::Compensate, &machine, &setting, args.threads)?;
+    // The demo may run again on another day and finds its own files.
+    run.result.question.date = None;
+    targets.list(false, &model);
     targets.fill(&run)?;
     targets.outputs.commit()?;
     let mut text = wrapped(
@@ -158,7 +161,7 @@ fn next(out: &Path) -> String {
         ("report.html", "the report: open it in a browser"),
         ("original.ngc", "the program as it was"),
         ("compensated.ngc", "the program that cuts where it should"),
-        ("points.csv", "every point, for a spreadsheet"),
+        ("points.csv", "the points, for a spreadsheet"),
         ("result.json", "the figures, for other programs"),
         ("model.toml", "the machine, with its deviations"),
         ("job.toml", "the question: load, placement, tolerances"),

@@ -62,7 +62,7 @@ pub(crate) struct ShapeAnswer {
     /// With the tool held.
     pub(crate) shape_stable: bool,
     /// mu; null without inner freedom, and where a passive joint is pushed out of line.
-    pub(crate) buckling_margin: Option<f64>,
+    pub(crate) share_to_buckling: Option<f64>,
     /// Motion of the coordinates in which it would buckle.
     pub(crate) mode_in_words: String,
     /// At a limit or bifurcation point, or one of a family that moves for nothing.
@@ -111,7 +111,7 @@ pub(crate) fn solve(
     let conservative = found.found.iter().all(|f| f.equilibrium.conservative);
     let [model, model_source, tool] = spot;
     Ok(EquilibriaAnswer {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,
@@ -160,7 +160,7 @@ fn shape(
         energy_j: f.potential.unwrap_or(e.energy),
         stable: f.stable,
         shape_stable: e.stability.stable,
-        buckling_margin: e.stability.margin.filter(|m| m.is_finite()),
+        share_to_buckling: e.stability.margin.filter(|m| m.is_finite()),
         mode_in_words: if e.stability.mode.is_empty() {
             String::new()
         } else {

@@ -37,7 +37,7 @@ pub(crate) fn solve(
                 energy_j: f.potential,
                 stable: f.stable,
                 shape_stable: e.shapes_stable(),
-                buckling_margin: e.margin().filter(|m| m.is_finite()),
+                share_to_buckling: e.margin().filter(|m| m.is_finite()),
                 mode_in_words: String::new(),
                 singular: f.singular,
                 found_by_spread_starts: f.hits,
@@ -61,7 +61,7 @@ pub(crate) fn solve(
         .collect();
     let [model, model_source, tool] = spot;
     Ok(EquilibriaAnswer {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,

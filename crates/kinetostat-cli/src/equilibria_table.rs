@@ -98,7 +98,7 @@ fn table(a: &EquilibriaAnswer) -> String {
         "no".to_owned(),
         energy.to_owned(),
         "stable".to_owned(),
-        "mu".to_owned(),
+        "to buckling".to_owned(),
         along,
     ];
     header.extend(shown.iter().map(|&k| names[k].to_owned()));
@@ -114,8 +114,8 @@ fn table(a: &EquilibriaAnswer) -> String {
             e.number.to_string(),
             number(e.energy_j, 6),
             verdict.to_owned(),
-            e.buckling_margin
-                .map_or_else(|| "-".to_owned(), |m| fixed(m, 4)),
+            e.share_to_buckling
+                .map_or_else(|| "-".to_owned(), kinetostat_machining::number::share),
             number(e.stiffness_n_per_mm, 5),
         ];
         row.extend(shown.iter().map(|&k| {

@@ -1,6 +1,6 @@
 //! The machine of a run: model, deviations, tool, placement and load, from a job file and options.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::{
@@ -18,6 +18,7 @@ use crate::input::Files;
 use crate::job::{Axes, CornerWord, LoadTable, OrientationWord};
 use crate::journal::{FNV1A, fnv1a};
 use crate::orientation;
+use crate::origin;
 use crate::screen::{fixed, triple};
 use crate::setting::{JobFile, above_zero, chosen, finite, vector};
 
@@ -64,6 +65,14 @@ pub(crate) fn machine(
     };
     let (model, path) = files.model(&named, &base)?;
     inputs.extend(path.clone());
+    let model_file = match &path {
+        Some(path) => origin::file("model", path, &files.bytes("model", path)?),
+        None => origin::file(
+            "model",
+            Path::new(&format!("preset {named}")),
+            model.text.as_bytes(),
+        ),
+    };
     let model = with_deviations(model, job)?;
     let fingerprint = fingerprint(&model);
     let (tool, mut tool_words) = tool(job, flags)?;
@@ -87,6 +96,9 @@ pub(crate) fn machine(
         model_deviations: deviations_in_words(&model),
         placement: placement_in_words(&placement),
         tool: tool_words,
+        tool_orientation: orientation::in_words(&placement.tool_orientation),
+        stiffnesses: origin::stiffnesses(&model),
+        files: vec![model_file],
         ..Question::default()
     };
     Ok((

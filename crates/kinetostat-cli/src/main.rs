@@ -65,6 +65,7 @@ mod map_args;
 mod map_table;
 mod models;
 mod orientation;
+mod origin;
 mod output;
 mod overcome;
 mod place;

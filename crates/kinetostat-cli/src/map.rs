@@ -15,7 +15,7 @@ use crate::map_table::{self, Columns};
 use crate::orientation;
 use crate::output::{Existing, Outputs};
 use crate::progress::Progress;
-use crate::screen::{self, Stream};
+use crate::screen::{self, Stream, triple};
 use crate::setting::vector;
 
 /// More places are a slip of the pen: their table would fill a disk.
@@ -305,11 +305,19 @@ impl Picture {
             })
             .collect();
         let under = match a.loaded {
-            true => ", under load",
-            false => "",
+            true => format!(
+                "; force {} N, moment {} N m on the tool",
+                triple(a.force_n, short),
+                triple(a.moment_n_m, short)
+            ),
+            false => "; no load".to_owned(),
+        };
+        let tool = match a.tool.starts_with("none") {
+            true => "; no tool".to_owned(),
+            false => format!("; tool {}", a.tool),
         };
         let title = format!(
-            "{}: {} at {}{under}",
+            "{}: {} at {}{under}{tool}",
             a.model,
             self.show.in_words(),
             fixed.join(", ")

@@ -3,6 +3,8 @@
 
 use std::io::{ErrorKind, IsTerminal, Write};
 
+use kinetostat_machining::number as formatter;
+
 use crate::failure::{Answer, Failure, safe};
 
 /// Width of all text for people.
@@ -146,41 +148,16 @@ fn aligned(rows: &[Vec<String>], indent: usize, right: impl Fn(usize) -> bool) -
     out
 }
 
-/// A number with `digits` significant digits in plain notation, for tables: never `-0`, never a
-/// comma.
+/// A number with `digits` significant digits, for tables: the one formatter of all commands and of the
+/// report, in engineering notation where plain notation would be long.
 pub(crate) fn number(value: f64, digits: i32) -> String {
-    if !value.is_finite() {
-        return if value.is_nan() {
-            "?"
-        } else if value > 0.0 {
-            "infinite"
-        } else {
-            "-infinite"
-        }
-        .into();
-    }
-    if value == 0.0 {
-        return "0".into();
-    }
-    let magnitude = value.abs().log10().floor() as i32;
-    if !(-5..7).contains(&magnitude) {
-        return format!("{value:.*e}", (digits - 1).max(0) as usize);
-    }
-    format!("{value:.*}", (digits - 1 - magnitude).clamp(0, 12) as usize)
+    let digits = usize::try_from(digits).unwrap_or(1);
+    formatter::significant(value, digits, formatter::Rounding::Nearest)
 }
 
-/// Millimetres to a tenth of a micrometre, as every length of a result is shown.
-pub(crate) fn mm(value: f64) -> String {
-    fixed(value, 4)
-}
-
-/// A number with fixed decimals that never shows as `-0.000`.
+/// A number with fixed decimals, for components beside each other; never `-0.000`.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
-        _ => text,
-    }
+    formatter::fixed(value, decimals)
 }
 
 /// Three components in brackets.

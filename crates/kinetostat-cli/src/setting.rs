@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::Limits;
+use kinetostat_machining::{FileRead, Limits};
 use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, Units, WriteOptions};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
@@ -12,6 +12,7 @@ use crate::diagnose::Source;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::job::{BlockDeleteWord, Job, UnitsWord};
+use crate::origin;
 use crate::output::inside;
 
 /// A job file that has been read: its text is kept for messages.
@@ -64,6 +65,8 @@ pub(crate) struct Targets {
 pub(crate) struct Setting {
     pub(crate) program: Vec<u8>,
     pub(crate) program_name: String,
+    pub(crate) program_file: FileRead,
+    pub(crate) job_file: Option<FileRead>,
     pub(crate) reading: ReadOptions,
     pub(crate) writing: WriteOptions,
     pub(crate) max_blocks_per_second: Option<f64>,
@@ -180,9 +183,12 @@ pub(crate) fn setting(
         |n| n.to_string_lossy().into_owned(),
     );
     let targets = targets(job, flags, writing, &path)?;
+    // The last, so that nothing else is hidden by a program that is not there.
+    let program = files.bytes("program", &path)?;
     Ok(Setting {
-        // The last, so that nothing else is hidden by a program that is not there.
-        program: files.bytes("program", &path)?,
+        program_file: origin::file("program", &path, &program),
+        job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
+        program,
         program_name,
         reading,
         writing: write,

@@ -37,8 +37,12 @@ struct Stiffness {
     moment_n_m: [f64; 3],
     /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad).
     stiffness_n_m_rad: [[f64; 6]; 6],
+    /// The same as the terminal shows it: rows N and N m, columns per mm and per rad.
+    stiffness_n_n_m_per_mm_rad: [[f64; 6]; 6],
     /// Inverse, m and rad per N and N m, zero along rigid directions; none where a direction is free.
     compliance_m_rad_per_n: Option<[[f64; 6]; 6]>,
+    /// The same as the terminal shows it: micrometres and microradians per N and N m.
+    compliance_um_urad_per_n_n_m: Option<[[f64; 6]; 6]>,
     /// Where directions are free: the motion under a load that pushes along none of them, up to
     /// motions along them.
     compliance_besides_free_motions_m_rad_per_n: Option<[[f64; 6]; 6]>,
@@ -220,7 +224,11 @@ fn answer(
         force_n: spot.wrench.force().into(),
         moment_n_m: spot.wrench.moment().into(),
         stiffness_n_m_rad: rows(&cartesian.matrix),
+        stiffness_n_n_m_per_mm_rad: std::array::from_fn(|i| {
+            std::array::from_fn(|j| per_column(j) * cartesian.matrix[(i, j)])
+        }),
         compliance_m_rad_per_n: (free == 0).then(|| rows(&compliance.springs)),
+        compliance_um_urad_per_n_n_m: (free == 0).then(|| rows(&(MICRO * compliance.springs))),
         compliance_besides_free_motions_m_rad_per_n: (free > 0 && held)
             .then(|| rows(&compliance.springs)),
         smallest_stiffness_n_per_mm: 1e-3 * against_force,
@@ -249,6 +257,14 @@ fn answer(
         warnings,
         near_singularity,
     }
+}
+
+/// From m and rad to micrometres and microradians.
+const MICRO: f64 = 1e6;
+
+/// From per m and per rad to per mm and per rad, as stiffness is shown.
+fn per_column(column: usize) -> f64 {
+    if column < 3 { 1e-3 } else { 1.0 }
 }
 
 fn rows(m: &Matrix6<f64>) -> [[f64; 6]; 6] {
@@ -392,7 +408,7 @@ fn compliance(c: &[[f64; 6]; 6]) -> String {
             "dx, um", "dy, um", "dz, um", "rx, urad", "ry, urad", "rz, urad",
         ],
         ["per N", "per N", "per N", "per N m", "per N m", "per N m"],
-        |_, _| 1e6,
+        |_, _| MICRO,
     )
 }
 
@@ -439,7 +455,7 @@ fn matrix(
                 return cell(i, j, 5);
             }
             match cell(i, j, 4) {
-                long if long.len() > 9 => format!("{:.2e}", m[i][j] * factor(i, j)),
+                long if long.len() > 9 => number(m[i][j] * factor(i, j), 3),
                 short => short,
             }
         }));
@@ -486,7 +502,7 @@ fn table(stiffness: &[[f64; 6]; 6]) -> String {
         [
             "per mm", "per mm", "per mm", "per rad", "per rad", "per rad",
         ],
-        |_, j| if j < 3 { 1e-3 } else { 1.0 },
+        |_, j| per_column(j),
     )
 }
 

@@ -25,7 +25,7 @@ fn figure_the_z_chain_buckles_at_its_pitchfork() {
         let mut arguments = vec!["curve", model];
         arguments.extend(pushed);
         let a = json(here.path(), &arguments);
-        assert_eq!(a["schema"], 1);
+        assert_eq!(a["schema"], 2);
         assert_eq!(a["branches"].as_array().expect("branches").len(), 2);
         let forks = named(&a, "pitchfork");
         assert_eq!(forks.len(), 1);
@@ -105,7 +105,7 @@ fn figure_all_equilibria_of_the_z_chain() {
                 .unwrap_or_else(|| panic!("Delta {delta}: no equilibrium with the force {force}"));
             let e = left.swap_remove(i);
             worst[0] = worst[0].max((number(&e["force_n"][0]) - force).abs());
-            worst[1] = worst[1].max((number(&e["buckling_margin"]) - mu).abs());
+            worst[1] = worst[1].max((number(&e["share_to_buckling"]) - mu).abs());
             assert_eq!(e["stable"], stable, "Delta {delta}, force {force}");
         }
     }

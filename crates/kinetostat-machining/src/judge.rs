@@ -248,7 +248,7 @@ pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> 
         length(&p.correction_mm).max(length(&p.error_before_mm))
     });
     largest("tilt_deg", &|p| p.residual_rotation_deg);
-    largest("share_of_buckling", &|p| p.buckling_margin.unwrap_or(0.0));
+    largest("share_of_buckling", &|p| p.share_to_buckling.unwrap_or(0.0));
     if let Some((share, drive, line)) = share_of_rating(task, points) {
         let name = task.mechanism.actuator_names().get(drive).cloned();
         let rating = task.bounds.ratings.get(drive).copied().flatten();
@@ -396,7 +396,7 @@ pub(crate) fn odd(
         summary.max_residual_rotation_deg,
         "the tool is tilted, in degrees, by",
     );
-    if let Some(share) = summary.largest_buckling_margin {
+    if let Some(share) = summary.largest_share_to_buckling {
         near(
             "share_of_buckling",
             0.4,
@@ -573,6 +573,7 @@ pub(crate) fn tolerance(
     let error = |p: &PointResult| length(&p.error_after_mm);
     let worst = points
         .iter()
+        .filter(|p| p.kind != PointKind::Rapid)
         .max_by(|a, b| error(a).total_cmp(&error(b)))
         .filter(|_| held == Some(false));
     let missed = worst.zip(written).map(|(p, written)| {

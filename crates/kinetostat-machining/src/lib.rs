@@ -7,22 +7,26 @@
 mod claims;
 mod corners;
 mod field;
+mod figures;
 mod following;
 mod judge;
 mod limits;
 mod load;
 mod map;
 mod near;
+pub mod number;
 mod placement;
 mod result;
 mod run;
 mod sites;
 mod solve;
+mod thin;
 mod together;
 mod tool;
 mod warning;
 
 pub use field::ModelField;
+pub use figures::Figures;
 pub use judge::{Bounds, ToolGiven, odd_correction, odd_tolerances, of_accounting};
 pub use limits::{Beyond, Limit, Limits};
 pub use load::{CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
@@ -30,11 +34,12 @@ pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use result::{
-    ActuatorColumn, MissedTolerance, NearSingularPlace, PointKind, PointResult, Question,
+    ActuatorColumn, FileRead, MissedTolerance, NearSingularPlace, PointKind, PointResult, Question,
     RESULT_SCHEMA, RunResult, Summary, ToleranceVerdict,
 };
 pub use run::{
     Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words, of_program,
 };
+pub use thin::thinned;
 pub use tool::Tool;
 pub use warning::{Warning, WarningCode};

@@ -32,8 +32,9 @@ pub struct RunResult {
     /// [`Self::MAX_POSTURES`] places along it; none if no singular posture is near.
     #[serde(default)]
     pub near_singularity: Option<NearSingularPlace>,
-    /// Points along the path, decimated to at most [`Self::MAX_POINTS`] for plots; `points.csv` has
-    /// all of them. The worst points are always among them.
+    /// Points along the path, at most [`Self::MAX_POINTS`] of them: in every stretch those with the
+    /// largest and the smallest error before and after, and everywhere those that the summary is
+    /// taken from; `points.csv` has all of them.
     pub points: Vec<PointResult>,
 }
 
@@ -117,6 +118,18 @@ pub struct Question {
     pub model_deviations: Vec<String>,
     /// File name of the program.
     pub program: String,
+    /// Files that were read, with their hashes.
+    #[serde(default)]
+    pub files: Vec<FileRead>,
+    /// Day on which the run was made, `2026-11-20`; none where it was not to be stated.
+    #[serde(default)]
+    pub date: Option<String>,
+    /// The stiffnesses of the model, one sentence for each spring or link.
+    #[serde(default)]
+    pub stiffnesses: Vec<String>,
+    /// Orientation of the tool in the base, in words.
+    #[serde(default)]
+    pub tool_orientation: String,
     /// The load in words.
     pub load: String,
     /// Where the program lies, in words.
@@ -143,6 +156,17 @@ pub struct Question {
     /// What the load is taken to be while the written program steps at sharp corners.
     #[serde(default)]
     pub load_at_corners: CornerLoad,
+}
+
+/// A file that a run was made from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRead {
+    /// What it is: `program`, `model`, `job`.
+    pub what: String,
+    /// Its name without directories.
+    pub name: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
 }
 
 /// One actuator of the per-actuator lists.
@@ -246,9 +270,10 @@ pub struct Summary {
     pub blocks_per_second: f64,
     /// Length of the feed path, mm.
     pub feed_length_mm: f64,
-    /// Largest distance of the tool from its programmed place without compensation, mm.
+    /// Largest distance of the tool from its programmed place without compensation, on cutting moves
+    /// (everywhere if none cuts), mm.
     pub max_position_error_before_mm: f64,
-    /// Root mean square of it over the points, mm.
+    /// Root mean square of it along the path that is cut, mm.
     pub rms_position_error_before_mm: f64,
     /// The same for the written program, solved again from its file, mm.
     pub max_position_error_after_mm: f64,
@@ -269,8 +294,9 @@ pub struct Summary {
     /// Smallest stiffness of the tool's tip against a force along the path (softest direction, the
     /// tool free to turn), N/mm.
     pub smallest_stiffness_n_per_mm: f64,
-    /// Largest buckling margin mu of any limb (1 is buckling); none for limbs without inner freedom.
-    pub largest_buckling_margin: Option<f64>,
+    /// Largest share of the way to buckling of any limb, mu (1 is buckling, below zero a load that
+    /// stretches it); none for limbs without inner freedom.
+    pub largest_share_to_buckling: Option<f64>,
     /// Largest force or torque of a drive as a share of its rating, 1 is the rating; none where the
     /// model states no rating.
     #[serde(default)]
@@ -309,6 +335,9 @@ pub struct PointResult {
     pub output_line: usize,
     /// Kind of move.
     pub kind: PointKind,
+    /// The end of a piece; otherwise the middle of one.
+    #[serde(skip)]
+    pub end: bool,
     /// Share of the move of this line, 0 to 1.
     pub share: f64,
     /// Length of the path up to here, mm.
@@ -329,6 +358,9 @@ pub struct PointResult {
     /// it is kept near to, base axes, deg.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool_turn_deg: Option<[f64; 3]>,
+    /// Joint value of every actuator as commanded, mm or deg.
+    #[serde(rename = "actuator_command_mm_or_deg", default)]
+    pub actuator_command: Vec<f64>,
     /// Force (N) or torque (N m) of every actuator.
     #[serde(rename = "actuator_force_n_or_n_m")]
     pub actuator_force: Vec<f64>,
@@ -337,8 +369,8 @@ pub struct PointResult {
     pub actuator_correction: Vec<f64>,
     /// Stiffness of the tool's tip against a force in its softest direction, N/mm.
     pub smallest_stiffness_n_per_mm: f64,
-    /// Largest buckling margin mu.
-    pub buckling_margin: Option<f64>,
+    /// Largest share of the way to buckling of any limb, mu; 1 is buckling.
+    pub share_to_buckling: Option<f64>,
     /// The equilibrium is stable.
     pub stable: bool,
 }

@@ -23,6 +23,7 @@ use crate::result::{
 };
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{Neighbour, Orientation, in_chunks};
+use crate::thin::thinned;
 use crate::together::Together;
 use crate::tool::{Machines, Tool, tool_on};
 use crate::warning::{Warning, WarningCode};
@@ -412,7 +413,7 @@ struct Loaded {
     commands: Vec<f64>,
     actuator_forces: Vec<f64>,
     stiffness_against_force: f64,
-    margin: Option<f64>,
+    share_to_buckling: Option<f64>,
     stable: bool,
 }
 
@@ -426,7 +427,7 @@ impl Loaded {
             commands: posture.commands(),
             actuator_forces: equilibrium.actuator_forces(),
             stiffness_against_force: equilibrium.stiffness_against_force(),
-            margin: equilibrium.margin(),
+            share_to_buckling: equilibrium.margin(),
             stable: equilibrium.stable(),
         }
     }
@@ -441,7 +442,7 @@ impl Loaded {
             commands: found.commands.row(i).collect(),
             actuator_forces: found.actuator_forces.row(i).collect(),
             stiffness_against_force: verdict.stiffness_against_force,
-            margin: verdict.margin,
+            share_to_buckling: verdict.margin,
             stable: verdict.stable,
         })
     }
@@ -475,6 +476,7 @@ fn point(
     PointResult {
         line: site.line,
         output_line: site.output_line,
+        end: site.end,
         kind: site.kind,
         share: site.share,
         path_mm: site.path_mm,
@@ -487,10 +489,16 @@ fn point(
         tool_turn_deg: place
             .orientation_follows
             .then(|| turn_deg(&wanted.rotation, &after.nominal)),
+        actuator_command: after
+            .commands
+            .iter()
+            .zip(kinds(task.mechanism))
+            .map(|(command, kind)| in_display(kind) * command)
+            .collect(),
         actuator_force: after.actuator_forces,
         actuator_correction,
         smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
-        buckling_margin: after.margin.filter(|mu| mu.is_finite()),
+        share_to_buckling: after.share_to_buckling.filter(|mu| mu.is_finite()),
         stable: after.stable,
     }
 }
@@ -510,7 +518,7 @@ fn in_display(kind: MotionKind) -> f64 {
     }
 }
 
-fn size(v: &[f64; 3]) -> f64 {
+pub(crate) fn size(v: &[f64; 3]) -> f64 {
     Vector3::from(*v).norm()
 }
 
@@ -624,15 +632,9 @@ fn conclude(
         points: Vec::new(),
     };
     result.tolerance = judge::tolerance(&result, &points, written.as_ref());
-    let stride = points
-        .len()
-        .div_ceil(RunResult::MAX_POINTS - worst.len())
-        .max(1);
-    result.points = points
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| i % stride == 0 || i + 1 == points.len() || worst.contains(i))
-        .map(|(_, p)| p.clone())
+    result.points = thinned(&points, &worst, RunResult::MAX_POINTS)
+        .into_iter()
+        .map(|i| points[i].clone())
         .collect();
     Run {
         result,
@@ -709,12 +711,18 @@ fn summarise(
     written: Option<&Corrected>,
     checked: &Checked,
 ) -> Summary {
+    // Where nothing is cut, an error of the tool harms nothing.
+    let cutting: Vec<&PointResult> = match points.iter().any(|p| p.kind != PointKind::Rapid) {
+        true => points
+            .iter()
+            .filter(|p| p.kind != PointKind::Rapid)
+            .collect(),
+        false => points.iter().collect(),
+    };
     // What is no number stays seen.
     let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
-    let most = |f: &dyn Fn(&PointResult) -> f64| points.iter().map(f).fold(0.0, larger);
-    let rms = |f: &dyn Fn(&PointResult) -> f64| {
-        (points.iter().map(|p| f(p).powi(2)).sum::<f64>() / points.len().max(1) as f64).sqrt()
-    };
+    let most = |f: &dyn Fn(&PointResult) -> f64| cutting.iter().map(|p| f(p)).fold(0.0, larger);
+    let rms = |f: &dyn Fn(&PointResult) -> f64| along_path(&cutting, |p| f(p).powi(2)).sqrt();
     let before = |p: &PointResult| size(&p.error_before_mm);
     let after = |p: &PointResult| size(&p.error_after_mm);
     let per_actuator = |f: &dyn Fn(&PointResult) -> &Vec<f64>| {
@@ -745,13 +753,13 @@ fn summarise(
             .iter()
             .filter_map(|p| p.tool_turn_deg.as_ref().map(size))
             .max_by(f64::total_cmp),
-        smallest_stiffness_n_per_mm: points
+        smallest_stiffness_n_per_mm: cutting
             .iter()
             .map(|p| p.smallest_stiffness_n_per_mm)
             .fold(f64::INFINITY, f64::min),
-        largest_buckling_margin: points
+        largest_share_to_buckling: cutting
             .iter()
-            .filter_map(|p| p.buckling_margin)
+            .filter_map(|p| p.share_to_buckling)
             .max_by(f64::total_cmp),
         largest_share_of_rating: judge::largest_share_of_rating(task, points),
         max_actuator_force: per_actuator(&|p| &p.actuator_force),
@@ -815,10 +823,36 @@ fn of_what_was_written(
     summary.peak_blocks_per_second_after = a.peak_blocks_per_second;
 }
 
+/// Mean of a value along the path that is cut. Every piece counts with its length and the value in its
+/// middle, so that it does not matter into how many pieces a program is divided; pieces come as their
+/// middle and their end.
+fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f64 {
+    let (mut sum, mut length) = (0.0, 0.0);
+    for pair in points.windows(2) {
+        let [middle, end] = [pair[0], pair[1]];
+        let half = end.path_mm - middle.path_mm;
+        let one = middle.line == end.line
+            && middle.kind == PointKind::Feed
+            && end.kind == PointKind::Feed;
+        if one && !middle.end && end.end && half > 0.0 {
+            sum += half * value(middle);
+            length += half;
+        }
+    }
+    if length > 0.0 {
+        return sum / length;
+    }
+    points.iter().map(|p| value(p)).sum::<f64>() / points.len().max(1) as f64
+}
+
 /// Indices of the worst points before compensation, at most ten, not two from one line or from
 /// neighbouring ones.
 fn worst(points: &[PointResult]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..points.len()).collect();
+    let cutting = |i: &usize| points[*i].kind != PointKind::Rapid;
+    let mut order: Vec<usize> = (0..points.len()).filter(cutting).collect();
+    if order.is_empty() {
+        order = (0..points.len()).collect();
+    }
     order.sort_by(|&i, &j| {
         size(&points[j].error_before_mm)
             .total_cmp(&size(&points[i].error_before_mm))

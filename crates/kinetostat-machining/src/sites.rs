@@ -42,6 +42,14 @@ fn starts(path: &Path) -> Vec<f64> {
         .collect()
 }
 
+/// Straight blocks longer than this share of the path that is cut are looked at in more places.
+const PIECES: f64 = 500.0;
+
+fn longest_piece(path: &Path) -> f64 {
+    let cut = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
+    cut.map(known_length).sum::<f64>() / PIECES
+}
+
 /// A move from a place that the program does not tell has no length that counts.
 fn known_length(motion: &Move) -> f64 {
     if motion.known == Knowledge::Whole {
@@ -59,6 +67,7 @@ pub(crate) fn of_path<'a>(
     arc_tolerance_mm: f64,
 ) -> impl Iterator<Item = Site> + 'a {
     let starts = starts(path);
+    let longest = longest_piece(path);
     let moves = path.moves.iter().enumerate();
     moves.flat_map(move |(i, motion)| {
         let site = |share: f64, end: bool| {
@@ -82,7 +91,8 @@ pub(crate) fn of_path<'a>(
             (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
                 let pieces = match &motion.curve {
-                    Curve::Line => 1,
+                    // Between the ends of a long block the load or the machine may differ much.
+                    Curve::Line => (motion.length_mm() / longest).ceil().max(1.0) as usize,
                     Curve::Arc(arc) => arc.chords_within(arc_tolerance_mm),
                 };
                 let share = |k: usize, x: f64| (k as f64 + x) / pieces as f64;

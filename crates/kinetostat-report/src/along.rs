@@ -1,11 +1,12 @@
-//! What changes along the path: errors, forces and corrections of actuators, stiffness and margin.
+//! What changes along the path: errors, forces and corrections of actuators, stiffness and the share of the way to buckling.
 
-use kinetostat_machining::{PointResult, RunResult};
+use kinetostat_machining::PointResult;
 
 use crate::axis::Span;
 use crate::chart::{Along, Limit, Mark, Panel, Series, Sheet, legend};
 use crate::label::Frame;
-use crate::number::{self, Rounding, norm};
+use crate::number::{self, MISSING, Rounding, norm};
+use crate::shown::Shown;
 use crate::svg::Svg;
 use crate::text;
 
@@ -13,8 +14,8 @@ use crate::text;
 pub(crate) const MOST_ACTUATORS: usize = 12;
 
 /// The error before and after compensation, one above the other; empty without points.
-pub(crate) fn errors(result: &RunResult, sheet: Sheet) -> String {
-    let Some(along) = Along::of(&result.points) else {
+pub(crate) fn errors(result: &Shown<'_>, sheet: Sheet) -> String {
+    let Some(along) = Along::of(result.points) else {
         return String::new();
     };
     let mut panels = Vec::new();
@@ -36,20 +37,16 @@ pub(crate) fn errors(result: &RunResult, sheet: Sheet) -> String {
     )
 }
 
-/// Smallest stiffness and buckling margin along the path.
-pub(crate) fn stiffness(result: &RunResult, sheet: Sheet) -> String {
-    let Some(along) = Along::of(&result.points) else {
+/// Smallest stiffness and share of the way to buckling along the path.
+pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
+    let Some(along) = Along::of(result.points) else {
         return String::new();
     };
     let mut panels = Vec::new();
-    let values = along.values(&result.points, |p| Some(p.smallest_stiffness_n_per_mm));
+    let values = along.values(result.points, |p| Some(p.smallest_stiffness_n_per_mm));
     if let Some(span) = span_of(&values) {
-        let least = number::significant(span.low, 3, Rounding::Down);
         panels.push(Panel {
-            title: format!(
-                "Smallest stiffness: at least {}",
-                number::with_unit(&least, "N/mm")
-            ),
+            title: format!("Smallest stiffness: at least {}", result.figures.stiffness),
             y_label: "stiffness, N/mm".to_owned(),
             span: span.with_near_zero().widened().padded(0.08, 0.08),
             ticks: None,
@@ -61,22 +58,27 @@ pub(crate) fn stiffness(result: &RunResult, sheet: Sheet) -> String {
             marks: Vec::new(),
         });
     }
-    let values = along.values(&result.points, |p| p.buckling_margin);
-    if let Some(span) = span_of(&values) {
-        let most = number::significant(span.high, 2, Rounding::Up);
+    let percent = |p: &PointResult| p.share_to_buckling.map(|share| 100.0 * share);
+    let values = along.values(result.points, percent);
+    if let (Some(span), Some(most)) = (span_of(&values), &result.figures.share_to_buckling) {
+        // A share far from buckling would be pressed flat by the line at 100 %.
+        let near = span.high > 20.0;
+        let limits = near.then(|| Limit {
+            value: 100.0,
+            label: "100 %: buckling".to_owned(),
+        });
+        let span = span.including(0.0);
+        let span = if near { span.including(100.0) } else { span };
         panels.push(Panel {
-            title: format!("Buckling margin: at most {most}"),
-            y_label: "margin, no unit".to_owned(),
-            span: span.including(0.0).including(1.0).padded(0.08, 0.24),
+            title: format!("Share of the way to buckling: at most {most}"),
+            y_label: "share, %".to_owned(),
+            span: span.widened().padded(0.08, 0.24),
             ticks: None,
             series: vec![Series {
                 class: "line strong",
                 values,
             }],
-            limits: vec![Limit {
-                value: 1.0,
-                label: "1: buckling".to_owned(),
-            }],
+            limits: limits.into_iter().collect(),
             marks: Vec::new(),
         });
     }
@@ -90,13 +92,13 @@ pub(crate) fn stiffness(result: &RunResult, sheet: Sheet) -> String {
         &heights,
         &along,
         sheet,
-        "Smallest stiffness and buckling margin along the path",
+        "Smallest stiffness and share of the way to buckling along the path",
     )
 }
 
 /// Forces and corrections of the actuators as small panels; empty without points or actuators.
-pub(crate) fn actuators(result: &RunResult, sheet: Sheet) -> String {
-    let Some(along) = Along::of(&result.points) else {
+pub(crate) fn actuators(result: &Shown<'_>, sheet: Sheet) -> String {
+    let Some(along) = Along::of(result.points) else {
         return String::new();
     };
     let mut panels = Vec::new();
@@ -110,16 +112,22 @@ pub(crate) fn actuators(result: &RunResult, sheet: Sheet) -> String {
         let name = text::shorten(&actuator.name, 24);
         let turning = actuator.force_unit.contains('m');
         let word = if turning { "torque" } else { "force" };
-        let values = along.values(&result.points, |p| p.actuator_force.get(index).copied());
-        panels.extend(actuator_panel(&name, word, &actuator.force_unit, values));
+        let values = along.values(result.points, |p| p.actuator_force.get(index).copied());
+        let most = result.figures.actuator_force.get(index);
+        panels.extend(actuator_panel(
+            &name,
+            word,
+            &actuator.force_unit,
+            most,
+            values,
+        ));
         if result.question.compensated {
-            let values = along.values(&result.points, |p| {
-                p.actuator_correction.get(index).copied()
-            });
+            let values = along.values(result.points, |p| p.actuator_correction.get(index).copied());
             panels.extend(actuator_panel(
                 &name,
                 "correction",
                 &actuator.motion_unit,
+                result.figures.actuator_correction.get(index),
                 values,
             ));
         }
@@ -128,10 +136,10 @@ pub(crate) fn actuators(result: &RunResult, sheet: Sheet) -> String {
     grid(&panels, &along, sheet)
 }
 
-fn before_panel(result: &RunResult, along: &Along, sheet: Sheet) -> Option<Panel> {
-    let worst = number::largest(cutting(&result.points).map(|p| norm(&p.error_before_mm)))?;
+fn before_panel(result: &Shown<'_>, along: &Along, sheet: Sheet) -> Option<Panel> {
+    let worst = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
     let (unit, factor) = number::length_unit(worst);
-    let most = number::length(worst, 2, Rounding::Up);
+    let most = &result.figures.error_before;
     Some(Panel {
         title: format!("Without compensation: up to {most} off"),
         y_label: format!("distance, {unit}"),
@@ -144,19 +152,19 @@ fn before_panel(result: &RunResult, along: &Along, sheet: Sheet) -> Option<Panel
         ticks: None,
         series: vec![Series {
             class: "line before",
-            values: along.values(&result.points, |p| Some(norm(&p.error_before_mm) * factor)),
+            values: along.values(result.points, |p| Some(norm(&p.error_before_mm) * factor)),
         }],
         limits: Vec::new(),
         marks: worst_marks(result, along, factor, sheet),
     })
 }
 
-fn after_panel(result: &RunResult, along: &Along) -> Option<Panel> {
-    let (place, worst) = cutting(&result.points)
+fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
+    let (place, worst) = cutting(result.points)
         .filter_map(|p| Some((p, number::drawable(norm(&p.error_after_mm))?)))
         .reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     let (unit, factor) = number::length_unit(worst);
-    let most = number::length(worst, 2, Rounding::Up);
+    let most = &result.figures.error_after;
     // The bound that is judged, not a part of it.
     let tolerance = result.allowed_mm();
     let mut span = Span {
@@ -188,7 +196,7 @@ fn after_panel(result: &RunResult, along: &Along) -> Option<Panel> {
         ticks: None,
         series: vec![Series {
             class: "line after",
-            values: along.values(&result.points, |p| Some(norm(&p.error_after_mm) * factor)),
+            values: along.values(result.points, |p| Some(norm(&p.error_after_mm) * factor)),
         }],
         limits,
         marks: mark.into_iter().collect(),
@@ -196,7 +204,7 @@ fn after_panel(result: &RunResult, along: &Along) -> Option<Panel> {
 }
 
 /// The worst points that are apart from each other: neighbours would only cover one another.
-fn worst_marks(result: &RunResult, along: &Along, factor: f64, sheet: Sheet) -> Vec<Mark> {
+fn worst_marks(result: &Shown<'_>, along: &Along, factor: f64, sheet: Sheet) -> Vec<Mark> {
     let (most, apart) = if sheet.narrow() { (2, 0.2) } else { (4, 0.08) };
     let mut marks: Vec<Mark> = Vec::new();
     for point in &result.worst_points {
@@ -226,14 +234,11 @@ fn actuator_panel(
     name: &str,
     word: &str,
     unit: &str,
+    most: Option<&String>,
     values: Vec<Option<(f64, f64)>>,
 ) -> Option<Panel> {
     let span = span_of(&values)?;
-    let most = span.low.abs().max(span.high.abs());
-    let most = number::with_unit(
-        &number::significant(most, 2, Rounding::Up),
-        &text::clean(unit),
-    );
+    let most = most.map_or_else(|| MISSING.to_owned(), |most| text::clean(most));
     Some(Panel {
         title: format!("{name}: {word} up to {most}"),
         y_label: text::shorten(unit, 8),

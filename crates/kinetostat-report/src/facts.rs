@@ -1,9 +1,10 @@
 //! Figures and tables of the report as text.
 
-use kinetostat_machining::{PointKind, PointResult, Question, RunResult, Summary};
+use kinetostat_machining::{FileRead, PointKind, PointResult, Question, Summary};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
+use crate::shown::Shown;
 use crate::text::{self, or_unknown};
 
 /// A key figure: what, how much, and a line that helps to read it.
@@ -12,132 +13,90 @@ fn card(name: &str, value: String, note: String) -> Value {
 }
 
 /// The key figures as cards; none if nothing was calculated.
-pub(crate) fn cards(result: &RunResult) -> Vec<Value> {
+pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
     if summary.points == 0 && result.points.is_empty() {
         return Vec::new();
     }
-    let up = |value: f64| number::length(value, 2, Rounding::Up);
+    let figures = &result.figures;
     let mut cards = vec![card(
         "Error without compensation",
-        up(summary.max_position_error_before_mm),
-        format!(
-            "largest; typically {}",
-            up(summary.rms_position_error_before_mm)
-        ),
+        figures.error_before.clone(),
+        format!("largest; root mean square {}", figures.rms_before),
     )];
     if question.compensated {
         cards.push(card(
             "Error with compensation",
-            up(summary.max_position_error_after_mm),
+            figures.error_after.clone(),
             format!(
-                "largest; {} allowed",
-                number::length(result.allowed_mm(), 2, Rounding::Nearest)
+                "largest; root mean square {}; {} allowed",
+                figures.rms_after,
+                number::against(summary.max_position_error_after_mm, result.allowed_mm()).1
             ),
         ));
         cards.push(card(
             "Largest correction",
-            up(summary.max_correction_mm),
+            figures.correction.clone(),
             "of the programmed positions".to_owned(),
         ));
     }
+    let (name, note) = match question.compensated {
+        true => ("Tilt that stays", "not corrected by positions"),
+        false => ("Tilt of the tool", "largest along the path"),
+    };
+    cards.push(card(name, figures.rotation.clone(), note.to_owned()));
     cards.push(card(
-        if question.compensated {
-            "Tilt that stays"
-        } else {
-            "Tilt of the tool"
-        },
-        angle(summary.max_residual_rotation_deg),
-        if question.compensated {
-            "not corrected by positions"
-        } else {
-            "largest along the path"
-        }
-        .to_owned(),
+        "Smallest stiffness",
+        figures.stiffness.clone(),
+        "against a force in the softest direction".to_owned(),
     ));
-    cards.push(stiffness_card(summary.smallest_stiffness_n_per_mm));
-    cards.push(margin_card(summary.largest_buckling_margin));
+    let (value, note) = match &figures.share_to_buckling {
+        Some(share) => (share.clone(), "100 % is buckling"),
+        None => ("none".to_owned(), "no limb of this model can buckle"),
+    };
+    cards.push(card("Share of the way to buckling", value, note.to_owned()));
     cards.push(actuator_card(result));
     cards.push(if question.compensated {
+        let pieces = match &figures.shortest_piece {
+            Some(shortest) => format!("at most; divided blocks: pieces from {shortest}"),
+            None => "at most; no block was divided".to_owned(),
+        };
+        let most = figures.blocks_per_second.clone();
         card(
             "Blocks per second",
-            number::significant(summary.blocks_per_second, 2, Rounding::Up),
-            format!(
-                "at most; divided blocks: pieces from {}",
-                number::length(summary.smallest_piece_mm, 2, Rounding::Down)
-            ),
+            most.unwrap_or_else(|| MISSING.to_owned()),
+            pieces,
         )
     } else {
         card(
             "Path cut",
-            number::with_unit(
-                &number::significant(summary.feed_length_mm, 4, Rounding::Nearest),
-                "mm",
-            ),
+            figures.feed_length.clone(),
             format!("{} points calculated", number::count(summary.points)),
         )
     });
     cards
 }
 
-fn stiffness_card(stiffness: f64) -> Value {
-    let value = number::with_unit(&number::significant(stiffness, 3, Rounding::Down), "N/mm");
-    let moved = 100.0 / stiffness;
-    let note = if moved.is_finite() && moved > 0.0 {
-        let moved = number::length(moved, 2, Rounding::Up);
-        format!("100 N move the tool by up to {moved}")
-    } else {
-        "in the softest direction".to_owned()
+fn actuator_card(result: &Shown<'_>) -> Value {
+    let size = |i: usize| {
+        let force = result.summary.max_actuator_force.get(i);
+        force.and_then(|f| number::drawable(*f)).map(f64::abs)
     };
-    card("Smallest stiffness", value, note)
-}
-
-fn margin_card(margin: Option<f64>) -> Value {
-    match margin {
-        Some(margin) => card(
-            "Buckling margin",
-            number::significant(margin, 2, Rounding::Up),
-            "0 is no load, 1 is buckling".to_owned(),
-        ),
-        None => card(
-            "Buckling margin",
-            "none".to_owned(),
-            "no limb of this model can buckle".to_owned(),
-        ),
-    }
-}
-
-fn actuator_card(result: &RunResult) -> Value {
-    let forces = result
-        .question
-        .actuators
-        .iter()
-        .zip(&result.summary.max_actuator_force);
-    let largest = forces
-        .filter_map(|(actuator, force)| Some((actuator, number::drawable(*force)?.abs())))
+    let largest = (0..result.question.actuators.len())
+        .filter_map(|i| Some((i, size(i)?)))
         .reduce(|a, b| if b.1 > a.1 { b } else { a });
     match largest {
-        Some((actuator, force)) => card(
+        Some((i, _)) => card(
             "Largest actuator load",
-            number::with_unit(
-                &number::significant(force, 3, Rounding::Up),
-                &text::shorten(&actuator.force_unit, 8),
-            ),
-            text::shorten(&actuator.name, 40),
+            text::shorten(&result.figures.actuator_force[i], 32),
+            text::shorten(&result.question.actuators[i].name, 40),
         ),
         None => card("Largest actuator load", MISSING.to_owned(), String::new()),
     }
 }
 
-fn angle(value: f64) -> String {
-    if value > 0.0 && value < 1e-4 {
-        return number::with_unit("0.0001", "deg");
-    }
-    number::with_unit(&number::significant(value, 2, Rounding::Up), "deg")
-}
-
 /// Rows of the table of worst points, and the units of its errors before and after.
-pub(crate) fn worst(result: &RunResult) -> Value {
+pub(crate) fn worst(result: &Shown<'_>) -> Value {
     let shown: Vec<&PointResult> = result.worst_points.iter().take(10).collect();
     let unit_of = |error: fn(&PointResult) -> f64| {
         number::length_unit(number::largest(shown.iter().map(|p| error(p))).unwrap_or(0.0))
@@ -189,12 +148,12 @@ fn error_columns(error: &[f64; 3], factor: f64) -> Vec<String> {
 }
 
 /// What the written program leaves: name, size, explanation.
-pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
+pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
     let row = |name: &str, size: String, text: String| context! { name, size, text };
     let mut rows = vec![row(
         "Tilt of the tool",
-        angle(summary.max_residual_rotation_deg),
+        result.figures.rotation.clone(),
         "Load, weight and assembly errors turn the tool as well as moving it. A program of positions moves the tool tip back to its place but \
          cannot turn it back; a side wall cut deep below the tip shows it."
             .to_owned(),
@@ -204,7 +163,7 @@ pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
     }
     rows.push(row(
         "Rounding",
-        number::length(summary.max_rounding_error_mm, 2, Rounding::Up),
+        result.figures.rounding.clone(),
         format!(
             "Numbers are written with {} decimals. This part of the error after compensation comes from that alone.",
             question.decimals
@@ -215,7 +174,7 @@ pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
         steps => format!(
             "{}, longest {}",
             number::count(steps),
-            number::length(summary.largest_corner_step_mm, 2, Rounding::Up)
+            result.figures.corner_step.as_deref().unwrap_or(MISSING)
         ),
     };
     rows.push(row(
@@ -257,13 +216,17 @@ pub(crate) fn uncorrected(result: &RunResult) -> Vec<Value> {
 }
 
 /// The first lines under the title: what the verdict is about.
-pub(crate) fn heading(result: &RunResult) -> Vec<Value> {
+pub(crate) fn heading(result: &Shown<'_>) -> Vec<Value> {
     let question = &result.question;
-    let mut rows = vec![
+    let mut rows = Vec::new();
+    if let Some(date) = &question.date {
+        rows.push(fact("Date", text::shorten(date, 20)));
+    }
+    rows.extend([
         fact("Program", first_screen(&question.program)),
         fact("Machine", first_screen(&question.model)),
         fact("Load", first_screen(&question.load)),
-    ];
+    ]);
     if question.compensated {
         rows.push(fact(
             "Tolerance",
@@ -309,8 +272,20 @@ fn length_and_time(summary: &Summary) -> String {
     )
 }
 
+fn list(name: &str, lines: &[String]) -> Value {
+    let mut lines: Vec<String> = lines.iter().map(|line| text::clean(line)).collect();
+    if lines.is_empty() {
+        lines.push("not stated".to_owned());
+    }
+    context! { name, lines }
+}
+
+fn file(file: &FileRead) -> String {
+    format!("{} {}: {}", file.what, file.name, file.sha256)
+}
+
 /// What was asked and how the program was written.
-pub(crate) fn asked(result: &RunResult) -> Vec<Value> {
+pub(crate) fn asked(result: &Shown<'_>) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
     let deviations: Vec<String> = question
         .model_deviations
@@ -324,11 +299,20 @@ pub(crate) fn asked(result: &RunResult) -> Vec<Value> {
             name => "Deviations from the drawing",
             lines => if deviations.is_empty() { vec!["none".to_owned()] } else { deviations },
         },
+        list("Stiffnesses used", &question.stiffnesses),
         fact("Program", or_unknown(&question.program)),
+        list(
+            "Files and their SHA-256",
+            &question.files.iter().map(file).collect::<Vec<_>>(),
+        ),
         fact("Load", or_unknown(&question.load)),
         fact("Where the program lies", or_unknown(&question.placement)),
         fact("Tool", or_unknown(&question.tool)),
-        fact("Path cut", extent(question, summary.feed_length_mm)),
+        fact(
+            "Orientation of the tool",
+            or_unknown(&question.tool_orientation),
+        ),
+        fact("Path cut", extent(question, &result.figures.feed_length)),
         fact("Actuators", actuator_names(question)),
         fact("Length and time at feed", length_and_time(summary)),
         fact("Points calculated", number::count(summary.points)),
@@ -353,7 +337,7 @@ pub(crate) fn asked(result: &RunResult) -> Vec<Value> {
     rows
 }
 
-fn written(result: &RunResult) -> Vec<Value> {
+fn written(result: &Shown<'_>) -> Vec<Value> {
     let (summary, question) = (&result.summary, &result.question);
     // Every block read must be found again in one of the three counts.
     let carried = summary
@@ -375,28 +359,24 @@ fn written(result: &RunResult) -> Vec<Value> {
         ),
         fact(
             "Straight pieces written",
-            format!(
-                "{}, the shortest of a divided block {}",
-                number::count(summary.pieces),
-                number::length(summary.smallest_piece_mm, 2, Rounding::Down)
-            ),
+            match &result.figures.shortest_piece {
+                Some(shortest) => format!(
+                    "{}, the shortest of a divided block {shortest}",
+                    number::count(summary.pieces)
+                ),
+                None => format!("{}, no block was divided", number::count(summary.pieces)),
+            },
         ),
         fact(
             "Most blocks per second",
-            format!(
-                "{} at the programmed feed",
-                number::significant(summary.blocks_per_second, 3, Rounding::Up)
-            ),
+            match &result.figures.blocks_per_second {
+                Some(most) => format!("{most} at the programmed feed"),
+                None => "not known: the program states no feed in mm per minute".to_owned(),
+            },
         ),
         fact(
             "Speed along the part",
-            format!(
-                "within {} of the programmed one",
-                number::with_unit(
-                    &number::significant(summary.max_speed_deviation_percent, 2, Rounding::Up),
-                    "%"
-                )
-            ),
+            format!("within {} of the programmed one", result.figures.speed),
         ),
         fact(
             "Tolerance of the path",
@@ -412,12 +392,12 @@ fn written(result: &RunResult) -> Vec<Value> {
         fact("Decimals written", question.decimals.to_string()),
         fact(
             "Error allowed in all",
-            number::length(result.allowed_mm(), 2, Rounding::Up),
+            number::against(summary.max_position_error_after_mm, result.allowed_mm()).1,
         ),
     ]
 }
 
-fn extent(question: &Question, length: f64) -> String {
+fn extent(question: &Question, length: &str) -> String {
     let axes: Vec<String> = ["X", "Y", "Z"]
         .iter()
         .enumerate()
@@ -430,7 +410,6 @@ fn extent(question: &Question, length: f64) -> String {
             )
         })
         .collect();
-    let length = number::with_unit(&number::significant(length, 5, Rounding::Nearest), "mm");
     format!(
         "{length} long; {} (mm, program coordinates)",
         axes.join(", ")
@@ -452,13 +431,13 @@ fn actuator_names(question: &Question) -> String {
 
 /// What stands under every plot if it does not show everything: points left out because they are many, and
 /// points that cannot be drawn because they have no number.
-pub(crate) fn caption(result: &RunResult) -> Option<String> {
+pub(crate) fn caption(result: &Shown<'_>) -> Option<String> {
     let (shown, all) = (result.points.len(), result.summary.points);
     let mut sentences = Vec::new();
     if shown < all {
         let (shown, all) = (number::count(shown), number::count(all));
         sentences.push(format!(
-            "{shown} of {all} points shown; the worst are among them."
+            "{shown} of {all} points shown: the worst of every stretch are among them."
         ));
     }
     let missing = result
@@ -491,6 +470,6 @@ fn lacks_numbers(point: &PointResult) -> bool {
         .flatten()
         .chain(&single)
         .chain(lists)
-        .chain(&point.buckling_margin);
+        .chain(&point.share_to_buckling);
     values.any(|value| number::drawable(*value).is_none())
 }

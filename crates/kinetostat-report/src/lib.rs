@@ -43,11 +43,14 @@ mod plot_label;
 mod plot_path;
 mod preview;
 mod section;
+mod shown;
 mod svg;
 mod text;
 mod verdict;
 
-use kinetostat_machining::RunResult;
+use kinetostat_machining::{Run, RunResult};
+
+use shown::Shown;
 
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
 pub use plot::{Plot, PlotLine, PlotMark};
@@ -71,7 +74,17 @@ pub enum ReportError {
 ///
 /// [`ReportError::Template`] if the page template cannot be filled.
 pub fn html(result: &RunResult) -> Result<String, ReportError> {
-    Ok(page::render(result)?)
+    Ok(page::render(&Shown::of_result(result))?)
+}
+
+/// The report of a run, drawn from all of its points: curves and paths hide nothing, however long the
+/// program is.
+///
+/// # Errors
+///
+/// [`ReportError::Template`] if the page template cannot be filled.
+pub fn html_of_run(run: &Run) -> Result<String, ReportError> {
+    Ok(page::render(&Shown::of_run(run))?)
 }
 
 /// One picture of the run, 900 by 420, for a README or a slide: the path from above with the deviation
@@ -81,5 +94,5 @@ pub fn html(result: &RunResult) -> Result<String, ReportError> {
 /// light and on dark pages.
 #[must_use]
 pub fn plot_preview_svg(result: &RunResult) -> String {
-    preview::draw(result)
+    preview::draw(&Shown::of_result(result))
 }

@@ -20,6 +20,48 @@ pub(crate) fn path_data(points: &[Option<Pixel>]) -> String {
     data
 }
 
+/// The same line without pieces that cover only what earlier pieces cover already: a pocket of a hundred
+/// thousand blocks has no more to show than there are places on the drawing.
+pub(crate) fn first_time(points: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
+    // Below this, every piece is kept: short programs lose nothing.
+    const MANY: usize = 4000;
+    /// Places on the drawing that are told apart, pixels.
+    const PLACE: f64 = 0.5;
+    if points.len() < MANY {
+        return points.to_vec();
+    }
+    let mut covered = std::collections::BTreeSet::new();
+    let mut out: Vec<Option<Pixel>> = Vec::new();
+    let mut last: Option<Pixel> = None;
+    // The pen is at `last` on paper; otherwise the next piece begins with a lift.
+    let mut down = false;
+    for point in points {
+        let Some(to) = *point else {
+            (last, down) = (None, false);
+            continue;
+        };
+        if let Some(from) = last {
+            let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+            let steps = (dx.hypot(dy) / PLACE).ceil().clamp(1.0, 1e4) as usize;
+            let mut new = false;
+            for step in 0..=steps {
+                let share = step as f64 / steps as f64;
+                let cell = |x: f64| (x / PLACE).round() as i32;
+                new |= covered.insert((cell(from.0 + share * dx), cell(from.1 + share * dy)));
+            }
+            if new {
+                if !down {
+                    out.extend([None, Some(from)]);
+                }
+                out.push(Some(to));
+            }
+            down = new;
+        }
+        last = Some(to);
+    }
+    out
+}
+
 /// At most four points per column of pixels: the first, the lowest, the highest and the last one. The
 /// drawn line covers the same pixels, however many points there were. Points go from left to right.
 pub(crate) fn per_column(points: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
@@ -131,6 +173,24 @@ mod tests {
             "M1 1h0M2 2h0"
         );
         assert_eq!(path_data(&[]), "");
+    }
+
+    #[test]
+    fn what_is_covered_is_drawn_once() {
+        let circle = |i: u32| {
+            let angle = f64::from(i) / 1000.0 * std::f64::consts::TAU;
+            Some((100.0 + 50.0 * angle.cos(), 100.0 + 50.0 * angle.sin()))
+        };
+        let once: Vec<_> = (0..=1000).map(circle).collect();
+        assert_eq!(first_time(&once), once);
+        let often: Vec<_> = (0..=100_000).map(circle).collect();
+        let kept = first_time(&often);
+        assert!(kept.len() < 3000, "{}", kept.len());
+        // Every place of the whole line is drawn.
+        for p in once.iter().flatten() {
+            let near = |q: &Pixel| (p.0 - q.0).hypot(p.1 - q.1) < 1.0;
+            assert!(kept.iter().flatten().any(near));
+        }
     }
 
     #[test]

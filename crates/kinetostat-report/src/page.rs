@@ -1,10 +1,10 @@
 //! The page: the template filled with figures, drawings and tables.
 
-use kinetostat_machining::RunResult;
 use minijinja::{Environment, Value, context};
 
 use crate::chart::Sheet;
 use crate::number::{self, MISSING};
+use crate::shown::Shown;
 use crate::{along, facts, plan, text, verdict};
 
 /// The name ends in `.html`, which switches automatic escaping on.
@@ -20,7 +20,7 @@ const STYLE: &str = concat!(
 const MOST_WARNINGS: usize = 100;
 
 /// Fills the page.
-pub(crate) fn render(result: &RunResult) -> Result<String, minijinja::Error> {
+pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.add_template(PAGE, include_str!("template/report.html"))?;
     let question = &result.question;
@@ -50,7 +50,7 @@ pub(crate) fn render(result: &RunResult) -> Result<String, minijinja::Error> {
         actuators => figure(result, along::actuators),
         actuators_left_out => actuators.saturating_sub(along::MOST_ACTUATORS),
         stiffness => figure(result, along::stiffness),
-        has_margin => result.summary.largest_buckling_margin.is_some(),
+        can_buckle => result.summary.largest_share_to_buckling.is_some(),
         worst => facts::worst(result),
         uncorrected => facts::uncorrected(result),
         warnings_left_out => warnings.len().saturating_sub(MOST_WARNINGS),
@@ -73,7 +73,7 @@ fn name_or(name: &str, otherwise: &str) -> String {
 }
 
 /// A drawing for wide windows and paper, and one for telephones; the style sheet shows one of them.
-fn figure(result: &RunResult, draw: fn(&RunResult, Sheet) -> String) -> Value {
+fn figure(result: &Shown<'_>, draw: fn(&Shown<'_>, Sheet) -> String) -> Value {
     let wide = draw(result, Sheet::Wide);
     if wide.is_empty() {
         return Value::from(());

@@ -1,12 +1,13 @@
 //! The path seen from above and from the side, with the deviation magnified.
 
-use kinetostat_machining::{PointKind, PointResult, RunResult};
+use kinetostat_machining::{PointKind, PointResult};
 
 use crate::axis::{Scale, Span};
 use crate::chart::{Sheet, legend};
 use crate::label::{Frame, Labels, TEXT_SIZE};
 use crate::number::{self, Rounding, norm};
-use crate::outline::path_data;
+use crate::outline::{Pixel, first_time, path_data};
+use crate::shown::Shown;
 use crate::svg::{Anchor, Svg};
 use crate::text;
 
@@ -24,13 +25,13 @@ const DENSE: usize = 1200;
 
 /// How much larger than true the deviation is drawn: a round number, so that the largest one takes about
 /// an eighth of the path's size. None if there is no deviation or no path.
-pub(crate) fn magnification(result: &RunResult) -> Option<f64> {
+pub(crate) fn magnification(result: &Shown<'_>) -> Option<f64> {
     let size = [0, 1, 2]
         .into_iter()
         .filter_map(|axis| Span::of(result.points.iter().map(|p| p.position_mm[axis])))
         .map(Span::length)
         .fold(0.0, f64::max);
-    let error = number::largest(cutting(&result.points).map(|p| norm(&p.error_before_mm)))?;
+    let error = number::largest(cutting(result.points).map(|p| norm(&p.error_before_mm)))?;
     if size <= 0.0 || error <= 0.0 {
         return None;
     }
@@ -41,12 +42,12 @@ pub(crate) fn magnification(result: &RunResult) -> Option<f64> {
 }
 
 /// Both views on one sheet; empty without points.
-pub(crate) fn views(result: &RunResult, sheet: Sheet) -> String {
+pub(crate) fn views(result: &Shown<'_>, sheet: Sheet) -> String {
     let magnification = magnification(result);
     let Some(above) = Extent::of(result, ABOVE, magnification) else {
         return String::new();
     };
-    let side = Extent::of(result, SIDE, magnification).filter(|_| has_height(&result.points));
+    let side = Extent::of(result, SIDE, magnification).filter(|_| has_height(result.points));
     let mut svg = Svg::default();
     let mut y = 30.0;
     let (left, right) = (
@@ -152,7 +153,7 @@ pub(crate) fn views(result: &RunResult, sheet: Sheet) -> String {
 }
 
 /// The view from above alone, in a given frame.
-pub(crate) fn view_from_above(svg: &mut Svg, result: &RunResult, frame: Frame, title: &str) {
+pub(crate) fn view_from_above(svg: &mut Svg, result: &Shown<'_>, frame: Frame, title: &str) {
     let magnification = magnification(result);
     if let Some(extent) = Extent::of(result, ABOVE, magnification) {
         draw(svg, result, &extent, frame, magnification, title);
@@ -167,7 +168,7 @@ struct Extent {
 }
 
 impl Extent {
-    fn of(result: &RunResult, view: View, magnification: Option<f64>) -> Option<Self> {
+    fn of(result: &Shown<'_>, view: View, magnification: Option<f64>) -> Option<Self> {
         let span = |axis: usize| {
             let path = result.points.iter().map(|p| p.position_mm[axis]);
             let moved = result
@@ -234,7 +235,7 @@ impl Extent {
 
 fn draw(
     svg: &mut Svg,
-    result: &RunResult,
+    result: &Shown<'_>,
     extent: &Extent,
     frame: Frame,
     magnification: Option<f64>,
@@ -287,7 +288,7 @@ fn draw(
             y.at(number::drawable(at[second])?),
         ))
     };
-    let points = &result.points;
+    let points = result.points;
     let (feed, before) = if points.len() < DENSE {
         ("feed", "line before")
     } else {
@@ -299,19 +300,23 @@ fn draw(
             .iter()
             .map(|p| displaced(p, factor).and_then(&place))
             .collect();
+        let programmed: Vec<_> = points.iter().map(|p| place(p.position_mm)).collect();
         let every = points.len().div_ceil(WHISKERS).max(1);
         for (point, tip) in points.iter().zip(&tips).step_by(every) {
             if let (Some(from), Some(to)) = (place(point.position_mm), *tip) {
                 svg.line("whisker", from, to);
             }
         }
-        svg.path(feed, &path_data(&moves(points, false, &place)));
-        svg.path(before, &path_data(&tips));
+        svg.path(feed, &path_data(&first_time(&moves(points, false, &place))));
+        svg.path(
+            before,
+            &path_data(&first_time(&without_jumps(&tips, &programmed))),
+        );
         mark_worst(svg, result, &frame, |p| {
             displaced(p, factor).and_then(&place)
         });
     } else {
-        svg.path(feed, &path_data(&moves(points, false, &place)));
+        svg.path(feed, &path_data(&first_time(&moves(points, false, &place))));
     }
 }
 
@@ -339,9 +344,30 @@ fn moves(
     line
 }
 
+/// The magnified line with its pen lifted where the load turns: there the tool jumps while the program
+/// hardly moves, and a stroke across would be a spike that no tool cuts.
+fn without_jumps(tips: &[Option<Pixel>], programmed: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
+    const LONGER: f64 = 3.0;
+    const PIXELS: f64 = 4.0;
+    let mut line: Vec<Option<Pixel>> = Vec::with_capacity(tips.len());
+    for (index, tip) in tips.iter().enumerate() {
+        if let (Some(before), Some(here)) = (index.checked_sub(1).and_then(|i| tips[i]), *tip)
+            && let (Some(from), Some(to)) = (programmed[index - 1], programmed[index])
+        {
+            let step = (to.0 - from.0).hypot(to.1 - from.1);
+            let jump = (here.0 - before.0).hypot(here.1 - before.1);
+            if jump > LONGER * step + PIXELS {
+                line.push(None);
+            }
+        }
+        line.push(*tip);
+    }
+    line
+}
+
 fn mark_worst(
     svg: &mut Svg,
-    result: &RunResult,
+    result: &Shown<'_>,
     frame: &Frame,
     tip: impl Fn(&PointResult) -> Option<(f64, f64)>,
 ) {
@@ -374,7 +400,7 @@ fn mark_worst(
 
 fn draw_legend(
     svg: &mut Svg,
-    result: &RunResult,
+    result: &Shown<'_>,
     magnification: Option<f64>,
     scale: f64,
     from: (f64, f64),

@@ -1,12 +1,13 @@
 //! One small picture of a run: the path from above and the error along it.
 
-use kinetostat_machining::RunResult;
+use kinetostat_machining::PointKind;
 
 use crate::axis::{Span, Tick};
 use crate::chart::{Along, Panel, Series};
 use crate::label::Frame;
-use crate::number::{self, Rounding, norm};
+use crate::number::{self, norm};
 use crate::plan;
+use crate::shown::Shown;
 use crate::svg::{Anchor, Svg};
 
 const SIZE: (f64, f64) = (900.0, 420.0);
@@ -20,7 +21,7 @@ const STYLE: &str = concat!(
 const MOST_DECADES: f64 = 7.0;
 
 /// Draws the picture.
-pub(crate) fn draw(result: &RunResult) -> String {
+pub(crate) fn draw(result: &Shown<'_>) -> String {
     let mut svg = Svg::default();
     svg.rectangle("card", (0.5, 0.5), (SIZE.0 - 1.0, SIZE.1 - 1.0), 10.0);
     let frame = Frame {
@@ -45,12 +46,13 @@ pub(crate) fn draw(result: &RunResult) -> String {
 }
 
 /// The error before and after over powers of ten; says if there was anything to draw.
-fn errors(svg: &mut Svg, result: &RunResult) -> bool {
-    let Some(along) = Along::of(&result.points) else {
+fn errors(svg: &mut Svg, result: &Shown<'_>) -> bool {
+    let Some(along) = Along::of(result.points) else {
         return false;
     };
     let largest = |error: fn(&kinetostat_machining::PointResult) -> f64| {
-        number::largest(result.points.iter().map(error)).filter(|error| *error > 0.0)
+        let cutting = result.points.iter().filter(|p| p.kind != PointKind::Rapid);
+        number::largest(cutting.map(error)).filter(|error| *error > 0.0)
     };
     let before = largest(|p| norm(&p.error_before_mm));
     let after = largest(|p| norm(&p.error_after_mm)).filter(|_| result.question.compensated);
@@ -65,7 +67,7 @@ fn errors(svg: &mut Svg, result: &RunResult) -> bool {
         high,
     };
     let curve = |error: fn(&kinetostat_machining::PointResult) -> [f64; 3]| {
-        along.values(&result.points, |p| {
+        along.values(result.points, |p| {
             Some(norm(&error(p)).log10().clamp(span.low, span.high))
         })
     };
@@ -102,12 +104,21 @@ fn errors(svg: &mut Svg, result: &RunResult) -> bool {
     let y_of =
         |error: f64| frame.bottom() - (error.log10() - span.low) / span.length() * frame.height;
     let named = [
-        ("before-name", "without compensation", before),
-        ("after-name", "with compensation", after),
+        (
+            "before-name",
+            "without compensation",
+            before,
+            &result.figures.error_before,
+        ),
+        (
+            "after-name",
+            "with compensation",
+            after,
+            &result.figures.error_after,
+        ),
     ];
-    for (class, name, error) in named {
+    for (class, name, error, up_to) in named {
         if let Some(error) = error {
-            let up_to = number::length(error, 2, Rounding::Up);
             let y = y_of(error) - 10.0;
             svg.text(
                 class,

@@ -1,8 +1,9 @@
 //! What a run means, in plain words.
 
-use kinetostat_machining::{PointKind, RunResult, Summary};
+use kinetostat_machining::{PointKind, RunResult};
 
-use crate::number::{self, Rounding, sentence_mm};
+use crate::number;
+use crate::shown::in_type;
 
 /// Rotations below this are not worth a sentence, deg.
 const SMALLEST_ROTATION: f64 = 0.000_5;
@@ -88,7 +89,7 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
     let mut judged = if result.question.compensated {
         compensated(result)
     } else {
-        analysed(summary)
+        analysed(result)
     };
     if let Some(corners) = result.corners_in_words() {
         judged.sentence.push(' ');
@@ -101,8 +102,7 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
         );
     }
     if summary.max_residual_rotation_deg > SMALLEST_ROTATION {
-        let angle = number::significant(summary.max_residual_rotation_deg, 2, Rounding::Up);
-        let angle = number::with_unit(&angle, "deg");
+        let angle = in_type(result).rotation;
         judged.sentence.push_str(&if result.question.compensated {
             format!(" The tool stays tilted by up to {angle}, which a program of positions cannot correct.")
         } else {
@@ -112,8 +112,8 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
     judged
 }
 
-fn analysed(summary: &Summary) -> Verdict {
-    let before = summary.max_position_error_before_mm;
+fn analysed(result: &RunResult) -> Verdict {
+    let before = result.summary.max_position_error_before_mm;
     if !before.is_finite() {
         return unknown();
     }
@@ -122,7 +122,7 @@ fn analysed(summary: &Summary) -> Verdict {
         sentence: format!(
             "The tool is up to {} off its programmed path. This is an analysis only: no compensated program was \
              written.",
-            sentence_mm(before)
+            in_type(result).error_before
         ),
     }
 }
@@ -138,24 +138,25 @@ fn compensated(result: &RunResult) -> Verdict {
             level: Level::Unchanged,
             sentence: format!(
                 "{unchanged} The tool is at most {} off.",
-                sentence_mm(after)
+                in_type(result).error_after
             ),
         };
     }
     let allowed = result.allowed_mm();
-    let (before_text, after_text) = (sentence_mm(before), sentence_mm(after));
+    let before_text = in_type(result).error_before;
+    let (after_text, allowed_text) = number::against(after, allowed);
     if result.holds_tolerance() != Some(true) {
         let sentence = if after < before {
             format!(
                 "Without compensation the tool is up to {before_text} off; with the compensated program it is still \
                  up to {after_text} off, more than the {} asked for.",
-                sentence_mm(allowed)
+                allowed_text
             )
         } else {
             format!(
                 "The compensated program is no better than the original: the tool is up to {before_text} off without \
                  it and up to {after_text} with it, more than the {} asked for.",
-                sentence_mm(allowed)
+                allowed_text
             )
         };
         let sentence = match &result.tolerance.missed {
@@ -177,7 +178,7 @@ fn compensated(result: &RunResult) -> Verdict {
             sentence: format!(
                 "Even without compensation the tool is at most {before_text} off, within the {} asked for; with the \
                  compensated program at most {after_text}.",
-                sentence_mm(allowed)
+                allowed_text
             ),
         };
     }
@@ -252,8 +253,8 @@ mod tests {
     fn good_news() {
         let mut result = run();
         result.summary.max_residual_rotation_deg = 0.42;
-        let expected = "Without compensation the tool is up to 0.76 mm off; with the compensated program at most \
-                        0.00057 mm. The tool stays tilted by up to 0.42 deg, which a program of positions cannot \
+        let expected = "Without compensation the tool is up to 0.759 mm off; with the compensated program at most \
+                        0.570 µm. The tool stays tilted by up to 0.420 deg, which a program of positions cannot \
                         correct.";
         assert_eq!(sentence(&result), (Level::Good, expected.to_owned()));
     }
@@ -274,7 +275,7 @@ mod tests {
         let (level, text) = sentence(&result);
         assert_eq!(level, Level::Attention);
         assert!(
-            text.contains("still up to 0.012 mm off, more than the 0.00060 mm asked for"),
+            text.contains("still up to 0.0120 mm off, more than the 0.6 µm asked for"),
             "{text}"
         );
         result.summary.max_position_error_after_mm = 0.9;
@@ -290,7 +291,7 @@ mod tests {
         assert_eq!(level, Level::Analysis);
         assert!(
             text.starts_with(
-                "No cutting force acts on the tool in this run. The tool is up to 0.76 mm"
+                "No cutting force acts on the tool in this run. The tool is up to 0.759 mm"
             ),
             "{text}"
         );

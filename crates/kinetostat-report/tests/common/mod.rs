@@ -43,7 +43,9 @@ fn summarise(result: &mut RunResult, all_points: usize) {
     summary.smallest_stiffness_n_per_mm = cutting()
         .map(|p| p.smallest_stiffness_n_per_mm)
         .fold(f64::MAX, f64::min);
-    summary.largest_buckling_margin = cutting().filter_map(|p| p.buckling_margin).reduce(f64::max);
+    summary.largest_share_to_buckling = cutting()
+        .filter_map(|p| p.share_to_buckling)
+        .reduce(f64::max);
     summary.max_actuator_force = (0..result.question.actuators.len())
         .map(|i| most(&|p| p.actuator_force.get(i).map_or(0.0, |f| f.abs())))
         .collect();
@@ -100,7 +102,7 @@ pub fn circle_groove() -> RunResult {
         actuator_force: vec![0.0; 3],
         actuator_correction: vec![0.0; 3],
         smallest_stiffness_n_per_mm: 2400.0,
-        buckling_margin: Some(0.0),
+        share_to_buckling: Some(0.0),
         ..PointResult::default()
     };
     points.push(rapid(5, 0.0, [0.0, 0.0, 20.0]));
@@ -157,8 +159,9 @@ pub fn circle_groove() -> RunResult {
             ],
             actuator_correction: before.map(|b| -b).to_vec(),
             smallest_stiffness_n_per_mm: 2280.0 + 240.0 * (turn * 3.0).sin() + 90.0 * c,
-            buckling_margin: Some(0.11 + 0.06 * (turn + 1.0).cos()),
+            share_to_buckling: Some(0.11 + 0.06 * (turn + 1.0).cos()),
             stable: true,
+            ..PointResult::default()
         });
     }
     result.points = points;
@@ -235,12 +238,13 @@ pub fn pocket_on_serial_robot(points: usize) -> RunResult {
                 residual_rotation_deg: 0.09,
                 tool_turn_deg: None,
                 actuator_force: (1..=6).map(|k| torque(f64::from(k * k))).collect(),
-                actuator_correction: (1..=6)
-                    .map(|k| 0.05 / f64::from(k) + 0.0001 * x + 0.002 * noise(i + k as usize))
+                actuator_correction: (1..=6_u8)
+                    .map(|k| 0.05 / f64::from(k) + 0.0001 * x + 0.002 * noise(i + usize::from(k)))
                     .collect(),
                 smallest_stiffness_n_per_mm: 410.0 + 0.2 * x - 0.3 * y + 3.0 * noise(i),
-                buckling_margin: None,
+                share_to_buckling: None,
                 stable: true,
+                ..PointResult::default()
             }
         })
         .collect();
@@ -279,9 +283,9 @@ pub fn unstable() -> RunResult {
         .filter(|p| (100.0..130.0).contains(&p.path_mm))
     {
         point.stable = false;
-        point.buckling_margin = Some(1.2);
+        point.share_to_buckling = Some(1.2);
     }
-    result.summary.largest_buckling_margin = Some(1.2);
+    result.summary.largest_share_to_buckling = Some(1.2);
     result
 }
 
@@ -308,7 +312,7 @@ pub fn hostile_numbers() -> RunResult {
         point.actuator_force = vec![value; i % 5];
         point.actuator_correction = vec![value; 3];
         point.smallest_stiffness_n_per_mm = value;
-        point.buckling_margin = Some(value);
+        point.share_to_buckling = Some(value);
         point.residual_rotation_deg = value;
         if i % 3 == 0 {
             point.position_mm[i % 2] = value;
@@ -338,7 +342,7 @@ pub fn hostile_numbers() -> RunResult {
     ] {
         *value = f64::NAN;
     }
-    s.largest_buckling_margin = Some(f64::INFINITY);
+    s.largest_share_to_buckling = Some(f64::INFINITY);
     s.max_actuator_force = bad.to_vec();
     result
 }

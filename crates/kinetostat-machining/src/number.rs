@@ -1,0 +1,388 @@
+//! How numbers look: one formatter for the terminal, for messages and for the report, so that a figure
+//! has the same digits wherever it stands.
+//!
+//! Text is plain ASCII with a point, `um` for micrometres and engineering notation (`12.5e6`, powers in
+//! steps of three) outside 1e-5 to 1e7. The report sets the same text in type (`µm`, thousands apart,
+//! powers of ten).
+
+/// What stands where there is no number.
+pub const MISSING: &str = "not available";
+
+/// Digits of a figure: enough for what a model knows.
+pub const DIGITS: usize = 3;
+
+/// Which way a figure is rounded: a largest value must not be stated too small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rounding {
+    /// To the nearest: means, settings, coordinates.
+    Nearest,
+    /// Away from zero: largest values, which must not look smaller than they are.
+    Up,
+    /// Towards zero: least values, which must not look larger than they are.
+    Down,
+}
+
+/// A number with a number of significant digits; digits before the point are never cut. Zeros after the
+/// point are kept: they are digits.
+#[must_use]
+pub fn significant(value: f64, digits: usize, rounding: Rounding) -> String {
+    if let Some(word) = no_number(value) {
+        return word.to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = digits.max(1);
+    let value = rounded(value, digits, rounding);
+    let exponent = exponent(value, digits);
+    if (-5..7).contains(&exponent) {
+        let decimals = usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0);
+        return format!("{value:.decimals$}");
+    }
+    engineering(value, digits)
+}
+
+/// The powers in steps of three.
+fn engineering(value: f64, digits: usize) -> String {
+    let text = format!("{:.*e}", digits - 1, value);
+    let Some((mantissa, power)) = text.split_once('e') else {
+        return text;
+    };
+    let power: i32 = power.parse().unwrap_or(0);
+    let shift = power.rem_euclid(3) as usize;
+    let (sign, mantissa) = match mantissa.strip_prefix('-') {
+        Some(rest) => ("-", rest),
+        None => ("", mantissa),
+    };
+    let mut figures: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    while figures.len() < shift + 1 {
+        figures.push('0');
+    }
+    let (whole, rest) = figures.split_at(shift + 1);
+    let point = if rest.is_empty() { "" } else { "." };
+    format!("{sign}{whole}{point}{rest}e{}", power - shift as i32)
+}
+
+/// A number with fixed decimals, as components of a vector are shown beside each other: never `-0.000`.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    if let Some(word) = no_number(value) {
+        return word.to_owned();
+    }
+    if value.abs() >= 1e9 {
+        return engineering(value, 4);
+    }
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
+        _ => text,
+    }
+}
+
+/// A number as somebody set it: no digits that mean nothing.
+#[must_use]
+pub fn setting(value: f64) -> String {
+    let text = significant(value, 6, Rounding::Nearest);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// A number and its unit; no unit where there is no number.
+#[must_use]
+pub fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() || number == MISSING || number.ends_with("infinite") {
+        number.to_owned()
+    } else {
+        format!("{number} {unit}")
+    }
+}
+
+/// Unit for a length of this size and the factor from mm to it.
+#[must_use]
+pub fn length_unit(largest_mm: f64) -> (&'static str, f64) {
+    if largest_mm.abs() >= 0.01 || largest_mm == 0.0 || !largest_mm.is_finite() {
+        ("mm", 1.0)
+    } else {
+        ("um", 1000.0)
+    }
+}
+
+/// A length with its unit, in micrometres where it is small. Below a picometre there is no length.
+#[must_use]
+pub fn length(value_mm: f64, digits: usize, rounding: Rounding) -> String {
+    let (unit, factor) = length_unit(value_mm);
+    let value = value_mm * factor;
+    if value != 0.0 && value.abs() < 0.001 {
+        // Rounded up, the smallest length that is stated is an upper bound without a word for it.
+        return if rounding == Rounding::Up && value > 0.0 {
+            with_unit("0.001", unit)
+        } else {
+            with_unit("below 0.001", unit)
+        };
+    }
+    with_unit(&significant(value, digits, rounding), unit)
+}
+
+/// A length that somebody set.
+#[must_use]
+pub fn length_setting(value_mm: f64) -> String {
+    let (unit, factor) = length_unit(value_mm);
+    with_unit(&setting(value_mm * factor), unit)
+}
+
+/// The largest of lengths, never stated too small.
+#[must_use]
+pub fn largest_length(value_mm: f64) -> String {
+    length(value_mm, DIGITS, Rounding::Up)
+}
+
+/// The least of lengths, never stated too large.
+#[must_use]
+pub fn least_length(value_mm: f64) -> String {
+    length(value_mm, DIGITS, Rounding::Down)
+}
+
+/// A mean of lengths.
+#[must_use]
+pub fn mean_length(value_mm: f64) -> String {
+    length(value_mm, DIGITS, Rounding::Nearest)
+}
+
+/// The largest of values, never stated too small.
+#[must_use]
+pub fn largest(value: f64, unit: &str) -> String {
+    with_unit(&significant(value, DIGITS, Rounding::Up), unit)
+}
+
+/// The least of values, never stated too large.
+#[must_use]
+pub fn least(value: f64, unit: &str) -> String {
+    with_unit(&significant(value, DIGITS, Rounding::Down), unit)
+}
+
+/// The largest of angles in degrees, never stated too small.
+#[must_use]
+pub fn largest_angle(value_deg: f64) -> String {
+    if value_deg > 0.0 && value_deg < 1e-4 {
+        return with_unit("0.0001", "deg");
+    }
+    largest(value_deg, "deg")
+}
+
+/// The largest of shares of the way to buckling (1 is there), in percent, never stated too small. A
+/// load that stretches what could buckle has a share below zero.
+#[must_use]
+pub fn share(value: f64) -> String {
+    let percent = 100.0 * value;
+    if percent.abs() < 1e-4 {
+        return with_unit("0", "%");
+    }
+    let rounding = if value < 0.0 {
+        Rounding::Down
+    } else {
+        Rounding::Up
+    };
+    with_unit(&significant(percent, DIGITS, rounding), "%")
+}
+
+/// A largest length beside the bound that it is judged by, with as many digits as show on which side
+/// it lies: a bound that is missed never looks met, and one that is met never looks missed.
+#[must_use]
+pub fn against(value_mm: f64, bound_mm: f64) -> (String, String) {
+    let parsed = |text: &str| -> Option<f64> {
+        let (number, unit) = text.split_once(' ')?;
+        let factor = if unit == "um" { 1e-3 } else { 1.0 };
+        Some(factor * number.parse::<f64>().ok()?)
+    };
+    for digits in DIGITS..=9 {
+        let value = length(value_mm, digits, Rounding::Up);
+        let bound = length(bound_mm, digits, Rounding::Nearest);
+        let shown = parsed(&value).zip(parsed(&bound));
+        let told = match shown {
+            Some((value, bound)) => (value > bound) == (value_mm > bound_mm),
+            None => true,
+        };
+        if told {
+            // The bound is a setting: zeros at its end say nothing.
+            let (number, unit) = bound.split_once(' ').unwrap_or((&bound, ""));
+            let short = match number.contains('.') && !number.contains('e') {
+                true => number.trim_end_matches('0').trim_end_matches('.'),
+                false => number,
+            };
+            return (value, with_unit(short, unit));
+        }
+    }
+    // Beyond nine digits they are the same length.
+    let digits = 9;
+    (
+        length(value_mm, digits, Rounding::Nearest),
+        length(bound_mm, digits, Rounding::Nearest),
+    )
+}
+
+fn no_number(value: f64) -> Option<&'static str> {
+    if value.is_nan() {
+        Some(MISSING)
+    } else if value == f64::INFINITY {
+        Some("infinite")
+    } else if value == f64::NEG_INFINITY {
+        Some("-infinite")
+    } else {
+        None
+    }
+}
+
+fn exponent(value: f64, digits: usize) -> i32 {
+    let text = format!("{:.*e}", digits.saturating_sub(1), value);
+    text.split_once('e')
+        .and_then(|(_, power)| power.parse().ok())
+        .unwrap_or(0)
+}
+
+fn rounded(value: f64, digits: usize, rounding: Rounding) -> f64 {
+    if rounding == Rounding::Nearest {
+        return value;
+    }
+    let place = digits as i32 - 1 - exponent(value, digits);
+    // Powers of ten are exact up to 22; dividing by one is more exact than multiplying by 0.1, 0.01...
+    let scale = 10f64.powi(place.abs());
+    let scaled = if place >= 0 {
+        value * scale
+    } else {
+        value / scale
+    };
+    if !scaled.is_finite() || scaled == 0.0 || !scale.is_finite() {
+        return value;
+    }
+    // A value that is a round number up to the noise of arithmetic stays that round number.
+    let size = match rounding {
+        Rounding::Down => (scaled.abs() + 1e-9).floor(),
+        _ => (scaled.abs() - 1e-9).ceil(),
+    };
+    let size = size.copysign(scaled);
+    let result = if place >= 0 {
+        size / scale
+    } else {
+        size * scale
+    };
+    if result.is_finite() { result } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_that_mean_something() {
+        use Rounding::{Down, Nearest, Up};
+        assert_eq!(significant(0.7583, 2, Up), "0.76");
+        assert_eq!(significant(0.76, 2, Up), "0.76");
+        assert_eq!(significant(0.7583, 3, Nearest), "0.758");
+        assert_eq!(significant(9.996, 3, Up), "10.0");
+        assert_eq!(significant(1543.0, 2, Down), "1500");
+        assert_eq!(significant(1543.0, 2, Nearest), "1543");
+        assert_eq!(significant(323.52, 4, Nearest), "323.5");
+        assert_eq!(significant(-0.021, 1, Up), "-0.03");
+        assert_eq!(significant(12.5e12, 3, Nearest), "12.5e12");
+        assert_eq!(significant(1.25e8, 1, Nearest), "100e6");
+        assert_eq!(significant(3.2352e-7, 4, Nearest), "323.5e-9");
+        assert_eq!(significant(0.0, 3, Up), "0");
+        assert_eq!(setting(0.5), "0.5");
+        assert_eq!(setting(1500.0), "1500");
+        assert_eq!(fixed(-0.0004, 3), "0.000");
+        assert_eq!(fixed(-1234.56, 1), "-1234.6");
+    }
+
+    #[test]
+    fn lengths_choose_their_unit() {
+        assert_eq!(largest_length(0.000_538_2), "0.539 um");
+        assert_eq!(largest_length(0.758_31), "0.759 mm");
+        assert_eq!(least_length(0.0), "0 mm");
+        assert_eq!(length_setting(0.0005), "0.5 um");
+        assert_eq!(largest_length(f64::NAN), MISSING);
+        assert_eq!(share(0.086), "8.60 %");
+        assert_eq!(share(0.0), "0 %");
+    }
+
+    /// A simple sequence of numbers over many powers of ten.
+    fn values() -> impl Iterator<Item = f64> {
+        let mut state = 1_u64;
+        (0..20_000).map(move |_| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            let unit = (state >> 11) as f64 / (1_u64 << 53) as f64;
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            let power = ((state >> 40) % 24) as i32 - 12;
+            unit * 10_f64.powi(power)
+        })
+    }
+
+    #[test]
+    fn what_is_stated_is_a_bound_and_has_its_digits() {
+        for value in values().filter(|v| *v > 0.0) {
+            let read = |text: String| text.parse::<f64>().unwrap();
+            let up = read(significant(value, 3, Rounding::Up));
+            let down = read(significant(value, 3, Rounding::Down));
+            assert!(up >= value * (1.0 - 1e-8), "{value}: {up}");
+            assert!(down <= value * (1.0 + 1e-8), "{value}: {down}");
+            assert!((up - value).abs() <= 0.0101 * value, "{value}: {up}");
+            assert!((value - down).abs() <= 0.0101 * value, "{value}: {down}");
+            let text = significant(value, 3, Rounding::Nearest);
+            assert!(text.len() <= 9, "{value}: {text}");
+            if let Some((_, power)) = text.split_once('e') {
+                assert_eq!(power.parse::<i32>().unwrap() % 3, 0, "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_bound_that_is_missed_never_looks_met() {
+        let read = |text: &str| {
+            let (number, unit) = text.split_once(' ').unwrap();
+            number.parse::<f64>().unwrap() * if unit == "um" { 1e-3 } else { 1.0 }
+        };
+        for value in values().filter(|v| (1e-5..1e3).contains(v)) {
+            for near in [1.0 + 1e-7, 1.0 - 1e-7, 1.001, 0.999, 1.3, 0.4] {
+                let (shown, bound) = against(value, near * value);
+                let missed = value > near * value;
+                assert_eq!(
+                    read(&shown) > read(&bound),
+                    missed,
+                    "{shown} against {bound}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_upsets_the_formatting() {
+        for value in [
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::MAX,
+            f64::MIN_POSITIVE,
+            -5e-324,
+            0.0,
+            -0.0,
+        ] {
+            for rounding in [Rounding::Nearest, Rounding::Up, Rounding::Down] {
+                for text in [
+                    significant(value, 3, rounding),
+                    length(value, 3, rounding),
+                    fixed(value, 4),
+                    share(value),
+                ] {
+                    assert!(!text.contains("NaN") && !text.contains('?'), "{text}");
+                    assert!(text.len() < 24, "{value}: {text}");
+                }
+            }
+        }
+    }
+}

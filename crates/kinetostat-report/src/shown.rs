@@ -1,0 +1,73 @@
+//! What a report is drawn from.
+
+use std::ops::Deref;
+
+use kinetostat_machining::{Figures, PointResult, Run, RunResult};
+
+use crate::number::typeset;
+
+/// A result, the points that are drawn (of a run all of them), and its figures in type.
+pub(crate) struct Shown<'a> {
+    pub(crate) result: &'a RunResult,
+    pub(crate) points: &'a [PointResult],
+    pub(crate) figures: Figures,
+}
+
+impl Deref for Shown<'_> {
+    type Target = RunResult;
+
+    fn deref(&self) -> &RunResult {
+        self.result
+    }
+}
+
+impl<'a> Shown<'a> {
+    pub(crate) fn of_result(result: &'a RunResult) -> Self {
+        Self {
+            result,
+            points: &result.points,
+            figures: in_type(result),
+        }
+    }
+
+    pub(crate) fn of_run(run: &'a Run) -> Self {
+        Self {
+            result: &run.result,
+            points: &run.points,
+            figures: in_type(&run.result),
+        }
+    }
+}
+
+/// The figures as they are printed.
+pub(crate) fn in_type(result: &RunResult) -> Figures {
+    let plain = Figures::of(result);
+    let set = |text: &String| {
+        // A report has no word for what is infinite: it is no figure.
+        if text.ends_with("infinite") {
+            crate::number::MISSING.to_owned()
+        } else {
+            typeset(text)
+        }
+    };
+    let maybe = |text: &Option<String>| text.as_ref().map(set);
+    let list = |texts: &[String]| texts.iter().map(set).collect();
+    Figures {
+        error_before: set(&plain.error_before),
+        rms_before: set(&plain.rms_before),
+        error_after: set(&plain.error_after),
+        rms_after: set(&plain.rms_after),
+        rounding: set(&plain.rounding),
+        correction: set(&plain.correction),
+        rotation: set(&plain.rotation),
+        speed: set(&plain.speed),
+        corner_step: maybe(&plain.corner_step),
+        shortest_piece: maybe(&plain.shortest_piece),
+        blocks_per_second: maybe(&plain.blocks_per_second),
+        feed_length: set(&plain.feed_length),
+        stiffness: set(&plain.stiffness),
+        share_to_buckling: maybe(&plain.share_to_buckling),
+        actuator_force: list(&plain.actuator_force),
+        actuator_correction: list(&plain.actuator_correction),
+    }
+}
