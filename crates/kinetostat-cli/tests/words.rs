@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{JOB, command, run, shell, workplace};
+use common::{JOB, command, contents, run, shell, workplace};
 
 fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
@@ -250,6 +250,7 @@ fn examples_in_the_help_can_be_copied() {
     }
     assert!(examples.len() >= 28, "{}: {examples:#?}", examples.len());
     let mut skipped = Vec::new();
+    let given: Vec<_> = contents(here.path()).into_keys().collect();
     for example in &examples {
         // Meshes of other programs are not at hand here; their reader has tests of its own.
         if ["link.sti", "link.pch"]
@@ -262,6 +263,12 @@ fn examples_in_the_help_can_be_copied() {
             let err = flat(&String::from_utf8_lossy(&said.stderr));
             assert!(err.contains("does not exist"), "{example}: {err}");
             continue;
+        }
+        // Outputs of the examples before: some share a name.
+        for path in contents(here.path()).into_keys() {
+            if path.is_file() && !given.contains(&path) {
+                std::fs::remove_file(path).expect("removed");
+            }
         }
         let said = shell(here.path(), &format!("$K {example}"));
         assert_eq!(said.code, 0, "{example}\n{}", said.err);
