@@ -556,7 +556,7 @@ fn limb_in_words(limb: &LimbAnswer) -> String {
 fn links(a: &Deflection) -> String {
     let single = a.limbs.len() == 1;
     let mut rows = vec![
-        ["link", "axial force, N", "Euler load, N", "share, %"]
+        ["link", "axial force, N", "Euler load, N", "share of it"]
             .map(str::to_owned)
             .to_vec(),
     ];
@@ -572,7 +572,7 @@ fn links(a: &Deflection) -> String {
             },
             fixed(link.axial_force_n, 3),
             number(link.euler_load_n, 4),
-            number(100.0 * link.share_of_euler_load, 3),
+            formatter::share(link.share_of_euler_load),
         ]);
     }
     if rows.len() == 1 {

@@ -1,6 +1,8 @@
 //! A run in words: the verdict, then the figures in a table, readable at 80 columns.
 
-use kinetostat_machining::number::{MISSING, largest, largest_length, with_unit};
+use kinetostat_machining::number::{
+    MISSING, against, largest, largest_length, length_setting, with_unit,
+};
 use kinetostat_machining::{Figures, PointResult, RunResult};
 
 use crate::screen::{columns, fixed, item, triple, wrapped};

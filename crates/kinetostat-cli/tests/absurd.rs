@@ -29,6 +29,7 @@ below_z_mm = 1.0
 [tolerances]
 path_um = 20
 chord_um = 16
+backward_step_um = 200
 
 [output]
 program = "out.ngc"
@@ -300,7 +301,7 @@ fn a_missed_tolerance_is_said_first_with_line_and_reason_and_has_its_own_code() 
 #[test]
 fn the_tolerance_is_in_proportion_to_the_machine() {
     let here = workplace();
-    let job = ARM_JOB.replace("[tolerances]\npath_um = 20\nchord_um = 16\n", "");
+    let job = ARM_JOB.replace("path_um = 20\nchord_um = 16\n", "");
     let none = arm().replace("repeatability_mm = 0.06\n", "");
     let fine = arm().replace("repeatability_mm = 0.06", "repeatability_mm = 0.03");
     for (model, path, from) in [

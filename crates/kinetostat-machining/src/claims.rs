@@ -2,6 +2,7 @@
 //! terminal and in the report.
 
 use crate::load::CornerLoad;
+use crate::number::{largest, largest_length};
 use crate::result::RunResult;
 
 impl RunResult {
@@ -25,7 +26,7 @@ impl RunResult {
             return None;
         }
         let mm = |value: Option<f64>| match value.filter(|value| value.is_finite()) {
-            Some(value) => format!("up to {value:.4} mm off there"),
+            Some(value) => format!("up to {} off there", largest_length(value)),
             None => "without an equilibrium there".to_owned(),
         };
         let (holds, otherwise) = match self.question.load_at_corners {
@@ -45,9 +46,10 @@ impl RunResult {
             ),
         };
         Some(format!(
-            "At sharp corners this takes it that {holds}: {} corner steps, up to {:.4} mm long, {:.1} % of the points; \
-             {otherwise}.",
-            s.corner_steps, s.largest_corner_step_mm, s.corner_points_percent
+            "At sharp corners this takes it that {holds}: {} corner steps, up to {} long, {} of the points; {otherwise}.",
+            s.corner_steps,
+            largest_length(s.largest_corner_step_mm),
+            largest(s.corner_points_percent, "%")
         ))
     }
 }

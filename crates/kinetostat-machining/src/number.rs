@@ -151,9 +151,15 @@ pub fn mean_length(value_mm: f64) -> String {
     length(value_mm, DIGITS, Rounding::Nearest)
 }
 
+/// Below this a force, a motion or a share is the rounding of its arithmetic.
+const NOTHING: f64 = 1e-12;
+
 /// The largest of values, never stated too small.
 #[must_use]
 pub fn largest(value: f64, unit: &str) -> String {
+    if value.abs() < NOTHING {
+        return with_unit("0", unit);
+    }
     with_unit(&significant(value, DIGITS, Rounding::Up), unit)
 }
 

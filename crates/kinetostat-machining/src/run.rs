@@ -823,21 +823,24 @@ fn of_what_was_written(
     summary.peak_blocks_per_second_after = a.peak_blocks_per_second;
 }
 
-/// Mean of a value along the path that is cut. Every piece counts with its length and the value in its
-/// middle, so that it does not matter into how many pieces a program is divided; pieces come as their
-/// middle and their end.
+/// Mean of a value along the path that is cut, by the trapezoidal rule: a piece counts with its length, so
+/// that it does not matter into how many pieces a program is divided, nor where they are looked at.
 fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f64 {
     let (mut sum, mut length) = (0.0, 0.0);
     for pair in points.windows(2) {
-        let [middle, end] = [pair[0], pair[1]];
-        let half = end.path_mm - middle.path_mm;
-        let one = middle.line == end.line
-            && middle.kind == PointKind::Feed
-            && end.kind == PointKind::Feed;
-        if one && !middle.end && end.end && half > 0.0 {
-            sum += half * value(middle);
-            length += half;
+        let [from, to] = [pair[0], pair[1]];
+        let way = to.path_mm - from.path_mm;
+        if to.kind != PointKind::Feed || way <= 0.0 {
+            continue;
         }
+        // A block's own first place is not looked at: the load turns at a corner.
+        let mean = if from.line == to.line && from.kind == PointKind::Feed {
+            0.5 * (value(from) + value(to))
+        } else {
+            value(to)
+        };
+        sum += way * mean;
+        length += way;
     }
     if length > 0.0 {
         return sum / length;

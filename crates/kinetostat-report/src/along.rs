@@ -180,7 +180,7 @@ fn after_panel(result: &Shown<'_>, along: &Along) -> Option<Panel> {
             value: tolerance * factor,
             label: format!(
                 "allowed {}",
-                number::length(tolerance, 2, Rounding::Nearest)
+                number::against(result.summary.max_position_error_after_mm, tolerance).1
             ),
         });
     }

@@ -255,9 +255,13 @@ impl System {
     }
 }
 
-/// Unbalanced torque (balanced) that the rounding of the coordinates leaves: where one spring is
-/// worlds stiffer than the others, its torque is no better known than this.
+/// Unbalanced torque (balanced) that the rounding of the coordinates leaves where one spring is
+/// very much stiffer than another: its torque is no better known than this. Zero for all others, so that
+/// their equilibria are as exact as the settings ask for.
 pub(crate) fn rounding(chain: &Chain, factors: &[f64], x: &[f64]) -> f64 {
+    if !disparate(factors, chain) {
+        return 0.0;
+    }
     let length = chain.scale().length;
     let (mut moved, mut stiffest) = (0.0_f64, 0.0_f64);
     for ((c, factor), x) in chain.coordinates().iter().zip(&factors[6..]).zip(x) {
@@ -277,7 +281,7 @@ pub(crate) fn rounding(chain: &Chain, factors: &[f64], x: &[f64]) -> f64 {
 /// the numbers that they come from; a sweep takes spring by spring.
 const DISPARATE: f64 = 1e7;
 
-/// Whether the springs' stiffnesses (rotations at the natural length) are worlds apart.
+/// Whether the springs' stiffnesses (rotations at the natural length) differ by more than [`DISPARATE`].
 fn disparate(factors: &[f64], chain: &Chain) -> bool {
     let length = chain.scale().length;
     let own = chain.coordinates().iter().zip(&factors[6..]);
