@@ -61,7 +61,7 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     {
         add(&mut found, failure);
     }
-    let parts: [&dyn Fn(&JobFile) -> Answer<()>; 3] = [
+    let parts: [Part<'_>; 3] = [
         &|job| setting(files, Some(job), asked.program, &asked.writing).map(drop),
         &|job| {
             let mut inputs = Vec::new();
@@ -159,6 +159,9 @@ fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {
     outer.start <= inner.start && inner.end <= outer.end && !outer.is_empty()
 }
 
+/// Reads a part of the question from a job.
+type Part<'a> = &'a dyn Fn(&JobFile) -> Answer<()>;
+
 /// Takes out the innermost entry that a place lies in; false if there is none.
 fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
     let mut own = None;
@@ -168,11 +171,7 @@ fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
             own = Some(key.clone());
         }
         match value.get_mut() {
-            DeValue::Table(inner) => {
-                if take_out(inner, span) {
-                    return true;
-                }
-            }
+            DeValue::Table(inner) if take_out(inner, span) => return true,
             DeValue::Array(list) => {
                 let mut whole = None;
                 for (i, entry) in list.iter_mut().enumerate() {

@@ -40,7 +40,7 @@ fn ways(value: f64, allowed: &mut BTreeSet<String>) {
 /// Values and words of a part of the JSON.
 fn collect(part: &Value, allowed: &mut BTreeSet<String>) {
     match part {
-        Value::Number(n) => ways(n.as_f64().unwrap(), allowed),
+        Value::Number(n) => ways(n.as_f64().expect("a number"), allowed),
         Value::String(text) => allowed.extend(with_units(text)),
         Value::Array(list) => {
             list.iter().for_each(|v| collect(v, allowed));

@@ -191,10 +191,10 @@ pub fn of_accounting(limits: &Limits, accounting: &Accounting) -> Vec<Beyond> {
 }
 
 /// The place where a figure is largest; places without a number count as the largest.
-fn most<'p>(
-    points: &'p [PointResult],
+fn most(
+    points: &[PointResult],
     figure: impl Fn(&PointResult) -> f64,
-) -> Option<(f64, &'p PointResult)> {
+) -> Option<(f64, &PointResult)> {
     let key = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
     points
         .iter()
@@ -363,7 +363,7 @@ pub(crate) fn odd(
         ));
     }
     let stiffness = summary.smallest_stiffness_n_per_mm;
-    if summary.stable && (stiffness < SOFT || stiffness > STIFF) {
+    if summary.stable && !(SOFT..=STIFF).contains(&stiffness) {
         let which = if stiffness < SOFT {
             "softer"
         } else {

@@ -80,7 +80,7 @@ impl Checker {
     /// What may stand where the last finding is, for reading on.
     fn stand_in(&mut self, value: Option<String>) {
         if let Some(finding) = self.findings.last_mut() {
-            finding.stand_in = value;
+            finding.remedy.stand_in = value;
         }
     }
 
@@ -312,7 +312,7 @@ impl Checker {
                     .and_then(Value::as_str);
                 self.stand_in(kind.and_then(stand_in));
                 if let Some(finding) = self.findings.last_mut() {
-                    finding.missing = Some(key.to_owned());
+                    finding.remedy.missing = Some(key.to_owned());
                 }
             }
         }

@@ -55,9 +55,16 @@ pub(crate) struct Finding {
     pub(crate) span: Option<Range<usize>>,
     pub(crate) message: String,
     pub(crate) help: String,
+    /// How the file may be read on.
+    pub(crate) remedy: Box<Remedy>,
+}
+
+/// What makes a file readable beyond a finding, so that others are found in the same run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Remedy {
     /// A key that the table at the place should have.
     pub(crate) missing: Option<String>,
-    /// A value of the right form, as TOML, for reading on; none where there is no simple one.
+    /// A value of the right form, as TOML; none where there is no simple one.
     pub(crate) stand_in: Option<String>,
 }
 
@@ -68,8 +75,7 @@ impl Finding {
             span: None,
             message: message.into(),
             help: help.into(),
-            missing: None,
-            stand_in: None,
+            remedy: Box::default(),
         }
     }
 

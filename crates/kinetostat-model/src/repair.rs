@@ -44,11 +44,11 @@ fn search(source: &Source<'_>, findings: &[Finding]) -> Option<Vec<Finding>> {
 /// where that is. `None` where the rest of the file cannot be understood without it.
 fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<Place> {
     let place = &finding.place;
-    if let Some(missing) = &finding.missing {
+    if let Some(missing) = &finding.remedy.missing {
         if place.0.is_empty() || BEARING.contains(&missing.as_str()) {
             return None;
         }
-        let value = DeValue::parse(finding.stand_in.as_deref()?).ok()?;
+        let value = DeValue::parse(finding.remedy.stand_in.as_deref()?).ok()?;
         let key = serde_spanned::Spanned::new(0..0, missing.clone().into());
         table_at(tree, &place.0)?.insert(key, value);
         return Some(place.clone());
@@ -75,7 +75,7 @@ fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<Place> {
         }
         table.remove(&found);
         // Of a list with a wrong entry the whole goes: what would stand for the entry is no list.
-        if let (true, Some(text)) = (last + 1 == place.0.len(), &finding.stand_in) {
+        if let (true, Some(text)) = (last + 1 == place.0.len(), &finding.remedy.stand_in) {
             table.insert(found, DeValue::parse(text).ok()?);
         }
     }

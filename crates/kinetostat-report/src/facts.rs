@@ -191,7 +191,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
     if summary.largest_backward_step_mm > 0.0 {
         rows.push(row(
             "Way backwards",
-            number::length(summary.largest_backward_step_mm, 2, Rounding::Up),
+            number::length(summary.largest_backward_step_mm, 3, Rounding::Up),
             format!(
                 "The longest step or piece against the direction of motion; {} are longer than {}.",
                 number::count(summary.backward_steps),
