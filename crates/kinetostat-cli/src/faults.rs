@@ -171,7 +171,12 @@ fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
             own = Some(key.clone());
         }
         match value.get_mut() {
-            DeValue::Table(inner) if take_out(inner, span) => return true,
+            DeValue::Table(inner) => {
+                let taken = take_out(inner, span);
+                if taken {
+                    return true;
+                }
+            }
             DeValue::Array(list) => {
                 let mut whole = None;
                 for (i, entry) in list.iter_mut().enumerate() {
