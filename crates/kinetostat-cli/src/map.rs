@@ -88,7 +88,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         warnings.push(orientation::follows_in_words(turned, asked.is_some(), true));
     }
     let answer = MapAnswer {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: model.name().to_owned(),
         model_source: match &path {

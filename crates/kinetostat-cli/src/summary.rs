@@ -1,7 +1,7 @@
 //! A run in words: the verdict, then the figures in a table, readable at 80 columns.
 
 use kinetostat_machining::number::{
-    MISSING, against, largest, largest_length, length_setting, with_unit,
+    MISSING, Rounding, against, largest, largest_length, length_setting, significant, with_unit,
 };
 use kinetostat_machining::{Figures, PointResult, RunResult};
 
@@ -125,11 +125,11 @@ fn figures(result: &RunResult) -> String {
             let backwards = largest_length(s.largest_backward_step_mm);
             row("longest way backwards", "", &backwards);
         }
-        let mm = |value: f64| with_unit(&fixed(value, 1), "mm");
+        let mm = |value: f64| with_unit(&significant(value, 5, Rounding::Nearest), "mm");
         let (before, after) = (mm(s.feed_length_before_mm), mm(s.feed_length_after_mm));
         row("length at feed", &before, &after);
         if let (Some(before), Some(after)) = (s.feed_time_before_s, s.feed_time_after_s) {
-            let seconds = |value: f64| with_unit(&fixed(value, 1), "s");
+            let seconds = |value: f64| with_unit(&significant(value, 4, Rounding::Nearest), "s");
             row("time at feed", &seconds(before), &seconds(after));
         }
         row("blocks", &of(s.blocks), &of(s.blocks_out));

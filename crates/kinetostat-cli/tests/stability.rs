@@ -15,7 +15,7 @@ fn every_json_says_its_version_and_who_wrote_it() {
         ("check model.toml --json", 2),
         ("model compare model.toml model.toml --json", 1),
         ("stiffness model.toml --json", 1),
-        ("map orthoglide --x -20 20 3 --json", 1),
+        ("map orthoglide --x -20 20 3 --json", 2),
         ("deflect orthoglide --force 1 0 0 --json", 2),
         (
             "deflect orthoglide --program part.ngc --part-origin-mm 0 0 100 --force 1 0 0 --json",

@@ -251,24 +251,27 @@ fn fact(name: &str, text: String) -> Value {
 
 /// Length, time and blocks per second of the feed moves, before and after where a program was written.
 fn length_and_time(summary: &Summary) -> String {
-    let with = |value: Option<f64>, decimals: usize, unit: &str| {
+    let with = |value: Option<f64>, digits: usize, unit: &str| {
         value.map_or_else(
             || "unknown".to_owned(),
-            |value| number::with_unit(&number::fixed(value, decimals), unit),
+            |value| {
+                let text = number::significant(value, digits, Rounding::Nearest);
+                number::with_unit(&text, unit)
+            },
         )
     };
-    let mm = |value: f64| with(Some(value), 1, "mm");
+    let mm = |value: f64| with(Some(value), 5, "mm");
     if summary.feed_length_after_mm == 0.0 {
         return mm(summary.feed_length_mm);
     }
     format!(
         "{}, {}, {} blocks a second before; {}, {}, {} after",
         mm(summary.feed_length_before_mm),
-        with(summary.feed_time_before_s, 1, "s"),
-        with(summary.mean_blocks_per_second_before, 1, "").trim(),
+        with(summary.feed_time_before_s, 4, "s"),
+        with(summary.mean_blocks_per_second_before, 3, "").trim(),
         mm(summary.feed_length_after_mm),
-        with(summary.feed_time_after_s, 1, "s"),
-        with(summary.mean_blocks_per_second_after, 1, "").trim(),
+        with(summary.feed_time_after_s, 4, "s"),
+        with(summary.mean_blocks_per_second_after, 3, "").trim(),
     )
 }
 
