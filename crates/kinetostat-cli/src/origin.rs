@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 /// Most sentences about stiffnesses; longer lists hide the model, which the files name.
 const MOST: usize = 60;
 
-/// A file with its hash; directories are nobody's business who reads the report.
+/// A file with its hash; its directory is left out: a report may be passed on.
 pub(crate) fn file(what: &str, path: &Path, bytes: &[u8]) -> FileRead {
     let name = path.file_name().map_or_else(
         || path.display().to_string(),

@@ -2,13 +2,10 @@
 
 use kinetostat::{Pose, Wrench};
 
-use crate::run::{RunError, Task, Watch};
+use crate::run::{BATCH, RunError, Task, Watch};
 use crate::sites::Site;
 use crate::solve::in_chunks;
 use crate::tool::Machines;
-
-/// Points between two looks at the watch.
-const BATCH: usize = 4096;
 
 /// Largest distance of the tool from its place on all corner steps under the load of the other reading
 /// ([`Site::other_wrench`]), mm. None without such steps, and where a step has no equilibrium by that

@@ -297,7 +297,7 @@ impl Monitor for Forward<'_> {
 }
 
 /// Points between two looks at the watch.
-const BATCH: usize = 4096;
+pub(crate) const BATCH: usize = 4096;
 
 /// All points in their order, and the first of a written program that is worse than before. Sites are
 /// made as they are needed: a long program has many.
@@ -770,22 +770,11 @@ fn summarise(
     };
     if let Some(written) = written {
         of_what_was_written(&mut summary, task, points, written, checked);
-        let a = &written.accounting;
-        summary.blocks_out = a.blocks_out;
-        summary.blocks_split = a.blocks_split;
-        summary.blocks_unchanged = a.blocks_carried;
-        summary.bytes_out = a.bytes_out;
-        summary.pieces = a.pieces;
-        summary.corner_steps = a.corner_steps;
-        summary.largest_corner_step_mm = a.largest_corner_step_mm;
-        summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
-        summary.blocks_per_second = a.peak_blocks_per_second.unwrap_or(0.0);
-        summary.max_rounding_error_mm = a.largest_rounding_mm;
     }
     summary
 }
 
-/// Corner steps, feeds, length and time of a written program.
+/// Blocks, corner steps, feeds, length and time of a written program.
 fn of_what_was_written(
     summary: &mut Summary,
     task: &Task<'_>,
@@ -802,6 +791,16 @@ fn of_what_was_written(
         CornerLoad::Turns => (chosen, checked.other_reading_mm),
         CornerLoad::FollowsFeed => (checked.other_reading_mm, chosen),
     };
+    summary.blocks_out = a.blocks_out;
+    summary.blocks_split = a.blocks_split;
+    summary.blocks_unchanged = a.blocks_carried;
+    summary.bytes_out = a.bytes_out;
+    summary.pieces = a.pieces;
+    summary.corner_steps = a.corner_steps;
+    summary.largest_corner_step_mm = a.largest_corner_step_mm;
+    summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
+    summary.blocks_per_second = a.peak_blocks_per_second.unwrap_or(0.0);
+    summary.max_rounding_error_mm = a.largest_rounding_mm;
     summary.unchanged = written.bytes == task.program.bytes();
     summary.corner_points_percent = 100.0 * corners().count() as f64 / points.len().max(1) as f64;
     summary.max_corner_error_if_load_turns_mm = turns;

@@ -122,6 +122,7 @@ fn sampled(
                 .tool;
             let off = 1e3 * (tool.translation.vector - wanted.translation.vector).norm();
             assert!(off.is_finite());
+            assert!(off.is_finite());
             worst = worst.max(off);
             places += 1;
         }
@@ -182,6 +183,7 @@ fn written_programs_are_within_their_bound_in_random_places() {
             "case {case}: {off} mm, {allowed} allowed\n{text}"
         );
         places += looked;
+        assert!(off.is_finite());
         worst = worst.max(off);
         beyond_claim = beyond_claim.max(off - run.result.summary.max_position_error_after_mm);
     }

@@ -110,6 +110,7 @@ fn each_block_has_the_length_and_the_load_of_its_own_tool() {
             assert!(difference < 1e-6, "line {}: {difference} mm", point.line);
             let difference = (point.error_before_mm[axis] - wrong.error_before_mm[axis]).abs();
             assert!(difference.is_finite());
+            assert!(difference.is_finite());
             apart = apart.max(difference);
             let difference = (point.force_n[axis] - own.force_n[axis]).abs();
             assert!(difference < 1e-9, "line {}: {difference} N", point.line);

@@ -163,7 +163,7 @@ impl Modes {
         self.tool_length_on = on;
     }
 
-    /// Faults that would be found again in every block that follows are told once.
+    /// Faults that would be found again in every block that follows are reported once.
     pub fn go_on_after_fault(&mut self) {
         self.units.get_or_insert(Units::Millimetres);
         self.motion.get_or_insert(Motion::Feed);

@@ -107,7 +107,7 @@ struct Place {
     wrench: Wrench,
 }
 
-/// Corrections of less motion than this (rad, natural lengths) are judged by what lacks after them,
+/// Corrections of less motion than this (rad, natural lengths) are judged by the residual after them,
 /// larger ones by the motion that the same tangents still want.
 const SMALL: f64 = 1e-2;
 
@@ -450,7 +450,7 @@ impl<'m> PlatformSolver<'m> {
                 .sum();
             let start = self.place();
             // Where platforms go where their limbs lead, large corrections are judged as those of
-            // chains. What braces each other is led by what lacks, and stays on its branch.
+            // chains. Limbs that constrain each other are judged by the residual, and stay on their branch.
             let by_motion = self.follows();
             loop {
                 let reached = self.go(&start, &step, &steps, length);
