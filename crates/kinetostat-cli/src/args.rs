@@ -555,7 +555,7 @@ A job file:
 
   # [[tools]]                      # several tools: T1 M6, T2 M6
   # number = 1
-  # length_mm = 100                # and load = { ... } of its own
+  # length_mm = 100                # and load = { ... } of its own, at_corners included
 
   [load]                           # on feed moves; none in rapids
   milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }

@@ -114,7 +114,7 @@ pub(crate) struct LoadTable {
     pub gentle_corner_deg: Option<Spanned<f64>>,
     /// Length over which the load turns there, mm.
     pub turning_length_mm: Option<Spanned<f64>>,
-    /// What it is on the steps written at sharp corners.
+    /// What it is on the steps written at sharp corners, of this tool.
     pub at_corners: Option<CornerWord>,
 }
 

@@ -3,6 +3,8 @@
 mod common;
 
 use common::{JOB, PROGRAM, contents, gcode, run, shell, workplace};
+use std::path::Path;
+
 use serde_json::Value;
 
 fn result(bytes: &[u8]) -> Value {
@@ -76,6 +78,50 @@ fn tools_of_a_program_have_their_own_lengths_and_without_a_table_a_warning() {
             .unwrap()
             <= 0.001
     );
+
+    // What is assumed at sharp corners is said of each tool by itself, and --load-at-corners goes over it.
+    let follows = table.replace("-400]", "-400], at_corners = \"follows_feed\"");
+    let (done, json) = compensate(&one.replace("[load]", &follows));
+    // Tool 2 then cuts along its steps, and misses there what holds where the load turns.
+    assert_eq!(done.code, 3, "{done:?}");
+    let said = done.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("(tool 1), or follows the feed on the steps (tool 2)"),
+        "{said}"
+    );
+
+    let read = |json: &Path| {
+        let r = result(&std::fs::read(json).unwrap());
+        let tools = r["question"]["tools_at_corners"]
+            .as_array()
+            .unwrap()
+            .clone();
+        tools
+            .iter()
+            .map(|tool| {
+                (
+                    tool["number"].as_u64().unwrap(),
+                    tool["load_at_corners"].as_str().unwrap().to_owned(),
+                )
+            })
+            .collect::<Vec<_>>()
+    };
+    let (turns, follows) = ("turns".to_owned(), "follows_feed".to_owned());
+    assert_eq!(read(&json), [(1, turns.clone()), (2, follows)]);
+    run(
+        here.path(),
+        &[
+            "compensate",
+            "tools.toml",
+            "--force-overwrite",
+            "--json",
+            "r.json",
+            "--load-at-corners",
+            "turns",
+        ],
+    )
+    .answered();
+    assert_eq!(read(&json), [(1, turns.clone()), (2, turns)]);
 
     // A tool that is not in the table.
     let (done, _) = compensate(&one.replace("[load]", &table.replace("number = 2", "number = 3")));

@@ -29,19 +29,24 @@ impl RunResult {
             Some(value) => format!("up to {} off there", largest_length(value)),
             None => "without an equilibrium there".to_owned(),
         };
-        let (holds, otherwise) = match self.question.load_at_corners {
-            CornerLoad::Turns => (
-                "the load turns evenly while the tool steps",
-                format!(
-                    "if it follows the feed on the steps instead, the tool is {}",
-                    mm(s.max_corner_error_if_load_follows_feed_mm)
-                ),
+        let if_turns = mm(s.max_corner_error_if_load_turns_mm);
+        let if_follows = mm(s.max_corner_error_if_load_follows_feed_mm);
+        let (holds, otherwise) = match self.read_at_corners() {
+            (Some(CornerLoad::Turns), _) => (
+                "the load turns evenly while the tool steps".to_owned(),
+                format!("if it follows the feed on the steps instead, the tool is {if_follows}"),
             ),
-            CornerLoad::FollowsFeed => (
-                "the load follows the feed on the steps",
+            (Some(CornerLoad::FollowsFeed), _) => (
+                "the load follows the feed on the steps".to_owned(),
+                format!("if it turns evenly while the tool steps, the tool is {if_turns}"),
+            ),
+            (None, [turns, follows]) => (
                 format!(
-                    "if it turns evenly while the tool steps, the tool is {}",
-                    mm(s.max_corner_error_if_load_turns_mm)
+                    "the load turns evenly while the tool steps ({turns}), or follows the feed on the steps ({follows})"
+                ),
+                format!(
+                    "if it turns evenly with all tools, they are {if_turns}; if it follows the feed with all of \
+                     them, they are {if_follows}"
                 ),
             ),
         };
@@ -51,5 +56,29 @@ impl RunResult {
             largest_length(s.largest_corner_step_mm),
             largest(s.corner_points_percent, "%")
         ))
+    }
+
+    /// The reading of the load at corners that all tools share, if they share one, and which tools are read by
+    /// each of the two: "tools 1 and 3".
+    fn read_at_corners(&self) -> (Option<CornerLoad>, [String; 2]) {
+        let tools = &self.question.tools_at_corners;
+        let Some(first) = tools.first().map(|tool| tool.load_at_corners) else {
+            return (Some(self.question.load_at_corners), Default::default());
+        };
+        let read = |reading: CornerLoad| {
+            let own = tools.iter().filter(|tool| tool.load_at_corners == reading);
+            let numbers: Vec<String> = own.map(|tool| tool.number.to_string()).collect();
+            match numbers.split_last() {
+                Some((last, rest)) if !rest.is_empty() => {
+                    format!("tools {} and {last}", rest.join(", "))
+                }
+                _ => format!("tool {}", numbers.concat()),
+            }
+        };
+        let shared = tools.iter().all(|tool| tool.load_at_corners == first);
+        (
+            shared.then_some(first),
+            [read(CornerLoad::Turns), read(CornerLoad::FollowsFeed)],
+        )
     }
 }

@@ -2,20 +2,27 @@
 
 use kinetostat::{Pose, Wrench};
 
+use crate::load::CornerLoad;
 use crate::run::{BATCH, RunError, Task, Watch};
 use crate::sites::Site;
 use crate::solve::in_chunks;
 use crate::tool::Machines;
 
-/// Largest distance of the tool from its place on all corner steps under the load of the other reading
-/// ([`Site::other_wrench`]), mm. None without such steps, and where a step has no equilibrium by that
-/// reading.
-pub(crate) fn by_the_other_reading(
+/// Largest distance of the tool from its place on the corner steps that were read the other way, if the load
+/// there is by `reading` ([`Site::other_wrench`]), mm. None without such steps; infinite where a step has no
+/// equilibrium by that reading.
+pub(crate) fn by_the_other_reading<S: Iterator<Item = Site>>(
     task: &Task<'_>,
-    sites: impl Iterator<Item = Site>,
+    reading: CornerLoad,
+    sites: impl Fn() -> S,
     watch: &dyn Watch,
 ) -> Result<Option<f64>, RunError> {
-    let steps: Vec<(Site, Wrench)> = sites
+    let mut loads = task.tools.iter().map(|tool| &tool.load).chain([&task.load]);
+    if loads.all(|load| load.at_corners == reading) {
+        return Ok(None);
+    }
+    let steps: Vec<(Site, Wrench)> = sites()
+        .filter(|site| task.load_on(site.line).at_corners == reading.other())
         .filter_map(|site| {
             let other = site.other_wrench?;
             Some((site, other))
@@ -62,7 +69,7 @@ pub(crate) fn by_the_other_reading(
         });
         for error in errors {
             let Some(error) = error.filter(|error| error.is_finite()) else {
-                return Ok(None);
+                return Ok(Some(f64::INFINITY));
             };
             largest = Some(largest.map_or(error, |most: f64| most.max(error)));
         }

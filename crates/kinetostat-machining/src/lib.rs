@@ -35,7 +35,7 @@ pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singu
 pub use placement::Placement;
 pub use result::{
     ActuatorColumn, FileRead, MissedTolerance, NearSingularPlace, PointKind, PointResult, Question,
-    RESULT_SCHEMA, RunResult, Summary, ToleranceVerdict,
+    RESULT_SCHEMA, RunResult, Summary, ToleranceVerdict, ToolAtCorners,
 };
 pub use run::{
     Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words, of_program,

@@ -71,6 +71,16 @@ pub enum CornerLoad {
     FollowsFeed,
 }
 
+impl CornerLoad {
+    /// The reading that this one is not.
+    pub(crate) fn other(self) -> Self {
+        match self {
+            Self::Turns => Self::FollowsFeed,
+            Self::FollowsFeed => Self::Turns,
+        }
+    }
+}
+
 /// The load of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProgramLoad {
@@ -262,12 +272,6 @@ impl<'a> LoadAlongPath<'a> {
     ) -> Wrench {
         let along = heading(direction.try_normalize(1e-9));
         self.wrench_headed(placement, move_index, share, along)
-    }
-
-    /// What is assumed on steps at corners.
-    #[must_use]
-    pub fn at_corners(&self) -> CornerLoad {
-        self.load.at_corners
     }
 
     /// Shares of a move at which the load or its slope jumps: where turning at gentle corners begins and

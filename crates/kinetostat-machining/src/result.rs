@@ -156,6 +156,18 @@ pub struct Question {
     /// What the load is taken to be while the written program steps at sharp corners.
     #[serde(default)]
     pub load_at_corners: CornerLoad,
+    /// The same for each tool that the program takes by number; empty where there is one tool.
+    #[serde(default)]
+    pub tools_at_corners: Vec<ToolAtCorners>,
+}
+
+/// What the load on a tool is taken to be while the written program steps at sharp corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ToolAtCorners {
+    /// Number in the program's T words.
+    pub number: u32,
+    /// The reading for its corner steps.
+    pub load_at_corners: CornerLoad,
 }
 
 /// A file that a run was made from.

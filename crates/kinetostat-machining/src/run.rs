@@ -19,7 +19,7 @@ use crate::near::{natural_length, near_singular};
 use crate::placement::Placement;
 use crate::result::{
     ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
-    Summary, ToleranceVerdict,
+    Summary, ToleranceVerdict, ToolAtCorners,
 };
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{Neighbour, Orientation, in_chunks};
@@ -58,6 +58,11 @@ impl<'a> Task<'a> {
     /// Machine with the tool that the block on a line is made with.
     fn mechanism_on(&self, line: usize) -> &'a Mechanism {
         tool_on(self.tools, self.path, line).map_or(self.mechanism, |tool| tool.mechanism)
+    }
+
+    /// What acts on the tool that the block on a line is made with.
+    pub(crate) fn load_on(&self, line: usize) -> &ProgramLoad {
+        tool_on(self.tools, self.path, line).map_or(&self.load, |tool| &tool.load)
     }
 }
 
@@ -244,7 +249,8 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     }
     let checked = Checked {
         speed_percent: 100.0 * check.largest_speed_error,
-        other_reading_mm: by_the_other_reading(task, sites(), watch)?,
+        if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
+        if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
     };
     Ok(conclude(task, &load, points, Some(written), &checked))
 }
@@ -257,8 +263,10 @@ const SPACING: f64 = 1.0 / 16.0;
 struct Checked {
     /// Largest error of the speed along the part where the feed was not limited, percent.
     speed_percent: f64,
-    /// Largest error on corner steps by the reading of the load that was not chosen, mm.
-    other_reading_mm: Option<f64>,
+    /// Largest error on the corner steps that were not read so, if the load turns evenly there, mm.
+    if_turns_mm: Option<f64>,
+    /// The same, if the load follows the feed there.
+    if_follows_mm: Option<f64>,
 }
 
 /// Everything that bends the machine along a program, in words: cutting load and own weight.
@@ -551,6 +559,14 @@ fn conclude(
     question.decimals = task.writing.decimals.unwrap_or(4);
     question.compensated = written.is_some();
     question.load_at_corners = task.load.at_corners;
+    question.tools_at_corners = task
+        .tools
+        .iter()
+        .map(|tool| ToolAtCorners {
+            number: tool.number,
+            load_at_corners: tool.load.at_corners,
+        })
+        .collect();
     question.actuators = mechanism
         .actuator_names()
         .into_iter()
@@ -784,13 +800,17 @@ fn of_what_was_written(
 ) {
     let a = &written.accounting;
     let corners = || points.iter().filter(|p| p.kind == PointKind::Corner);
-    let chosen = corners()
-        .map(|p| size(&p.error_after_mm))
-        .max_by(f64::total_cmp);
-    let (turns, follows) = match task.load.at_corners {
-        CornerLoad::Turns => (chosen, checked.other_reading_mm),
-        CornerLoad::FollowsFeed => (checked.other_reading_mm, chosen),
+    // By one reading for all steps: as it was solved where that reading was chosen, and once more elsewhere.
+    let by = |reading: CornerLoad, elsewhere: Option<f64>| {
+        corners()
+            .filter(|p| task.load_on(p.line).at_corners == reading)
+            .map(|p| size(&p.error_after_mm))
+            .chain(elsewhere)
+            .max_by(f64::total_cmp)
+            .filter(|mm| mm.is_finite())
     };
+    let turns = by(CornerLoad::Turns, checked.if_turns_mm);
+    let follows = by(CornerLoad::FollowsFeed, checked.if_follows_mm);
     summary.blocks_out = a.blocks_out;
     summary.blocks_split = a.blocks_split;
     summary.blocks_unchanged = a.blocks_carried;

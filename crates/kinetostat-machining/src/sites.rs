@@ -204,7 +204,7 @@ fn on_step(
     let turns = load.turning_wrench(placement, from, to, part);
     let along = piece.commanded_to - piece.commanded_from;
     let follows = load.wrench_towards(placement, to.0, to.1, &along);
-    match load.at_corners() {
+    match load.load_of(piece.move_index).at_corners {
         CornerLoad::Turns => (turns, Some(follows)),
         CornerLoad::FollowsFeed => (follows, Some(turns)),
     }

@@ -2,8 +2,8 @@
 
 use kinetostat::Mechanism;
 use kinetostat_machining::{
-    Bounds, CuttingLoad, Placement, ProgramLoad, Question, Run, RunError, Task, Tool, Unwatched,
-    analyse, compensate_program, straight_tool,
+    Bounds, CornerLoad, CuttingLoad, Placement, PointKind, ProgramLoad, Question, Run, RunError,
+    Task, Tool, Unwatched, analyse, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret};
@@ -199,4 +199,80 @@ fn the_written_program_is_right_for_both_tools() {
         looked_at += 1;
     }
     assert_eq!(looked_at, 4);
+}
+
+/// What the load is on a corner step belongs to the tool that steps there.
+#[test]
+fn each_tool_has_its_own_reading_of_the_load_at_corners() {
+    let (short, long) = (machine(0.1), machine(0.35));
+    let written = |first: CornerLoad, second: CornerLoad| {
+        let load = |radial: f64, at_corners: CornerLoad| ProgramLoad {
+            at_corners,
+            ..milling(radial)
+        };
+        let tools = [
+            Tool {
+                number: 1,
+                mechanism: &short,
+                load: load(200.0, first),
+            },
+            Tool {
+                number: 2,
+                mechanism: &long,
+                load: load(900.0, second),
+            },
+        ];
+        run(&short, milling(50.0), &tools, true).expect("run")
+    };
+    let turns = written(CornerLoad::Turns, CornerLoad::Turns);
+    let follows = written(CornerLoad::FollowsFeed, CornerLoad::FollowsFeed);
+    let mixed = written(CornerLoad::Turns, CornerLoad::FollowsFeed);
+    let bytes = |run: &Run| run.written.as_ref().expect("written").bytes.clone();
+    assert_eq!(bytes(&turns), bytes(&mixed));
+    assert_eq!(bytes(&follows), bytes(&mixed));
+
+    let (mut steps, mut apart) = ([0, 0], [0.0_f64; 2]);
+    let both = turns.points.iter().zip(&follows.points);
+    for (point, (turning, following)) in mixed.points.iter().zip(both) {
+        if point.kind != PointKind::Corner {
+            continue;
+        }
+        let tool = usize::from(second(point.line));
+        let (own, wrong) = match tool {
+            0 => (turning, following),
+            _ => (following, turning),
+        };
+        for axis in 0..3 {
+            let difference = (point.force_n[axis] - own.force_n[axis]).abs();
+            assert!(difference < 1e-9, "line {}: {difference} N", point.line);
+            let difference = (point.error_after_mm[axis] - own.error_after_mm[axis]).abs();
+            assert!(difference < 1e-7, "line {}: {difference} mm", point.line);
+            let difference = (point.force_n[axis] - wrong.force_n[axis]).abs();
+            assert!(difference.is_finite(), "line {}", point.line);
+            apart[tool] = apart[tool].max(difference);
+        }
+        steps[tool] += 1;
+    }
+    assert!(steps.iter().all(|count| *count >= 2), "{steps:?}");
+    assert!(apart.iter().all(|newton| *newton > 10.0), "{apart:?}");
+
+    // By one reading for all tools, the claim is the same whichever was chosen for each.
+    let summary = |run: &Run| {
+        let s = &run.result.summary;
+        let turns = s.max_corner_error_if_load_turns_mm.expect("steps");
+        let follows = s.max_corner_error_if_load_follows_feed_mm.expect("steps");
+        (turns, follows)
+    };
+    for other in [summary(&turns), summary(&follows)] {
+        let mixed = summary(&mixed);
+        assert!((mixed.0 - other.0).abs() < 1e-7, "{mixed:?} {other:?}");
+        assert!((mixed.1 - other.1).abs() < 1e-7, "{mixed:?} {other:?}");
+    }
+    let words = mixed.result.corners_in_words().expect("steps");
+    assert!(
+        words.contains(
+            "turns evenly while the tool steps (tool 1), or follows the feed on the steps (tool 2)"
+        ),
+        "{words}"
+    );
 }
