@@ -2,6 +2,7 @@
 //! [R 6.5.2, figures 6.6 and 6.7].
 
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
+use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -36,7 +37,7 @@ pub(crate) struct AlongLine {
     pub(crate) largest_superposition_error_mm: f64,
     pub(crate) mean_superposition_error_mm: f64,
     points: Vec<Point>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
 }
 
 /// Displacements of the tool's tip from its target, base axes.
@@ -143,20 +144,17 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
     let apart = |p: &Point| (Vector3::from(p.sum_mm) - Vector3::from(p.together_mm)).norm();
     let mut warnings = spot.warnings.clone();
     if follows {
-        warnings.push(orientation::follows_in_words(
-            turned.to_degrees(),
-            false,
-            true,
-        ));
+        warnings.push(orientation::follows(turned.to_degrees(), false, true));
     }
     let unstable = points.iter().filter(|p| !p.stable).count();
     if unstable > 0 {
-        warnings.push(format!(
-            "the machine is NOT STABLE at {unstable} of {count} points"
+        warnings.push(Warning::new(
+            WarningCode::NotStable,
+            format!("the machine is NOT STABLE at {unstable} of {count} points"),
         ));
     }
     Ok(AlongLine {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: spot.name.clone(),
         model_source: spot.source.clone(),

@@ -3,6 +3,7 @@
 use kinetostat::{
     LinearAssembly, MechanismEquilibrium, MotionKind, Overconstraint, Posture, Role, Wrench,
 };
+use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
 use crate::assemble_question::Question;
@@ -33,7 +34,7 @@ pub(crate) struct Assembly {
     /// Weights, loads on limbs or preloads act also without deviations.
     pub(crate) something_else_acts: bool,
     pub(crate) stable: bool,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
 /// A value without load and under load: of the machine as built, the share of its deviations in it,
@@ -220,10 +221,13 @@ pub(crate) fn answer(question: &Question) -> Answer<Assembly> {
     let ends = solved.loaded.as_ref().map_or(built, |[_, built]| built);
     let mut warnings = spot.warnings.clone();
     if !ends.stable() {
-        warnings.push("the machine is NOT STABLE in this equilibrium".to_owned());
+        warnings.push(Warning::new(
+            WarningCode::NotStable,
+            "the machine is NOT STABLE in this equilibrium",
+        ));
     }
     Ok(Assembly {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: spot.name.clone(),
         model_source: spot.source.clone(),

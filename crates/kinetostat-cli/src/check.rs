@@ -3,7 +3,8 @@
 
 use std::path::Path;
 
-use kinetostat_model::{Model, Problem};
+use kinetostat_machining::{Warning, WarningCode};
+use kinetostat_model::Model;
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -20,7 +21,7 @@ use crate::check_words::in_words;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
-use crate::machine::deviations_in_words;
+use crate::machine::{deviations_in_words, of_model};
 use crate::overcome::load_names;
 use crate::place::pose_in_words;
 use crate::screen::{self, Stream, number};
@@ -50,7 +51,7 @@ pub(crate) struct Findings {
     pub(crate) assumptions: Option<AssumptionsFinding>,
     /// Why nothing could be solved at home.
     pub(crate) home_problem: Option<String>,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
 #[derive(Serialize)]
@@ -122,15 +123,16 @@ fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findi
         Err(reason) => (None, None, Some(reason)),
     };
     let reach = posture.as_ref().ok().map(crate::check_reach::reach);
-    let mut warnings: Vec<String> = model.warnings.iter().map(told).collect();
+    let mut warnings: Vec<Warning> = of_model(model).collect();
     if home_problem.is_some() {
-        warnings.push(
-            "nothing can be solved at home, and every other place is sought from there: write the nearest pose as home, or check the home_ values of the joints and the limbs' start and end".to_owned(),
-        );
+        warnings.push(Warning::new(
+            WarningCode::UnsolvedHome,
+            "nothing can be solved at home, and every other place is sought from there: write the nearest pose as home, or check the home_ values of the joints and the limbs' start and end",
+        ));
     }
     warnings.extend(assumptions.iter().flat_map(|a| a.warnings.clone()));
     Findings {
-        schema: 2,
+        schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: model.name().to_owned(),
         model_source: source,
@@ -160,17 +162,5 @@ fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findi
         assumptions,
         home_problem,
         warnings,
-    }
-}
-
-/// A warning with its file and line.
-fn told(problem: &Problem) -> String {
-    let help = match problem.help.as_str() {
-        "" => String::new(),
-        help => format!("; {help}"),
-    };
-    match problem.line {
-        Some(line) => format!("{}:{line}: {}{help}", problem.file, problem.message),
-        None => format!("{}: {}{help}", problem.file, problem.message),
     }
 }

@@ -3,7 +3,9 @@
 
 use kinetostat::{Error, MechanismEquilibrium, Posture, Wrench};
 use kinetostat_machining::number as formatter;
-use kinetostat_machining::{NEAR_SINGULAR, NearSingular, natural_length, near_singular};
+use kinetostat_machining::{
+    NEAR_SINGULAR, NearSingular, Warning, WarningCode, natural_length, near_singular,
+};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
@@ -55,7 +57,7 @@ pub(crate) struct AssumptionsFinding {
     pub(crate) in_words: Vec<String>,
     /// Those that deserve a warning.
     #[serde(skip)]
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
 /// Looks at the assumptions at home.
@@ -141,10 +143,12 @@ impl AssumptionsFinding {
             )
         };
         if share > 0.05 {
-            self.warnings.push(format!(
+            let said = format!(
                 "without load on the tool it is already off by {percent} % of the natural length ({} mm); check masses, stiffnesses and deviations, and their units",
                 short(self.natural_length_mm)
-            ));
+            );
+            self.warnings
+                .push(Warning::new(WarningCode::LargeDisplacement, said));
         }
         self.in_words.push(text);
     }
@@ -226,7 +230,9 @@ impl AssumptionsFinding {
             );
             // What moves freely is not meant to carry the example load.
             match free.is_empty() {
-                true => self.warnings.push(said),
+                true => self
+                    .warnings
+                    .push(Warning::new(WarningCode::NotStable, said)),
                 false => self.in_words.push(said),
             }
         }
@@ -336,7 +342,9 @@ impl AssumptionsFinding {
             ": far from buckling"
         };
         if most > 0.5 {
-            self.warnings.push(format!("{text}{judged}"));
+            let said = format!("{text}{judged}");
+            self.warnings
+                .push(Warning::new(WarningCode::NearBuckling, said));
         }
         if most > 0.0 {
             text.push_str(judged);
@@ -348,7 +356,9 @@ impl AssumptionsFinding {
         match &self.near_singularity {
             Some(near) => {
                 self.in_words.push(near.in_words.clone());
-                self.warnings.push(format!("at home: {}", near.in_words));
+                let said = format!("at home: {}", near.in_words);
+                self.warnings
+                    .push(Warning::new(WarningCode::NearSingular, said));
             }
             None => self.in_words.push(format!(
                 "no singular posture within {} mm, or {} deg of rotation, of home",

@@ -13,7 +13,7 @@ use crate::check_limbs::{LimbFinding, counted};
 use crate::check_reach;
 use crate::overcome::{Overcome, overcome};
 use crate::screen::{fixed, item, triple};
-use crate::stiffness::{Principal, principal, principals, what_moves};
+use crate::stiffness::{Principal, principal, principals, uneven, what_moves};
 
 #[derive(Serialize)]
 pub(crate) struct HomeFinding {
@@ -79,9 +79,7 @@ pub(crate) fn at_home(
         .map_err(|e| e.to_string())?;
     let over = posture.overconstraint();
     let mut assumptions = assumptions(posture, &rest, force);
-    assumptions
-        .warnings
-        .extend(kinetostat::uneven_in_words(&stiffness.directions));
+    assumptions.warnings.extend(uneven(&stiffness.directions));
     let home = HomeFinding {
         mobility,
         actuators: m.actuator_count(),

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use kinetostat_machining::Warning;
 use serde::Serialize;
 
 use crate::along;
@@ -83,7 +84,7 @@ pub(crate) struct Shown {
 pub(crate) fn follow<A: Serialize + Send + 'static>(
     asked: &Asked<'_>,
     question: impl FnOnce(&Spot) -> Answer<Work<A>>,
-    warnings: impl Fn(&mut A) -> &mut Vec<String>,
+    warnings: impl Fn(&mut A) -> &mut Vec<Warning>,
     show: impl FnOnce(&str, &A) -> Answer<Shown>,
 ) -> Answer<()> {
     let spot = spot(
@@ -106,7 +107,7 @@ pub(crate) fn follow<A: Serialize + Send + 'static>(
     warnings(&mut answer).extend(spot.warnings.iter().cloned());
     if is_chain(&spot) {
         // Of a machine the answer says it itself, as far as it is moved.
-        warnings(&mut answer).extend(spot.near_singular().map(|n| n.in_words));
+        warnings(&mut answer).extend(spot.near_singular().map(|n| n.warning()));
     }
     let shown = show(&spot.heading(), &answer)?;
     targets.finish(&shown, &answer)

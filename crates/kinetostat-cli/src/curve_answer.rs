@@ -6,6 +6,7 @@ use kinetostat::{
     Parameter, Pose, Role, SearchSettings, Settings, Special, SpecialKind, Twist, Wrench,
     critical_load_factor, equilibria, follow, moved, solve_chain,
 };
+use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -40,7 +41,7 @@ pub(crate) struct CurveAnswer {
     pub(crate) more_branches: bool,
     /// True if everything that acts has a potential: statements about energy hold.
     pub(crate) conservative: bool,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
     /// `chain` or `machine`.
     #[serde(skip)]
     pub(crate) subject: &'static str,
@@ -279,7 +280,7 @@ pub(crate) fn solve(
         solve_chain(&there, &Settings::default()).map_err(|error| not_there(q, &there, error))?;
     stage.is("following the curve");
     let mut curves = follow(&problem, &q.parameter, &start, value, &settings)?;
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<Warning> = Vec::new();
     if !q.by_load() && is_locked(&curves) {
         // The load grows at one displacement, the end of the range: rounding must not end the curve.
         let room = 1e-6 * (q.range.1 - q.range.0);
@@ -298,10 +299,10 @@ pub(crate) fn solve(
             };
             let limit = 20.0 * unit;
             settings.conjugate_range = (-limit, limit);
-            warnings.push(format!(
+            warnings.push(Warning::new(WarningCode::CurveEnds, format!(
                 "the chain is stretched out and locked at the start: the load grows there without any displacement. The curve was kept within {} {word} both ways; --force-limits LOW HIGH sets other limits",
                 crate::screen::number(limit, 3)
-            ));
+            )));
         }
         curves = follow(&problem, &q.parameter, &start, value, &settings)?;
     }
@@ -314,9 +315,12 @@ pub(crate) fn solve(
             let bounds = Bounds::of(&chain.chain);
             let all = equilibria(&there, &bounds, &SearchSettings::default())?;
             if !all.settled {
-                warnings.push(format!(
-                    "the search at {} ended before it was complete: there may be more shapes",
-                    q.shown(v)
+                warnings.push(Warning::new(
+                    WarningCode::SearchEnds,
+                    format!(
+                        "the search at {} ended before it was complete: there may be more shapes",
+                        q.shown(v)
+                    ),
                 ));
             }
             for found in &all.found {
@@ -325,9 +329,12 @@ pub(crate) fn solve(
                     continue;
                 }
                 if let Err(error) = curves.add(&found.equilibrium, v) {
-                    warnings.push(format!(
-                        "a shape found at {} could not be followed: {error}",
-                        q.shown(v)
+                    warnings.push(Warning::new(
+                        WarningCode::CurveEnds,
+                        format!(
+                            "a shape found at {} could not be followed: {error}",
+                            q.shown(v)
+                        ),
                     ));
                 }
             }
@@ -356,26 +363,29 @@ pub(crate) fn solve(
     for b in &branches {
         for end in b.ends {
             match end {
-                BranchEnd::Lost => warnings.push(format!(
+                BranchEnd::Lost => warnings.push(Warning::new(WarningCode::CurveEnds, format!(
                     "branch {} was lost: beyond its end no further point was found",
                     b.number
-                )),
-                BranchEnd::Stalled => warnings.push(format!(
+                ))),
+                BranchEnd::Stalled => warnings.push(Warning::new(WarningCode::CurveEnds, format!(
                     "branch {} was given up: ever shorter steps made no progress at its end",
                     b.number
-                )),
-                BranchEnd::Points => warnings.push(format!(
+                ))),
+                BranchEnd::Points => warnings.push(Warning::new(WarningCode::CurveEnds, format!(
                     "branch {} ends after {} points; --points N allows more, --force-limits keeps it shorter",
                     b.number, q.points
-                )),
+                ))),
                 _ => {}
             }
         }
     }
     if curves.more_branches {
-        warnings.push(format!(
-            "more than {} branches cross; --branches N follows more",
-            q.branches
+        warnings.push(Warning::new(
+            WarningCode::MoreBranches,
+            format!(
+                "more than {} branches cross; --branches N follows more",
+                q.branches
+            ),
         ));
     }
     warnings.dedup();
@@ -383,7 +393,7 @@ pub(crate) fn solve(
     let own = curves.branches.first().map_or(&[][..], |b| &b.points);
     let [model, model_source, tool] = spot;
     Ok(CurveAnswer {
-        schema: 2,
+        schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,

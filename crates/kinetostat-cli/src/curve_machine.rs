@@ -2,8 +2,9 @@
 
 use kinetostat::{
     BranchEnd, CurveSettings, DirectionKind, EndCondition, MachinePath, Mechanism,
-    MechanismEquilibrium, PathPoint, PathSpecial, PathSpecialKind, Pose, Posture,
+    MechanismEquilibrium, NearSingularity, PathPoint, PathSpecial, PathSpecialKind, Pose, Posture,
 };
+use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::curve_answer::{
@@ -108,11 +109,12 @@ impl Machine {
             .collect()
     }
 
-    /// Singular postures within a distance (m), in words.
-    pub(crate) fn near_singular(&self, posture: &Posture<'_>, within: f64) -> Answer<Vec<String>> {
+    /// Singular postures within a distance (m).
+    pub(crate) fn near_singular(&self, posture: &Posture<'_>, within: f64) -> Answer<Vec<Warning>> {
         let within = within.max(0.1 * self.moves.length);
         let list = posture.near_singularities(within)?;
-        Ok(list.iter().map(|s| s.in_words()).collect())
+        let told = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
+        Ok(list.iter().map(told).collect())
     }
 }
 
@@ -186,11 +188,11 @@ pub(crate) fn solve(
         .answer(q, 0.0)
     };
     let (named_points, jumps) = named(&path, &point);
-    warnings.extend(ends_in_words(&path, q));
+    warnings.extend(of_ends(&path, q));
     let own = path.points.iter().map(|p| q.shown(p.parameter));
     let [model, model_source, tool] = spot;
     Ok(CurveAnswer {
-        schema: 2,
+        schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,
@@ -222,28 +224,30 @@ pub(crate) fn solve(
 }
 
 /// Why a path ends where it was not asked to.
-fn ends_in_words(path: &MachinePath, q: &Question) -> Vec<String> {
-    let mut list: Vec<String> = Vec::new();
+fn of_ends(path: &MachinePath, q: &Question) -> Vec<Warning> {
+    let mut list: Vec<Warning> = Vec::new();
     for end in path.ends {
-        list.extend(match end {
-            BranchEnd::Lost => Some(
-                "the curve was lost: beyond its end no further equilibrium was found".to_owned(),
-            ),
-            BranchEnd::Points => Some(format!(
+        let said = match end {
+            BranchEnd::Lost => {
+                "the curve was lost: beyond its end no further equilibrium was found".to_owned()
+            }
+            BranchEnd::Points => format!(
                 "the curve ends after {} points; --points N allows more, --force-limits keeps it shorter",
                 q.points
-            )),
-            _ => None,
-        });
+            ),
+            _ => continue,
+        };
+        list.push(Warning::new(WarningCode::CurveEnds, said));
     }
     if path
         .specials
         .iter()
         .any(|s| s.kind == PathSpecialKind::Crossing)
     {
-        list.push(
-            "where stability changes without a limit another branch crosses; of a machine of several limbs only the branch of the start is followed".to_owned(),
-        );
+        list.push(Warning::new(
+            WarningCode::MoreBranches,
+            "where stability changes without a limit another branch crosses; of a machine of several limbs only the branch of the start is followed",
+        ));
     }
     list.dedup();
     list

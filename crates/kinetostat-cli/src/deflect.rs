@@ -5,7 +5,7 @@ use std::path::Path;
 use kinetostat::{
     DirectionKind, LoadLimit, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench,
 };
-use kinetostat_machining::{NearSingular, number as formatter};
+use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
 
 use crate::along::{self, Aim, Files as Targets, tell};
@@ -147,7 +147,7 @@ struct Deflection {
     closure_mm: f64,
     /// The nearest singular posture, where one is near.
     near_singularity: Option<NearSingular>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
 }
 
 /// Where it was asked.
@@ -237,13 +237,14 @@ const SLOW: f64 = 0.2;
 const LARGE: f64 = 0.05;
 
 /// The answer lies beyond a limit point of the load.
-fn snaps(limit: &LoadLimit) -> String {
+fn snaps(limit: &LoadLimit) -> Warning {
     let d = 1e3 * limit.displacement.linear();
-    format!(
+    let said = format!(
         "the machine SNAPS on the way to this load: from rest it carries only {} of it, up to a limit point of the load at {} mm; what is told here is another equilibrium behind it. `kinetostat curve` shows the way, `kinetostat equilibria` all of them",
         number(limit.share, 4),
         triple(d.into(), |x| fixed(x, 4))
-    )
+    );
+    Warning::new(WarningCode::Snaps, said)
 }
 
 /// Options that say something about a program are not dropped silently.
@@ -286,21 +287,21 @@ fn answer(
 ) -> Deflection {
     let shift = loaded.displacement.linear() * 1e3;
     let turn = loaded.displacement.angular().map(f64::to_degrees);
-    let mut warnings: Vec<String> = spot.warnings.clone();
+    let mut warnings = spot.warnings.clone();
     let near_singularity = spot.near_singular();
-    warnings.extend(near_singularity.iter().map(|n| n.in_words.clone()));
+    warnings.extend(near_singularity.iter().map(NearSingular::warning));
     if loaded.platform.free > 0 {
-        warnings.push(format!(
+        warnings.push(Warning::new(WarningCode::FreeDirection, format!(
             "the machine has {} direction(s) without any stiffness here: see `kinetostat stiffness`",
             loaded.platform.free
-        ));
+        )));
     }
     let free_share = crate::free_machine::share(posture, loaded);
     if let Some(share) = free_share.filter(|s| *s > 0.5 && loaded.platform.stable) {
-        warnings.push(format!(
+        warnings.push(Warning::new(WarningCode::NearBuckling, format!(
             "the machine with its tool free is {} % of the way to instability under this load: NEAR BUCKLING",
             number(100.0 * share, 3)
-        ));
+        )));
     }
     let length = spot
         .mechanism
@@ -309,13 +310,13 @@ fn answer(
         .map(|l| l.nominal.scale().length)
         .fold(0.0, f64::max);
     if shift.norm() > LARGE * 1e3 * length {
-        warnings.push(format!(
+        warnings.push(Warning::new(WarningCode::LargeDisplacement, format!(
             "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",
             number(100.0 * shift.norm() / (1e3 * length), 2)
-        ));
+        )));
     }
     Deflection {
-        schema: 2,
+        schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: spot.name.clone(),
         model_source: spot.source.clone(),

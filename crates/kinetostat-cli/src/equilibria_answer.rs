@@ -5,6 +5,7 @@ use kinetostat::{
     Bounds, ChainProblem, Direction, DirectionKind, EndCondition, FoundEquilibrium, Kinematics,
     Prescribed, SearchSettings, equilibria, shape_criterion, turn_matrix,
 };
+use kinetostat_machining::Warning;
 use nalgebra::{DMatrix, Vector3};
 use serde::Serialize;
 
@@ -45,7 +46,7 @@ pub(crate) struct EquilibriaAnswer {
     pub(crate) equilibria: Vec<ShapeAnswer>,
     pub(crate) coverage: Coverage,
     pub(crate) conservative: bool,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
     /// Chain's shape per equilibrium, m.
     #[serde(skip)]
     pub(crate) outlines: Vec<Vec<Vector3<f64>>>,
@@ -111,7 +112,7 @@ pub(crate) fn solve(
     let conservative = found.found.iter().all(|f| f.equilibrium.conservative);
     let [model, model_source, tool] = spot;
     Ok(EquilibriaAnswer {
-        schema: 2,
+        schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,

@@ -61,7 +61,7 @@ pub(crate) fn solve(
         .collect();
     let [model, model_source, tool] = spot;
     Ok(EquilibriaAnswer {
-        schema: 2,
+        schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model,
         model_source,

@@ -146,7 +146,10 @@ pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
         line: problem.line,
         ..Warning::new(
             WarningCode::Model,
-            format!("{}; {}", problem.message, problem.help),
+            match problem.help.as_str() {
+                "" => problem.message.clone(),
+                help => format!("{}; {help}", problem.message),
+            },
         )
         .of_file(problem.file.clone())
     })

@@ -1,14 +1,14 @@
 //! `kinetostat map`: stiffness, and deflection under a load, on a grid of places.
 
 use kinetostat::Wrench;
-use kinetostat_machining::{Grid, MapPlace, MapTask, PlaceState, map, straight_tool};
+use kinetostat_machining::{Grid, MapPlace, MapTask, PlaceState, Warning, map, straight_tool};
 use kinetostat_report::{Cell, Plot, PlotLine, Section};
 use nalgebra::Vector3;
 
 use crate::along;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::machine::{deviations_in_words, short};
+use crate::machine::{deviations_in_words, of_model, short};
 use crate::map_answer::{Figures, MapAnswer};
 use crate::map_args::{MapArgs, Quantity};
 use crate::map_table::{self, Columns};
@@ -78,17 +78,13 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
             p.outside_limits
         )));
     }
-    let mut warnings: Vec<String> = model
-        .warnings
-        .iter()
-        .map(|w| format!("model: {}", w.message))
-        .collect();
+    let mut warnings: Vec<Warning> = of_model(&model).collect();
     let turned = figures.largest_turn_deg;
     if follows {
-        warnings.push(orientation::follows_in_words(turned, asked.is_some(), true));
+        warnings.push(orientation::follows(turned, asked.is_some(), true));
     }
     let answer = MapAnswer {
-        schema: 2,
+        schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: model.name().to_owned(),
         model_source: match &path {

@@ -1,6 +1,6 @@
 //! The figures of a map, gathered block by block.
 
-use kinetostat_machining::{Grid, MapPlace, PlaceState};
+use kinetostat_machining::{Grid, MapPlace, PlaceState, Warning};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -26,7 +26,7 @@ pub(crate) struct MapAnswer {
     pub(crate) deviations: Vec<String>,
     pub(crate) places: Places,
     pub(crate) figures: Vec<FigureAnswer>,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
 #[derive(Serialize)]

@@ -2,6 +2,7 @@
 //! only under the name of its convention.
 
 use kinetostat::Pose;
+use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_model::Model;
 use kinetostat_model::schema::Placement;
 use nalgebra::UnitQuaternion;
@@ -53,15 +54,18 @@ pub(crate) fn option_or_follows(flag: &str, text: &str) -> Answer<Option<UnitQua
 }
 
 /// What a machine does that is asked for positions only: how far its tool turns, or turns at most.
-pub(crate) fn follows_in_words(turned_deg: f64, asked: bool, at_most: bool) -> String {
+pub(crate) fn follows(turned_deg: f64, asked: bool, at_most: bool) -> Warning {
     let by = if at_most { "by up to" } else { "by" };
     let why = match asked {
         true => "the orientation follows",
         false => "this machine cannot hold an orientation as it moves, so its orientation follows",
     };
-    format!(
-        "{why}: the tool turns {by} {} deg from the orientation it is kept near to",
-        crate::joints::plain(turned_deg)
+    Warning::new(
+        WarningCode::OrientationFollows,
+        format!(
+            "{why}: the tool turns {by} {} deg from the orientation it is kept near to",
+            crate::joints::plain(turned_deg)
+        ),
     )
 }
 

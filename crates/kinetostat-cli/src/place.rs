@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::{LimbPosture, Mechanism, Pose, Posture, Wrench};
-use kinetostat_machining::{NearSingular, natural_length, near_singular, straight_tool};
+use kinetostat_machining::{
+    NearSingular, Warning, WarningCode, natural_length, near_singular, straight_tool,
+};
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
 
@@ -12,7 +14,7 @@ use crate::deflect::PlaceAsked;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::joints::{self, JointValue};
-use crate::machine::{deviations_in_words, short};
+use crate::machine::{deviations_in_words, of_model, short};
 use crate::orientation;
 use crate::overcome::load_names;
 use crate::screen::{number, triple, wrapped};
@@ -39,7 +41,7 @@ pub(crate) struct Spot {
     pub(crate) wrench: Wrench,
     pub(crate) inputs: Vec<PathBuf>,
     pub(crate) deviations: Vec<String>,
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
 /// A place whose orientation follows.
@@ -98,11 +100,7 @@ pub(crate) fn spot_of(
             Pose::from_parts(position.into(), rotation)
         }
     };
-    let mut warnings: Vec<String> = read
-        .warnings
-        .iter()
-        .map(|w| format!("model: {}", w.message))
-        .collect();
+    let mut warnings: Vec<Warning> = of_model(read).collect();
     let (target, followed) = match (&joints, wanted) {
         (Some(_), _) => (target, None),
         (None, Some(None)) => followed(&mechanism, &target, true, &mut warnings)?,
@@ -164,7 +162,7 @@ fn followed(
     m: &Mechanism,
     target: &Pose,
     asked: bool,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Answer<(Pose, Option<Followed>)> {
     let rotation = &target.rotation;
     let posture = match m.posture_following(&target.translation.vector, rotation) {
@@ -173,20 +171,24 @@ fn followed(
             nearest,
             ..
         }) if distance_m <= ROUNDED * natural_length(m) => {
-            warnings.push(format!(
+            warnings.push(nearest_used(format!(
                 "the machine cannot take this place exactly; the nearest is used, {} mm away: {}",
                 number(1e3 * distance_m, 3),
                 pose_in_words(&nearest)
-            ));
+            )));
             m.posture_following(&nearest.translation.vector, rotation)?
         }
         answer => answer?,
     };
     let pose = *posture.target();
     let turned_deg = pose.rotation.angle_to(rotation).to_degrees();
-    warnings.push(orientation::follows_in_words(turned_deg, asked, false));
+    warnings.push(orientation::follows(turned_deg, asked, false));
     let limbs = posture.limbs().to_vec();
     Ok((pose, Some(Followed { limbs, turned_deg })))
+}
+
+fn nearest_used(said: String) -> Warning {
+    Warning::new(WarningCode::NearestPlace, said)
 }
 
 /// Share of the natural length by which an asked pose may miss what the machine can take.
@@ -196,7 +198,7 @@ const AROUND: f64 = 0.1;
 
 /// The place, or the nearest one that the machine can take where only the digits of the place keep it
 /// from that; a place that cannot be reached is refused with the nearest pose.
-fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<String>) -> Answer<Pose> {
+fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<Warning>) -> Answer<Pose> {
     let error = match m.posture(&target) {
         Err(error @ kinetostat::Error::Unreachable { .. }) => error,
         _ => return Ok(target),
@@ -208,12 +210,12 @@ fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<String>) -> Answer<
     let off = kinetostat::pose_residual(&nearest, &target);
     let (shift, turn) = (off.linear().norm(), off.angular().norm());
     if shift.max(length * turn) <= ROUNDED * length {
-        warnings.push(format!(
+        warnings.push(nearest_used(format!(
             "the machine cannot take this place exactly; the nearest is used, {} mm and {} deg away: {}",
             number(1e3 * shift, 3),
             number(turn.to_degrees(), 3),
             pose_in_words(&nearest)
-        ));
+        )));
         return Ok(nearest);
     }
     Err(kinetostat::Error::Unreachable {

@@ -4,7 +4,7 @@ use kinetostat::{
     CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, MotionKind,
     Posture, Role, Wrench,
 };
-use kinetostat_machining::NearSingular;
+use kinetostat_machining::{NearSingular, Warning, WarningCode};
 use nalgebra::Matrix6;
 use serde::Serialize;
 
@@ -64,7 +64,7 @@ struct Stiffness {
     limbs: Vec<LimbShare>,
     /// The nearest singular posture, where one is near.
     near_singularity: Option<NearSingular>,
-    warnings: Vec<String>,
+    warnings: Vec<Warning>,
 }
 
 /// Stiffness of the machine as it stands, without a load on the tool.
@@ -188,10 +188,17 @@ fn with_own_loads(answer: &mut Stiffness, spot: &Spot, posture: &Posture<'_>) {
                 stable: rest.stable(),
             });
         }
-        Err(error) => answer.warnings.push(format!(
-            "there is no stiffness with what acts in the model besides: {error}"
+        Err(error) => answer.warnings.push(Warning::new(
+            WarningCode::NoEquilibrium,
+            format!("there is no stiffness with what acts in the model besides: {error}"),
         )),
     }
+}
+
+/// The warning of stiffnesses that lie so far apart that digits of the small ones are lost.
+pub(crate) fn uneven(directions: &[Direction]) -> Option<Warning> {
+    let said = kinetostat::uneven_in_words(directions)?;
+    Some(Warning::new(WarningCode::UnevenStiffness, said))
 }
 
 fn answer(
@@ -207,12 +214,11 @@ fn answer(
     let free = count(DirectionKind::Free);
     let held = free + count(DirectionKind::Rigid) < 6;
     let near_singularity = spot.near_singular();
-    let uneven = kinetostat::uneven_in_words(directions);
-    let near = near_singularity.iter().map(|n| n.in_words.clone());
-    let near = near.chain(uneven);
-    let warnings = spot.warnings.iter().cloned().chain(near).collect();
+    let mut warnings = spot.warnings.clone();
+    warnings.extend(near_singularity.iter().map(NearSingular::warning));
+    warnings.extend(uneven(directions));
     Stiffness {
-        schema: 1,
+        schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         model: spot.name.clone(),
         model_source: spot.source.clone(),

@@ -33,7 +33,7 @@ fn every_preset_is_checked_and_shown() {
         narrow(&said.out);
         let json = run(here.path(), &["check", preset, "--json"]).answered();
         let found: Value = serde_json::from_str(&json.out).expect("JSON");
-        assert_eq!(found["schema"], 2);
+        assert_eq!(found["schema"], 3);
     }
     let schema = run(here.path(), &["model", "schema"]).answered();
     serde_json::from_str::<Value>(&schema.out).expect("JSON");

@@ -25,7 +25,7 @@ fn figure_the_z_chain_buckles_at_its_pitchfork() {
         let mut arguments = vec!["curve", model];
         arguments.extend(pushed);
         let a = json(here.path(), &arguments);
-        assert_eq!(a["schema"], 2);
+        assert_eq!(a["schema"], 3);
         assert_eq!(a["branches"].as_array().expect("branches").len(), 2);
         let forks = named(&a, "pitchfork");
         assert_eq!(forks.len(), 1);

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::checks::{ARM, BAR, COLUMN, HEAVY, checked, edited, flat, of, preset, texts};
+use common::checks::{ARM, BAR, COLUMN, HEAVY, checked, edited, flat, of, preset, texts, warnings};
 use common::{MODEL, PROGRAM, run, workplace};
 use serde_json::Value;
 
@@ -198,11 +198,7 @@ fn large_deflections_and_loads_near_buckling_are_told() {
     let share = found["assumptions"]["largest_share_of_euler_load"].as_f64();
     assert!((share.expect("a share") - 0.8).abs() < 0.01, "{share:?}");
     assert!(text.contains("NEAR BUCKLING"), "{text}");
-    assert!(
-        texts(&found["warnings"])
-            .iter()
-            .any(|w| w.contains("NEAR BUCKLING"))
-    );
+    assert!(warnings(&found).iter().any(|w| w.contains("NEAR BUCKLING")));
 }
 
 #[test]
@@ -223,7 +219,7 @@ fn a_singular_posture_near_an_answer_is_told_with_distance_and_direction() {
         let words: Vec<&str> = line.split(' ').collect();
         let said = run(here.path(), &words).answered();
         let found: Value = serde_json::from_str(&said.out).expect("JSON");
-        let warnings = texts(&found["warnings"]);
+        let warnings = warnings(&found);
         let told = |w: &&String| w.contains("singular posture is near") && w.contains("along x");
         assert!(warnings.iter().any(|w| told(&w)), "{line}: {warnings:?}");
         assert!(
@@ -383,7 +379,7 @@ fn a_free_machine_near_buckling_is_told_against_closed_forms() {
                 .expect("a share");
             // Links of eight pieces, and a share that is nearly straight in the load.
             assert!((told - share).abs() < 0.01, "{told}, exact {share}");
-            let near = texts(&found["warnings"])
+            let near = warnings(&found)
                 .iter()
                 .any(|w| w.contains("nearest to instability") && w.contains("NEAR BUCKLING"));
             assert_eq!(near, share > 0.5, "{words}");
@@ -434,7 +430,7 @@ fn sound_models_raise_no_alarm() {
         ("model", MODEL),
     ] {
         let (found, _) = checked(text, &[]);
-        let warnings: Vec<String> = texts(&found["warnings"])
+        let warnings: Vec<String> = warnings(&found)
             .into_iter()
             .filter(|w| w.starts_with("own.toml"))
             .collect();
@@ -442,7 +438,7 @@ fn sound_models_raise_no_alarm() {
     }
     for preset_ in kinetostat_model::preset_names() {
         let (found, _) = preset(preset_.name, &[]);
-        let warnings = texts(&found["warnings"]);
+        let warnings = warnings(&found);
         let singular = found["assumptions"]["near_singularity"].is_object();
         // The report's platform of equal hexagons is singular at home, its two links are 68 mm
         // from stretched; nothing else may be.
@@ -490,7 +486,7 @@ fn imported_arms_raise_no_alarm_but_that_their_zero_posture_is_singular() {
         ];
         run(here.path(), &words).answered();
         let (found, _) = of(run(here.path(), &["check", "own.toml", "--json"]));
-        let warnings = texts(&found["warnings"]);
+        let warnings = warnings(&found);
         let other = |w: &&String| !w.starts_with("at home: ");
         assert!(!warnings.iter().any(|w| other(&w)), "{file}: {warnings:?}");
         let reach = found["reach"]["from_first_axis_mm"].as_f64().expect("mm");
@@ -507,7 +503,7 @@ fn a_home_off_by_rounding_is_used_and_a_wrong_one_is_never_called_fine() {
     ] {
         let (found, said) = checked(&edited(ARM, &[("[500, 300, 200]", home)]), &[]);
         assert!(found["home_problem"].is_null(), "{found}");
-        let warnings = texts(&found["warnings"]).join(" ");
+        let warnings = warnings(&found).join(" ");
         assert!(warnings.contains(off), "{warnings}");
         let exact = "home = { position_mm = [500, 300, 200], rotation_vector_deg = [0, 0, 90] }";
         assert!(
@@ -520,7 +516,7 @@ fn a_home_off_by_rounding_is_used_and_a_wrong_one_is_never_called_fine() {
     let (found, said) = checked(&wrong, &[]);
     let problem = found["home_problem"].as_str().expect("a problem");
     assert!(problem.contains("position (500, 300, 200) mm"), "{problem}");
-    assert!(!texts(&found["warnings"]).is_empty(), "{found}");
+    assert!(!warnings(&found).is_empty(), "{found}");
     assert!(!said.contains("Nothing looks wrong"), "{said}");
 }
 
@@ -579,6 +575,6 @@ chain = "leg"
 "#;
     let (found, _) = checked(text, &[]);
     assert!(found["home_problem"].is_null(), "{}", found["home_problem"]);
-    let warnings = texts(&found["warnings"]).join(" ");
+    let warnings = warnings(&found).join(" ");
     assert!(warnings.contains("the nearest pose"), "{warnings}");
 }

@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::checks::{flat, warnings};
 use common::{JOB, MODEL, run, workplace};
 use serde_json::Value;
 
@@ -12,11 +13,11 @@ const SCHEMA: u64 = 1;
 fn every_json_says_its_version_and_who_wrote_it() {
     let here = workplace();
     for (line, schema) in [
-        ("check model.toml --json", 2),
+        ("check model.toml --json", 3),
         ("model compare model.toml model.toml --json", 1),
-        ("stiffness model.toml --json", 1),
-        ("map orthoglide --x -20 20 3 --json", 2),
-        ("deflect orthoglide --force 1 0 0 --json", 2),
+        ("stiffness model.toml --json", 2),
+        ("map orthoglide --x -20 20 3 --json", 3),
+        ("deflect orthoglide --force 1 0 0 --json", 3),
         (
             "deflect orthoglide --program part.ngc --part-origin-mm 0 0 100 --force 1 0 0 --json",
             2,
@@ -24,17 +25,17 @@ fn every_json_says_its_version_and_who_wrote_it() {
         ("compensate job.toml --json", 2),
         (
             "curve three_link_z --direction -1 0 0 --displacement-mm 0 200 --json",
-            2,
+            3,
         ),
-        ("equilibria three_link_z --displaced-mm -200 0 0 --json", 2),
-        ("assemble orthoglide --force 1 0 0 --json", 1),
+        ("equilibria three_link_z --displaced-mm -200 0 0 --json", 3),
+        ("assemble orthoglide --force 1 0 0 --json", 2),
         (
             "assemble orthoglide --along 0 0 0 10 0 0 --points 2 --json",
-            1,
+            2,
         ),
         (
             "curve orthoglide --at -120 -120 -120 --direction 1 1 1 --displacement-mm -10 10 --json",
-            2,
+            3,
         ),
         ("demo --json", 2),
     ] {
@@ -110,4 +111,112 @@ fn a_compensated_program_carries_its_mark_and_is_not_compensated_twice() {
     let said = run(here.path(), &again);
     assert_eq!(said.code, 1, "{said:?}");
     assert!(!here.path().join("twice.ngc").exists());
+}
+
+/// One form of warnings in every command, the same on the terminal as in the JSON.
+#[test]
+fn warnings_have_one_form_in_every_command() {
+    let here = workplace();
+    for name in ["gantry", "hexapod"] {
+        let preset = run(here.path(), &["model", "show", name]).answered().out;
+        assert!(preset.contains("[0, 0, -9.81]"), "{name}");
+        // Of the moon, and a model that says so at this line.
+        let text = preset.replace("[0, 0, -9.81]", "[0, 0, -1.62]");
+        std::fs::write(here.path().join(format!("{name}.toml")), text).expect("a model");
+    }
+    // A planar arm cannot keep the tool's orientation, and a bar is pressed beyond its buckling load.
+    std::fs::write(here.path().join("arm.toml"), common::checks::ARM).expect("a model");
+    let moon = "gravity is 1.62";
+    for (line, code, said) in [
+        ("check gantry.toml", "model", moon),
+        ("stiffness gantry.toml", "model", moon),
+        ("deflect gantry.toml --force 10 0 0", "model", moon),
+        ("map gantry.toml --x -20 20 2", "model", moon),
+        ("assemble gantry.toml --force 10 0 0", "model", moon),
+        (
+            "assemble gantry.toml --along 0 0 900 10 0 900 --points 2",
+            "model",
+            moon,
+        ),
+        ("equilibria gantry.toml --force 10 0 0", "model", moon),
+        (
+            "curve gantry.toml --force 10 0 0 --factor 0 1",
+            "model",
+            moon,
+        ),
+        (
+            "curve hexapod.toml --force 10 0 0 --factor 0 1",
+            "model",
+            moon,
+        ),
+        (
+            "deflect gantry.toml --program part.ngc --part-origin-mm 0 0 900 --force 10 0 0",
+            "model",
+            moon,
+        ),
+        (
+            "stiffness two_link --at 1999 0 0",
+            "near_singular",
+            "singular posture is near",
+        ),
+        (
+            "deflect two_link --at 1999 0 0 --force 0.001 0 0",
+            "near_singular",
+            "singular posture is near",
+        ),
+        (
+            "equilibria two_link --at 1999 0 0 --force 0.001 0 0",
+            "near_singular",
+            "singular posture is near",
+        ),
+        (
+            "map arm.toml --x 500 501 2 --y 300 300 1 --z 200 200 1",
+            "orientation_follows",
+            "the tool turns",
+        ),
+        (
+            "curve three_link_z --direction -1 0 0 --displacement-mm 0 200 --points 10",
+            "curve_ends",
+            "allows more",
+        ),
+    ] {
+        let mut words: Vec<&str> = line.split(' ').collect();
+        words.push("--json");
+        let answer = run(here.path(), &words).answered();
+        let found: Value = serde_json::from_str(&answer.out).expect("JSON");
+        let list = found["warnings"].as_array().expect("a list");
+        let own = list.iter().find(|w| w["code"] == code);
+        let own = own.unwrap_or_else(|| panic!("{line}: {list:?}"));
+        let message = own["message"].as_str().expect("a text");
+        assert!(message.contains(said), "{line}: {own}");
+        if code == "model" {
+            assert!(
+                own["file"]
+                    .as_str()
+                    .is_some_and(|file| file.ends_with(".toml")),
+                "{own}"
+            );
+            let at = own["line"].as_u64().expect("a line") as usize;
+            let file =
+                std::fs::read_to_string(here.path().join(own["file"].as_str().expect("a file")));
+            let text = file.expect("the model");
+            assert!(
+                text.lines()
+                    .nth(at - 1)
+                    .is_some_and(|l| l.contains("-1.62")),
+                "{own}"
+            );
+        }
+        for warning in warnings(&found).iter().take(8) {
+            let message = warning
+                .split_once(": ")
+                .filter(|(file, _)| file.contains(".toml:"));
+            let message = message.map_or(warning.as_str(), |(_, message)| message);
+            assert!(
+                flat(&answer.err).contains(&flat(message)),
+                "{line}: {message}: {}",
+                answer.err
+            );
+        }
+    }
 }

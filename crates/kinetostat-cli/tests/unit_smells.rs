@@ -4,7 +4,7 @@
 mod common;
 
 use common::MODEL;
-use common::checks::{ARM, BAR, COLUMN, HEAVY, checked, edited, flat, texts};
+use common::checks::{ARM, BAR, COLUMN, HEAVY, checked, edited, flat, warnings};
 
 const HEAVY_6R: &str = include_str!("../../kinetostat-model/models/heavy_6r.toml");
 
@@ -229,7 +229,7 @@ fn figure_wrong_units_smell_and_the_line_is_named() {
     for (base, changes, said, at) in list {
         let text = edited(base, changes);
         let (found, words) = checked(&text, &[]);
-        let warnings = texts(&found["warnings"]);
+        let warnings = warnings(&found);
         let Some(own) = warnings.iter().find(|w| w.contains(said)) else {
             panic!("{said}: {warnings:?}");
         };

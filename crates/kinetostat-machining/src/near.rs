@@ -5,6 +5,8 @@ use kinetostat::{Mechanism, NearSingularity, Posture, SingularityKind, Twist};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::warning::{Warning, WarningCode};
+
 /// Singular postures are told when they are closer than this share of the machine's natural length
 /// (the mean over its limbs); a rotation counts at that length, so for every machine it is 2.9
 /// degrees of tool rotation.
@@ -34,6 +36,14 @@ pub struct NearSingular {
     pub followed: bool,
     /// All of it in a sentence.
     pub in_words: String,
+}
+
+impl NearSingular {
+    /// The warning of it.
+    #[must_use]
+    pub fn warning(&self) -> Warning {
+        Warning::new(WarningCode::NearSingular, self.in_words.clone())
+    }
 }
 
 /// What happens at a singular posture.

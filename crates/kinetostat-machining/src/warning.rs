@@ -54,6 +54,28 @@ pub enum WarningCode {
     OddTool,
     /// The program leaves the workspace that the model states.
     OutsideWorkspace,
+    /// A place that the machine cannot take exactly: the nearest one is used.
+    NearestPlace,
+    /// Nothing can be solved at the machine's home.
+    UnsolvedHome,
+    /// A load that has no equilibrium.
+    NoEquilibrium,
+    /// A direction without any stiffness.
+    FreeDirection,
+    /// Stiffnesses that lie so far apart that digits of the small ones are lost.
+    UnevenStiffness,
+    /// A large share of the way to buckling.
+    NearBuckling,
+    /// On the way to the load the machine snaps into another shape.
+    Snaps,
+    /// A displacement that is large beside the machine.
+    LargeDisplacement,
+    /// A curve that ends, or was cut, before its range does.
+    CurveEnds,
+    /// A search for equilibria that ended before it was complete.
+    SearchEnds,
+    /// Branches cross that are not followed.
+    MoreBranches,
 }
 
 /// Something a person should know and did not ask for.
@@ -65,12 +87,12 @@ pub struct Warning {
     pub message: String,
     /// Line, from 1; none where it speaks of all of a file.
     pub line: Option<usize>,
-    /// File of that line; none for the program.
+    /// File of that line; none for the program, and where it speaks of no file.
     pub file: Option<String>,
 }
 
 impl Warning {
-    /// About the whole run.
+    /// About the whole run, or about the question.
     #[must_use]
     pub fn new(code: WarningCode, message: impl Into<String>) -> Self {
         Self {

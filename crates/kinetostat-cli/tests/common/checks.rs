@@ -38,6 +38,29 @@ pub fn edited(text: &str, changes: &[(&str, &str)]) -> String {
     })
 }
 
+/// The warnings of an answer, as `FILE:LINE: message` where they speak of a file. All have one form.
+pub fn warnings(answer: &Value) -> Vec<String> {
+    let list = answer["warnings"].as_array().expect("a list");
+    let told = |warning: &Value| {
+        let names: Vec<&String> = warning.as_object().expect("an object").keys().collect();
+        assert_eq!(names, ["code", "file", "line", "message"], "{warning}");
+        let code = warning["code"].as_str().expect("a word");
+        let plain = |c: char| c.is_ascii_lowercase() || c == '_';
+        assert!(!code.is_empty() && code.chars().all(plain), "{code}");
+        let message = warning["message"].as_str().expect("a text");
+        match (warning["file"].as_str(), warning["line"].as_u64()) {
+            (Some(file), Some(line)) => format!("{file}:{line}: {message}"),
+            (Some(file), None) => format!("{file}: {message}"),
+            (None, line) => {
+                // A line of a program, which only runs have.
+                assert!(line.is_none_or(|line| line >= 1), "{warning}");
+                message.to_owned()
+            }
+        }
+    };
+    list.iter().map(told).collect()
+}
+
 pub fn texts(list: &Value) -> Vec<String> {
     let list = list.as_array().expect("a list");
     list.iter()
