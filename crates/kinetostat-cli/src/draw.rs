@@ -125,6 +125,7 @@ pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
         let (moved, words) = deflection(&spot, &posture, args.scale)?;
         drawing.note.clone_from(&words);
         drawing.moved = Some(moved);
+        drawing.applied = Some(spot.wrench);
         text = words;
     }
     let (svg, _) = drawing.svg();

@@ -319,15 +319,17 @@ fn stack(
         .zip(heights())
         .map(|(p, h)| p.gutter(h))
         .fold(0.0, f64::max);
+    let room = (4.0, sheet.width() - 4.0);
     let mut y = 26.0;
     for (index, (panel, height)) in panels.iter().zip(heights()).enumerate() {
+        y += panel.more_title(room.1 - room.0);
         let frame = Frame {
             x: gutter,
             y,
             width: sheet.width() - gutter - 14.0,
             height,
         };
-        panel.draw(&mut svg, frame, along, index + 1 == panels.len());
+        panel.draw(&mut svg, frame, room, along, index + 1 == panels.len());
         y += height + 42.0;
     }
     y += 14.0;
@@ -349,19 +351,25 @@ fn grid(panels: &[Panel], along: &Along, sheet: Sheet) -> String {
     let column_width =
         (sheet.width() - 14.0 + 22.0) / columns as f64 - 22.0 * f64::from(columns > 1);
     let rows = panels.len().div_ceil(columns);
+    let title = column_width - 8.0;
+    let titles = panels.iter().map(|p| p.more_title(title));
+    let above = 26.0 + titles.fold(0.0, f64::max);
+    let row_height = above + height + 12.0;
     let mut svg = Svg::default();
     for (index, panel) in panels.iter().enumerate() {
         let (row, column) = (index / columns, index % columns);
         let frame = Frame {
             x: gutter + column as f64 * (column_width + 22.0),
-            y: 26.0 + row as f64 * (height + 38.0),
+            y: above + row as f64 * row_height,
             width: column_width - gutter - if columns == 1 { 22.0 } else { 0.0 },
             height,
         };
         // Below the last panel of each column stand the numbers.
-        panel.draw(&mut svg, frame, along, index + columns >= panels.len());
+        let left = 4.0 + column as f64 * (column_width + 22.0);
+        let numbered = index + columns >= panels.len();
+        panel.draw(&mut svg, frame, (left, left + title), along, numbered);
     }
-    let total = 26.0 + rows as f64 * (height + 38.0) + 8.0;
+    let total = rows as f64 * row_height + 34.0;
     svg.inline(
         sheet.class(),
         (sheet.width(), total),

@@ -5,8 +5,12 @@ use kinetostat_machining::{PointKind, PointResult};
 use crate::axis::{Scale, Span, Tick};
 use crate::label::{Frame, Labels, TEXT_SIZE};
 use crate::outline::{path_data, per_column};
+use crate::plot::{TITLE_SIZE, title_lines};
 use crate::svg::{Anchor, Svg, pixel};
 use crate::{number, text};
+
+/// Height of a line of a title, pixels.
+const TITLE_LINE: f64 = 17.0;
 
 /// The drawing surface: the same figure is drawn for wide windows and paper, and for telephones.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -166,8 +170,32 @@ impl Panel {
         widest + 32.0
     }
 
-    /// Draws the panel; `numbered` writes the numbers and the label of the axis along the path.
-    pub(crate) fn draw(&self, svg: &mut Svg, frame: Frame, along: &Along, numbered: bool) {
+    /// Height of the title beyond its first line, where this much width is left for it.
+    pub(crate) fn more_title(&self, width: f64) -> f64 {
+        TITLE_LINE * (title_lines(&self.title, width).len() as f64 - 1.0)
+    }
+
+    /// From the frame's left edge, or farther left where the title needs the room.
+    fn draw_title(&self, svg: &mut Svg, frame: &Frame, room: (f64, f64)) {
+        let lines = title_lines(&self.title, room.1 - room.0);
+        let widest = lines.iter().map(|l| text::bold_width(l, TITLE_SIZE));
+        let left = frame.x.min(room.1 - widest.fold(0.0, f64::max)).max(room.0);
+        for (k, line) in lines.iter().rev().enumerate() {
+            let base = frame.y - 9.0 - TITLE_LINE * k as f64;
+            svg.text("title", (left, base), Anchor::Start, line);
+        }
+    }
+
+    /// Draws the panel; `room` are the left and the right end of what its title may take, `numbered`
+    /// writes the numbers and the label of the axis along the path.
+    pub(crate) fn draw(
+        &self,
+        svg: &mut Svg,
+        frame: Frame,
+        room: (f64, f64),
+        along: &Along,
+        numbered: bool,
+    ) {
         let x = Scale::new(along.span, frame.x, frame.right());
         let y = Scale::new(self.span, frame.bottom(), frame.y);
         svg.rectangle(
@@ -198,13 +226,7 @@ impl Panel {
             (frame.x - gutter + 12.0, frame.y + 0.5 * frame.height),
             &self.y_label,
         );
-        let most = (frame.width / 6.9) as usize;
-        svg.text(
-            "title",
-            (frame.x, frame.y - 9.0),
-            Anchor::Start,
-            &text::shorten(&self.title, most),
-        );
+        self.draw_title(svg, &frame, room);
 
         let marks: Vec<_> = self
             .marks

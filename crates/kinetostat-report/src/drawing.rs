@@ -3,6 +3,7 @@
 //! Parallel projection; what is nearer covers what is behind. Links that bend are told from rigid
 //! ones, drives from passive joints. What moves little is drawn larger, on top of the machine.
 
+mod applied;
 mod limb;
 mod order;
 mod paint;
@@ -12,7 +13,7 @@ mod symbol;
 mod tests;
 mod view;
 
-use kinetostat::{Chain, Limb, Mechanism, MechanismState, Pose, Posture};
+use kinetostat::{Chain, Limb, Mechanism, MechanismState, Pose, Posture, Wrench};
 
 /// From where to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +111,8 @@ pub struct Drawing<'m> {
     pub view: Option<View>,
     /// A motion drawn over it.
     pub moved: Option<Moved>,
+    /// Force and moment on the tool, drawn as arrows; base axes, N and N m.
+    pub applied: Option<Wrench>,
 }
 
 impl<'m> Drawing<'m> {
@@ -123,6 +126,7 @@ impl<'m> Drawing<'m> {
             note: String::new(),
             view: None,
             moved: None,
+            applied: None,
         }
     }
 

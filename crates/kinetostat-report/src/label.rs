@@ -31,7 +31,11 @@ impl Frame {
             && other.y < self.bottom()
     }
 
-    fn contains(&self, other: &Self) -> bool {
+    pub(crate) fn holds(&self, at: (f64, f64)) -> bool {
+        self.x < at.0 && at.0 < self.right() && self.y < at.1 && at.1 < self.bottom()
+    }
+
+    pub(crate) fn contains(&self, other: &Self) -> bool {
         self.x <= other.x
             && self.y <= other.y
             && self.right() >= other.right()

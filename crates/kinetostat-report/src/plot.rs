@@ -17,7 +17,7 @@ use crate::{number, text};
 const SIZE: (f64, f64) = (760.0, 480.0);
 
 /// Size of the title; the style sheet says the same.
-const TITLE_SIZE: f64 = 13.5;
+pub(crate) const TITLE_SIZE: f64 = 13.5;
 
 const STYLE: &str = concat!(
     include_str!("template/palette.css"),
@@ -218,7 +218,7 @@ impl Plot {
         for dashed in [true, false] {
             for line in self.lines.iter().filter(|l| l.dashed == dashed) {
                 let pixels: Vec<_> = line.points.iter().map(pixel).collect();
-                names.line(&pixels);
+                names.line(&pixels, 1.0);
                 let class = class(line);
                 let data = if dashed {
                     let drawn = drawn.entry(class.clone()).or_default();
@@ -231,7 +231,7 @@ impl Plot {
         }
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
         for at in at.iter().flatten() {
-            names.mark(*at);
+            names.mark(*at, 6.0);
         }
         for (mark, at) in self.marks.iter().zip(&at) {
             if let Some(at) = at
@@ -272,7 +272,7 @@ fn about(span: &Span, length: f64) -> Span {
 
 /// A title in at most two lines; what is longer is cut.
 pub(crate) fn title_lines(title: &str, width: f64) -> Vec<String> {
-    let size = |text: &str| 1.08 * text::width(text, TITLE_SIZE);
+    let size = |text: &str| text::bold_width(text, TITLE_SIZE);
     let mut lines = vec![String::new()];
     for word in title.split_whitespace() {
         let last = lines.len() - 1;
@@ -351,7 +351,7 @@ mod tests {
         assert!(
             lines
                 .iter()
-                .all(|l| 1.08 * text::width(l, TITLE_SIZE) < 720.0)
+                .all(|l| text::bold_width(l, TITLE_SIZE) < 720.0)
         );
         assert_eq!(title_lines("short", 700.0), ["short"]);
         assert_eq!(title_lines(&"x".repeat(500), 700.0).len(), 1);
@@ -369,11 +369,13 @@ mod tests {
         let svg = plot.shape_svg();
         let path = svg.split("class=\"line c0\" d=\"").nth(1).unwrap();
         let path = path.split('"').next().unwrap();
-        let steps: Vec<f64> = path
-            .split(|c: char| c.is_ascii_alphabetic() || c == ' ')
-            .filter_map(|n| n.parse().ok())
-            .collect();
-        let (right, up) = (steps[2], -steps[5]);
+        let step = |letter: char| -> f64 {
+            let rest = path.split(letter).nth(1).expect("a step");
+            let end = rest.find(|c: char| c.is_ascii_alphabetic());
+            rest[..end.unwrap_or(rest.len())].parse().expect("a number")
+        };
+        let (right, up) = (step('h'), -step('v'));
+        assert!(right > 10.0, "{path}");
         assert!((right - up).abs() < 0.3, "{right} {up}: {path}");
     }
 }

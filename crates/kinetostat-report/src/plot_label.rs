@@ -1,4 +1,8 @@
-//! Names of marked points where they cover neither each other nor, if it can be helped, a line.
+//! Names of points where they cover neither each other nor, if it can be helped, a line.
+//!
+//! One after the other, each at the cheapest of many places around its point: near, in the direction
+//! that is wanted, on few lines. Where nothing near is free, the free place that is nearest, with a
+//! thin line to the point.
 
 use crate::label::{Frame, TEXT_SIZE};
 use crate::outline::Pixel;
@@ -7,14 +11,51 @@ use crate::text;
 
 /// Distance of the points by which lines are felt, pixels.
 const STEP: f64 = 3.0;
+/// Gaps between a point and its name that are tried, pixels.
+const GAPS: [f64; 7] = [4.0, 9.0, 16.0, 26.0, 40.0, 58.0, 80.0];
+/// Directions that are tried.
+const TURNS: usize = 16;
+/// A name that is farther from its point has a line to it.
+const FAR: f64 = 11.0;
+/// Height of a name, and of its middle above its base line.
+const HEIGHT: f64 = 15.0;
+const RISE: f64 = 4.3;
 
 /// What is in the way of names.
 pub(crate) struct Names {
     frame: Frame,
     /// Never covered: marks and other names.
     taken: Vec<Frame>,
-    /// Points of lines, better not covered.
-    lines: Vec<Pixel>,
+    /// Points of lines with half their widths, better not covered.
+    lines: Vec<(Pixel, f64)>,
+}
+
+/// What a name stands beside.
+#[derive(Clone, Copy)]
+pub(crate) struct Beside {
+    pub(crate) at: Pixel,
+    /// Radius of what is there.
+    pub(crate) radius: f64,
+    /// Unit vector to where the name stands best.
+    pub(crate) toward: Pixel,
+}
+
+impl Beside {
+    /// A point, its name best above at the right.
+    pub(crate) fn point(at: Pixel, radius: f64) -> Self {
+        Self {
+            at,
+            radius,
+            toward: (0.77, -0.64),
+        }
+    }
+}
+
+/// A place for a name.
+struct Place {
+    area: Frame,
+    anchor: Anchor,
+    gap: f64,
 }
 
 impl Names {
@@ -26,98 +67,177 @@ impl Names {
         }
     }
 
-    /// A marked point.
-    pub(crate) fn mark(&mut self, at: Pixel) {
+    /// Something round that is never covered.
+    pub(crate) fn mark(&mut self, at: Pixel, radius: f64) {
         self.taken.push(Frame {
-            x: at.0 - 6.0,
-            y: at.1 - 6.0,
-            width: 12.0,
-            height: 12.0,
+            x: at.0 - radius,
+            y: at.1 - radius,
+            width: 2.0 * radius,
+            height: 2.0 * radius,
         });
     }
 
-    /// A drawn line.
-    pub(crate) fn line(&mut self, points: &[Option<Pixel>]) {
+    /// Something long that is never covered.
+    pub(crate) fn bar(&mut self, from: Pixel, to: Pixel, radius: f64) {
+        along(from, to, STEP, |at| self.mark(at, radius));
+    }
+
+    /// A drawn line and half its width.
+    pub(crate) fn line(&mut self, points: &[Option<Pixel>], half: f64) {
         for pair in points.windows(2) {
             let [Some(a), Some(b)] = pair else { continue };
-            let length = (b.0 - a.0).hypot(b.1 - a.1);
-            let count = (length / STEP).ceil().clamp(1.0, 1000.0) as usize;
-            for k in 0..=count {
-                let share = k as f64 / count as f64;
-                self.lines
-                    .push((a.0 + share * (b.0 - a.0), a.1 + share * (b.1 - a.1)));
-            }
+            along(*a, *b, STEP, |at| self.lines.push((at, half)));
         }
     }
 
-    /// Writes a name beside its point, with a thin line to it where it must stand farther away.
+    /// Whether a round thing lies within the frame.
+    pub(crate) fn room_for(&self, at: Pixel, radius: f64) -> bool {
+        let corner = (at.0 - radius, at.1 - radius);
+        self.frame.holds(corner) && self.frame.holds((at.0 + radius, at.1 + radius))
+    }
+
+    /// How much is in the way of a line: marks count more than lines.
+    pub(crate) fn in_the_way(&self, from: Pixel, to: Pixel, half: f64) -> f64 {
+        let mut cost = 0.0;
+        along(from, to, STEP, |at| {
+            let near = |(p, own): &&(Pixel, f64)| (p.0 - at.0).hypot(p.1 - at.1) < own + half + 1.0;
+            cost += self.lines.iter().filter(near).count().min(2) as f64;
+            cost += 2.0 * self.taken.iter().filter(|t| t.holds(at)).count().min(2) as f64;
+        });
+        cost
+    }
+
+    /// Writes a name beside its point.
     pub(crate) fn write(&mut self, svg: &mut Svg, at: Pixel, name: &str) {
-        let width = 1.1 * text::width(name, TEXT_SIZE) + 4.0;
-        let (height, rise) = (15.0, 11.5);
-        // (cost of the place by itself, offset of the base line, anchor)
-        let mut best: Option<(f64, Frame, Pixel, Anchor, bool)> = None;
-        for (ring, away) in [10.0, 22.0, 36.0, 52.0].into_iter().enumerate() {
-            for (turn, (dx, dy, anchor)) in [
-                (0.7, -0.7, Anchor::Start),
-                (-0.7, -0.7, Anchor::End),
-                (0.7, 0.9, Anchor::Start),
-                (-0.7, 0.9, Anchor::End),
-                (0.0, -1.0, Anchor::Middle),
-                (0.0, 1.0, Anchor::Middle),
-                (1.0, 0.0, Anchor::Start),
-                (-1.0, 0.0, Anchor::End),
-            ]
-            .into_iter()
-            .enumerate()
-            {
-                // The text's middle lies on the ring; its base line a little lower.
-                let x = at.0 + away * dx;
-                let y = at.1 + away * dy + if dy < 0.0 { 1.0 } else { 5.0 };
-                let left = match anchor {
-                    Anchor::Start => x,
-                    Anchor::Middle => x - 0.5 * width,
-                    Anchor::End => x - width,
-                };
-                let area = Frame {
-                    x: left - 1.0,
-                    y: y - rise,
-                    width: width + 2.0,
-                    height,
-                };
-                let inside = area.x >= self.frame.x
-                    && area.right() <= self.frame.right()
-                    && area.y >= self.frame.y
-                    && area.bottom() <= self.frame.bottom();
-                if !inside || self.taken.iter().any(|t| t.covers(&area)) {
+        self.write_as(svg, "mark-name", &Beside::point(at, 6.0), name);
+    }
+
+    /// Writes a name, with a thin line to its point where it must stand farther away.
+    pub(crate) fn write_as(&mut self, svg: &mut Svg, class: &str, beside: &Beside, name: &str) {
+        let width = text::bold_width(name, TEXT_SIZE) + 6.0;
+        let near = self.near(beside, width);
+        let Some(place) = near.or_else(|| self.anywhere(beside, width)) else {
+            return;
+        };
+        let area = place.area;
+        if place.gap > FAR {
+            let end = (
+                beside.at.0.clamp(area.x + 2.0, area.right() - 2.0),
+                beside.at.1.clamp(area.y + 2.0, area.bottom() - 2.0),
+            );
+            let share = beside.radius / (end.0 - beside.at.0).hypot(end.1 - beside.at.1).max(1e-9);
+            let start = (
+                beside.at.0 + share * (end.0 - beside.at.0),
+                beside.at.1 + share * (end.1 - beside.at.1),
+            );
+            svg.line("lead", start, end);
+            self.line(&[Some(start), Some(end)], 0.5);
+        }
+        let x = match place.anchor {
+            Anchor::Start => area.x + 3.0,
+            Anchor::Middle => area.x + 0.5 * area.width,
+            Anchor::End => area.right() - 3.0,
+        };
+        svg.text(class, (x, area.y + 0.5 * HEIGHT + RISE), place.anchor, name);
+        self.taken.push(area);
+    }
+
+    /// The cheapest place on rings about the point.
+    fn near(&self, beside: &Beside, width: f64) -> Option<Place> {
+        let mut best: Option<(f64, Place)> = None;
+        for (ring, gap) in GAPS.into_iter().enumerate() {
+            for turn in 0..TURNS {
+                let angle = std::f64::consts::TAU * turn as f64 / TURNS as f64;
+                let (y, x) = angle.sin_cos();
+                let away = beside.radius + gap;
+                // The side or corner of the name that looks to the point lies on the ring.
+                let side = |c: f64| if c.abs() < 0.3 { 0.0 } else { c.signum() };
+                let middle = (
+                    beside.at.0 + away * x + 0.5 * (width - 4.0) * side(x),
+                    beside.at.1 + away * y + 0.5 * (HEIGHT - 4.0) * side(y),
+                );
+                let area = about(middle, width);
+                if !self.free(&area) {
                     continue;
                 }
-                let crossed = self
-                    .lines
-                    .iter()
-                    .filter(|p| {
-                        p.0 > area.x - 2.0
-                            && p.0 < area.right() + 2.0
-                            && p.1 > area.y
-                            && p.1 < area.bottom()
-                    })
-                    .count();
-                let cost = 10.0 * crossed as f64 + 8.0 * ring as f64 + turn as f64;
+                let cosine = x * beside.toward.0 + y * beside.toward.1;
+                let mut cost = self.covered(&area) + 9.0 * ring as f64 + 4.0 * (1.0 - cosine);
+                if gap > FAR {
+                    cost += 8.0 + self.in_the_way(beside.at, middle, 0.5).min(40.0);
+                }
                 if best.as_ref().is_none_or(|b| cost < b.0) {
-                    best = Some((cost, area, (x, y), anchor, ring > 0));
+                    let anchor = match side(x) {
+                        s if s > 0.0 => Anchor::Start,
+                        s if s < 0.0 => Anchor::End,
+                        _ => Anchor::Middle,
+                    };
+                    best = Some((cost, Place { area, anchor, gap }));
                 }
             }
         }
-        let Some((_, area, place, anchor, far)) = best else {
-            return;
-        };
-        if far {
-            let end = (
-                at.0.clamp(area.x + 2.0, area.right() - 2.0),
-                at.1.clamp(area.y + 2.0, area.bottom() - 2.0),
-            );
-            svg.line("lead", at, end);
+        best.map(|b| b.1)
+    }
+
+    /// The free place that is nearest, wherever it is.
+    fn anywhere(&self, beside: &Beside, width: f64) -> Option<Place> {
+        let mut best: Option<(f64, Frame)> = None;
+        let (columns, rows) = (self.frame.width / 8.0, self.frame.height / 8.0);
+        for column in 0..columns.clamp(0.0, 200.0) as usize {
+            for row in 0..rows.clamp(0.0, 200.0) as usize {
+                let middle = (
+                    self.frame.x + 8.0 * column as f64,
+                    self.frame.y + 8.0 * row as f64,
+                );
+                let area = about(middle, width);
+                if !self.free(&area) {
+                    continue;
+                }
+                let away = (middle.0 - beside.at.0).hypot(middle.1 - beside.at.1);
+                let cost = away + self.covered(&area);
+                if best.as_ref().is_none_or(|b| cost < b.0) {
+                    best = Some((cost, area));
+                }
+            }
         }
-        svg.text("mark-name", place, anchor, name);
-        self.taken.push(area);
+        best.map(|(_, area)| Place {
+            area,
+            anchor: Anchor::Middle,
+            gap: f64::INFINITY,
+        })
+    }
+
+    fn free(&self, area: &Frame) -> bool {
+        self.frame.contains(area) && !self.taken.iter().any(|t| t.covers(area))
+    }
+
+    /// What a name there costs for the lines below it.
+    fn covered(&self, area: &Frame) -> f64 {
+        let on = |(p, half): &&(Pixel, f64)| {
+            let half = half + 1.0;
+            p.0 > area.x - half
+                && p.0 < area.right() + half
+                && p.1 > area.y - half
+                && p.1 < area.bottom() + half
+        };
+        10.0 * self.lines.iter().filter(on).count() as f64
+    }
+}
+
+fn about(middle: Pixel, width: f64) -> Frame {
+    Frame {
+        x: middle.0 - 0.5 * width,
+        y: middle.1 - 0.5 * HEIGHT,
+        width,
+        height: HEIGHT,
+    }
+}
+
+/// Points of a straight line, at most `step` apart.
+fn along(from: Pixel, to: Pixel, step: f64, mut each: impl FnMut(Pixel)) {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let count = (dx.hypot(dy) / step).ceil().clamp(1.0, 1000.0) as usize;
+    for k in 0..=count {
+        let share = k as f64 / count as f64;
+        each((from.0 + share * dx, from.1 + share * dy));
     }
 }

@@ -100,7 +100,7 @@ fn errors(svg: &mut Svg, result: &Shown<'_>) -> bool {
         width: 372.0,
         height: 316.0,
     };
-    panel.draw(svg, frame, &along, true);
+    panel.draw(svg, frame, (frame.x, SIZE.0 - 8.0), &along, true);
     let y_of =
         |error: f64| frame.bottom() - (error.log10() - span.low) / span.length() * frame.height;
     let named = [

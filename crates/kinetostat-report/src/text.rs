@@ -71,6 +71,11 @@ pub(crate) fn width(text: &str, size: f64) -> f64 {
     units * size
 }
 
+/// The same in bold type.
+pub(crate) fn bold_width(text: &str, size: f64) -> f64 {
+    1.22 * width(text, size)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

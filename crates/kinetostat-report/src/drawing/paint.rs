@@ -8,9 +8,10 @@ use super::order::{Thing, painting_order, rim};
 use super::scene::{Bar, BarKind, Blob, BlobKind, Scene};
 use super::symbol::{self, Point, flat};
 use super::view::Camera;
-use super::{Drawing, Magnified, Moved};
+use super::{Drawing, Magnified, Moved, applied};
 use crate::label::{Frame, TEXT_SIZE};
-use crate::plot_label::Names;
+use crate::plot::title_lines;
+use crate::plot_label::{Beside, Names};
 use crate::svg::{Anchor, Svg};
 use crate::text;
 
@@ -72,7 +73,12 @@ pub(super) fn paint(d: &Drawing<'_>) -> (String, f64) {
     let overlay = d.moved.as_ref().map(|m| overlay(d, m, &scene));
     let factor = overlay.as_ref().map_or(1.0, |o| o.factor);
     let mut svg = Svg::default();
-    let ways = overlay.as_ref().map_or_else(Vec::new, |o| o.ways(&scene));
+    let mut ways: Vec<Vec<Vector3<f64>>> = overlay.iter().map(|o| o.ways(&scene)).collect();
+    ways.extend(
+        d.applied
+            .iter()
+            .flat_map(|w| [vec![w.force()], vec![w.moment()]]),
+    );
     let camera = Camera::of(d.view, &scene, &ways);
     let axes = axes(&scene);
 
@@ -94,6 +100,7 @@ pub(super) fn paint(d: &Drawing<'_>) -> (String, f64) {
     axes.iter().flat_map(|a| &a.ends).for_each(&mut room);
     if let Some(o) = &overlay {
         o.bars.iter().flat_map(|b| b.ends).for_each(|p| room(&p));
+        o.bars.iter().for_each(|b| room(&b.middle()));
         room(&o.tool);
     }
     let (low, high) =
@@ -134,12 +141,17 @@ pub(super) fn paint(d: &Drawing<'_>) -> (String, f64) {
     for axes in &axes {
         axes.draw(&mut svg, &mut names, &paper);
     }
+    if let Some(wrench) = &d.applied {
+        let tool = flat(&paper.at(&scene.tool.translation.vector));
+        applied::draw(&mut svg, &mut names, tool, wrench, |v| paper.direction(v));
+    }
     for axes in &axes {
-        names.write(&mut svg, flat(&paper.at(&axes.ends[0])), axes.name);
+        axes.name(&mut svg, &mut names, &paper);
     }
     for word in &scene.words {
-        let at = paper.at(&word.at);
-        names.write(&mut svg, flat(&at), &text::shorten(&word.text, 24));
+        let beside = Beside::point(flat(&paper.at(&word.at)), word.radius);
+        let text = text::shorten(&word.text, 24);
+        names.write_as(&mut svg, "mark-name", &beside, &text);
     }
     let left = scale_bar(&mut svg, scale, height);
     let entries = entries(&scene, d, factor);
@@ -151,12 +163,10 @@ pub(super) fn paint(d: &Drawing<'_>) -> (String, f64) {
 /// Title and note; returns the height that they take.
 fn heading(d: &Drawing<'_>, svg: &mut Svg) -> f64 {
     let mut base = 27.0;
-    svg.text(
-        "title",
-        (18.0, base),
-        Anchor::Start,
-        &text::shorten(&d.title, 90),
-    );
+    for (k, line) in title_lines(&d.title, WIDTH - 36.0).iter().enumerate() {
+        base = 27.0 + 18.0 * k as f64;
+        svg.text("title", (18.0, base), Anchor::Start, line);
+    }
     let mut line = String::new();
     let mut lines = Vec::new();
     for word in d.note.split_whitespace() {
@@ -183,7 +193,13 @@ fn overlay(d: &Drawing<'_>, moved: &Moved, scene: &Scene) -> Overlay {
         .bars
         .iter()
         .zip(&to.bars)
-        .flat_map(|(a, b)| [b.ends[0] - a.ends[0], b.ends[1] - a.ends[1]])
+        .flat_map(|(a, b)| {
+            [
+                b.ends[0] - a.ends[0],
+                b.ends[1] - a.ends[1],
+                b.bow() - a.bow(),
+            ]
+        })
         .map(|v| v.norm())
         .fold(way.norm(), f64::max);
     let fitting = if most > 0.0 {
@@ -284,11 +300,22 @@ fn machine(svg: &mut Svg, names: &mut Names, scene: &Scene, paper: &Paper) {
             svg.path(class, &symbol::polygon(plates[k].iter().map(flat)));
         }
     }
-    for e in &ends {
-        names.line(&[Some(flat(&e[0])), Some(flat(&e[1]))]);
+    for (bar, e) in scene.bars.iter().zip(&ends) {
+        let half = if bar.kind == BarKind::Spring {
+            6.0
+        } else {
+            3.0
+        };
+        names.line(&[Some(flat(&e[0])), Some(flat(&e[1]))], half);
     }
-    for at in &spots {
-        names.mark(flat(at));
+    for (blob, at) in scene.blobs.iter().zip(&spots) {
+        let along = paper.direction(&blob.axis) * (blob.half * paper.scale);
+        let (from, to) = (flat(&(at - along)), flat(&(at + along)));
+        match blob.kind {
+            BlobKind::Motor => names.bar(from, to, symbol::MOTOR),
+            BlobKind::Sleeve | BlobKind::Slide => names.bar(from, to, symbol::SLEEVE + 1.0),
+            _ => names.mark(flat(at), symbol::JOINT + 2.0),
+        }
     }
 }
 
@@ -352,7 +379,7 @@ fn motion(svg: &mut Svg, names: &mut Names, scene: &Scene, o: &Overlay, paper: &
         if (ends[0] - ends[1]).xy().norm() > 0.5 {
             svg.path("moved", &symbol::curve(&ends, &tangents));
         }
-        names.line(&[Some(flat(&ends[0])), Some(flat(&ends[1]))]);
+        names.line(&[Some(flat(&ends[0])), Some(flat(&ends[1]))], 1.5);
     }
     let from = paper.at(&scene.tool.translation.vector);
     let to = paper.at(&o.tool);
@@ -399,26 +426,37 @@ fn axes(scene: &Scene) -> Vec<Axes> {
 }
 
 impl Axes {
+    /// The arrows.
     fn draw(&self, svg: &mut Svg, names: &mut Names, paper: &Paper) {
         let ends = self.ends.map(|p| paper.at(&p));
         // The axis that comes to the eye is drawn last.
         let mut order = [1, 2, 3];
         order.sort_by(|&i, &j| ends[i].z.total_cmp(&ends[j].z));
-        let origin = flat(&ends[0]);
         for k in order {
-            let to = flat(&ends[k]);
             let class = ["ax", "ay", "az"][k - 1];
-            symbol::arrow(svg, class, origin, to);
-            let (dx, dy) = (to.0 - origin.0, to.1 - origin.1);
+            symbol::arrow(svg, class, flat(&ends[0]), flat(&ends[k]));
+            names.line(&[Some(flat(&ends[0])), Some(flat(&ends[k]))], 1.5);
+        }
+    }
+
+    /// The letters of those that can be seen, each beyond its tip if it can be, and the frame's name.
+    fn name(&self, svg: &mut Svg, names: &mut Names, paper: &Paper) {
+        let ends = self.ends.map(|p| flat(&paper.at(&p)));
+        let origin = ends[0];
+        for k in 1..4 {
+            let (dx, dy) = (ends[k].0 - origin.0, ends[k].1 - origin.1);
             let length = dx.hypot(dy);
             if length < 7.0 {
                 continue;
             }
-            let at = (to.0 + 8.0 * dx / length, to.1 + 8.0 * dy / length + 4.0);
-            svg.text("letter", at, Anchor::Middle, ["x", "y", "z"][k - 1]);
-            names.line(&[Some(origin), Some(to)]);
-            names.mark((at.0, at.1 - 4.0));
+            let beside = Beside {
+                at: ends[k],
+                radius: 0.0,
+                toward: (dx / length, dy / length),
+            };
+            names.write_as(svg, "letter", &beside, ["x", "y", "z"][k - 1]);
         }
+        names.write_as(svg, "mark-name", &Beside::point(origin, 6.0), self.name);
     }
 }
 

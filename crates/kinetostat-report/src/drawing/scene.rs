@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::Placed;
 use super::limb::{Run, walk};
+use super::symbol::MOTOR;
 
 /// A straight piece of a limb, or a curved one where it bends.
 #[derive(Clone, Debug)]
@@ -51,6 +52,15 @@ impl Bar {
 
     pub(super) fn length(&self) -> f64 {
         (self.ends[1] - self.ends[0]).norm()
+    }
+
+    /// How far the middle of the cubic with these ends and tangents lies from that of the chord.
+    pub(super) fn bow(&self) -> Vector3<f64> {
+        (self.tangents[0] - self.tangents[1]) / 8.0
+    }
+
+    pub(super) fn middle(&self) -> Vector3<f64> {
+        0.5 * (self.ends[0] + self.ends[1]) + self.bow()
     }
 }
 
@@ -102,6 +112,8 @@ pub(super) struct Ground {
 #[derive(Clone, Debug)]
 pub(super) struct Word {
     pub(super) at: Vector3<f64>,
+    /// Of the symbol at the point, pixels.
+    pub(super) radius: f64,
     pub(super) text: String,
 }
 
@@ -326,6 +338,7 @@ impl Scene {
                 if let Some(blob) = drives.next() {
                     self.words.push(Word {
                         at: blob.at,
+                        radius: MOTOR,
                         text: actuator.name.clone(),
                     });
                 }
@@ -337,6 +350,7 @@ impl Scene {
                 if let Some(bar) = own.max_by(|a, b| a.length().total_cmp(&b.length())) {
                     self.words.push(Word {
                         at: 0.55 * bar.ends[0] + 0.45 * bar.ends[1],
+                        radius: 3.0,
                         text: limb.name.clone(),
                     });
                 }
@@ -345,9 +359,15 @@ impl Scene {
         let between = 1..mechanism.tool();
         if between.len() <= MOST_NAMES {
             for p in between {
+                // A body by the name of its limb is named already.
+                let name = &mechanism.platforms()[p].name;
+                if self.words.iter().any(|w| w.text == *name) {
+                    continue;
+                }
                 self.words.push(Word {
                     at: placed.platforms[p].translation.vector,
-                    text: mechanism.platforms()[p].name.clone(),
+                    radius: 3.0,
+                    text: name.clone(),
                 });
             }
         }

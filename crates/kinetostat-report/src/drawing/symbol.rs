@@ -220,7 +220,7 @@ pub(super) fn ground(svg: &mut Svg, at: Pixel, away: &Point) {
     }
 }
 
-/// An arrow; returns its end.
+/// A thin arrow.
 pub(super) fn arrow(svg: &mut Svg, class: &str, from: Pixel, to: Pixel) {
     svg.line(class, from, to);
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);

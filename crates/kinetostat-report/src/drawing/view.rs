@@ -29,11 +29,11 @@ impl Camera {
         }
     }
 
-    /// `ways` are motions that are to be seen.
-    pub(super) fn of(view: Option<View>, scene: &Scene, ways: &[Vector3<f64>]) -> Self {
+    /// `ways` are motions and forces that are to be seen, one kind in each list.
+    pub(super) fn of(view: Option<View>, scene: &Scene, ways: &[Vec<Vector3<f64>>]) -> Self {
         match view {
             None => Self::flat(scene)
-                .filter(|c| c.hidden(ways) < 0.7)
+                .filter(|c| ways.iter().all(|w| c.hidden(w) < 0.7))
                 .unwrap_or_else(|| Self::clearest(scene, ways)),
             Some(View::Iso) => Self::clearest(scene, ways),
             Some(View::Front) => Self::from_angles(-90.0, 0.0),
@@ -64,7 +64,7 @@ impl Camera {
     }
 
     /// Of some oblique views the one in which the least coincides.
-    fn clearest(scene: &Scene, ways: &[Vector3<f64>]) -> Self {
+    fn clearest(scene: &Scene, ways: &[Vec<Vector3<f64>>]) -> Self {
         let mut best: Option<(f64, Self)> = None;
         for (turn, azimuth) in [-62.0, -50.0, -38.0, -72.0, -26.0, -118.0, -130.0, 28.0]
             .into_iter()
@@ -73,7 +73,7 @@ impl Camera {
             for (tilt, elevation) in [24.0, 32.0, 18.0].into_iter().enumerate() {
                 let camera = Self::from_angles(azimuth, elevation);
                 let cost = camera.clutter(scene)
-                    + 5.0 * camera.hidden(ways).powi(2)
+                    + 5.0 * ways.iter().map(|w| camera.hidden(w).powi(2)).sum::<f64>()
                     + 0.25 * (turn + tilt) as f64;
                 if best.as_ref().is_none_or(|b| cost < b.0) {
                     best = Some((cost, camera));
@@ -88,7 +88,7 @@ impl Camera {
         Vector3::new(p.dot(&self.right), -p.dot(&self.up), p.dot(&self.toward))
     }
 
-    /// Share of motions that goes to the eye, 0 to 1.
+    /// Share of vectors that goes to the eye, 0 to 1.
     fn hidden(&self, ways: &[Vector3<f64>]) -> f64 {
         let all: f64 = ways.iter().map(|w| w.norm()).sum();
         let seen: f64 = ways.iter().map(|w| self.project(w).xy().norm()).sum();
