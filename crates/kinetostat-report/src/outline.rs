@@ -20,71 +20,135 @@ pub(crate) fn path_data(points: &[Option<Pixel>]) -> String {
     data
 }
 
-/// The same line without pieces that cover only what earlier pieces cover already: a pocket of a hundred
+/// The same line without stretches that cover only what earlier ones cover already: a pocket of a hundred
 /// thousand blocks has no more to show than there are places on the drawing.
 pub(crate) fn first_time(points: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
-    // Below this, every piece is kept: short programs lose nothing.
+    // Below this, everything is kept: short programs lose nothing.
     const MANY: usize = 4000;
-    /// Places on the drawing that are told apart, pixels.
-    const PLACE: f64 = 0.5;
     if points.len() < MANY {
         return points.to_vec();
     }
-    let mut covered = std::collections::BTreeSet::new();
+    let mut covered = Covered::default();
     let mut out: Vec<Option<Pixel>> = Vec::new();
-    let mut last: Option<Pixel> = None;
-    // The pen is at `last` on paper; otherwise the next piece begins with a lift.
-    let mut down = false;
-    for point in points {
-        let Some(to) = *point else {
-            (last, down) = (None, false);
-            continue;
-        };
-        if let Some(from) = last {
-            let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-            let steps = (dx.hypot(dy) / PLACE).ceil().clamp(1.0, 1e4) as usize;
-            let mut new = false;
-            for step in 0..=steps {
-                let share = step as f64 / steps as f64;
-                let cell = |x: f64| (x / PLACE).round() as i32;
-                new |= covered.insert((cell(from.0 + share * dx), cell(from.1 + share * dy)));
-            }
+    for run in points.split(Option::is_none) {
+        let run: Vec<Pixel> = run.iter().flatten().copied().collect();
+        // Otherwise the next stretch begins with a lift.
+        let mut down = false;
+        for stretch in stretches(&simplified(&run)) {
+            let new = covered.adds(&stretch);
             if new {
                 if !down {
-                    out.extend([None, Some(from)]);
+                    out.extend([None, Some(stretch[0])]);
                 }
-                out.push(Some(to));
+                out.extend(stretch[1..].iter().copied().map(Some));
             }
             down = new;
         }
-        last = Some(to);
     }
     out
 }
 
-/// At most four points per column of pixels: the first, the lowest, the highest and the last one. The
-/// drawn line covers the same pixels, however many points there were. Points go from left to right.
-pub(crate) fn per_column(points: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
+/// A line cut into stretches of this length, each from where the one before it ends.
+fn stretches(points: &[Pixel]) -> Vec<Vec<Pixel>> {
+    const LENGTH: f64 = 4.0;
+    let Some(&first) = points.first() else {
+        return Vec::new();
+    };
     let mut out = Vec::new();
-    for run in points.split(Option::is_none) {
-        let run: Vec<Pixel> = run.iter().flatten().copied().collect();
-        for column in run.chunk_by(|a, b| a.0.floor() == b.0.floor()) {
-            let mut kept = [
-                0,
-                column.len() - 1,
-                extreme(column, -1.0),
-                extreme(column, 1.0),
-            ];
-            kept.sort_unstable();
-            let mut last = None;
-            for index in kept {
-                if last != Some(index) {
-                    out.push(Some(column[index]));
-                }
-                last = Some(index);
+    let (mut open, mut left) = (vec![first], LENGTH);
+    for pair in points.windows(2) {
+        let (mut from, to) = (pair[0], pair[1]);
+        loop {
+            let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+            let way = dx.hypot(dy);
+            // Also where it is no number.
+            if way.partial_cmp(&left) != Some(std::cmp::Ordering::Greater) {
+                left -= way;
+                open.push(to);
+                break;
+            }
+            let share = left / way;
+            from = (from.0 + share * dx, from.1 + share * dy);
+            open.push(from);
+            out.push(std::mem::replace(&mut open, vec![from]));
+            left = LENGTH;
+        }
+    }
+    if open.len() > 1 || out.is_empty() {
+        out.push(open);
+    }
+    out
+}
+
+/// Places on the drawing that have been drawn, with their neighbours.
+#[derive(Default)]
+struct Covered {
+    cells: std::collections::BTreeSet<(i32, i32)>,
+}
+
+impl Covered {
+    /// Size of places that are told apart, pixels.
+    const PLACE: f64 = 0.5;
+
+    /// Draws a line; says whether it shows something new.
+    fn adds(&mut self, line: &[Pixel]) -> bool {
+        let mut own = Vec::new();
+        let cell = |x: f64| (x / Self::PLACE).round() as i32;
+        for (k, from) in line.iter().enumerate() {
+            let to = line.get(k + 1).unwrap_or(from);
+            let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+            let steps = (dx.hypot(dy) / Self::PLACE).ceil().clamp(1.0, 1e4) as usize;
+            for step in 0..=steps {
+                let share = step as f64 / steps as f64;
+                own.push((cell(from.0 + share * dx), cell(from.1 + share * dy)));
             }
         }
-        out.push(None);
+        let new = own.iter().any(|place| !self.cells.contains(place));
+        if new {
+            for (x, y) in own {
+                self.cells
+                    .extend([(x, y), (x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)]);
+            }
+        }
+        new
+    }
+}
+
+/// The envelope of a line over columns of pixels: of a column with many points its lowest and its highest
+/// one stay, joined by a stroke, from the nearer end on. The drawn line covers the same pixels, however
+/// many points there were; a pen that is lifted within a column is not. Points go from left to right.
+pub(crate) fn per_column(points: &[Option<Pixel>]) -> Vec<Option<Pixel>> {
+    /// Up to this many points of a column are all kept.
+    const FEW: usize = 4;
+    let mut out: Vec<Option<Pixel>> = Vec::new();
+    let mut rest = points;
+    while let Some(first) = rest.iter().position(Option::is_some) {
+        if first > 0 {
+            out.push(None);
+        }
+        rest = &rest[first..];
+        let column = |p: &Option<Pixel>| p.map(|p| p.0.floor());
+        let here = column(&rest[0]);
+        let end = rest.iter().position(|p| p.is_some() && column(p) != here);
+        let end = end.unwrap_or(rest.len());
+        // Lifts at the end of the column belong to what follows.
+        let last = rest[..end].iter().rposition(Option::is_some).unwrap_or(0);
+        let (own, after) = rest.split_at(last + 1);
+        rest = after;
+        let many: Vec<Pixel> = own.iter().flatten().copied().collect();
+        if many.len() <= FEW {
+            out.extend(own);
+            continue;
+        }
+        let (low, high) = (extreme(&many, -1.0), extreme(&many, 1.0));
+        let x = many[0].0.floor() + 0.5;
+        let mut ends = [(x, many[low].1), (x, many[high].1)];
+        if let Some(Some(before)) = out.last()
+            && (before.1 - ends[1].1).abs() < (before.1 - ends[0].1).abs()
+        {
+            ends.reverse();
+        }
+        out.extend(ends.map(Some));
     }
     out
 }
@@ -150,6 +214,12 @@ fn write_run(data: &mut String, points: &[Pixel]) {
                 }
             }
             Some((x, y)) if (x, y) == here => continue,
+            Some((x, y)) if x == here.0 => {
+                let _ = write!(data, "v{}", tenths(here.1 - y));
+            }
+            Some((x, y)) if y == here.1 => {
+                let _ = write!(data, "h{}", tenths(here.0 - x));
+            }
             Some((x, y)) => {
                 let _ = write!(data, "l{} {}", tenths(here.0 - x), tenths(here.1 - y));
             }
@@ -188,8 +258,8 @@ mod tests {
         assert!(kept.len() < 3000, "{}", kept.len());
         // Every place of the whole line is drawn.
         for p in once.iter().flatten() {
-            let near = |q: &Pixel| (p.0 - q.0).hypot(p.1 - q.1) < 1.0;
-            assert!(kept.iter().flatten().any(near));
+            let near = |pair: &[Option<Pixel>]| matches!(pair, [Some(a), Some(b)] if distance(*p, *a, *b) < 1.0);
+            assert!(kept.windows(2).any(near));
         }
     }
 
@@ -199,8 +269,37 @@ mod tests {
             .map(|i| Some((f64::from(i) / 1000.0, f64::from(i * 7919 % 1000))))
             .collect();
         let kept = per_column(&noise);
-        assert!(kept.len() <= 41);
-        let highest = kept.iter().flatten().map(|p| p.1).fold(0.0, f64::max);
-        assert!(highest > 998.0);
+        assert!(kept.len() <= 21);
+        for column in 0..10 {
+            let own = kept
+                .iter()
+                .flatten()
+                .filter(|p| p.0.floor() == f64::from(column));
+            let (low, high) = own.fold((f64::MAX, f64::MIN), |(low, high), p| {
+                (low.min(p.1), high.max(p.1))
+            });
+            assert!((low, high) == (0.0, 999.0), "{low} to {high}");
+        }
+    }
+
+    /// A run of cuts with a rapid between any two is as short as one cut.
+    #[test]
+    fn lifts_within_a_column_are_not_kept() {
+        let mut points = Vec::new();
+        for i in 0..3000 {
+            let x = f64::from(i) / 100.0;
+            points.extend([Some((x, 1.0)), Some((x, 5.0)), None]);
+        }
+        let kept = per_column(&points);
+        assert!(kept.len() <= 90, "{}", kept.len());
+        let few = [
+            None,
+            Some((0.1, 1.0)),
+            None,
+            Some((0.2, 2.0)),
+            Some((3.0, 1.0)),
+            None,
+        ];
+        assert_eq!(per_column(&few), few[..5]);
     }
 }

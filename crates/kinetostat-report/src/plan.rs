@@ -20,8 +20,8 @@ const NAMES: [&str; 3] = ["X, mm", "Y, mm", "Z, mm"];
 /// Most whiskers from the path to the magnified place of the tool.
 const WHISKERS: usize = 72;
 
-/// From this many points on lines are drawn thin: they lie close together.
-const DENSE: usize = 1200;
+/// From this multiple of the frame's width and height on, a line is drawn thin: it fills the frame.
+const DENSE: f64 = 8.0;
 
 /// How much larger than true the deviation is drawn: a round number, so that the largest one takes about
 /// an eighth of the path's size. None if there is no deviation or no path.
@@ -289,7 +289,9 @@ fn draw(
         ))
     };
     let points = result.points;
-    let (feed, before) = if points.len() < DENSE {
+    let programmed: Vec<_> = points.iter().map(|p| place(p.position_mm)).collect();
+    let length: f64 = programmed.windows(2).map(piece).sum();
+    let (feed, before) = if length < DENSE * (frame.width + frame.height) {
         ("feed", "line before")
     } else {
         ("feed fine", "line before fine")
@@ -300,7 +302,6 @@ fn draw(
             .iter()
             .map(|p| displaced(p, factor).and_then(&place))
             .collect();
-        let programmed: Vec<_> = points.iter().map(|p| place(p.position_mm)).collect();
         let every = points.len().div_ceil(WHISKERS).max(1);
         for (point, tip) in points.iter().zip(&tips).step_by(every) {
             if let (Some(from), Some(to)) = (place(point.position_mm), *tip) {
@@ -317,6 +318,14 @@ fn draw(
         });
     } else {
         svg.path(feed, &path_data(&first_time(&moves(points, false, &place))));
+    }
+}
+
+/// Length of a straight piece, pixels.
+fn piece(ends: &[Option<Pixel>]) -> f64 {
+    match ends {
+        [Some(a), Some(b)] => (b.0 - a.0).hypot(b.1 - a.1),
+        _ => 0.0,
     }
 }
 

@@ -1,6 +1,8 @@
 //! The page holds what it must, whatever the data.
 
 mod common;
+#[path = "common/letters.rs"]
+mod letters;
 
 use common::*;
 use kinetostat_machining::{PointResult, RunResult};
@@ -237,4 +239,37 @@ fn the_line_of_the_plot_is_the_bound_that_is_judged() {
         Some(false),
         "no number holds nothing"
     );
+}
+
+/// A program of a hundred thousand points says no more than its drawings can show.
+#[test]
+fn the_page_of_a_long_program_is_short() {
+    let page = html(&pocket_on_serial_robot(100_000)).unwrap();
+    assert!(page.len() < 500_000, "{} bytes", page.len());
+}
+
+/// On telephones, in a type that is wider than most.
+#[test]
+fn no_title_of_a_plot_is_cut() {
+    for (name, result) in fixtures() {
+        let page = html(&result).unwrap();
+        for svg in page.split("<svg ").skip(1) {
+            let svg = format!("<svg {}", svg.split_inclusive("</svg>").next().unwrap());
+            let svg = roxmltree::Document::parse(&svg).expect("a drawing");
+            let size = svg.root_element().attribute("viewBox").unwrap();
+            let width: f64 = size.split(' ').nth(2).unwrap().parse().unwrap();
+            let titles = svg
+                .descendants()
+                .filter(|n| n.attribute("class") == Some("title"));
+            for title in titles {
+                let text = title.text().unwrap_or_default();
+                let left: f64 = title.attribute("x").unwrap().parse().unwrap();
+                let right = left + letters::bold_width(text, 13.5);
+                assert!(
+                    left >= 0.0 && right <= width,
+                    "{name}: {text} to {right} of {width}"
+                );
+            }
+        }
+    }
 }
