@@ -10,13 +10,14 @@
 //!
 //! which is regular there, and told apart by the second derivatives along the null vectors.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::branches::CurvePoint;
+use crate::curve_matrix::{CurveMatrix, Tangent};
 use crate::reduced::{Corrected, Reduced, Row};
 use crate::singular_point::{left_null, null_directions, refine, tangents};
-use crate::tracer::{Tangent, Tracer, tangent};
+use crate::tracer::Tracer;
 
 /// What is special about a point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -80,7 +81,7 @@ impl Segment<'_> {
         if (&c.z - &guess).norm() > (&self.there.z - &self.here.z).norm() {
             return None;
         }
-        let next = tangent(&c.matrix, t, reduced.family.as_deref())?;
+        let next = c.matrix.tangent(t, reduced.family.as_deref())?;
         Some((c, next))
     }
 
@@ -160,7 +161,7 @@ pub(crate) fn between(
     // Rates of the parameter and of its conjugate.
     let mut shares: Vec<(bool, f64)> = Vec::new();
     for conjugate in [false, true] {
-        let rate = |reduced: &mut Reduced<'_, '_>, matrix: &DMatrix<f64>, t: &DVector<f64>| {
+        let rate = |reduced: &mut Reduced<'_, '_>, matrix: &CurveMatrix, t: &DVector<f64>| {
             if conjugate {
                 let row = reduced.conjugate_row(matrix);
                 row.dot(t) / row.norm().max(f64::MIN_POSITIVE)
@@ -310,7 +311,7 @@ fn bifurcation(
         let differs = move |reduced: &mut Reduced<'_, '_>, c: &Corrected| {
             reduced.evaluate(&c.z);
             let same = (0..2).all(|k| {
-                let (_, u) = reduced.stability(&c.matrix, k == 0);
+                let (_, u) = reduced.stability(c, k == 0);
                 u == count[k]
             });
             if same { 1.0 } else { -1.0 }
@@ -342,17 +343,31 @@ fn bifurcation(
         Some((c, _)) => c.z,
         None => &segment.here.z + (&segment.there.z - &segment.here.z) * share,
     };
+    tracer.reduced.dense = true;
+    let special = classified(tracer, segment, &guess, step, even);
+    tracer.reduced.dense = false;
+    special.map(|special| (share, special))
+}
+
+/// Which kind of bifurcation is at a place, and which branches cross there; with dense matrices.
+fn classified(
+    tracer: &mut Tracer<'_, '_, '_>,
+    segment: &Segment<'_>,
+    guess: &DVector<f64>,
+    step: f64,
+    even: bool,
+) -> Option<Special> {
     // Along a family the extended system is singular; the test function alone has found the place.
     let family = tracer.reduced.family.clone();
     let refined = if even || family.is_some() {
         None
     } else {
-        refine(&mut tracer.reduced, &guess).filter(|z| (z - &guess).norm() < 0.5 * step)
+        refine(&mut tracer.reduced, guess).filter(|z| (z - guess).norm() < 0.5 * step)
     };
     let refined_missing = refined.is_none();
     let accuracy = if refined.is_some() { 1e-10 } else { 1e-6 };
-    let z = refined.unwrap_or(guess);
-    let (_, balance, matrix) = tracer.reduced.linearised(&z);
+    let z = refined.unwrap_or_else(|| guess.clone());
+    let (_, balance, matrix) = tracer.reduced.linearised_densely(&z);
     let list = match &family {
         Some(family) => null_directions(&family.beside(&matrix)),
         None => null_directions(&matrix),
@@ -420,23 +435,20 @@ fn bifurcation(
     };
     let corrected = Corrected {
         z,
-        matrix,
+        matrix: CurveMatrix::Dense(matrix),
         balance,
         iterations: 0,
     };
     let mode = largest_one(tracer.reduced.motion(&mode));
     let point = tracer.describe(&corrected, path);
     let (here, there) = (segment.here, segment.there);
-    Some((
-        share,
-        Special {
-            kind,
-            point,
-            mode,
-            accuracy,
-            branches: Vec::new(),
-            stable_side: here.held.stable || there.held.stable,
-            directions,
-        },
-    ))
+    Some(Special {
+        kind,
+        point,
+        mode,
+        accuracy,
+        branches: Vec::new(),
+        stable_side: here.held.stable || there.held.stable,
+        directions,
+    })
 }

@@ -218,7 +218,7 @@ impl Curves<'_> {
     fn grow(&mut self, start: &Equilibrium, value: f64, stop: Stop<'_>) -> Result<bool> {
         let (problem, parameter) = (self.problem.clone(), self.parameter.clone());
         let settings = self.settings.clone();
-        let mut reduced = Reduced::new(&problem, Some(&parameter), &settings.solver)?;
+        let mut reduced = Reduced::new(&problem, Some(&parameter), &settings.solver)?.by_sweeps();
         reduced.start(&self.start.0, &self.start.1, self.start.2)?;
         let z = reduced.state(&start.coordinates, &start.wrench, value);
         let mut tracer = Tracer {

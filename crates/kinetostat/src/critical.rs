@@ -218,7 +218,7 @@ struct Tangent {
 impl Tangent {
     fn at(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, judged: Judged) -> Self {
         let (r, n) = (reduced.reactions(), reduced.coordinates_count());
-        let (_, _, matrix) = reduced.linearised(z);
+        let (_, _, matrix) = reduced.linearised_densely(z);
         let rows = match judged {
             Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
             Judged::Shape => crate::stiffness::balanced_jacobian(&reduced.system, &reduced.factors),
@@ -311,7 +311,7 @@ fn linear_prediction(
 ) -> (Option<f64>, Vec<f64>) {
     let (r, m) = (reduced.reactions(), reduced.count());
     let n = reduced.coordinates_count();
-    let (_, _, matrix) = reduced.linearised(z);
+    let (_, _, matrix) = reduced.linearised_densely(z);
     let at_rest = reduced.curvature();
     let rows = match judged {
         Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::branches::{CurveSettings, follow};
 use crate::chain::{Chain, MotionKind, Role};
+use crate::curve_matrix::CurveMatrix;
 use crate::equilibrium::{ChainProblem, Equilibrium, Prescribed, step_limit};
 use crate::error::{Error, Result};
 use crate::load_energy::load_energy;
@@ -452,7 +453,7 @@ impl Search<'_, '_, '_> {
                 matrix.columns_mut(0, m).copy_from(&self.reduced.matrix());
                 return Some(Corrected {
                     z,
-                    matrix,
+                    matrix: CurveMatrix::Dense(matrix),
                     balance,
                     iterations: iteration,
                 });
@@ -586,11 +587,10 @@ impl Search<'_, '_, '_> {
             self.outside += usize::from(plain);
             return false;
         }
-        let m = self.reduced.count();
         let (_, balance) = self.reduced.evaluate(&c.z);
         c.balance = balance;
         let energy = self.reduced.system.energy;
-        let (stability, unstable) = self.reduced.stability(&c.matrix, false);
+        let (stability, unstable) = self.reduced.stability(&c, false);
         for k in &mut self.known {
             let near = if k.unstable == unstable || k.least < 1e-8 {
                 (1e-8 / k.least.max(1e-12)).clamp(1e-6, 1e-2)
@@ -617,7 +617,7 @@ impl Search<'_, '_, '_> {
                 return true;
             }
         }
-        let square = c.matrix.columns(0, m).into_owned();
+        let square = self.reduced.matrix();
         let least = if square.is_empty() {
             1.0
         } else {

@@ -784,7 +784,8 @@ impl System {
         (stiffness, shape_stability(chain, self, factors))
     }
 
-    /// Everything that is known about the state at which the (dense) system was evaluated.
+    /// Everything that is known about the state at which the system was evaluated; it is dense unless
+    /// the verdicts are given.
     #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
     pub fn equilibrium(
         &self,
@@ -795,8 +796,9 @@ impl System {
         conservative: bool,
         iterations: usize,
         balance: &Balance,
+        verdicts: Option<(ChainStiffness, ShapeStability)>,
     ) -> Equilibrium {
-        let verdicts = self.dense_verdicts(chain, factors);
+        let verdicts = verdicts.unwrap_or_else(|| self.dense_verdicts(chain, factors));
         self.described(
             chain,
             x,

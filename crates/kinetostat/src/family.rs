@@ -129,7 +129,7 @@ pub(crate) fn family_of(
     z: &DVector<f64>,
     t: &DVector<f64>,
 ) -> Option<Family> {
-    let (_, _, matrix) = reduced.linearised(z);
+    let (_, _, matrix) = reduced.linearised_densely(z);
     let list = null_directions(&matrix);
     let most = list.last()?.0;
     let null: Vec<DVector<f64>> = list

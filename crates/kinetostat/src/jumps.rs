@@ -28,7 +28,7 @@ impl Curves<'_> {
 
     fn crossings(&self, value: f64, parameter: bool) -> Result<Vec<CurvePoint>> {
         let mut reduced =
-            Reduced::new(&self.problem, Some(&self.parameter), &self.settings.solver)?;
+            Reduced::new(&self.problem, Some(&self.parameter), &self.settings.solver)?.by_sweeps();
         reduced.start(&self.start.0, &self.start.1, self.start.2)?;
         let mut tracer = Tracer {
             reduced,

@@ -95,6 +95,8 @@ mod compensation;
 mod compliance;
 mod constraints;
 mod critical;
+mod curve_matrix;
+mod curve_sweep;
 mod directions;
 mod elimination;
 mod equilibria;

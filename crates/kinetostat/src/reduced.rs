@@ -17,6 +17,8 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::chain::Role;
+use crate::curve_matrix::CurveMatrix;
+use crate::curve_sweep::CurveSweep;
 use crate::equilibrium::{
     Balance, ChainProblem, Equilibrium, Prescribed, System, balance, check_problem, natural, nudged,
 };
@@ -24,11 +26,13 @@ use crate::error::{Error, Result};
 use crate::family::Family;
 use crate::load_energy::is_conservative;
 use crate::loading::Load;
-use crate::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
+use crate::saddle::{RANK_TOLERANCE, column_space, complement};
 use crate::settings::Settings;
 use crate::singular_values::SingularValues;
 use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, turn_matrix};
-use crate::stability::{ShapeStability, stability_within};
+use crate::stability::{ShapeStability, stability_within, swept_stability_within};
+use crate::sweep::{Path, turned_rows};
+use crate::sweep_solve::EndMotions;
 
 /// Loads that grow together: at factor `f` the chain carries its own loads plus `f` times these.
 #[derive(Clone, Debug, Default)]
@@ -85,8 +89,8 @@ pub(crate) enum Row<'v> {
 /// A state that satisfies equilibrium.
 pub(crate) struct Corrected {
     pub z: DVector<f64>,
-    /// `[dG/du dG/dlambda]`, m x (m + 1), balanced.
-    pub matrix: DMatrix<f64>,
+    /// Of the curve at that state.
+    pub matrix: CurveMatrix,
     pub balance: Balance,
     pub iterations: usize,
 }
@@ -96,7 +100,12 @@ pub(crate) struct Reduced<'p, 'a> {
     parameter: Option<&'p Parameter>,
     pub settings: Settings,
     pub factors: Vec<f64>,
+    /// As it was evaluated last: by sweeps along a long chain, or dense.
     pub system: System,
+    /// The other of the two, if there is one.
+    other: Option<Box<System>>,
+    /// Dense matrices are wanted, whatever the chain.
+    pub dense: bool,
     /// Orthonormal directions of the reactions, balanced base axes, 6 x r.
     range: DMatrix<f64>,
     /// Directions in which the pose is prescribed, base axes, 6 x k: those that the chain cannot
@@ -192,6 +201,8 @@ impl<'p, 'a> Reduced<'p, 'a> {
             settings: *settings,
             factors,
             system,
+            other: None,
+            dense: false,
             range: DMatrix::zeros(6, 0),
             frame: DMatrix::zeros(6, 0),
             given,
@@ -207,6 +218,54 @@ impl<'p, 'a> Reduced<'p, 'a> {
         reduced.find_range(&turn);
         reduced.find_neutral();
         Ok(reduced)
+    }
+
+    /// Evaluates by sweeps along the chain where it is long and no passive motion is redundant. What
+    /// needs whole matrices (special points, families) still has them.
+    pub fn by_sweeps(mut self) -> Self {
+        if self.neutral > 0 {
+            return self;
+        }
+        let p = self.problem;
+        let (posture, commands) = (&p.posture, &p.commands);
+        let factors = &self.factors;
+        let mut swept = System::of_chain(p.chain, &p.base, posture, commands, factors, None);
+        if swept.path() == Path::Sweep {
+            swept.pattern.0.clone_from(&self.system.pattern.0);
+            self.other = Some(Box::new(swept));
+        }
+        self
+    }
+
+    /// Takes the system that serves: dense where a family is followed or where it is wanted.
+    fn choose(&mut self) {
+        let wanted = match self.dense || self.family.is_some() {
+            true => Path::Dense,
+            false => Path::Sweep,
+        };
+        if self.system.path() != wanted
+            && let Some(other) = &mut self.other
+        {
+            std::mem::swap(&mut self.system, other);
+        }
+    }
+
+    /// With dense matrices, whatever the chain; what was evaluated is dense afterwards.
+    pub fn densely<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+        let before = std::mem::replace(&mut self.dense, true);
+        let answer = work(self);
+        self.dense = before;
+        answer
+    }
+
+    /// The derivative as a dense matrix, with what equilibrium lacks.
+    pub fn linearised_densely(
+        &mut self,
+        z: &DVector<f64>,
+    ) -> (DVector<f64>, Balance, DMatrix<f64>) {
+        let (lack, balance, gradient) = self.densely(|own| own.gradient(z));
+        let matrix = self.with_gradient(&gradient);
+        (lack, balance, matrix)
     }
 
     /// Reactions that can exist: the union of the Jacobian's range over several postures.
@@ -344,6 +403,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
 
     /// Evaluates the system at a state; returns what equilibrium lacks, balanced, and its measure.
     pub fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance) {
+        self.choose();
         let p = self.problem;
         let value = self.value(z);
         let (x, wrench) = (self.coordinates(z), self.wrench(z));
@@ -476,7 +536,31 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 
     /// `[dG/du dG/dlambda]` at a state, with what equilibrium lacks there.
-    pub fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DMatrix<f64>) {
+    pub fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, CurveMatrix) {
+        let (lack, balance, gradient) = self.gradient(z);
+        if let Some(sweep) = &self.system.sweep {
+            let turned = turned_rows(&rotation_rate(&self.turned));
+            if let Some(swept) = CurveSweep::new(sweep, &self.range, &turned, gradient) {
+                return (lack, balance, CurveMatrix::Swept(Box::new(swept)));
+            }
+            let (lack, balance, matrix) = self.linearised_densely(z);
+            return (lack, balance, CurveMatrix::Dense(matrix));
+        }
+        let matrix = self.with_gradient(&gradient);
+        (lack, balance, CurveMatrix::Dense(matrix))
+    }
+
+    /// `[dG/du dG/dlambda]` where the (dense) system was evaluated.
+    fn with_gradient(&self, gradient: &DVector<f64>) -> DMatrix<f64> {
+        let m = self.count();
+        let mut a = DMatrix::zeros(m, m + 1);
+        a.columns_mut(0, m).copy_from(&self.matrix());
+        a.column_mut(m).copy_from(gradient);
+        a
+    }
+
+    /// `dG/dlambda` at a state, with what equilibrium lacks there; evaluates the system.
+    fn gradient(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DVector<f64>) {
         let m = self.count();
         let r = self.reactions();
         let mut gradient = DVector::zeros(m);
@@ -505,10 +589,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             None => {}
         }
         let (lack, balance) = self.evaluate(z);
-        let mut a = DMatrix::zeros(m, m + 1);
-        a.columns_mut(0, m).copy_from(&self.matrix());
-        a.column_mut(m).copy_from(&gradient);
-        (lack, balance, a)
+        (lack, balance, gradient)
     }
 
     /// Chooses the parameter's unit and the reference of displacements at the start of a curve.
@@ -584,20 +665,19 @@ impl<'p, 'a> Reduced<'p, 'a> {
         }
     }
 
-    /// Change of the conjugate per balanced unknown, from the last column of `matrix`.
-    pub fn conjugate_row(&self, matrix: &DMatrix<f64>) -> DVector<f64> {
+    /// Change of the conjugate per balanced unknown.
+    pub fn conjugate_row(&self, matrix: &CurveMatrix) -> DVector<f64> {
         let m = self.count();
         let sign = match self.parameter {
             Some(Parameter::Displacement(_)) => -1.0,
             _ => 1.0,
         };
         let scale = sign * self.unit * self.unit / self.sigma;
-        DVector::from_fn(
-            m + 1,
-            |i, _| {
-                if i < m { scale * matrix[(i, m)] } else { 0.0 }
-            },
-        )
+        let gradient = matrix.gradient();
+        DVector::from_fn(m + 1, |i, _| match i < m {
+            true => scale * gradient[i],
+            false => 0.0,
+        })
     }
 
     /// Newton from `z` on equilibrium and one more row.
@@ -629,10 +709,17 @@ impl<'p, 'a> Reduced<'p, 'a> {
                     iterations: iteration,
                 });
             }
-            if iteration == most || !matrix.iter().chain(lack.iter()).all(|v| v.is_finite()) {
+            let finite = matrix.is_finite() && lack.iter().all(|v| v.is_finite());
+            if iteration == most || !finite {
                 return None;
             }
-            let step = solve_bordered(&matrix, &normal, &lack, miss, self.family.as_deref());
+            let step = match matrix.step(&normal, &lack, miss, self.family.as_deref()) {
+                Some(step) => step,
+                None => {
+                    let (lack, _, dense) = self.linearised_densely(&z);
+                    CurveMatrix::Dense(dense).step(&normal, &lack, miss, None)?
+                }
+            };
             let length = step.norm();
             if !length.is_finite() || (iteration > 1 && length > 2.0 * last && length > 1e-9) {
                 return None;
@@ -645,10 +732,10 @@ impl<'p, 'a> Reduced<'p, 'a> {
 
     /// Rows (balanced) of the motions that are held: with the parameter's direction held as well,
     /// or left to a dead load.
-    fn held_rows(&self, matrix: &DMatrix<f64>, motion: bool) -> DMatrix<f64> {
+    fn held_rows(&self, matrix: &CurveMatrix, motion: bool) -> DMatrix<f64> {
         let (r, n) = (self.reactions(), self.coordinates_count());
         let rows = self.range.transpose() * self.balanced_jacobian();
-        let gradient = matrix.column(matrix.ncols() - 1);
+        let gradient = matrix.gradient();
         match self.parameter {
             Some(Parameter::Displacement(_)) if !motion => {
                 let direction = DMatrix::from_fn(r, 1, |i, _| gradient[i]);
@@ -666,9 +753,52 @@ impl<'p, 'a> Reduced<'p, 'a> {
         }
     }
 
-    /// Stability at the evaluated state with the conjugate motion held (`motion`), or under a dead
-    /// load, and the number of unstable modes.
-    pub fn stability(&self, matrix: &DMatrix<f64>, motion: bool) -> (ShapeStability, usize) {
+    /// Motions of the end that are held, balanced, 6 x k; `None` where the load that grows acts
+    /// elsewhere too and what it does is held.
+    fn held_motions(&self, matrix: &CurveMatrix, motion: bool) -> Option<DMatrix<f64>> {
+        let r = self.reactions();
+        match self.parameter {
+            Some(Parameter::Displacement(_)) if !motion => {
+                let gradient = matrix.gradient();
+                let direction = DMatrix::from_fn(r, 1, |i, _| gradient[i]);
+                Some(&self.range * complement(&direction))
+            }
+            Some(Parameter::Load(pattern)) if motion => {
+                let pushed = Vector6::from_fn(|i, _| self.grown[i] / self.factors[i]);
+                let unit = DVector::from_iterator(6, pushed.normalize().iter().copied());
+                let mut all = self.range.clone().insert_column(r, 0.0);
+                all.set_column(r, &unit);
+                pattern.loads.is_empty().then_some(all)
+            }
+            _ => Some(self.range.clone()),
+        }
+    }
+
+    /// Stability at a state, which was evaluated last, with the conjugate motion held (`motion`), or
+    /// under a dead load, and the number of unstable modes.
+    pub fn stability(&mut self, c: &Corrected, motion: bool) -> (ShapeStability, usize) {
+        if let Some(sweep) = &self.system.sweep {
+            let swept = self.held_motions(&c.matrix, motion).and_then(|held| {
+                let moved = column_space(&self.balanced_jacobian());
+                let ends = EndMotions::held_in(moved, &held);
+                let stability = swept_stability_within(sweep, &self.factors, &ends)?;
+                let unstable = stability.inertia.positive;
+                Some((stability, unstable.saturating_sub(ends.held_count())))
+            });
+            if let Some(swept) = swept {
+                return swept;
+            }
+            let dense = self.densely(|own| {
+                own.evaluate(&c.z);
+                own.dense_stability(&c.matrix, motion)
+            });
+            self.evaluate(&c.z);
+            return dense;
+        }
+        self.dense_stability(&c.matrix, motion)
+    }
+
+    fn dense_stability(&self, matrix: &CurveMatrix, motion: bool) -> (ShapeStability, usize) {
         let rows = self.held_rows(matrix, motion);
         let rank = column_space(&rows).ncols();
         let stability = self.within_family(&rows, rank);
@@ -703,13 +833,24 @@ impl<'p, 'a> Reduced<'p, 'a> {
         stability
     }
 
-    /// Everything that is known about the evaluated state.
-    pub fn equilibrium(&self, c: &Corrected) -> Equilibrium {
+    /// Everything that is known about a state, which was evaluated last.
+    pub fn equilibrium(&mut self, c: &Corrected) -> Equilibrium {
         let raw = Balance {
             closure: c.balance.closure * self.unit,
             torque: c.balance.torque * self.unit,
             loads: c.balance.loads * self.unit,
         };
+        let swept = self
+            .system
+            .swept_verdicts(self.problem.chain, &self.factors, None);
+        if swept.is_none() && self.system.sweep.is_some() {
+            let dense = self.densely(|own| {
+                own.evaluate(&c.z);
+                own.equilibrium(c)
+            });
+            self.evaluate(&c.z);
+            return dense;
+        }
         let mut equilibrium = self.system.equilibrium(
             self.problem.chain,
             &self.factors,
@@ -718,6 +859,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             self.conservative,
             c.iterations,
             &raw,
+            swept,
         );
         if let Some(family) = &self.family {
             // A family may go on while the whole end is held.
@@ -752,34 +894,4 @@ fn check_numbers(problem: &ChainProblem<'_>, what: &str, v: &Vector6<f64>) -> Re
         }),
         None => Ok(()),
     }
-}
-
-/// Step that removes `lack` and `miss` in `[matrix; normal^T]`; the shortest one where that is
-/// singular. Along a family there is none.
-pub(crate) fn solve_bordered(
-    matrix: &DMatrix<f64>,
-    normal: &DVector<f64>,
-    lack: &DVector<f64>,
-    miss: f64,
-    family: Option<&Family>,
-) -> DVector<f64> {
-    let m = matrix.nrows();
-    let a = family.map_or_else(|| bordered(matrix, normal), |f| f.bordered(matrix, normal));
-    let ones = vec![1.0; a.nrows()];
-    let mut b = DMatrix::zeros(a.nrows(), 1);
-    for i in 0..m {
-        b[(i, 0)] = -lack[i];
-    }
-    b[(m, 0)] = -miss;
-    Saddle::new(a, &ones, &ones).solve(&mut b);
-    b.view((0, 0), (m + 1, 1)).column(0).into_owned()
-}
-
-/// `[matrix; normal^T]`.
-pub(crate) fn bordered(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
-    let m = matrix.nrows();
-    let mut a = DMatrix::zeros(m + 1, m + 1);
-    a.rows_mut(0, m).copy_from(matrix);
-    a.row_mut(m).copy_from(&normal.transpose());
-    a
 }

@@ -65,8 +65,8 @@ const DIFFERENCE: f64 = 1e-5;
 
 /// Derivative of `G_z(z) ` along `p`, by central differences.
 fn change(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, p: &DVector<f64>) -> DMatrix<f64> {
-    let (_, _, plus) = reduced.linearised(&(z + p * DIFFERENCE));
-    let (_, _, minus) = reduced.linearised(&(z - p * DIFFERENCE));
+    let (_, _, plus) = reduced.linearised_densely(&(z + p * DIFFERENCE));
+    let (_, _, minus) = reduced.linearised_densely(&(z - p * DIFFERENCE));
     (plus - minus) / (2.0 * DIFFERENCE)
 }
 
@@ -74,13 +74,13 @@ fn change(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, p: &DVector<f64>) -> 
 pub(crate) fn refine(reduced: &mut Reduced<'_, '_>, guess: &DVector<f64>) -> Option<DVector<f64>> {
     let m = reduced.count();
     let mut z = guess.clone();
-    let (_, _, matrix) = reduced.linearised(&z);
+    let (_, _, matrix) = reduced.linearised_densely(&z);
     let mut psi = left_null(&matrix);
     let mut beta = 0.0;
     let size = 2 * m + 2;
     let mut last = f64::INFINITY;
     for _ in 0..12 {
-        let (lack, balance, g) = reduced.linearised(&z);
+        let (lack, balance, g) = reduced.linearised_densely(&z);
         let mut residual = DVector::zeros(size);
         residual.rows_mut(0, m).copy_from(&(&lack + &psi * beta));
         residual

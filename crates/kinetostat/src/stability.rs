@@ -14,6 +14,7 @@ use crate::chain::Chain;
 use crate::saddle::{Inertia, RANK_TOLERANCE, column_space, complement, inertia};
 use crate::stiffness::{balanced_jacobian, names_in, passive_null_space};
 use crate::sweep::Sweep;
+use crate::sweep_solve::EndMotions;
 use crate::system::System;
 
 /// Whether a chain keeps its shape while its end is held.
@@ -95,7 +96,16 @@ pub(crate) fn swept_stability(
     factors: &[f64],
 ) -> Option<ShapeStability> {
     let range = column_space(&balanced_jacobian(system, factors));
-    let shape = crate::sweep_solve::shape(sweep, &range)?;
+    swept_stability_within(sweep, factors, &EndMotions::held(range))
+}
+
+/// The same while some motions of the end are held.
+pub(crate) fn swept_stability_within(
+    sweep: &Sweep,
+    factors: &[f64],
+    ends: &EndMotions,
+) -> Option<ShapeStability> {
+    let shape = crate::sweep_solve::shape(sweep, ends)?;
     let own = shape.mode.iter().zip(&factors[6..]);
     Some(ShapeStability {
         stable: shape.margin < 1.0,

@@ -282,6 +282,26 @@ impl Factored {
         t
     }
 
+    /// Motion of a coordinate per wrench on the end.
+    pub fn response(&self, coordinate: usize) -> Vector6<f64> {
+        column(&self.responses, coordinate)
+    }
+
+    /// Sign and logarithm of the size of the determinant of `M`: that of all pivots.
+    pub fn determinant(&self, sweep: &Sweep) -> (f64, f64) {
+        let (mut sign, mut logarithm) = (1.0, 0.0);
+        for stage in &sweep.stages {
+            let mut inverse = stage.square(&self.inverse);
+            for i in stage.len..6 {
+                inverse[(i, i)] = 1.0;
+            }
+            let value = inverse.determinant();
+            sign *= value.signum();
+            logarithm -= value.abs().max(f64::MIN_POSITIVE).ln();
+        }
+        (sign, logarithm)
+    }
+
     /// Adds the motion under a wrench on the end (its own spring included).
     pub fn add_response(&self, wrench: &Vector6<f64>, x: &mut [f64]) {
         for (i, x) in x.iter_mut().enumerate() {

@@ -5,7 +5,7 @@ use std::ops::Deref;
 
 use nalgebra::{DMatrix, Dyn, LU, Matrix6, Vector6};
 
-use crate::saddle::{Inertia, RANK_TOLERANCE, Saddle, complement};
+use crate::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space, complement};
 use crate::sweep::{Form, Sweep, column};
 use crate::sweep_factor::Factored;
 
@@ -71,7 +71,7 @@ pub(crate) struct EndRows {
 
 impl EndRows {
     /// Rows with a wrench are stated in its unit, `1 / size`.
-    fn unit(&self, k: usize, size: f64) -> f64 {
+    pub fn unit(&self, k: usize, size: f64) -> f64 {
         match self.wrench.row(k).amax() > 0.0 {
             true => size,
             false => 1.0,
@@ -244,12 +244,48 @@ pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
     Some(answer)
 }
 
-/// The pencil `H' - mu K'` with the motions in `range` held, at one `mu`.
+/// What the end of a chain can do, balanced, orthonormal columns.
+pub(crate) struct EndMotions {
+    /// The motions that the chain can make.
+    range: DMatrix<f64>,
+    /// Those among them that nothing holds.
+    free: DMatrix<f64>,
+}
+
+impl EndMotions {
+    /// Held in all motions that it can make, the columns of `range`.
+    pub fn held(range: DMatrix<f64>) -> Self {
+        let free = DMatrix::zeros(6, 0);
+        Self { range, free }
+    }
+
+    /// Held in the directions `held` only.
+    pub fn held_in(range: DMatrix<f64>, held: &DMatrix<f64>) -> Self {
+        let own = column_space(&(range.transpose() * held));
+        let free = &range * complement(&own);
+        Self { range, free }
+    }
+
+    /// Number of motions that are held.
+    pub fn held_count(&self) -> usize {
+        self.range.ncols() - self.free.ncols()
+    }
+}
+
+/// The pencil `H' - mu K'` with motions of the end held, at one `mu`.
+///
+/// Motions `C u` that are not held are unknowns beside the wrench `F`. Since `J x = C u`, nothing
+/// changes if `-(J x - C u)^T S (J x - C u) / 2` is added to the quadratic form; without `x` it is
+///
+/// ```text
+/// | E             E S C - C           |  | F |
+/// | (E S C - C)^T  C^T (S E S - S) C   |  | u |
+/// ```
 struct Shifted<'s> {
     sweep: &'s Sweep,
     factored: Factored,
-    range: &'s DMatrix<f64>,
-    /// `E` over `range`.
+    ends: &'s EndMotions,
+    /// The matrix above, `F` over the range.
     end: LU<f64, Dyn, Dyn>,
     /// Eigenvalues of the pencil above `mu`.
     above: usize,
@@ -258,13 +294,25 @@ struct Shifted<'s> {
 
 impl<'s> Shifted<'s> {
     /// `None` where a pivot is lost in rounding.
-    fn new(sweep: &'s Sweep, range: &'s DMatrix<f64>, form: Form) -> Option<Self> {
+    fn new(sweep: &'s Sweep, ends: &'s EndMotions, form: Form) -> Option<Self> {
         let mut springs = END_SPRINGS.into_iter();
         let factored = springs.find_map(|spring| Factored::new(sweep, form, spring))?;
-        if range.ncols() == 0 {
+        let (range, free) = (&ends.range, &ends.free);
+        let (r, c) = (range.ncols(), free.ncols());
+        if r == 0 {
             return None;
         }
-        let end = range.transpose() * factored.end * range;
+        let (own, spring) = (factored.end, factored.spring);
+        let mut end = DMatrix::zeros(r + c, r + c);
+        end.view_mut((0, 0), (r, r))
+            .copy_from(&(range.transpose() * own * range));
+        if c > 0 {
+            let across = range.transpose() * (own * spring * free - free);
+            end.view_mut((0, r), (r, c)).copy_from(&across);
+            end.view_mut((r, 0), (c, r)).copy_from(&across.transpose());
+            let along = free.transpose() * (spring * own * spring - spring) * free;
+            end.view_mut((r, r), (c, c)).copy_from(&along);
+        }
         let end = 0.5 * (&end + end.transpose());
         let values = end.symmetric_eigenvalues();
         let most = values.amax();
@@ -278,24 +326,39 @@ impl<'s> Shifted<'s> {
                 inertia.negative += 1;
             }
         }
+        // Each motion that is free adds one of either sign.
+        inertia.positive = inertia.positive.saturating_sub(c);
+        inertia.negative = inertia.negative.saturating_sub(c);
         Some(Self {
             sweep,
-            above: inertia.positive.saturating_sub(range.ncols()),
+            above: inertia.positive.saturating_sub(ends.held_count()),
             inertia,
             factored,
-            range,
+            ends,
             end: end.lu(),
         })
     }
 
-    /// `x` such that `(H' - mu K') x = torque` but for reactions, the motions in `range` zero. Near an
+    /// `x` such that `(H' - mu K') x = torque` but for reactions, the held motions zero. Near an
     /// eigenvalue it is huge, and what rounding spoils is along the eigenvector. `None` on one.
     fn solve(&self, torque: &[f64]) -> Option<Vec<f64>> {
+        let (range, free) = (&self.ends.range, &self.ends.free);
+        let (r, c) = (range.ncols(), free.ncols());
         let mut x = torque.to_vec();
         let start = self.factored.solve(self.sweep, &mut x);
-        let held = self.end.solve(&(self.range.transpose() * start))?;
-        let wrench = self.range * held;
-        let wrench = Vector6::from_fn(|i, _| -wrench[i]);
+        let mut b = DMatrix::zeros(r + c, 1);
+        b.rows_mut(0, r).copy_from(&(range.transpose() * start));
+        if c > 0 {
+            let pulled = free.transpose() * (self.factored.spring * start);
+            b.rows_mut(r, c).copy_from(&pulled);
+        }
+        let held = self.end.solve(&b)?;
+        let mut wrench = -(range * held.rows(0, r));
+        if c > 0 {
+            let moved = free * held.rows(r, c);
+            wrench -= self.factored.spring * moved;
+        }
+        let wrench = Vector6::from_fn(|i, _| wrench[(i, 0)]);
         self.factored.add_response(&wrench, &mut x);
         x.iter().all(|v| v.is_finite()).then_some(x)
     }
@@ -350,11 +413,15 @@ impl Trial {
 /// Steps of Lanczos' method before shifts take over.
 const LANCZOS: usize = 16;
 
-/// Lanczos' method for `K'^-1 H'` with the motions in `range` held, in the energy of the springs at
+/// Lanczos' method for `K'^-1 H'` with motions of the end held, in the energy of the springs at
 /// rest: a vector near the largest eigenvalue, and how near its quotient may be.
-fn lanczos(sweep: &Sweep, range: &DMatrix<f64>) -> Option<(Trial, f64)> {
+fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
     let n = sweep.count();
-    let rest = Shifted::new(sweep, range, Form::Rest)?;
+    let rest = Shifted::new(sweep, ends, Form::Rest)?;
+    // Where the end is not held, passive joints may move that no spring holds.
+    if ends.free.ncols() > 0 && rest.inertia.positive + rest.inertia.zero > ends.held_count() {
+        return None;
+    }
     // Any start that no eigenvector is orthogonal to.
     #[allow(clippy::cast_precision_loss)]
     let start: Vec<f64> = (0..n)
@@ -412,13 +479,13 @@ fn lanczos(sweep: &Sweep, range: &DMatrix<f64>) -> Option<(Trial, f64)> {
     Some((Trial::new(sweep, v)?, off))
 }
 
-/// Largest eigenvalue of the pencil while the motions in `range` are held. Rayleigh quotients bound
+/// Largest eigenvalue of the pencil while motions of the end are held. Rayleigh quotients bound
 /// it from below, the count of eigenvalues above a shift from above; each shift costs one sweep, and
 /// inverse iteration at the shift improves the quotient. `None` where a sweep loses a pivot.
-pub(crate) fn shape(sweep: &Sweep, range: &DMatrix<f64>) -> Option<Shape> {
-    let judged = Shifted::new(sweep, range, Form::Pencil(1.0))?;
+pub(crate) fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
+    let judged = Shifted::new(sweep, ends, Form::Pencil(1.0))?;
     let inertia = judged.inertia;
-    let (mut best, mut off) = lanczos(sweep, range)?;
+    let (mut best, mut off) = lanczos(sweep, ends)?;
     if sweep.unloaded() {
         return Some(Shape {
             inertia,
@@ -452,7 +519,7 @@ pub(crate) fn shape(sweep: &Sweep, range: &DMatrix<f64>) -> Option<Shape> {
             ahead = low.abs().max(scale);
         }
         let shift = low + ahead;
-        let Some(next) = Shifted::new(sweep, range, Form::Pencil(shift)) else {
+        let Some(next) = Shifted::new(sweep, ends, Form::Pencil(shift)) else {
             // An eigenvalue lies too near.
             lost += 1;
             if lost > 12 {

@@ -1,13 +1,15 @@
 //! Sweeps against dense matrices and against differences, on random spatial chains, and which of
 //! the two paths a chain takes. (The oracle of the integration tests judges the same from outside.)
 
-use nalgebra::{DMatrix, DVector, Vector3, vector};
+use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
-use crate::equilibrium::solve_along;
+use crate::curve_matrix::CurveMatrix;
+use crate::equilibrium::{Prescribed, solve_along};
+use crate::reduced::{LoadPattern, Parameter, Reduced};
 use crate::stability::stability_within;
 use crate::stiffness::balanced_jacobian;
-use crate::sweep::{Form, Path};
-use crate::sweep_solve::{Bordered, END_SPRINGS, EndRows};
+use crate::sweep::{Form, Path, SWEEP_FROM};
+use crate::sweep_solve::{Bordered, END_SPRINGS, EndMotions, EndRows};
 use crate::system::{System, balance};
 use crate::*;
 
@@ -440,18 +442,30 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
         let loads = loads(&mut rng, &chain, true);
         let (dense, swept, factors) = two(&mut rng, &chain, &loads, 12.0);
         let jacobian = balanced_jacobian(&dense, &factors);
-        let expected = stability_within(&chain, &dense, &factors, &jacobian);
         let sweep = swept.sweep.as_ref().expect("stages");
         let range = crate::saddle::column_space(&jacobian);
-        let shape = crate::sweep_solve::shape(sweep, &range).expect("pivots");
-        assert_eq!(expected.inertia, shape.inertia, "{case}");
-        let margin = expected.margin.expect("margin");
-        unstable += usize::from(margin > 1.0);
-        assert!(
-            (margin - shape.margin).abs() < 1e-8 * margin.abs().max(1.0),
-            "{case}: {margin} {}",
-            shape.margin
-        );
+        // The whole end held, some directions of it, nothing.
+        let mut directions = Rng(100 + case as u64);
+        for k in 0..=6 {
+            let held = DMatrix::from_fn(6, k, |_, _| directions.next()).qr().q();
+            let expected =
+                stability_within(&chain, &dense, &factors, &(held.transpose() * &jacobian));
+            let ends = match k {
+                6 => EndMotions::held(range.clone()),
+                _ => EndMotions::held_in(range.clone(), &held),
+            };
+            assert_eq!(ends.held_count(), k.min(range.ncols()), "{case} {k}");
+            let margin = expected.margin.expect("margin");
+            let Some(shape) = crate::sweep_solve::shape(sweep, &ends) else {
+                // A passive joint that only the end held.
+                assert!(k < 6 && case % 3 > 0, "{case} {k}");
+                continue;
+            };
+            assert_eq!(expected.inertia, shape.inertia, "{case} {k}");
+            unstable += usize::from(k == 6 && margin > 1.0);
+            let off = (margin - shape.margin).abs() / margin.abs().max(1.0);
+            assert!(off < 1e-8, "{case} {k}: {margin} {}", shape.margin);
+        }
     }
     println!("{unstable} of 40 unstable");
     assert!((5..40).contains(&unstable), "{unstable}");
@@ -533,4 +547,64 @@ fn planar_chains_of_joints_have_rigid_directions_on_both_paths() {
         assert_same(&dense.0, &swept.0, &chain, &format!("planar, held {held}"));
         assert_eq!(swept.0.stiffness.count(DirectionKind::Rigid), 3);
     }
+}
+
+/// Steps, tangents and determinants of curves, by a sweep and dense, far from equilibrium too.
+#[test]
+fn curves_are_alike_by_sweeps_and_dense() {
+    let mut rng = Rng(17);
+    let (mut signs, mut worst) = ([0, 0], 0.0_f64);
+    for case in 0..40 {
+        let chain = random(&mut rng, 11 + case % 4, case % 3, 1.0);
+        assert!(chain.coordinate_count() >= SWEEP_FROM);
+        let mut wrench = Vector6::from_fn(|_, _| 30.0 * rng.next());
+        let mut problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench(wrench)));
+        problem.loads = loads(&mut rng, &chain, true);
+        for k in 0..6 {
+            if (case + k) % 3 == 0 {
+                problem.end.prescribed[k] = Prescribed::Pose;
+                wrench[k] = 0.0;
+            }
+        }
+        problem.end.wrench = Wrench(wrench);
+        let held: Vec<usize> = (0..6)
+            .filter(|&k| problem.end.prescribed[k] == Prescribed::Pose)
+            .collect();
+        let moved = held[case % held.len()];
+        let parameter = match case % 2 {
+            0 => Parameter::along(&problem.end.axes, moved),
+            _ => Parameter::Load(LoadPattern {
+                end: Wrench(wrench * 0.3),
+                loads: loads(&mut rng, &chain, true),
+            }),
+        };
+        let new = || Reduced::new(&problem, Some(&parameter), &Settings::default()).unwrap();
+        let (mut dense, mut swept) = (new(), new().by_sweeps());
+        let m = dense.count();
+        let mut direction = || {
+            let v = DVector::from_fn(m + 1, |_, _| rng.next());
+            v.normalize()
+        };
+        let (z, guide, lack) = (direction() * 4.0, direction(), direction());
+        let right = lack.rows(0, m).into_owned();
+        let (a, _, x) = dense.linearised(&z);
+        let (b, _, y) = swept.linearised(&z);
+        assert!(matches!(y, CurveMatrix::Swept(_)), "{case}");
+        assert!((a - b).norm() < 1e-12, "{case}");
+        assert!((x.gradient() - y.gradient()).norm() < 1e-10, "{case}");
+        let (p, q) = (
+            x.tangent(&guide, None).unwrap(),
+            y.tangent(&guide, None).unwrap(),
+        );
+        assert!(p.sign == q.sign, "{case}");
+        signs[usize::from(p.sign > 0.0)] += 1;
+        assert!((p.logarithm - q.logarithm).abs() < 1e-8, "{case}");
+        let step = |matrix: &CurveMatrix| matrix.step(&guide, &right, 0.3, None).unwrap();
+        let (s, t) = (step(&x), step(&y));
+        worst = worst.max((&p.direction - q.direction).norm());
+        worst = worst.max((&s - t).norm() / s.norm());
+    }
+    println!("apart {worst:e}, signs {signs:?}");
+    assert!(worst < 1e-9, "{worst:e}");
+    assert!(signs[0] > 5 && signs[1] > 5, "{signs:?}");
 }

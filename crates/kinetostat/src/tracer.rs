@@ -3,57 +3,17 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::bifurcation::{self, Special};
 use crate::branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Stop, join};
 use crate::chain::MotionKind;
+use crate::curve_matrix::{CurveMatrix, Tangent};
 use crate::error::Result;
 use crate::family::{Family, family_of};
-use crate::reduced::{Corrected, Reduced, Row, bordered};
+use crate::reduced::{Corrected, Reduced, Row};
 use crate::singular_point::start_direction;
 use crate::state_distance::{distance, off_segment, segment_distance, wrapped, wraps};
-
-/// Sign and logarithm of a determinant, and the direction in which equilibrium persists.
-pub(crate) struct Tangent {
-    pub direction: DVector<f64>,
-    /// Sign of `det [G_z; t^T]`: it changes at a simple bifurcation.
-    pub sign: f64,
-    pub logarithm: f64,
-}
-
-/// Tangent at a state, oriented along `guide`, at rest along the motions of a family.
-pub(crate) fn tangent(
-    matrix: &DMatrix<f64>,
-    guide: &DVector<f64>,
-    family: Option<&Family>,
-) -> Option<Tangent> {
-    let m = matrix.nrows();
-    let lu = family
-        .map_or_else(|| bordered(matrix, guide), |f| f.bordered(matrix, guide))
-        .lu();
-    let mut sign: f64 = lu.p().determinant();
-    let mut logarithm = 0.0;
-    for pivot in lu.lu_internal().diagonal().iter() {
-        sign *= pivot.signum();
-        logarithm += pivot.abs().max(1e-300).ln();
-    }
-    let mut unit = DVector::zeros(lu.l().nrows());
-    unit[m] = 1.0;
-    let solution = lu.solve(&unit)?.rows(0, m + 1).into_owned();
-    let norm = solution.norm();
-    if !norm.is_finite() || norm == 0.0 {
-        return None;
-    }
-    let direction = solution / norm;
-    // det [A; t] = det [A; p] / (p . t), and p . t = 1 / norm.
-    logarithm += norm.ln();
-    Some(Tangent {
-        direction,
-        sign,
-        logarithm,
-    })
-}
 
 /// Attempted steps after which a branch must have come further.
 const ATTEMPTS: usize = 150;
@@ -188,7 +148,10 @@ impl Tracer<'_, '_, '_> {
         // still.
         for _ in 0..3 {
             let (_, _, matrix) = self.reduced.linearised(&z);
-            let t = start_direction(&matrix);
+            let t = match matrix.only_direction() {
+                Some(t) => t,
+                None => start_direction(&self.reduced.linearised_densely(&z).2),
+            };
             let offset = t.dot(&z);
             let Some(c) = self.reduced.correct(&z, &Row::Plane(&t, offset), 12) else {
                 break;
@@ -211,7 +174,7 @@ impl Tracer<'_, '_, '_> {
         if t[m] < 0.0 {
             t *= -1.0;
         }
-        self.reduced.family = family_of(&mut self.reduced, &c.z, &t).map(Arc::new);
+        self.reduced.family = self.family_at(&c, &t);
         if let Some(own) = self.tangent(&c.matrix, &t) {
             t = own.direction;
         }
@@ -219,19 +182,27 @@ impl Tracer<'_, '_, '_> {
         Ok(self.describe(&c, t))
     }
 
+    /// Family to which a state on a curve along `t` belongs.
+    fn family_at(&mut self, c: &Corrected, t: &DVector<f64>) -> Option<Arc<Family>> {
+        match c.matrix.only_direction() {
+            Some(_) => None,
+            None => family_of(&mut self.reduced, &c.z, t).map(Arc::new),
+        }
+    }
+
     /// Tangent of the curve that is followed.
-    pub fn tangent(&self, matrix: &DMatrix<f64>, guide: &DVector<f64>) -> Option<Tangent> {
-        tangent(matrix, guide, self.reduced.family.as_deref())
+    pub fn tangent(&self, matrix: &CurveMatrix, guide: &DVector<f64>) -> Option<Tangent> {
+        matrix.tangent(guide, self.reduced.family.as_deref())
     }
 
     /// A point from a corrected state, with the family as it is there; the system is evaluated
     /// there.
     pub fn describe(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
         let before = self.reduced.family.clone();
-        if let Some(carried) = before
-            .as_ref()
-            .and_then(|f| f.carried(&c.matrix, &direction))
-        {
+        if let Some(carried) = before.as_ref().and_then(|f| match &c.matrix {
+            CurveMatrix::Dense(matrix) => f.carried(matrix, &direction),
+            CurveMatrix::Swept(_) => None,
+        }) {
             self.reduced.family = Some(Arc::new(carried));
         }
         let point = self.described(c, direction);
@@ -241,8 +212,8 @@ impl Tracer<'_, '_, '_> {
 
     fn described(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
         self.reduced.evaluate(&c.z);
-        let (held, u_held) = self.reduced.stability(&c.matrix, true);
-        let (dead, u_dead) = self.reduced.stability(&c.matrix, false);
+        let (held, u_held) = self.reduced.stability(c, true);
+        let (dead, u_dead) = self.reduced.stability(c, false);
         let m = self.reduced.count();
         let rate = self.reduced.conjugate_row(&c.matrix).dot(&direction);
         let change = direction[m] * self.reduced.sigma;
@@ -516,7 +487,7 @@ impl Tracer<'_, '_, '_> {
             if (&c.z - &predicted).norm() > 0.4 * h {
                 continue;
             }
-            self.reduced.family = family_of(&mut self.reduced, &c.z, direction).map(Arc::new);
+            self.reduced.family = self.family_at(&c, direction);
             let Some(next) = self.tangent(&c.matrix, direction) else {
                 continue;
             };
