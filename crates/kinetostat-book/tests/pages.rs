@@ -125,6 +125,81 @@ fn every_function_and_test_of_the_theory_map_exists() {
     assert!(rows > 50, "only {rows} rows found");
 }
 
+/// First cells of the rows of the theory map, by the heading of their table.
+fn cited() -> Vec<(String, String)> {
+    let text = read(&root().join("book/src/theory-map.md"));
+    let (mut heading, mut found) = (String::new(), Vec::new());
+    for line in text.lines() {
+        if let Some(title) = line.strip_prefix("## ") {
+            title.clone_into(&mut heading);
+        } else if let Some((cell, _)) = line.strip_prefix("| ").and_then(|l| l.split_once('|')) {
+            found.push((heading.clone(), cell.trim().to_owned()));
+        }
+    }
+    found
+}
+
+/// Numbers with one or two points: of equations, tables, figures and sections.
+fn numbers(cell: &str) -> Vec<&str> {
+    cell.split(|c: char| !c.is_ascii_digit() && c != '.')
+        .map(|word| word.trim_matches('.'))
+        .filter(|word| word.contains('.'))
+        .collect()
+}
+
+#[test]
+fn every_section_that_the_theory_map_names_exists() {
+    let equations = read(&root().join("book/src/equations.md"));
+    let mut seen = 0;
+    for (_, cell) in cited().iter().filter(|(h, _)| h == "The corrected theory") {
+        if cell.parse::<u32>().is_ok() {
+            seen += 1;
+            let heading = format!("\n## {cell}. ");
+            assert!(
+                equations.contains(&heading),
+                "equations.md has no section {cell}"
+            );
+        }
+    }
+    assert!(seen >= 20, "only {seen} rows name a section");
+}
+
+/// The report's text lies beside the repository, not in it.
+#[test]
+fn every_equation_of_the_report_that_the_theory_map_names_exists() {
+    let path = root().join("../shared/report/corousso-l1.1.txt");
+    let Ok(report) = fs::read_to_string(&path) else {
+        println!("SKIPPED: there is no ../shared/report, the report's numbers were not looked up");
+        return;
+    };
+    let (mut seen, mut missing) = (0, Vec::new());
+    for (heading, cell) in cited().iter().filter(|(h, _)| h.starts_with("Chapter")) {
+        let words = ["Table", "Figure", "section"];
+        for number in numbers(cell) {
+            seen += 1;
+            let before = cell.split(number).next().unwrap_or_default().trim_end();
+            let title = format!("{number} ");
+            let mut lines = report.lines();
+            let named = |word: &str| report.contains(&format!("{word} {number}"));
+            let exists = match words.iter().find(|word| before.ends_with(*word)) {
+                Some(&"section") => lines.any(|l| l.trim_start().starts_with(&title)),
+                // The last of `Figures 4.3 to 4.5` as the first.
+                Some(word) => named(word),
+                None if cell.starts_with("Figures") => named("Figure"),
+                None => {
+                    report.contains(&format!("({number})"))
+                        || report.contains(&format!("tag{{{number}}}"))
+                }
+            };
+            if !exists {
+                missing.push(format!("{heading}: {cell}: {number}"));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+    assert!(seen > 60, "only {seen} numbers are named");
+}
+
 /// A sentence in snake case is the name of a test: four words and more. So are some keys of model files.
 fn names_a_test(word: &str) -> bool {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
@@ -193,6 +268,54 @@ fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The anchor that mdBook gives a heading.
+fn slug(heading: &str) -> String {
+    let kept = heading.trim().chars().filter_map(|c| match c {
+        ' ' => Some('-'),
+        c if c.is_alphanumeric() || c == '_' || c == '-' => Some(c.to_ascii_lowercase()),
+        _ => None,
+    });
+    kept.collect()
+}
+
+#[test]
+fn every_anchor_exists() {
+    let (mut seen, mut wrong) = (0, Vec::new());
+    for page in pages() {
+        let text = read(&page);
+        for line in parted(&text).0 {
+            for rest in line.split("](").skip(1) {
+                let target = rest.split(')').next().unwrap_or_default();
+                let Some((file, anchor)) = target.split_once('#') else {
+                    continue;
+                };
+                if file.contains("://") {
+                    continue;
+                }
+                seen += 1;
+                let there = match file {
+                    "" => page.clone(),
+                    file => page.parent().expect("a folder").join(file),
+                };
+                let text = read(&there);
+                let stem = there.file_stem().expect("a name").to_string_lossy();
+                let named = |name: &str| text.contains(&format!("```math #{name}\n"));
+                let formula = anchor.strip_prefix(&format!("eq-{stem}-"));
+                let headings = text.lines().filter_map(|l| l.strip_prefix('#'));
+                if !formula.is_some_and(named)
+                    && !headings
+                        .map(|h| slug(h.trim_start_matches('#')))
+                        .any(|s| s == anchor)
+                {
+                    wrong.push(format!("{}: {target}", page.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(seen > 5, "only {seen} anchors are used");
 }
 
 #[test]

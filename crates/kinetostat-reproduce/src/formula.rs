@@ -1,8 +1,8 @@
 //! Formulas that are written in plain characters (`K_x`, `l^2`, `sqrt 3`, `theta1`) as HTML: indices
 //! and powers, Greek letters, signs.
 
-/// Words for letters and signs. Longer ones first where one begins another.
-const WORDS: [(&str, &str); 16] = [
+/// Names of Greek letters.
+pub(crate) const GREEK: [(&str, &str); 13] = [
     ("theta", "\u{3b8}"),
     ("Theta", "\u{398}"),
     ("delta", "\u{3b4}"),
@@ -14,11 +14,15 @@ const WORDS: [(&str, &str); 16] = [
     ("phi", "\u{3c6}"),
     ("psi", "\u{3c8}"),
     ("omega", "\u{3c9}"),
+    ("pi", "\u{3c0}"),
+    ("th", "\u{3b8}"),
+];
+
+/// Other words for signs.
+const SIGNS: [(&str, &str); 3] = [
     ("sqrt", "\u{221a}"),
     ("thth", "\u{3b8}\u{3b8}"),
     ("thq", "\u{3b8}q"),
-    ("th", "\u{3b8}"),
-    ("pi", "\u{3c0}"),
 ];
 
 /// A text with its formulas, safe in a page.
@@ -51,7 +55,7 @@ pub(crate) fn html(text: &str) -> String {
                 .take_while(|c| c.is_ascii_alphabetic())
                 .count();
             let word: String = letters[i..end].iter().collect();
-            match WORDS.iter().find(|(name, _)| *name == word) {
+            match GREEK.iter().chain(&SIGNS).find(|(name, _)| *name == word) {
                 Some((_, sign)) => out.push_str(sign),
                 None => out.push_str(&word),
             }

@@ -14,6 +14,7 @@ mod cutting;
 mod elastic_figures;
 mod entry;
 mod formula;
+mod mathml;
 mod models;
 mod orthoglide;
 mod page;

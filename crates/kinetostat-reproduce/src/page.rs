@@ -3,7 +3,7 @@
 use kinetostat_report::Plot;
 use minijinja::{Environment, Value, context};
 
-use crate::{Entry, Item, ReproduceError, Status, formula};
+use crate::{Entry, Item, ReproduceError, Status, formula, mathml};
 
 /// The name ends in `.html`, which switches automatic escaping on.
 const PAGE: &str = "reproduce.html";
@@ -80,9 +80,7 @@ fn row<'i>(item: &'i Item, notes: &mut Vec<&'i str>) -> Value {
     };
     context! {
         name => Value::from_safe_string(formula::html(&item.name)),
-        printed => item.printed.as_ref().map(|text| {
-            Value::from_safe_string(formula::html(&text.replace('-', "\u{2212}")))
-        }),
+        printed => item.printed.as_ref().map(|text| Value::from_safe_string(printed(text))),
         formula => item.printed.as_ref().is_some_and(|p| p.chars().count() > 12),
         computed => item.computed.map(shown),
         unit => Value::from_safe_string(formula::html(&item.unit)),
@@ -90,6 +88,14 @@ fn row<'i>(item: &'i Item, notes: &mut Vec<&'i str>) -> Value {
         word,
         note,
     }
+}
+
+/// What the report prints: formulas as such, numbers with true minus signs.
+fn printed(text: &str) -> String {
+    let formula =
+        text.contains(|c: char| c.is_ascii_alphabetic()) && text.contains(['/', '^', '(', '_']);
+    let set = formula.then(|| mathml::math(text)).flatten();
+    set.unwrap_or_else(|| formula::html(&text.replace('-', "\u{2212}")))
 }
 
 /// Ten significant digits, plain where that is readable.

@@ -251,5 +251,9 @@ fn the_page_is_one_file_that_asks_nobody() {
     }
     let plots: usize = entries().iter().map(|e| e.plots.len()).sum();
     assert_eq!(page.matches("<svg").count(), plots);
+    // Formulas are set as such, all of them.
+    let formulas = page.matches("class=\"formula\">").count();
+    assert!(formulas > 50, "{formulas}");
+    assert_eq!(page.matches("class=\"formula\"><math ").count(), formulas);
     assert_eq!(page, html(&some).expect("page"), "the same bytes");
 }
