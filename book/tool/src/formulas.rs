@@ -20,12 +20,14 @@ impl Preprocessor for Formulas {
 
     fn run(&self, _context: &PreprocessorContext, mut book: Book) -> Result<Book> {
         let mut wrong = None;
-        book.for_each_chapter_mut(|chapter| match rendered(&chapter.content, &anchor(chapter)) {
-            Ok(text) => chapter.content = text,
-            Err(error) => {
-                wrong.get_or_insert(error.context(format!("chapter '{}'", chapter.name)));
-            }
-        });
+        book.for_each_chapter_mut(
+            |chapter| match rendered(&chapter.content, &anchor(chapter)) {
+                Ok(text) => chapter.content = text,
+                Err(error) => {
+                    wrong.get_or_insert(error.context(format!("chapter '{}'", chapter.name)));
+                }
+            },
+        );
         wrong.map_or(Ok(book), Err)
     }
 }

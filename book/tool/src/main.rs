@@ -3,6 +3,7 @@
 
 mod formulas;
 mod offline;
+mod search;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -29,8 +30,9 @@ fn build() -> Result<()> {
     book.build()?;
     let built = book.build_dir_for("html");
     let pages = offline::check(&built)?;
+    search::check(&built, &book.book)?;
     println!(
-        "{pages} pages, no reference to the network: {}",
+        "{pages} pages, all in the index of the search, no reference to the network: {}",
         built.join("index.html").display()
     );
     Ok(())
