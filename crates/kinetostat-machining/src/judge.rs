@@ -593,7 +593,7 @@ pub(crate) fn tolerance(
                 a.largest_jump_taken_up_mm
             )
         } else {
-            "the correction bends more between the ends of the written pieces than was expected; tighten the tolerance of the path".to_owned()
+            "the correction bends more between the ends of the written pieces than was expected, also where they were divided again; tighten the tolerance of the path".to_owned()
         };
         MissedTolerance {
             line: p.line,

@@ -4,6 +4,7 @@
 //! cuts where it should and proves it by solving the written program again. [`map()`] tells stiffness
 //! and deflection on a grid of places.
 
+mod again;
 mod claims;
 mod corners;
 mod field;

@@ -1,6 +1,7 @@
 //! What a run tells: plain data, units in the names; the same structure that `--json` prints, the
 //! report draws and `points.csv` lists.
 
+use kinetostat_program::{Accounting, WriteOptions};
 use serde::{Deserialize, Serialize};
 
 use crate::load::CornerLoad;
@@ -48,14 +49,11 @@ impl RunResult {
     /// and the rounding to decimals. By this bound it is judged everywhere.
     #[must_use]
     pub fn allowed_mm(&self) -> f64 {
-        [
+        sum_of_bounds([
             self.question.tolerance_mm,
             self.question.chord_tolerance_mm,
             self.summary.max_rounding_error_mm,
-        ]
-        .into_iter()
-        .filter(|part| part.is_finite() && *part > 0.0)
-        .sum()
+        ])
     }
 
     /// Whether the written program stays within [`Self::allowed_mm`]; none if none was written. A
@@ -67,6 +65,20 @@ impl RunResult {
             .compensated
             .then(|| after <= self.allowed_mm())
     }
+}
+
+/// [`RunResult::allowed_mm`] of a written program whose result is not made yet.
+pub(crate) fn bound_mm(writing: &WriteOptions, accounting: &Accounting) -> f64 {
+    sum_of_bounds([
+        writing.tolerance_mm,
+        writing.chord_tolerance_mm,
+        accounting.largest_rounding_mm,
+    ])
+}
+
+fn sum_of_bounds(parts: [f64; 3]) -> f64 {
+    let counts = |part: &f64| part.is_finite() && *part > 0.0;
+    parts.into_iter().filter(counts).sum()
 }
 
 /// How a written program stands to its tolerance.

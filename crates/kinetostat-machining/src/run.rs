@@ -4,11 +4,12 @@
 use kinetostat::batch::BatchEquilibrium;
 use kinetostat::{Error, Mechanism, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use kinetostat_program::{
-    Corrected, Monitor, MoveKind, Path, Program, ReadOptions, WriteError, WriteOptions,
-    verify_written, write_corrected,
+    Corrected, CorrectionField, Monitor, MoveKind, Path, Program, ReadOptions, Verification,
+    WriteError, WriteOptions, verify_written, write_corrected,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::again::Again;
 use crate::corners::by_the_other_reading;
 use crate::field::{ModelField, in_words};
 use crate::following::{following, jump, turn_deg};
@@ -19,7 +20,7 @@ use crate::near::{natural_length, near_singular};
 use crate::placement::Placement;
 use crate::result::{
     ActuatorColumn, NearSingularPlace, PointKind, PointResult, Question, RESULT_SCHEMA, RunResult,
-    Summary, ToleranceVerdict, ToolAtCorners,
+    Summary, ToleranceVerdict, ToolAtCorners, bound_mm,
 };
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{Neighbour, Orientation, in_chunks};
@@ -208,25 +209,16 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     refuse(judge::of_question(task))?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     let field = ModelField::new(task.mechanism, task.placement, &load);
-    watch.stage("corrections", 0);
-    let written = write_corrected(
-        task.program,
-        task.path,
-        &field,
-        &task.writing,
-        &Forward(watch),
-    )?;
-    watch.stage("check of the written program", 0);
-    let check = verify_written(
-        task.program,
-        task.path,
-        &written,
-        &task.reading,
-        &task.writing,
-    )?;
-    let spacing_mm = SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale;
-    let sites = || of_written(task.path, &written, &load, &task.placement, spacing_mm);
-    let (points, worse) = solve(task, sites, true, watch)?;
+    let mut again = Again::default();
+    let (written, check, points, worse) = loop {
+        let (written, check) = write_and_read_again(task, &again.field(&field), watch)?;
+        let (points, worse) = solve(task, || sites(task, &load, &written), true, watch)?;
+        let stable = points.iter().all(|p| p.stable);
+        let bound_mm = bound_mm(&task.writing, &written.accounting);
+        if !stable || !again.divides(task.path, &field, &points, bound_mm) {
+            break (written, check, points, worse);
+        }
+    };
     if let Some(point) = points.iter().find(|p| !p.stable) {
         return Err(RunError::Unstable {
             line: point.line,
@@ -247,19 +239,51 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     if let Some(line) = jump(task, &points) {
         return Err(RunError::Jump { line });
     }
+    let sites = || sites(task, &load, &written);
     let checked = Checked {
         speed_percent: 100.0 * check.largest_speed_error,
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
+        divided_again: again.in_words(bound_mm(&task.writing, &written.accounting)),
     };
     Ok(conclude(task, &load, points, Some(written), &checked))
+}
+
+/// The compensated program and what its own reader says of it.
+fn write_and_read_again(
+    task: &Task<'_>,
+    field: &dyn CorrectionField,
+    watch: &dyn Watch,
+) -> Result<(Corrected, Verification), RunError> {
+    watch.stage("corrections", 0);
+    let monitor = Forward(watch);
+    let written = write_corrected(task.program, task.path, field, &task.writing, &monitor)?;
+    watch.stage("check of the written program", 0);
+    let check = verify_written(
+        task.program,
+        task.path,
+        &written,
+        &task.reading,
+        &task.writing,
+    )?;
+    Ok((written, check))
+}
+
+/// Where a written program is looked at.
+fn sites<'s>(
+    task: &'s Task<'_>,
+    load: &'s LoadAlongPath<'s>,
+    written: &'s Corrected,
+) -> impl Iterator<Item = Site> + 's {
+    let spacing_mm = SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale;
+    of_written(task.path, written, load, &task.placement, spacing_mm)
 }
 
 /// Share of the natural length after which a long piece is looked at in one more place.
 const SPACING: f64 = 1.0 / 16.0;
 
 /// What was checked of a written program besides its points.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Checked {
     /// Largest error of the speed along the part where the feed was not limited, percent.
     speed_percent: f64,
@@ -267,6 +291,8 @@ struct Checked {
     if_turns_mm: Option<f64>,
     /// The same, if the load follows the feed there.
     if_follows_mm: Option<f64>,
+    /// What was divided again because the tool was found off.
+    divided_again: Option<Warning>,
 }
 
 /// Everything that bends the machine along a program, in words: cutting load and own weight.
@@ -598,6 +624,7 @@ fn conclude(
         task.path,
         written.as_ref().map(|w| w.accounting.warnings.as_slice()),
     );
+    warnings.extend(checked.divided_again.clone());
     if !summary.stable {
         let first = points.iter().find(|p| !p.stable).map_or(0, |p| p.line);
         warnings.push(Warning::at_line(

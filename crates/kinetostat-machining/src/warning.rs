@@ -14,6 +14,8 @@ pub enum WarningCode {
     Program,
     /// Something in the written program.
     Writing,
+    /// Blocks that the check of the written program found off, and that were divided again.
+    DividedAgain,
     /// Something in the model file that looks wrong.
     Model,
     /// An equilibrium that the machine would leave.

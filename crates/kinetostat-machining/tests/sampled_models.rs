@@ -8,11 +8,12 @@ use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_machining::number::largest_length;
 use kinetostat_machining::{
     Bounds, CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, Placement, ProgramLoad, Question,
-    Run, Task, Unwatched, compensate_program, straight_tool,
+    Run, Task, Unwatched, WarningCode, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret, irregular};
 use nalgebra::{UnitQuaternion, Vector3, vector};
+use rayon::prelude::*;
 
 /// 12, or as many as `KINETOSTAT_CASES` says.
 fn cases() -> u64 {
@@ -122,12 +123,57 @@ fn sampled(
                 .tool;
             let off = 1e3 * (tool.translation.vector - wanted.translation.vector).norm();
             assert!(off.is_finite());
-            assert!(off.is_finite());
             worst = worst.max(off);
             places += 1;
         }
     }
     (worst, places)
+}
+
+/// What a case came to.
+struct Looked {
+    /// Largest distance of the tool from its place, mm.
+    off: f64,
+    /// How much that is more than what the run itself found, mm.
+    beyond_claim: f64,
+    places: usize,
+    divided_again: bool,
+    /// The run says that it holds its tolerance.
+    claimed: bool,
+}
+
+/// A random program under a random load.
+fn look(case: u64, (mechanism, placement): &(Mechanism, Placement)) -> Looked {
+    let mut random = Random(case, 0);
+    let text = program(&mut random);
+    let mut force = || random.between(-250.0, 250.0);
+    let cutting = match case % 3 {
+        0 => CuttingLoad::Milling {
+            radial: force(),
+            tangential: force(),
+            axial: force(),
+        },
+        1 => CuttingLoad::Constant {
+            axes: LoadAxes::Base,
+            wrench: Wrench::new(vector![force(), force(), force()], Vector3::zeros()),
+        },
+        _ => CuttingLoad::Constant {
+            axes: LoadAxes::Feed,
+            wrench: Wrench::new(vector![force(), force(), force()], Vector3::z()),
+        },
+    };
+    let load = ProgramLoad::new(cutting);
+    let (run, path) = run(mechanism, &text, *placement, load);
+    let (off, places) = sampled(mechanism, &run, &path, *placement, load, &mut random);
+    let result = &run.result;
+    let again = |w: &kinetostat_machining::Warning| w.code == WarningCode::DividedAgain;
+    Looked {
+        off,
+        beyond_claim: off - result.summary.max_position_error_after_mm,
+        places,
+        divided_again: result.warnings.iter().any(again),
+        claimed: result.holds_tolerance() == Some(true),
+    }
 }
 
 #[test]
@@ -153,46 +199,32 @@ fn written_programs_are_within_their_bound_in_random_places() {
     let writing = WriteOptions::default();
     // Path with the tenth that may be unknown, chords, rounding.
     let allowed = 1.1 * writing.tolerance_mm + 1.2 * writing.chord_tolerance_mm + 0.9e-4;
-    let (mut worst, mut places, mut beyond_claim) = (0.0_f64, 0, 0.0_f64);
-    let cases = cases();
-    for case in 0..cases {
-        let mut random = Random(case, 0);
-        let (mechanism, placement) = &machines[(case % 2) as usize];
-        let text = program(&mut random);
-        let mut force = || random.between(-250.0, 250.0);
-        let cutting = match case % 3 {
-            0 => CuttingLoad::Milling {
-                radial: force(),
-                tangential: force(),
-                axial: force(),
-            },
-            1 => CuttingLoad::Constant {
-                axes: LoadAxes::Base,
-                wrench: Wrench::new(vector![force(), force(), force()], Vector3::zeros()),
-            },
-            _ => CuttingLoad::Constant {
-                axes: LoadAxes::Feed,
-                wrench: Wrench::new(vector![force(), force(), force()], Vector3::z()),
-            },
-        };
-        let load = ProgramLoad::new(cutting);
-        let (run, path) = run(mechanism, &text, *placement, load);
-        let (off, looked) = sampled(mechanism, &run, &path, *placement, load, &mut random);
-        assert!(
-            off <= allowed,
-            "case {case}: {off} mm, {allowed} allowed\n{text}"
-        );
-        places += looked;
-        assert!(off.is_finite());
-        worst = worst.max(off);
-        beyond_claim = beyond_claim.max(off - run.result.summary.max_position_error_after_mm);
-    }
+    // One after the other they would wait for each other: a short program does not keep all cores busy.
+    let looked: Vec<Looked> = (0..cases())
+        .into_par_iter()
+        .map(|case| {
+            let machine = &machines[(case % 2) as usize];
+            let looked = look(case, machine);
+            assert!(
+                looked.off <= allowed,
+                "case {case}: {} mm, {allowed} allowed",
+                looked.off
+            );
+            looked
+        })
+        .collect();
+    let most = |of: fn(&Looked) -> f64| looked.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let (worst, beyond_claim) = (most(|l| l.off), most(|l| l.beyond_claim));
+    let places: usize = looked.iter().map(|l| l.places).sum();
+    let again = looked.iter().filter(|l| l.divided_again).count();
+    let missed = looked.iter().filter(|l| !l.claimed).count();
+    let cases = looked.len();
     println!(
         "{cases} programs, {places} places, worst {worst:.6} mm of {allowed:.6} allowed, beyond what the run itself \
-         found by {beyond_claim:.6} mm at most"
+         found by {beyond_claim:.6} mm at most; {again} divided again, {missed} miss their tolerance by their own account"
     );
     assert!(
-        places as u64 > 30 * cases && worst > 0.3 * allowed,
+        places > 30 * cases && worst > 0.3 * allowed,
         "{places} {worst}"
     );
 }
