@@ -79,7 +79,9 @@ pub(crate) fn at_home(
         .map_err(|e| e.to_string())?;
     let over = posture.overconstraint();
     let mut assumptions = assumptions(posture, &rest, force);
-    assumptions.warnings.extend(uneven(&stiffness.directions));
+    assumptions
+        .warnings
+        .extend(uneven(m, &stiffness.directions));
     let home = HomeFinding {
         mobility,
         actuators: m.actuator_count(),

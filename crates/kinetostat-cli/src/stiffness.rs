@@ -195,10 +195,16 @@ fn with_own_loads(answer: &mut Stiffness, spot: &Spot, posture: &Posture<'_>) {
     }
 }
 
-/// The warning of stiffnesses that lie so far apart that digits of the small ones are lost.
-pub(crate) fn uneven(directions: &[Direction]) -> Option<Warning> {
-    let said = kinetostat::uneven_in_words(directions)?;
-    Some(Warning::new(WarningCode::UnevenStiffness, said))
+/// The warnings of stiffnesses that lie so far apart that digits of the small ones are lost: in the machine's
+/// principal directions, and in springs.
+pub(crate) fn uneven(
+    mechanism: &Mechanism,
+    directions: &[Direction],
+) -> impl Iterator<Item = Warning> {
+    let said = kinetostat::uneven_in_words(directions).into_iter();
+    let of_springs = kinetostat::uneven_springs_in_words(mechanism);
+    said.chain(of_springs)
+        .map(|said| Warning::new(WarningCode::UnevenStiffness, said))
 }
 
 fn answer(
@@ -216,7 +222,7 @@ fn answer(
     let near_singularity = spot.near_singular();
     let mut warnings = spot.warnings.clone();
     warnings.extend(near_singularity.iter().map(NearSingular::warning));
-    warnings.extend(uneven(directions));
+    warnings.extend(uneven(&spot.mechanism, directions));
     Stiffness {
         schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

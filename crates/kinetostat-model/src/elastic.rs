@@ -260,6 +260,9 @@ fn in_si(matrix: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
     })
 }
 
+/// Smallest eigenvalue of a balanced stiffness matrix that is told from rounding.
+const SINGULAR: f64 = 1e-12;
+
 /// Symmetric and positive definite, metres and radians balanced by the diagonal.
 fn judge(place: &Place, k: &Matrix6<f64>) -> Found<()> {
     const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -296,14 +299,23 @@ fn judge(place: &Place, k: &Matrix6<f64>) -> Found<()> {
             }
         }
     }
-    // An entry of 1 or more makes a 2 x 2 minor singular; leaving it here keeps the search for
+    // An entry above 1 makes a 2 x 2 minor singular; leaving it here keeps the search for
     // eigenvalues among numbers of order one.
-    let crossed = (0..6).any(|i| (0..i).any(|j| balanced[(i, j)].abs() >= 1.0));
+    let crossed = (0..6).any(|i| (0..i).any(|j| balanced[(i, j)].abs() > 1.0 + SINGULAR));
     let least = match crossed {
         true => -1.0,
         false => balanced.symmetric_eigenvalues().min(),
     };
-    if least <= 1e-12 {
+    if least.abs() <= SINGULAR {
+        return Err(Finding::new(
+            place,
+            format!(
+                "the matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest balanced eigenvalue {least:.2e}, more than {SINGULAR:e} is needed)"
+            ),
+            "a direction that nothing holds is a passive joint; a very soft one is held where the matrix is diagonal: turn the frame into the spring's principal axes before it and back after it",
+        ));
+    }
+    if least <= SINGULAR {
         return Err(Finding::new(
             place,
             "the matrix is not positive definite",

@@ -8,17 +8,20 @@
 //! Shapes that a motion turns into each other at no cost (a round rod that buckles in any direction)
 //! are one family and one branch, followed at rest along that motion ([`CurvePoint::in_family`]).
 
+use std::cmp::Ordering;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::bifurcation::Special;
+use crate::chain::sensible;
 use crate::equilibrium::{ChainProblem, Equilibrium};
 use crate::error::Result;
 use crate::family::Family;
 use crate::reduced::{Parameter, Reduced};
-use crate::settings::Settings;
+use crate::settings::{Settings, wrong};
 use crate::stability::ShapeStability;
 use crate::tracer::Tracer;
 
@@ -53,7 +56,7 @@ impl CurveSettings {
         Self {
             range: (from.min(to), from.max(to)),
             conjugate_range: (f64::NEG_INFINITY, f64::INFINITY),
-            largest_angle: std::f64::consts::PI,
+            largest_angle: PI,
             largest_turn: 0.1,
             largest_change: None,
             smallest_step: 1e-7,
@@ -61,6 +64,60 @@ impl CurveSettings {
             branches: 1,
             solver: Settings::default(),
         }
+    }
+
+    /// Refuses what no curve can be followed with, naming it.
+    pub(crate) fn check(&self, place: &str) -> Result<()> {
+        for (what, (from, to)) in [
+            ("range", self.range),
+            ("conjugate_range", self.conjugate_range),
+        ] {
+            if from.partial_cmp(&to) != Some(Ordering::Less) {
+                return Err(wrong(
+                    place,
+                    what,
+                    (from, to),
+                    "a smaller and a larger number",
+                ));
+            }
+        }
+        let largest_change = self.largest_change.unwrap_or(1.0);
+        for (what, value, most, asked) in [
+            (
+                "largest_angle",
+                self.largest_angle,
+                f64::INFINITY,
+                "an angle above 0",
+            ),
+            (
+                "largest_turn",
+                self.largest_turn,
+                PI,
+                "an angle above 0 and up to pi",
+            ),
+            (
+                "largest_change",
+                largest_change,
+                f64::INFINITY,
+                "a number above 0",
+            ),
+            (
+                "smallest_step",
+                self.smallest_step,
+                1.0,
+                "a share above 0 and up to 1",
+            ),
+        ] {
+            if !(value > 0.0 && value <= most) {
+                return Err(wrong(place, what, value, asked));
+            }
+        }
+        for (what, count) in [("points", self.points), ("branches", self.branches)] {
+            if count == 0 {
+                return Err(wrong(place, what, 0, "at least 1"));
+            }
+        }
+        self.solver.check(place)
     }
 }
 
@@ -191,6 +248,10 @@ pub(crate) fn follow_until<'a>(
     settings: &CurveSettings,
     stop: Stop<'_>,
 ) -> Result<Curves<'a>> {
+    let place = format!("chain '{}'", problem.chain.name());
+    settings.check(&place)?;
+    sensible(&place, || "the parameter at the start".into(), value)?;
+    problem.chain.check(&start.coordinates, &problem.commands)?;
     let mut curves = Curves {
         problem: problem.clone(),
         parameter: parameter.clone(),

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::link::{LinkConvention, LinkSpec};
 use crate::parallelogram::ParallelogramLaw;
 use crate::spatial::Pose;
-use crate::spring::{Segment, SpringBlock, SpringLaw};
+use crate::spring::{Segment, SpringBlock, SpringLaw, balanced};
 
 /// An actuator as the builder takes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +74,9 @@ pub struct ChainBuilder {
     chain: Chain,
     mistake: Option<String>,
 }
+
+/// Smallest eigenvalue of a balanced stiffness matrix that is told from rounding.
+const SINGULAR: f64 = 1e-12;
 
 impl ChainBuilder {
     pub(crate) fn new(name: impl Into<String>) -> Self {
@@ -521,13 +524,7 @@ impl ChainBuilder {
                 "spring '{name}': its stiffness holds a number that is not finite, or beyond 1e60"
             ));
         }
-        // Balance the units so that metres and radians are judged alike.
-        let scale: Vec<f64> = (0..k.nrows())
-            .map(|i| k[(i, i)].abs().max(1e-300).sqrt())
-            .collect();
-        let balanced = DMatrix::from_fn(k.nrows(), k.nrows(), |i, j| {
-            k[(i, j)] / (scale[i] * scale[j])
-        });
+        let balanced = balanced(&k);
         if (&balanced - balanced.transpose()).amax() > 1e-9 {
             return Some(format!(
                 "spring '{name}': its stiffness matrix is not symmetric"
@@ -544,7 +541,7 @@ impl ChainBuilder {
         // keep an eigenvalue iteration busy for ever.
         if let Some((i, j)) = (0..k.nrows())
             .flat_map(|i| (0..i).map(move |j| (i, j)))
-            .find(|&(i, j)| balanced[(i, j)].abs() >= 1.0)
+            .find(|&(i, j)| balanced[(i, j)].abs() > 1.0 + SINGULAR)
         {
             return Some(format!(
                 "spring '{name}': its stiffness matrix is not positive definite: entry ({}, {}) is too large for its diagonal",
@@ -553,8 +550,13 @@ impl ChainBuilder {
             ));
         }
         let least = balanced.symmetric_eigenvalues().min();
-        (least <= 1e-12).then(|| {
-            format!("spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {least:.2e})")
+        if least < -SINGULAR {
+            return Some(format!(
+                "spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {least:.2e})"
+            ));
+        }
+        (least <= SINGULAR).then(|| {
+            format!("spring '{name}': its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest balanced eigenvalue {least:.2e}, more than {SINGULAR:e} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs")
         })
     }
 

@@ -313,3 +313,17 @@ pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Re
     }
     Ok(())
 }
+
+/// The first of some named numbers that [`sensible`] refuses, in words.
+pub(crate) fn odd_number<'a>(
+    numbers: impl IntoIterator<Item = (&'a str, &'a f64)>,
+) -> Option<String> {
+    let odd = |value: &f64| !(value.abs() <= LARGEST);
+    let (what, value) = numbers.into_iter().find(|(_, value)| odd(value))?;
+    Some(match value.is_finite() {
+        true => format!(
+            "the {what} is {value:e}, a number between -{LARGEST:e} and {LARGEST:e} is needed"
+        ),
+        false => format!("the {what} is {value}, a finite number is needed"),
+    })
+}

@@ -6,8 +6,10 @@
 //! correct, the nominal target becomes the unknown there, and one Newton iteration finds both.
 //! What the machine cannot correct stays as a reported residual.
 
+use crate::chain::sensible_pose;
 use crate::equilibrium::Residual;
 use crate::error::{Error, Result};
+use crate::graph_check::check_state;
 use crate::mechanism::Mechanism;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::posture::{MechanismEquilibrium, Posture, conclude};
@@ -100,6 +102,10 @@ fn solve_target<'m>(
     start: MechanismState,
 ) -> Result<(PlatformSolver<'m>, Residual)> {
     let mechanism = near.mechanism();
+    near.finite("the wrench", wrench.0.iter())?;
+    let place = format!("mechanism '{}'", mechanism.name);
+    sensible_pose(&place, "the pose that is wanted", desired)?;
+    check_state(mechanism, &start)?;
     let mut state = start;
     let tool = mechanism.tool();
     // Held directions start exactly where they must end; the nominal target moves along with them

@@ -99,6 +99,7 @@ pub fn critical_load_factor(
     judged: Judged,
     settings: &CurveSettings,
 ) -> Result<CriticalLoad> {
+    settings.check(&format!("chain '{}'", problem.chain.name()))?;
     let parameter = Parameter::Load(pattern.clone());
     let start = solve_chain(problem, &settings.solver)?;
     let mut reduced = Reduced::new(problem, Some(&parameter), &settings.solver)?;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3};
 
+use crate::chain::odd_number;
 use crate::kinematics::Kinematics;
 use crate::loading::{NodeLoad, NodeTangent};
 use crate::spatial::{Pose, Wrench, hat, rotational};
@@ -53,8 +54,7 @@ impl NodeLoad for Follower {
     }
 
     fn fault(&self) -> Option<String> {
-        let finite = self.local.0.iter().all(|x| x.is_finite());
-        (!finite).then(|| "a component of the follower's wrench is not finite".into())
+        odd_number(self.local.0.iter().map(|x| ("wrench of the follower", x)))
     }
 }
 
@@ -107,8 +107,7 @@ impl NodeLoad for PointForce {
     }
 
     fn fault(&self) -> Option<String> {
-        let mut numbers = self.point.iter().chain(self.force.iter());
-        (!numbers.all(|x| x.is_finite()))
-            .then(|| "a component of the point or of the force is not finite".into())
+        let point = self.point.iter().map(|x| ("place of the force", x));
+        odd_number(point.chain(self.force.iter().map(|x| ("force", x))))
     }
 }

@@ -9,8 +9,10 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::{Chain, Scale};
 use crate::directions::{Direction, DirectionKind, directions, scaled_twist};
+use crate::mechanism::Mechanism;
 use crate::saddle::{RANK_TOLERANCE, Saddle, complement};
 use crate::singular_values::SingularValues;
+use crate::spring::balanced;
 use crate::system::System;
 
 /// Roots of compliances that differ by more than this (stiffnesses by its square) are taken apart.
@@ -198,6 +200,32 @@ pub fn uneven_in_words(directions: &[Direction]) -> Option<String> {
             "the stiffest direction is {spread:.1e} times as stiff as the softest: the entries of the 6 x 6 matrix hold the soft ones to about {digits} digits only, the principal directions hold them all; under a load, directions softer than 1e-9 of the stiffest count as free. Is the stiff one meant, or is a unit wrong?"
         )
     })
+}
+
+/// Share of the softest motion of a spring's matrix, in units in which its diagonal is one, below which
+/// numbers of 16 digits hold it to fewer than nine.
+const COUPLED: f64 = 1e-7;
+
+/// Which springs of a machine have a matrix that couples stiff motions so closely that the soft one among them
+/// is lost in rounding, a sentence for each. A diagonal matrix has no such motion, however different its
+/// entries are.
+#[must_use]
+pub fn uneven_springs_in_words(mechanism: &Mechanism) -> Vec<String> {
+    let limbs = mechanism.limbs().iter();
+    let blocks = limbs.flat_map(|l| l.actual.springs().iter().map(move |b| (l, b)));
+    blocks
+        .filter_map(|(limb, block)| {
+            let k = block.stiffness_at(&limb.actual.home_coordinates());
+            let least = balanced(&k).symmetric_eigenvalues().min();
+            let digits = (16.0 + least.log10()).floor().max(0.0);
+            (least < COUPLED).then(|| {
+                format!(
+                    "limb '{}', spring '{}': its matrix couples stiff motions, and the softest motion among them has {least:.1e} of their stiffness: numbers of 16 digits hold that one to about {digits} digits only. Give the spring in its principal axes (a rotation before it, the inverse one after it), where its matrix is diagonal, or as single springs",
+                    limb.name, block.name
+                )
+            })
+        })
+        .collect()
 }
 
 /// Rows `r_i` with `K = sum r_i r_i^T` (SI) of principal directions that are all positive or free.

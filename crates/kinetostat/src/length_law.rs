@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::chain::odd_number;
+
 /// What a strut answers to its length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LengthResponse {
@@ -120,14 +122,16 @@ impl LengthLaw {
     }
 
     pub(crate) fn fault(&self) -> Option<String> {
-        let (numbers, allowed) = match self {
+        // What must be above zero, or at least zero, beside what may be any number.
+        let (any, least, above): (&[(&str, &f64)], &[(&str, &f64)], &[(&str, &f64)]) = match self {
             Self::Linear {
                 stiffness,
                 free_length,
                 preload,
             } => (
-                vec![*stiffness, *free_length, *preload],
-                *free_length >= 0.0,
+                &[("stiffness", stiffness), ("preload", preload)],
+                &[("free length", free_length)],
+                &[],
             ),
             Self::Gas {
                 force,
@@ -135,16 +139,26 @@ impl LengthLaw {
                 column,
                 exponent,
             } => (
-                vec![*force, *length, *column, *exponent],
-                *length > 0.0 && *column > 0.0 && *exponent > 0.0,
+                &[("force", force)],
+                &[],
+                &[
+                    ("length", length),
+                    ("column", column),
+                    ("exponent", exponent),
+                ],
             ),
-            Self::Constant { tension } => (vec![*tension], true),
+            Self::Constant { tension } => (&[("tension", tension)], &[], &[]),
             Self::Function(_) => return None,
         };
-        if numbers.iter().any(|x| !x.is_finite()) {
-            return Some(format!("a number of the law {self:?} is not finite"));
-        }
-        (!allowed).then(|| format!("lengths and exponent of the law {self:?} must be positive"))
+        let all = any.iter().chain(least).chain(above);
+        let odd = odd_number(all.copied());
+        let low = || least.iter().find(|(_, x)| **x < 0.0);
+        let none = || above.iter().find(|(_, x)| **x <= 0.0);
+        let in_words = |(what, x): &(&str, &f64), asked| {
+            format!("the {what} of the law {self:?} is {x}, a number {asked} is needed")
+        };
+        odd.or_else(|| low().map(|found| in_words(found, "not below zero")))
+            .or_else(|| none().map(|found| in_words(found, "above zero")))
     }
 }
 

@@ -108,6 +108,7 @@ mod forward;
 mod function_load;
 mod graded;
 mod graph;
+mod graph_check;
 mod inverse;
 mod jet;
 mod jumps;
@@ -187,7 +188,7 @@ pub use equilibrium::{
 pub use error::{Error, Result};
 pub use follower::{Follower, PointForce};
 pub use function_load::FunctionLoad;
-pub use graded::uneven_in_words;
+pub use graded::{uneven_in_words, uneven_springs_in_words};
 pub use inverse::{LimbPosture, inverse_kinematics};
 pub use jumps::Jump;
 pub use kinematics::Kinematics;

@@ -116,14 +116,8 @@ pub(crate) fn fits(chain: &Chain, kinematics: &Kinematics, load: &Load) -> Resul
         Load::Gravity(g) => (g.as_slice().to_vec(), Vec::new()),
         Load::Custom(load) => (Vec::new(), load.nodes()),
     };
-    let not_finite = |value: f64| Error::NotFinite {
-        place: place(),
-        what: "a load".into(),
-        value,
-    };
-    if let Some(&value) = values.iter().find(|v| !v.is_finite()) {
-        return Err(not_finite(value));
-    }
+    let number = |value: &f64| sensible(&place(), || "a load".into(), *value);
+    values.iter().try_for_each(number)?;
     if let Some(node) = nodes.into_iter().find(|&n| n > chain.tip()) {
         return Err(Error::model(
             place(),
@@ -156,11 +150,8 @@ pub(crate) fn fits(chain: &Chain, kinematics: &Kinematics, load: &Load) -> Resul
     let mut tangents = Vec::new();
     custom.tangents(kinematics, &mut tangents);
     let numbers = wrenches.iter().flat_map(|(_, w)| w.0.iter());
-    let numbers = numbers.chain(tangents.iter().flat_map(|t| t.matrix.iter()));
-    match numbers.copied().find(|v| !v.is_finite()) {
-        Some(value) => Err(not_finite(value)),
-        None => Ok(()),
-    }
+    let mut numbers = numbers.chain(tangents.iter().flat_map(|t| t.matrix.iter()));
+    numbers.try_for_each(number)
 }
 
 /// Refuses a load that does not fit, in debug builds also one with a wrong tangent.

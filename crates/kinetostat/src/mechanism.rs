@@ -10,8 +10,9 @@ use std::collections::BTreeSet;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{Chain, Scale};
+use crate::chain::{Chain, Scale, sensible_pose};
 use crate::error::{Error, Result};
+use crate::graph_check::{check_platform, check_platform_load, sensible_all};
 use crate::kinematics::Kinematics;
 use crate::load_check::check_load;
 use crate::load_energy::moments_have_potential;
@@ -359,9 +360,7 @@ impl MechanismBuilder {
         if m.platforms.len() < 2 {
             return fault("it has no moving platform".into());
         }
-        if m.gravity.iter().any(|x| !x.is_finite()) {
-            return fault("gravity is not finite".into());
-        }
+        sensible_all(&place, "gravity", &m.gravity)?;
         for names in [
             m.platforms.iter().map(|p| &p.name).collect::<Vec<_>>(),
             m.limbs.iter().map(|l| &l.name).collect(),
@@ -372,16 +371,7 @@ impl MechanismBuilder {
             }
         }
         for platform in &m.platforms {
-            let finite = platform.home.to_homogeneous().iter().all(|x| x.is_finite())
-                && platform.centre_of_mass.iter().all(|x| x.is_finite())
-                && platform.inertia.iter().all(|x| x.is_finite())
-                && platform.mass.is_finite();
-            if !finite || platform.mass < 0.0 {
-                return fault(format!(
-                    "platform '{}': home pose, mass and centre of mass must be finite, the mass not negative",
-                    platform.name
-                ));
-            }
+            check_platform(&place, platform)?;
         }
         for limb in &m.limbs {
             let count = m.platforms.len();
@@ -391,17 +381,9 @@ impl MechanismBuilder {
                     limb.name, limb.from, limb.to
                 ));
             }
-            if limb
-                .platform_from_tip
-                .to_homogeneous()
-                .iter()
-                .any(|x| !x.is_finite())
-            {
-                return fault(format!(
-                    "limb '{}': the pose of its tip on the platform is not finite",
-                    limb.name
-                ));
-            }
+            let of_limb = format!("{place}: limb '{}'", limb.name);
+            let tip = &limb.platform_from_tip;
+            sensible_pose(&of_limb, "the pose of its tip on the platform", tip)?;
             if limb.to == 0 {
                 return fault(format!(
                     "limb '{}': it ends at the base; write it from the base to the moving platform",
@@ -429,7 +411,7 @@ impl MechanismBuilder {
             ));
         }
         for load in &m.platform_loads {
-            load.check(&m)?;
+            check_platform_load(&m, load)?;
         }
         for (name, load) in self.loads {
             let Some(index) = m.limbs.iter().position(|l| l.name == name) else {

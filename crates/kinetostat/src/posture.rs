@@ -11,6 +11,7 @@ use crate::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::equilibrium::{ChainProblem, EndCondition, Residual, unloaded_tip};
 use crate::error::{Error, Result};
 use crate::graph::{GraphPosture, graph_inverse};
+use crate::graph_check::check_state;
 use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::link_load::{LinkLoad, link_loads};
 use crate::load_energy::load_energy;
@@ -537,6 +538,7 @@ impl<'m> Posture<'m> {
         start: MechanismState,
     ) -> Result<(PlatformSolver<'m>, Residual)> {
         self.finite("the wrench", wrench.0.iter())?;
+        check_state(self.mechanism, &start)?;
         let mut solver = self.solver(start, Unknowns::Pose);
         solver.wrench = *wrench;
         match solver.solve_robustly() {

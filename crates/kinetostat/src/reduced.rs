@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 
-use crate::chain::Role;
+use crate::chain::{Role, sensible};
 use crate::curve_matrix::CurveMatrix;
 use crate::curve_sweep::CurveSweep;
 use crate::equilibrium::{
@@ -885,13 +885,12 @@ pub(crate) fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + 0.5 * hat(e) + second * hat(e) * hat(e)
 }
 
-fn check_numbers(problem: &ChainProblem<'_>, what: &str, v: &Vector6<f64>) -> Result<()> {
-    match v.iter().copied().find(|x| !x.is_finite()) {
-        Some(value) => Err(Error::NotFinite {
-            place: format!("chain '{}'", problem.chain.name()),
-            what: what.into(),
-            value,
-        }),
-        None => Ok(()),
-    }
+pub(crate) fn check_numbers(
+    problem: &ChainProblem<'_>,
+    what: &str,
+    v: &Vector6<f64>,
+) -> Result<()> {
+    let place = format!("chain '{}'", problem.chain.name());
+    let mut numbers = v.iter();
+    numbers.try_for_each(|x| sensible(&place, || what.to_owned(), *x))
 }

@@ -20,9 +20,9 @@ use serde::{Deserialize, Serialize};
 use crate::chain::{Chain, MotionKind};
 use crate::equilibrium::{ChainProblem, Equilibrium};
 use crate::error::Result;
-use crate::reduced::{Reduced, Row};
+use crate::reduced::{Reduced, Row, check_numbers};
 use crate::saddle::{RANK_TOLERANCE, Saddle, complement};
-use crate::settings::Settings;
+use crate::settings::{Settings, wrong};
 use crate::spatial::Wrench;
 
 /// When an iteration ends.
@@ -33,6 +33,20 @@ pub struct IterationSettings {
     pub tolerance: f64,
     /// Steps at most. Default 500.
     pub steps: usize,
+}
+
+impl IterationSettings {
+    /// Refuses what no iteration can end by, naming it.
+    fn check(&self, place: &str) -> Result<()> {
+        if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
+            let asked = "a number between 0 and 1";
+            return Err(wrong(place, "tolerance", self.tolerance, asked));
+        }
+        if self.steps == 0 {
+            return Err(wrong(place, "steps", 0, "at least 1"));
+        }
+        Ok(())
+    }
 }
 
 impl Default for IterationSettings {
@@ -173,7 +187,9 @@ fn iterate(
         coordinates: problem.posture.clone(),
         wrench: Wrench::zero(),
     });
+    settings.check(&format!("chain '{}'", chain.name()))?;
     chain.check(&start.coordinates, &problem.commands)?;
+    check_numbers(problem, "the wrench of the start", &start.wrench.0)?;
     let mut z = reduced.state(&start.coordinates, &start.wrench, 0.0);
     let begin = z.clone();
     let mut path = vec![start];

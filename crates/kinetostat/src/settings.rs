@@ -1,5 +1,7 @@
 //! Tolerances and limits of the iterations.
 
+use std::fmt::Debug;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
@@ -31,25 +33,29 @@ impl Default for Settings {
     }
 }
 
+/// A setting that nothing can be done with.
+pub(crate) fn wrong(place: &str, what: &str, found: impl Debug, asked: &str) -> Error {
+    Error::model(
+        place,
+        format!("settings: {what} is {found:?}, {asked} is needed"),
+    )
+}
+
 impl Settings {
     /// Refuses what no iteration can work with, naming it.
     pub(crate) fn check(&self, place: &str) -> Result<()> {
-        let wrong = |what: &str, found: String, asked: &str| {
-            let reason = format!("settings: {what} is {found}, {asked} is needed");
-            Err(Error::model(place, reason))
-        };
         for (what, value) in [("closure", self.closure), ("torque", self.torque)] {
             if !(value > 0.0 && value < 1.0) {
-                return wrong(what, value.to_string(), "a share between 0 and 1");
+                return Err(wrong(place, what, value, "a share between 0 and 1"));
             }
         }
         if self.iterations == 0 {
-            return wrong("iterations", "0".into(), "at least 1");
+            return Err(wrong(place, "iterations", 0, "at least 1"));
         }
         let step = self.smallest_load_step;
         if !(step > 0.0 && step <= 1.0) {
             let asked = "a share above 0 and up to 1";
-            return wrong("smallest_load_step", step.to_string(), asked);
+            return Err(wrong(place, "smallest_load_step", step, asked));
         }
         Ok(())
     }

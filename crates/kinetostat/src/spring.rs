@@ -196,6 +196,18 @@ impl SpringBlock {
     }
 }
 
+/// A stiffness matrix in units in which its diagonal is one: metres and radians are judged alike.
+pub(crate) fn balanced(k: &DMatrix<f64>) -> DMatrix<f64> {
+    let scale: Vec<f64> = k
+        .diagonal()
+        .iter()
+        .map(|x| x.abs().max(1e-300).sqrt())
+        .collect();
+    DMatrix::from_fn(k.nrows(), k.ncols(), |i, j| {
+        k[(i, j)] / (scale[i] * scale[j])
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,6 +3,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
+use crate::chain::odd_number;
 use crate::kinematics::Kinematics;
 use crate::length_law::{LengthLaw, LengthResponse};
 use crate::loading::{NodeLoad, NodeTangent};
@@ -183,10 +184,7 @@ impl NodeLoad for Strut {
     }
 
     fn fault(&self) -> Option<String> {
-        let mut points = self.from.point().iter().chain(self.to.point().iter());
-        if !points.all(|x| x.is_finite()) {
-            return Some("a point of the strut is not finite".into());
-        }
-        self.law.fault()
+        let points = self.from.point().iter().chain(self.to.point().iter());
+        odd_number(points.map(|x| ("place of an end of the strut", x))).or_else(|| self.law.fault())
     }
 }

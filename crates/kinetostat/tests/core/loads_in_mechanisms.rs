@@ -428,7 +428,7 @@ fn loads_that_do_not_fit_say_why() {
         ),
         (
             Load::spring_between(Anchor::node(0), Anchor::node(1), 1.0, -1.0),
-            "positive",
+            "not below zero",
         ),
     ] {
         let error = build("arm", load).unwrap_err().to_string();

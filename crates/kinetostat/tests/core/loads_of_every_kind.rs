@@ -439,15 +439,15 @@ fn a_load_that_does_not_fit_says_why() {
     );
     says(
         refused(Load::spring_between(ground, Anchor::node(0), f64::NAN, 0.1)),
-        "not finite",
+        "a finite number",
     );
     says(
         refused(Load::spring_between(ground, Anchor::node(0), 1.0, -0.1)),
-        "positive",
+        "not below zero",
     );
     says(
         refused(Load::counterweight(0, Vector3::x(), f64::NAN, Vector3::z())),
-        "not finite",
+        "a finite number",
     );
     says(
         refused(Load::function(FunctionLoad::new("none", vec![0], |_| {

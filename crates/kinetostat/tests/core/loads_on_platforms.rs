@@ -303,7 +303,7 @@ fn loads_that_do_not_fit_are_refused() {
         ),
         (
             PlatformLoad::strut((0, zero), (1, zero), rope(f64::NAN)),
-            "not finite",
+            "tension is NaN, a finite number",
         ),
         (
             PlatformLoad::Wrench {

@@ -260,6 +260,74 @@ proptest! {
     }
 }
 
+/// A 3-RPS: hinges square to the planes of the legs, slides, balls on a ring of the platform; the tip of a
+/// tool below it.
+fn three_rps(base: f64, ring: f64, height: f64, tool: f64) -> Mechanism {
+    let home = Pose::translation(0.0, 0.0, height - tool);
+    let mut builder = Mechanism::builder("3-RPS");
+    let platform = builder.platform(Platform::new("head", home));
+    for leg in 0..3 {
+        let turn = Pose::rotation(Vector3::z() * (f64::from(leg) * std::f64::consts::TAU / 3.0));
+        let lean = (ring - base).atan2(height);
+        let length = (ring - base).hypot(height);
+        let name = format!("leg {leg}");
+        let chain = Chain::builder(&name)
+            .rigid(turn * Pose::translation(base, 0.0, 0.0))
+            .passive("hinge", R, Vector3::y(), lean)
+            .actuator("slide", drive(P, Vector3::z(), length))
+            .passive_spherical("ball")
+            .build()
+            .unwrap();
+        let tip = turn * Pose::translation(ring, 0.0, height) * Pose::rotation(Vector3::y() * lean);
+        builder = builder.limb(limb(&name, 0, platform, home.inverse() * tip, chain));
+    }
+    builder.build().unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// The head tilts about any level axis and moves sideways by nothing else; its centre stays at its
+    /// height, beside the axis by second order (Lee and Shah 1988: every ball stays in its plane).
+    #[test]
+    fn a_three_rps_moves_its_tip_by_tilting_alone(
+        about in 0.0..std::f64::consts::TAU,
+        tilt in 0.02..0.35_f64,
+        base in 0.35..0.6_f64,
+        ring in 0.15..0.3_f64,
+        height in 0.7..1.2_f64,
+        tool in 0.1..0.4_f64,
+    ) {
+        let machine = three_rps(base, ring, height, tool);
+        prop_assert!(machine.turns_as_it_moves());
+        let turn = UnitQuaternion::new(vector![about.cos(), about.sin(), 0.0] * tilt);
+        let m = turn.to_rotation_matrix();
+        let aside = vector![0.5 * ring * (m[(0, 0)] - m[(1, 1)]), -ring * m[(1, 0)], 0.0];
+        let head = aside + vector![0.0, 0.0, height];
+        let tip = head + turn * vector![0.0, 0.0, -tool];
+        let wanted = home(&machine).rotation;
+        let found = machine.posture_following(&tip, &wanted).unwrap();
+        let off = found.target().rotation.angle_to(&turn);
+        prop_assert!(off < 1e-9, "{off}");
+        prop_assert_eq!(found.target().translation.vector, tip);
+        for (leg, own) in found.commands().into_iter().enumerate() {
+            let angle = leg as f64 * std::f64::consts::TAU / 3.0;
+            let out = vector![angle.cos(), angle.sin(), 0.0];
+            let closed = (head + turn * (out * ring) - out * base).norm();
+            prop_assert!((own - closed).abs() < 1e-9, "leg {leg}: {own} {closed}");
+        }
+        // From neighbour to neighbour along the tilt it comes to the same place.
+        let mut near = machine.posture(&home(&machine)).unwrap();
+        for k in 1..=20 {
+            let share = f64::from(k) / 20.0;
+            let place = home(&machine).translation.vector.lerp(&tip, share);
+            near = machine.posture_following_near(&place, &wanted, &near).unwrap();
+        }
+        let off = near.target().rotation.angle_to(&turn);
+        prop_assert!(off < 1e-9, "{off}");
+    }
+}
+
 #[test]
 fn a_machine_that_holds_its_orientation_gives_the_same_correction_either_way() {
     let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];

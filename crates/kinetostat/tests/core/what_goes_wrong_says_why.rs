@@ -220,7 +220,7 @@ fn mechanisms_that_make_no_sense_are_refused_by_name() {
     );
     let error =
         Mechanism::serial(chain, Pose::identity(), vector![0.0, f64::NAN, 0.0]).unwrap_err();
-    says(&error, &["gravity is not finite"]);
+    says(&error, &["gravity is NaN", "a finite number is needed"]);
 }
 
 #[test]

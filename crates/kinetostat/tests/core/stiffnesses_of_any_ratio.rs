@@ -1,0 +1,124 @@
+//! One 6 x 6 spring whose principal stiffnesses differ by up to 1e14, against values known exactly.
+//!
+//! `M = [-2 2 -1; -1 -2 -2; -2 -1 2]` is three times a rotation (its columns are square to each other and of length
+//! three), so `M diag(d) M^T` of whole numbers is a matrix of whole numbers, held exactly up to 2^53, whose
+//! eigenvalues are exactly `9 d`.
+
+use kinetostat::*;
+use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3};
+
+fn turn() -> Matrix3<f64> {
+    Matrix3::new(-2.0, 2.0, -1.0, -1.0, -2.0, -2.0, -2.0, -1.0, 2.0)
+}
+
+/// Translations and rotations with the same principal stiffnesses, N/m and N m/rad.
+fn blocks(k: &Matrix3<f64>) -> Matrix6<f64> {
+    let mut both = Matrix6::zeros();
+    both.fixed_view_mut::<3, 3>(0, 0).copy_from(k);
+    both.fixed_view_mut::<3, 3>(3, 3).copy_from(k);
+    both
+}
+
+/// Principal stiffnesses of a machine that is one spring, from the softest; what is said of its springs.
+fn principal(chain: Chain) -> (Vec<f64>, Vec<String>) {
+    let machine = Mechanism::serial(chain, Pose::identity(), Vector3::zeros()).unwrap();
+    let k = machine
+        .posture(&Pose::identity())
+        .unwrap()
+        .stiffness()
+        .unwrap();
+    assert_eq!(k.rank(), 6, "{:?}", k.directions);
+    let mut values: Vec<f64> = k.directions.iter().map(|d| d.stiffness_n_per_m).collect();
+    values.sort_by(f64::total_cmp);
+    (values, uneven_springs_in_words(&machine))
+}
+
+/// Largest relative error.
+fn off(found: &[f64], asked: [f64; 3]) -> f64 {
+    let mut asked: Vec<f64> = asked.into_iter().chain(asked).collect();
+    asked.sort_by(f64::total_cmp);
+    assert_eq!(found.len(), 6);
+    let both = found.iter().zip(&asked);
+    let errors = both.map(|(a, b)| (a / b - 1.0).abs());
+    errors.fold(0.0, |most, e| if e > most || e.is_nan() { e } else { most })
+}
+
+#[test]
+fn a_full_matrix_is_exact_or_says_what_it_holds() {
+    let (mut refused, mut said) = (0, 0);
+    for decade in 0..=14 {
+        let ratio = 10_f64.powi(decade);
+        for d in [
+            [ratio, 1.0, 2.0],
+            [ratio, ratio, 1.0],
+            [ratio, ratio.sqrt().round(), 1.0],
+        ] {
+            let k = blocks(&(turn() * Matrix3::from_diagonal(&d.into()) * turn().transpose()));
+            assert!(
+                k.amax() < 9e15 && k.iter().all(|x| x.fract() == 0.0),
+                "not exact"
+            );
+            let built = Chain::builder("one").spring6("wire", &k, [0.0; 6]).build();
+            let chain = match built {
+                Ok(chain) => chain,
+                Err(error) => {
+                    let words = error.to_string();
+                    for part in ["spring 'wire'", "16 digits", "principal axes"] {
+                        assert!(words.contains(part), "{words}");
+                    }
+                    assert!(ratio >= 1e11, "{d:?} is refused: {words}");
+                    refused += 1;
+                    continue;
+                }
+            };
+            let (values, words) = principal(chain);
+            let error = off(&values, d.map(|d| 9.0 * d));
+            // Elimination loses what the ratio is in units of rounding.
+            assert!(
+                error <= 1e-14 + 8.0 * f64::EPSILON * ratio,
+                "{d:?}: {error:e}"
+            );
+            match words.as_slice() {
+                [] => assert!(error <= 1e-8, "{d:?}: {error:e} without a word"),
+                [one] => {
+                    assert!(one.contains("limb 'one', spring 'wire'"), "{one}");
+                    assert!(one.contains("principal axes"), "{one}");
+                    said += 1;
+                }
+                more => panic!("{more:?}"),
+            }
+        }
+    }
+    assert!(refused >= 6 && said >= 12, "{refused} {said}");
+}
+
+/// What the words advise: the same spring between two rotations, its matrix diagonal.
+#[test]
+fn in_its_principal_axes_a_spring_of_any_ratio_is_exact() {
+    let rotation = Rotation3::from_matrix_unchecked(turn() / 3.0);
+    let there = Pose::from_parts(
+        Vector3::zeros().into(),
+        UnitQuaternion::from_rotation_matrix(&rotation),
+    );
+    for decade in 0..=14 {
+        let ratio = 10_f64.powi(decade);
+        for d in [
+            [ratio, 1.0, 2.0],
+            [ratio, ratio, 1.0],
+            [ratio, ratio.sqrt(), 1.0],
+        ] {
+            let chain = Chain::builder("one")
+                .rigid(there)
+                .spring6(
+                    "wire",
+                    &blocks(&Matrix3::from_diagonal(&d.into())),
+                    [0.0; 6],
+                )
+                .rigid(there.inverse());
+            let (values, words) = principal(chain.build().unwrap());
+            let error = off(&values, d);
+            assert!(error <= 1e-8, "{d:?}: {error:e}");
+            assert!(words.is_empty(), "{words:?}");
+        }
+    }
+}
