@@ -17,7 +17,10 @@ pub(crate) struct ReachFinding {
     pub(crate) from_base_mm: Option<f64>,
     /// Of an arm whose first actuator turns: farthest it gets from that axis, mm.
     pub(crate) from_first_axis_mm: Option<f64>,
-    /// Else: how far it gets from home along -x, +x, -y, +y, -z, +z of the base, not turning, mm.
+    /// The tool turns on these ways as the machine turns it, kept as near to its orientation at home as can be.
+    pub(crate) orientation_follows: bool,
+    /// Else: how far it gets from home along -x, +x, -y, +y, -z, +z of the base, mm; the tool does not turn
+    /// where the machine can move it so.
     pub(crate) along_axes_mm: Option<[[f64; 2]; 3]>,
     /// What ends these ways: an actuator at its limit, or the limbs themselves.
     pub(crate) ends: Option<[[String; 2]; 3]>,
@@ -35,6 +38,7 @@ impl ReachFinding {
         Self {
             from_base_mm: None,
             from_first_axis_mm: None,
+            orientation_follows: false,
             along_axes_mm: None,
             ends: None,
             box_mm: None,
@@ -288,13 +292,14 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
     }
     let m = home.mechanism();
     let length = natural_length(m);
+    let follows = m.turns_as_it_moves();
     let mut along = [[0.0; 2]; 3];
     let mut ends = <[[String; 2]; 3]>::default();
     for axis in 0..3 {
         for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
             let mut direction = Vector3::zeros();
             direction[axis] = sign;
-            let (far, end) = march(home, &direction, length);
+            let (far, end) = march(home, follows, &direction, length);
             along[axis][side] = 1e3 * far;
             ends[axis][side] = end;
         }
@@ -308,9 +313,8 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
             "not bounded: the actuators have no limits; write limits_mm or limits_deg",
         );
     }
-    let filled = filled(home, &along);
-    let turning = ends.iter().flatten().any(|end| end == ONLY_TURNING);
-    let free = turning.then(|| crate::check_reach_commands::search(m).ok());
+    let filled = filled(home, follows, &along);
+    let free = follows.then(|| crate::check_reach_commands::search(m).ok());
     let free = free.flatten();
     let mm = |v: Vector3<f64>| <[f64; 3]>::from(v * 1e3);
     ReachFinding {
@@ -319,7 +323,15 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
         along_axes_mm: Some(along),
         ends: Some(ends),
         box_mm: filled,
-        how: "by inverse kinematics from home within the limits of the actuators, the tool not turning; collisions and limits of passive joints are not looked at".to_owned(),
+        orientation_follows: follows,
+        how: format!(
+            "by inverse kinematics from home within the limits of the actuators, the tool {}; collisions and limits of passive joints are not looked at",
+            if follows {
+                "turning as the machine turns it"
+            } else {
+                "not turning"
+            }
+        ),
         ..ReachFinding::none("")
     }
 }
@@ -327,17 +339,21 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
 /// What ends a way that is longer than ten times the machine.
 const UNBOUNDED: &str = "nothing: it was not followed farther";
 
-/// Ways that the tool goes only while it turns.
-const ONLY_TURNING: &str = "the machine moves this way only while the tool turns";
-
 /// The posture at a place near another one, or what forbids it.
-fn at<'m>(from: &Posture<'m>, shift: &Vector3<f64>, home: &Pose) -> Result<Posture<'m>, String> {
+fn at<'m>(
+    from: &Posture<'m>,
+    follows: bool,
+    shift: &Vector3<f64>,
+    home: &Pose,
+) -> Result<Posture<'m>, String> {
     let mut target = *home;
     target.translation.vector += shift;
-    let posture = from
-        .mechanism()
-        .posture_near(&target, from)
-        .map_err(|_| "the limbs cannot follow".to_owned())?;
+    let (m, place) = (from.mechanism(), &target.translation.vector);
+    let posture = match follows {
+        true => m.posture_following_straight(place, &home.rotation, from),
+        false => m.posture_near(&target, from),
+    };
+    let posture = posture.map_err(|_| "the limbs cannot follow".to_owned())?;
     match posture.limit_violations().first() {
         Some((name, _, _)) => Err(format!("limit of '{name}'")),
         None => Ok(posture),
@@ -345,13 +361,18 @@ fn at<'m>(from: &Posture<'m>, shift: &Vector3<f64>, home: &Pose) -> Result<Postu
 }
 
 /// How far (m) along a direction, and what ends it.
-fn march(home: &Posture<'_>, direction: &Vector3<f64>, length: f64) -> (f64, String) {
+fn march(
+    home: &Posture<'_>,
+    follows: bool,
+    direction: &Vector3<f64>,
+    length: f64,
+) -> (f64, String) {
     let origin = *home.target();
     let mut last = home.clone();
     let (mut good, mut step) = (0.0, 0.02 * length);
     let (mut bad, mut end) = loop {
         let next = good + step;
-        match at(&last, &(direction * next), &origin) {
+        match at(&last, follows, &(direction * next), &origin) {
             Ok(posture) => {
                 last = posture;
                 good = next;
@@ -363,9 +384,10 @@ fn march(home: &Posture<'_>, direction: &Vector3<f64>, length: f64) -> (f64, Str
             return (good, UNBOUNDED.to_owned());
         }
     };
-    for _ in 0..14 {
+    // A place that follows costs many times as much as one with its orientation held.
+    for _ in 0..if follows { 10 } else { 14 } {
         let middle = 0.5 * (good + bad);
-        match at(&last, &(direction * middle), &origin) {
+        match at(&last, follows, &(direction * middle), &origin) {
             Ok(posture) => {
                 last = posture;
                 good = middle;
@@ -374,20 +396,14 @@ fn march(home: &Posture<'_>, direction: &Vector3<f64>, length: f64) -> (f64, Str
         }
     }
     if good < 1e-4 * length {
-        let turning = (0..3).any(|k| direction[k] != 0.0 && home.correctable()[k]);
-        let end = if turning {
-            ONLY_TURNING
-        } else {
-            "the machine does not move this way"
-        };
-        return (0.0, end.to_owned());
+        return (0.0, "the machine does not move this way".to_owned());
     }
     (good, end)
 }
 
 /// The largest of some boxes of the proportions of `along` (mm) whose corners, edges and faces can
 /// be reached; none if even a small one has gaps.
-fn filled(home: &Posture<'_>, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
+fn filled(home: &Posture<'_>, follows: bool, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
     if along.iter().flatten().all(|x| *x == 0.0) {
         return None;
     }
@@ -408,7 +424,7 @@ fn filled(home: &Posture<'_>, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
             // In steps, so that every limb stays in its own way of assembly.
             let mut last = home.clone();
             for share in [0.35, 0.7, 1.0] {
-                match at(&last, &(shift * share), &origin) {
+                match at(&last, follows, &(shift * share), &origin) {
                     Ok(posture) => last = posture,
                     Err(_) => return false,
                 }
@@ -420,7 +436,7 @@ fn filled(home: &Posture<'_>, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
     if reached(1.0) {
         good = 1.0;
     }
-    for _ in 0..7 {
+    for _ in 0..if follows { 5 } else { 7 } {
         if good >= 1.0 {
             break;
         }
@@ -461,14 +477,17 @@ pub(crate) fn in_words(reach: &ReachFinding) -> String {
     let ways: Vec<String> = ["x", "y", "z"]
         .iter()
         .zip(along)
-        .zip(reach.ends.iter().flatten())
-        .map(|((name, [back, ahead]), ends)| match (*back, *ahead) {
-            (0.0, 0.0) if ends[0] == ONLY_TURNING => format!("{name} only while turning"),
+        .map(|(name, [back, ahead])| match (*back, *ahead) {
             (0.0, 0.0) => format!("{name} none"),
             _ => format!("{name} -{} .. +{}", number(*back, 4), number(*ahead, 4)),
         })
         .collect();
-    let mut text = format!("reach from home, mm: {}", ways.join(", "));
+    let turning = if reach.orientation_follows {
+        ", the tool turning as the machine turns it"
+    } else {
+        ""
+    };
+    let mut text = format!("reach from home{turning}, mm: {}", ways.join(", "));
     if let Some([low, high]) = reach.box_mm {
         text.push_str(&format!(
             "; the largest box of these proportions that it fills is from {} to {} mm",
@@ -503,7 +522,7 @@ pub(crate) fn in_words(reach: &ReachFinding) -> String {
     out.push_str(&item(&format!("found {}{end}", reach.how)));
     if let (Some(far), Some([low, high])) = (reach.from_base_mm, reach.positions_span_mm) {
         out.push_str(&item(&format!(
-            "reach while the tool turns as the machine turns it: up to {} mm from the base's origin; its positions lie between {} and {} mm (the farthest found by a search over the ranges of the actuators)",
+            "reach by all its ways: up to {} mm from the base's origin; its positions lie between {} and {} mm (the farthest found by a search over the ranges of the actuators)",
             rounded(far),
             triple(low, rounded),
             triple(high, rounded)

@@ -27,7 +27,7 @@ pub(crate) struct Listing {
 
 /// Which points are listed: all of them, or of a long program those that `thinned` keeps.
 fn listed(question: &Question, points: &[PointResult], listing: &Listing) -> Option<Vec<usize>> {
-    let columns = header(question, listing).len();
+    let columns = header(question, points, listing).len();
     let most = MOST_BYTES / (CELL * columns);
     (!listing.all && points.len() > most).then(|| thinned(points, &[], most))
 }
@@ -54,7 +54,7 @@ pub(crate) fn table(
     mut put: impl FnMut(&[u8]) -> Answer<()>,
 ) -> Answer<()> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let header = header(question, listing);
+    let header = header(question, points, listing);
     writer.write_record(&header).map_err(failed)?;
     put(&bytes(writer)?)?;
     let lines = |block: &mut dyn Iterator<Item = &PointResult>| lines(question, listing, block);
@@ -68,7 +68,7 @@ pub(crate) fn table(
     }
 }
 
-fn header(question: &Question, listing: &Listing) -> Vec<String> {
+fn header(question: &Question, points: &[PointResult], listing: &Listing) -> Vec<String> {
     let mut header: Vec<String> = ["line", "output_line", "kind", "share", "path_mm"]
         .map(String::from)
         .to_vec();
@@ -82,6 +82,10 @@ fn header(question: &Question, listing: &Listing) -> Vec<String> {
         header.extend(["x", "y", "z"].map(|axis| format!("{name}{axis}{unit}")));
     }
     header.push("residual_rotation_deg".into());
+    // Of a machine whose orientation follows: how far the tool is turned from the one that was asked for.
+    if points.iter().any(|p| p.tool_turn_deg.is_some()) {
+        header.push("tool_turn_deg".into());
+    }
     let unit = |unit: &str| unit.replace(' ', "_").to_lowercase();
     let mut per = |quantity: &str, of: &dyn Fn(usize) -> String| {
         for (i, actuator) in question.actuators.iter().enumerate() {
@@ -143,6 +147,10 @@ fn decimals(value: f64, most: usize) -> String {
     short(fixed(value, most))
 }
 
+fn size([x, y, z]: &[f64; 3]) -> f64 {
+    x.hypot(*y).hypot(*z)
+}
+
 fn digits(value: f64, count: usize) -> String {
     if !value.is_finite() {
         return String::new();
@@ -191,6 +199,7 @@ fn lines(
             row.extend(vector.iter().map(|x| decimals(*x, most)));
         }
         row.push(decimals(point.residual_rotation_deg, 5));
+        row.extend(point.tool_turn_deg.map(|turn| decimals(size(&turn), 5)));
         row.extend(point.actuator_command.iter().map(|x| decimals(*x, 5)));
         row.extend(point.actuator_force.iter().map(|x| decimals(*x, 3)));
         row.extend(point.actuator_correction.iter().map(|x| decimals(*x, 6)));

@@ -1,8 +1,8 @@
 //! `kinetostat stiffness`: the 6 x 6 matrix with units, axes and reference point.
 
 use kinetostat::{
-    CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, MotionKind,
-    Posture, Role, Wrench,
+    CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, Mechanism,
+    MotionKind, Posture, Role, Wrench,
 };
 use kinetostat_machining::{NearSingular, Warning, WarningCode};
 use nalgebra::Matrix6;

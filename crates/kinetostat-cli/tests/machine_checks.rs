@@ -404,7 +404,16 @@ fn a_machine_that_moves_only_while_it_turns_has_a_reach() {
     assert!(low[2] <= straight[0] + 0.1 && high[2] >= straight[1] - 0.1);
     assert!(low[0] < -10.0 && high[0] > 10.0, "{reach}");
     assert!(far >= -low[2] - 1e-6, "{reach}");
-    assert!(flat(&text).contains("reach while the tool turns"), "{text}");
+    let words = "reach from home, the tool turning as the machine turns it";
+    assert!(flat(&text).contains(words), "{text}");
+    assert_eq!(reach["orientation_follows"], true);
+    // Followed aside from home: within what the search over all drives found, and not nothing.
+    for axis in 0..2 {
+        for (side, end) in [low, high].iter().enumerate() {
+            let along = reach["along_axes_mm"][axis][side].as_f64().expect("mm");
+            assert!(along > 10.0 && along < end[axis].abs() + 40.0, "{reach}");
+        }
+    }
 }
 
 #[test]

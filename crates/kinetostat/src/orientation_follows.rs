@@ -168,6 +168,43 @@ impl Mechanism {
         }
     }
 
+    /// As [`Self::posture_following_near`], by the straight way from the other posture and no other: where many
+    /// places are tried that cannot be taken, a search around each would be dear.
+    ///
+    /// # Errors
+    /// As [`Self::posture_following`].
+    pub fn posture_following_straight(
+        &self,
+        position: &Vector3<f64>,
+        wanted: &UnitQuaternion<f64>,
+        near: &Posture<'_>,
+    ) -> Result<Posture<'_>> {
+        self.check_following(position, wanted)?;
+        let start = self.posture_from_joints(near.target(), near.limbs().to_vec())?;
+        match walk(&start, position, wanted) {
+            Some((found, left)) if left <= 1e-10 * self.scale().length => {
+                self.taken(found, left, position)
+            }
+            Some((found, left)) => Err(self.too_far(&found, left, wanted)),
+            None => {
+                let left = (position - start.target.translation.vector).norm();
+                Err(self.too_far(&start, left, wanted))
+            }
+        }
+    }
+
+    fn too_far(&self, found: &Posture<'_>, left: f64, wanted: &UnitQuaternion<f64>) -> Error {
+        Error::Unreachable {
+            place: format!(
+                "mechanism '{}' with whatever orientation of its tool",
+                self.name
+            ),
+            distance_m: left,
+            angle_rad: wanted.angle_to(&found.target.rotation),
+            nearest: Box::new(found.target),
+        }
+    }
+
     fn check_following(&self, position: &Vector3<f64>, wanted: &UnitQuaternion<f64>) -> Result<()> {
         let mut numbers = position.iter().chain(wanted.coords.iter()).copied();
         match numbers.find(|x| !x.is_finite()) {
@@ -190,16 +227,7 @@ impl Mechanism {
         if left <= 1e-10 * self.scale().length {
             return Ok(found);
         }
-        let turned = wanted.angle_to(&found.target.rotation);
-        Err(Error::Unreachable {
-            place: format!(
-                "mechanism '{}' with whatever orientation of its tool",
-                self.name
-            ),
-            distance_m: left,
-            angle_rad: turned,
-            nearest: Box::new(found.target),
-        })
+        Err(self.too_far(&found, left, wanted))
     }
 
     /// The posture at the position, or nearest to it, and the distance left (m).
@@ -229,15 +257,21 @@ impl Mechanism {
                 break;
             }
         }
-        let Some((mut found, left)) = best else {
-            return Err(Error::Unreachable {
-                place: format!("mechanism '{}'", self.name),
-                distance_m: (position - start.target.translation.vector).norm(),
-                angle_rad: wanted.angle_to(&start.target.rotation),
-                nearest: Box::new(start.target),
-            });
+        let Some((found, left)) = best else {
+            let left = (position - start.target.translation.vector).norm();
+            return Err(self.too_far(&start, left, wanted));
         };
-        if left <= reached {
+        Ok((self.taken(found, left, position)?, left))
+    }
+
+    /// What was found at (or `left` beside) a position as a posture like any other.
+    fn taken<'m>(
+        &'m self,
+        mut found: Posture<'m>,
+        left: f64,
+        position: &Vector3<f64>,
+    ) -> Result<Posture<'m>> {
+        if left <= 1e-10 * self.scale().length {
             found.target.translation.vector = *position;
             found.platforms[self.tool] = found.target;
         }
@@ -246,15 +280,14 @@ impl Mechanism {
         }
         let target = found.target;
         // Redundant joints as in every other posture.
-        let found = self.posture_near(&target, &found).or_else(|_| {
+        self.posture_near(&target, &found).or_else(|_| {
             let limbs = found.limbs.clone();
             let same = self.posture_from_joints(&target, limbs);
             same.map(|mut same| {
                 same.platforms.clone_from(&found.platforms);
                 same
             })
-        })?;
-        Ok((found, left))
+        })
     }
 
     /// The tool cannot be moved everywhere that it goes with its orientation held: fewer motions
