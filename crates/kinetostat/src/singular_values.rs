@@ -352,8 +352,9 @@ fn rotate(columns: &mut DMatrix<f64>, turns: &mut DMatrix<f64>) -> Vec<f64> {
                 }
                 turned = true;
                 let slope = (q - p) / (2.0 * dot);
-                let tangent = slope.signum() / (slope.abs() + slope.hypot(1.0));
-                let cosine = 1.0 / tangent.hypot(1.0);
+                // Squares that overflow belong to rotations by nothing.
+                let tangent = slope.signum() / (slope.abs() + (slope * slope + 1.0).sqrt());
+                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
                 let sine = cosine * tangent;
                 turn(a, b, cosine, sine);
                 squares[i] = (p - tangent * dot).max(0.0);

@@ -4,6 +4,7 @@ pub mod cases;
 pub mod checks;
 mod random;
 mod ratios;
+mod reach;
 mod struts;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -50,6 +51,10 @@ fn known(seed: u64, stage: &std::cell::Cell<&'static str>) {
     ratios::case(&mut random);
     stage.set("stiff links");
     ratios::stiff_link(&mut random);
+    if seed.is_multiple_of(3) {
+        stage.set("machines reach what chains reach");
+        reach::case(&mut random);
+    }
 }
 
 /// Runs one case; a broken promise or a panic comes back in words.

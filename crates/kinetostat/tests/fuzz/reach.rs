@@ -1,0 +1,102 @@
+//! Machines reach what chains reach: one rod as a chain and as a machine, bent and rolled up as far as its
+//! segments are a rod.
+
+use std::f64::consts::TAU;
+
+use kinetostat::{
+    BeamSection, Chain, ChainProblem, EndCondition, LinkSpec, Mechanism, Pose, Settings, Wrench,
+    pose_residual, solve_chain,
+};
+use nalgebra::{Vector3, vector};
+
+use super::random::Random;
+
+/// A rod of unit length and bending stiffness under a load at its end.
+#[derive(Clone, Copy, Debug)]
+pub struct Rod {
+    pub segments: usize,
+    /// EA, N.
+    pub axial: f64,
+    pub wrench: Wrench,
+}
+
+impl Rod {
+    fn random(random: &mut Random) -> Self {
+        let segments = (random.power(0.0, 2.0) as usize).clamp(1, 100);
+        let moment = random.axis() * random.between(0.0, TAU);
+        // Across, and no push that could buckle it: then there is more than one equilibrium.
+        let mut force = random.axis() * random.power(-2.0, 1.5);
+        force.x = force.x.abs();
+        let (force, moment) = match random.below(3) {
+            0 => (force, Vector3::zeros()),
+            1 => (Vector3::zeros(), vector![0.0, moment.norm(), 0.0]),
+            _ => (force, vector![0.0, moment.y, moment.z]),
+        };
+        Self {
+            segments,
+            axial: random.power(0.0, 11.0),
+            wrench: Wrench::new(force, moment),
+        }
+    }
+
+    /// Segments that each turn by so much are no rod any more: machines of one to three of them, hardly
+    /// stretching and rolled up, are refused where the chain has an equilibrium.
+    fn is_a_rod(&self) -> bool {
+        let turn = self.wrench.moment().norm() + self.wrench.force().norm().sqrt();
+        turn <= LARGEST_TURN * self.segments as f64
+    }
+
+    fn chain(&self) -> Chain {
+        let section = BeamSection {
+            youngs_modulus: 1.0,
+            shear_modulus: 1.0,
+            area: self.axial,
+            second_moment_y: 1.0,
+            second_moment_z: 1.0,
+            torsion_constant: 0.8,
+        };
+        let link = LinkSpec::beam(section, 1.0).segments(self.segments);
+        let chain = Chain::builder("rod").link_with("rod", &link).build();
+        chain.expect("a rod")
+    }
+
+    /// What differs between the chain and the machine, in words.
+    pub fn difference(&self) -> Option<String> {
+        let chain = self.chain();
+        let problem = ChainProblem::new(&chain, EndCondition::wrench(self.wrench));
+        let alone = solve_chain(&problem, &Settings::default());
+        let home = Pose::translation(1.0, 0.0, 0.0);
+        let machine = Mechanism::serial(chain.clone(), home, Vector3::zeros()).expect("a machine");
+        let posture = machine.posture(&home).expect("home");
+        match (alone, posture.deflected_by(&self.wrench)) {
+            (Ok(chain), Ok(machine)) => {
+                let off = pose_residual(&chain.tip, &machine.tool).0.norm();
+                let stable = (chain.stability.stable, machine.shapes_stable());
+                (off.is_nan() || off > 1e-8 || stable.0 != stable.1).then(|| {
+                    format!("the tips are {off:e} apart, stable as chain and machine: {stable:?}")
+                })
+            }
+            (Err(_), Err(_)) => None,
+            (Ok(_), Err(error)) => Some(format!(
+                "the chain has an equilibrium, the machine: {error}"
+            )),
+            (Err(error), Ok(_)) => Some(format!(
+                "the machine has an equilibrium, the chain: {error}"
+            )),
+        }
+    }
+}
+
+/// Rotation of one segment, rad, up to which it is one.
+const LARGEST_TURN: f64 = 0.8;
+
+/// One rod.
+pub fn case(random: &mut Random) {
+    let rod = Rod::random(random);
+    if !rod.is_a_rod() {
+        return;
+    }
+    if let Some(difference) = rod.difference() {
+        panic!("{rod:?}: {difference}");
+    }
+}
