@@ -282,8 +282,13 @@ impl AssumptionsFinding {
     ) {
         let states = || std::iter::once(rest).chain(loaded);
         let limbs = || states().flat_map(|e| &e.limbs);
-        let margin = limbs()
-            .filter_map(|l| Some((l.stability.margin.filter(|m| m.is_finite())?, &l.name)))
+        let share_to_buckling = limbs()
+            .filter_map(|l| {
+                Some((
+                    l.stability.share_to_buckling.filter(|m| m.is_finite())?,
+                    &l.name,
+                ))
+            })
             .max_by(|a, b| a.0.total_cmp(&b.0));
         let link = limbs()
             .flat_map(|l| {
@@ -292,11 +297,11 @@ impl AssumptionsFinding {
                     .map(move |k| (k.share, &l.name, &k.link))
             })
             .max_by(|a, b| a.0.total_cmp(&b.0));
-        self.largest_share_to_buckling = margin.map(|(m, _)| m);
+        self.largest_share_to_buckling = share_to_buckling.map(|(m, _)| m);
         self.largest_share_of_euler_load = link.map(|(s, _, _)| s);
         let mut text = String::new();
         let mut most = 0.0_f64;
-        if let Some((mu, limb)) = margin {
+        if let Some((mu, limb)) = share_to_buckling {
             most = most.max(mu);
             text = if mu > 1e-9 {
                 format!(

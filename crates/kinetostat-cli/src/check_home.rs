@@ -118,7 +118,7 @@ pub(crate) fn at_home(
         stable: rest.stable(),
         overcome_joints: overcome(posture, &rest, load_names),
         conservative: rest.conservative,
-        largest_share_to_buckling: rest.margin().filter(|m| m.is_finite()),
+        largest_share_to_buckling: rest.share_to_buckling().filter(|m| m.is_finite()),
     };
     Ok((home, assumptions))
 }

@@ -341,7 +341,7 @@ fn answer(
                 force_without_load_n: r.wrench.force().into(),
                 moment_without_load_n_m: r.wrench.moment().into(),
                 stable: l.stability.stable,
-                share_to_buckling: l.stability.margin.filter(|m| m.is_finite()),
+                share_to_buckling: l.stability.share_to_buckling.filter(|m| m.is_finite()),
                 neutral_passive_joints: l.stability.neutral.clone(),
                 links: l
                     .link_loads

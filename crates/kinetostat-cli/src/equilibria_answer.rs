@@ -161,7 +161,7 @@ fn shape(
         energy_j: f.potential.unwrap_or(e.energy),
         stable: f.stable,
         shape_stable: e.stability.stable,
-        share_to_buckling: e.stability.margin.filter(|m| m.is_finite()),
+        share_to_buckling: e.stability.share_to_buckling.filter(|m| m.is_finite()),
         mode_in_words: if e.stability.mode.is_empty() {
             String::new()
         } else {

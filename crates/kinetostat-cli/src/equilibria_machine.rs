@@ -37,7 +37,7 @@ pub(crate) fn solve(
                 energy_j: f.potential,
                 stable: f.stable,
                 shape_stable: e.shapes_stable(),
-                share_to_buckling: e.margin().filter(|m| m.is_finite()),
+                share_to_buckling: e.share_to_buckling().filter(|m| m.is_finite()),
                 mode_in_words: String::new(),
                 singular: f.singular,
                 found_by_spread_starts: f.hits,

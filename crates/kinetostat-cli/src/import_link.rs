@@ -1,6 +1,7 @@
 //! `kinetostat import matrix` and `kinetostat import link-displacements`: the stiffness of a link from
 //! another program as a table of a model file.
 
+use kinetostat_machining::number as formatter;
 use std::path::{Path, PathBuf};
 
 use kinetostat_links::{
@@ -126,7 +127,8 @@ fn symmetry(share: f64, said: bool, told: &mut Told) {
     told.asymmetry = Some(share);
     if said && share > SYMMETRIC_TO {
         told.assumption.push(format!(
-            "symmetric part of a matrix whose anti-symmetric share was {share:.1e}"
+            "symmetric part of a matrix whose anti-symmetric share was {}",
+            formatter::short(share)
         ));
     }
 }
@@ -158,8 +160,9 @@ fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matri
     let share = element.antisymmetric_share;
     if share > SYMMETRIC_TO && !args.symmetrise {
         return Err(Failure::input(format!(
-            "{}: the matrix is not symmetric, its anti-symmetric share is {share:.2e}; a body's stiffness is: if this is noise, say --symmetrise",
-            text.name()
+            "{}: the matrix is not symmetric, its anti-symmetric share is {}; a body's stiffness is: if this is noise, say --symmetrise",
+            text.name(),
+            formatter::short(share)
         )));
     }
     symmetry(share, args.symmetrise, told);
@@ -242,8 +245,8 @@ fn tell_reduction(
     }
     if found.least_pivot < 1e-9 {
         told.notices.push(format!(
-            "a part inside is nearly free (pivot {:.1e}): look for loose parts and hinges",
-            found.least_pivot
+            "a part inside is nearly free (pivot {}): look for loose parts and hinges",
+            formatter::short(found.least_pivot)
         ));
     }
 }
@@ -325,18 +328,19 @@ fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], to
         told.row(
             "no rigid motion",
             format!(
-                "at most {:.2e} of the displacements (case {}, {:.3} um per component)",
-                fit.not_rigid,
+                "at most {} of the displacements (case {}, {} per component)",
+                formatter::short(fit.not_rigid),
                 case.name,
-                fit.deviation * 1e6
+                formatter::largest_length(fit.deviation * 1e3)
             ),
         );
     }
     told.row(
         "anti-symmetric",
         format!(
-            "{:.1e} of the compliance; the residuals explain {:.1e}",
-            found.antisymmetric_share, found.explained_share
+            "{} of the compliance; the residuals explain {}",
+            formatter::short(found.antisymmetric_share),
+            formatter::short(found.explained_share)
         ),
     );
     let relative = (0..6)
@@ -367,8 +371,8 @@ fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], to
     told.explained = Some(found.explained_share);
     told.notices.extend(found.notices.iter().cloned());
     told.assumption.push(format!(
-        "symmetric part of the compliance taken, its anti-symmetric share was {:.1e}",
-        found.antisymmetric_share
+        "symmetric part of the compliance taken, its anti-symmetric share was {}",
+        formatter::short(found.antisymmetric_share)
     ));
 }
 
@@ -486,7 +490,11 @@ fn in_words(
     rows.push(vec!["rx, ry, rz".into(), format!("{} N mm/rad", three(3))]);
     rows.push(vec![
         "rank".into(),
-        format!("{}; anti-symmetric share {share:.1e}", judged.rank),
+        format!(
+            "{}; anti-symmetric share {}",
+            judged.rank,
+            formatter::short(share)
+        ),
     ]);
     rows.push(vec![
         "natural length".into(),

@@ -58,6 +58,10 @@ pub(crate) fn verdict(result: &RunResult) -> String {
             figures.error_before
         )
     };
+    if let Some(own) = result.own_weight_in_words() {
+        text.push(' ');
+        text.push_str(&own);
+    }
     if let Some(corners) = result.corners_in_words() {
         text.push(' ');
         text.push_str(&corners);

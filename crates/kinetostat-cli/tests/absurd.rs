@@ -256,6 +256,100 @@ fn limits_of_the_job_file_hold_and_unknown_ones_are_refused() {
     );
 }
 
+/// An arm sags under its own weight and a spindle: that is no fault, and no wrong unit of the cutting force.
+#[test]
+fn a_heavy_arm_with_a_spindle_is_not_refused_for_its_own_weight() {
+    let here = workplace();
+    // KR 270 class, 250 kg at the flange, 1.9 m from its first axis.
+    let kuka = include_str!("../../kinetostat-model/models/kuka_kr270_like.toml");
+    let with = |kg: f64| {
+        let platform = "[[platform]]\nname = \"tool\"\n";
+        assert!(kuka.contains(platform));
+        kuka.replace(platform, &format!("{platform}mass_kg = {kg}\n"))
+    };
+    let job = ARM_JOB.replace("[1050, 0, 1000]", "[1900, 0, 1300]");
+    let result = || -> Value {
+        let text = std::fs::read(here.path().join("r.json")).expect("JSON");
+        serde_json::from_slice(&text).expect("JSON")
+    };
+    let (said, codes) = compensated(here.path(), &job, &with(250.0), &[]);
+    assert_eq!(said.code, 0, "{said:?}");
+    assert!(
+        !codes.iter().any(|code| code == "large_correction"),
+        "{codes:?}"
+    );
+    let found = result();
+    let own = found["summary"]["max_error_by_own_weight_mm"]
+        .as_f64()
+        .expect("a figure");
+    let total = found["summary"]["max_correction_mm"]
+        .as_f64()
+        .expect("a figure");
+    assert!(own > 2.0 && own < 5.0 && total > 2.0, "{own} {total}");
+    // The figure is the difference of two independent answers: with and without what acts in the model.
+    let bare = with(250.0).replace("[0, 0, -9.81]", "[0, 0, 0]");
+    let cut = bare
+        .find("[[limb.load]]")
+        .map_or(bare.as_str(), |at| &bare[..at]);
+    std::fs::write(here.path().join("bare.toml"), cut).expect("a model");
+    let shift = |model: &str, at: &[&str]| -> Vec<f64> {
+        let mut words = vec![
+            "deflect",
+            model,
+            "--tool-length-mm",
+            "180",
+            "--force",
+            "0",
+            "0",
+            "0",
+            "--json",
+            "--at",
+        ];
+        words.extend(at);
+        let said = run(here.path(), &words).answered();
+        let found: Value = serde_json::from_str(&said.out).expect("JSON");
+        found["displacement_mm"]
+            .as_array()
+            .expect("a vector")
+            .iter()
+            .map(|x| x.as_f64().expect("mm"))
+            .collect()
+    };
+    let mut largest = 0.0_f64;
+    for place in [
+        ["1920", "0", "1299"],
+        ["1900", "20", "1299"],
+        ["1880", "0", "1299"],
+    ] {
+        let both = [shift("arm.toml", &place), shift("bare.toml", &place)];
+        let off = (0..3)
+            .map(|k| (both[0][k] - both[1][k]).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        assert!(off.is_finite());
+        largest = largest.max(off);
+    }
+    assert!((largest - own).abs() < 0.02 * own, "{largest} {own}");
+    let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("the machine's own weight") && flat.contains("done twice"),
+        "{flat}"
+    );
+    // A mass in the wrong unit is still found, and so is a force.
+    let (said, _) = compensated(here.path(), &job, &with(1000.0), &[]);
+    assert!(
+        said.code == 1 && said.err.contains("--limit own_weight_mm="),
+        "{said:?}"
+    );
+    let strong = job.replace("radial_n = 215.0", "radial_n = 3000.0");
+    let (said, _) = compensated(here.path(), &strong, &with(250.0), &[]);
+    assert!(
+        said.code == 1 && said.err.contains("--limit correction_mm="),
+        "{said:?}"
+    );
+    assert!(!said.err.contains("own_weight_mm"), "{said:?}");
+}
+
 /// A program that never states Z: what is corrected there is left out.
 #[test]
 fn a_missed_tolerance_is_said_first_with_line_and_reason_and_has_its_own_code() {

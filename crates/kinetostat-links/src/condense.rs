@@ -10,6 +10,7 @@
 //! rigid one. Every node counts alike, so that a coarse mesh gives way a little under its spread load.
 //! [`crate::identify`] takes the average of a table of displacements by the same fit.
 
+use kinetostat::number::short;
 use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, Matrix6, Rotation3, Vector3, Vector6};
@@ -282,7 +283,8 @@ fn not_solved(error: &NoFactor, element: &Superelement, inner: &[u32]) -> Error 
             if share < -1e-6 {
                 fault(
                     format!(
-                        "the matrix is not positive definite inside: at node.direction {at} elimination leaves {share:.2e} of the diagonal entry"
+                        "the matrix is not positive definite inside: at node.direction {at} elimination leaves {} of the diagonal entry",
+                        short(share)
                     ),
                     "this is no stiffness of a body without load: check signs, and that it is not a mass matrix",
                 )

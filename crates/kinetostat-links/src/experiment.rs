@@ -7,6 +7,7 @@
 //! what is not is noise (or a mistake in axes and points): its share is told, and compared with what
 //! the residuals of the fits explain.
 
+use kinetostat::number::short;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::error::{Error, Result};
@@ -303,7 +304,9 @@ fn notices(cases: &[LoadCase], found: &Identified) -> Vec<String> {
     let (found_share, explained) = (found.antisymmetric_share, found.explained_share);
     if found_share > 1e-3 && found_share > 3.0 * explained {
         notices.push(format!(
-            "the compliance is anti-symmetric by {found_share:.2e}, the residuals explain {explained:.2e}: check that loads and displacements have the same axes, and that the loads act at the stated end"
+            "the compliance is anti-symmetric by {}, the residuals explain {}: check that loads and displacements have the same axes, and that the loads act at the stated end",
+            short(found_share),
+            short(explained)
         ));
     }
     if found.not_linear > 0.05 {

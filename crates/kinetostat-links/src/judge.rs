@@ -1,6 +1,7 @@
 //! Is this 6 x 6 matrix the stiffness of a link? Symmetric, positive (semi-)definite, of which rank,
 //! and of a plausible size; and in words what it is not.
 
+use kinetostat::number::{setting, short};
 use nalgebra::{Matrix6, Vector6};
 
 /// Names of the six directions.
@@ -100,9 +101,9 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         if k[(i, i)] < 0.0 {
             refuse(
                 format!(
-                    "the entry {0}, {0} is negative ({1:.6e})",
+                    "the entry {0}, {0} is negative ({1})",
                     DIRECTIONS[i],
-                    k[(i, i)]
+                    setting(k[(i, i)])
                 ),
                 "a motion would give energy back: check signs, and that this is not the stiffness under a load",
             );
@@ -130,14 +131,14 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         let (i, j) = at;
         refuse(
             format!(
-                "the matrix is not symmetric: its anti-symmetric share is {:.2e}; row {} column {} is {:.6e}, row {} column {} is {:.6e}",
-                share,
+                "the matrix is not symmetric: its anti-symmetric share is {}; row {} column {} is {}, row {} column {} is {}",
+                short(share),
                 DIRECTIONS[i],
                 DIRECTIONS[j],
-                k[(i, j)],
+                setting(k[(i, j)]),
                 DIRECTIONS[j],
                 DIRECTIONS[i],
-                k[(j, i)]
+                setting(k[(j, i)])
             ),
             "a spring stores energy: if this is noise, say so (symmetrise); if not, loads and displacements are in different axes or at different points",
         );
@@ -152,9 +153,9 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
     if eigen[0] < -ZERO {
         refuse(
             format!(
-                "the matrix is not positive semi-definite: a motion {} has the energy {:.3e} in units of its parts",
+                "the matrix is not positive semi-definite: a motion {} has the energy {} in units of its parts",
                 softest(&(0.5 * sum), &scale),
-                eigen[0]
+                short(eigen[0])
             ),
             "check signs and units of the entries off the diagonal, and the order (x, y, z, rx, ry, rz)",
         );
@@ -243,14 +244,14 @@ fn plausible(k: &Matrix6<f64>, findings: &mut Vec<Finding>) -> f64 {
     };
     if moves > 0.0 && !(1e3..=1e12).contains(&moves) {
         doubt(format!(
-            "the largest stiffness against a force is {:.3e} N/mm; links lie between 1 N/mm and 1e9 N/mm",
-            moves * 1e-3
+            "the largest stiffness against a force is {} N/mm; links lie between 1 N/mm and 1e9 N/mm",
+            short(moves * 1e-3)
         ));
     }
     if moves > 0.0 && turns > 0.0 && !(2e-3..=20.0).contains(&length) {
         doubt(format!(
-            "rotational and translational entries belong to a link of the size {:.3e} m; links lie between 2 mm and 20 m",
-            length
+            "rotational and translational entries belong to a link of the size {} m; links lie between 2 mm and 20 m",
+            short(length)
         ));
     }
     length

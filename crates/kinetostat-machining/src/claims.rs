@@ -58,6 +58,30 @@ impl RunResult {
         ))
     }
 
+    /// What the machine's own weight has to do with the errors, and for whom it must not be corrected; none
+    /// where it is no more than the tolerance.
+    #[must_use]
+    pub fn own_weight_in_words(&self) -> Option<String> {
+        let s = &self.summary;
+        let own = s.max_error_by_own_weight_mm?;
+        if !own.is_finite() || own <= self.question.tolerance_mm || s.unchanged {
+            return None;
+        }
+        let put = format!(
+            "By themselves, the machine's own weight and what else acts in its model (springs, counterweights) put \
+             the tool up to {} off",
+            largest_length(own)
+        );
+        Some(match self.question.compensated {
+            true => format!(
+                "{put}; the program makes up for that too. Where the part was touched off with this machine, or its \
+                 controller corrects the weight, that would be done twice: leave weight and springs out of the model \
+                 then."
+            ),
+            false => format!("{put}."),
+        })
+    }
+
     /// The reading of the load at corners that all tools share, if they share one, and which tools are read by
     /// each of the two: "tools 1 and 3".
     fn read_at_corners(&self) -> (Option<CornerLoad>, [String; 2]) {

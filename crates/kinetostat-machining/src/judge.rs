@@ -1,13 +1,15 @@
 //! Does the question make sense, and does the answer? Figures beyond a limit refuse a program; those
 //! that are merely odd become warnings.
 
-use kinetostat::{MotionKind, Pose, Wrench};
+use kinetostat::number::short;
+use kinetostat::{Mechanism, MotionKind, Pose, Wrench};
 use kinetostat_program::{Accounting, Corrected};
 use nalgebra::Vector3;
 
-use crate::limits::{Beyond, Limits, digits};
+use crate::limits::{Beyond, Limits};
 use crate::load::{CuttingLoad, LoadAxes, ProgramLoad};
 use crate::near::natural_length;
+use crate::own_weight::by_own_loads;
 use crate::placement::Placement;
 use crate::result::{
     MissedTolerance, PointKind, PointResult, RunResult, Summary, ToleranceVerdict,
@@ -243,10 +245,6 @@ pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> 
             over.above(name, value, Some(at.line), place(at));
         }
     };
-    // Of an analysis: what a correction would have to make up for.
-    largest("correction_mm", &|p| {
-        length(&p.correction_mm).max(length(&p.error_before_mm))
-    });
     largest("tilt_deg", &|p| p.residual_rotation_deg);
     largest("share_of_buckling", &|p| p.share_to_buckling.unwrap_or(0.0));
     if let Some((share, drive, line)) = share_of_rating(task, points) {
@@ -259,12 +257,85 @@ pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> 
         let place = format!(
             "drive {}, {} of {} {unit}",
             name.unwrap_or_default(),
-            digits(share * rating.unwrap_or(f64::NAN)),
-            digits(rating.unwrap_or(f64::NAN)),
+            short(share * rating.unwrap_or(f64::NAN)),
+            short(rating.unwrap_or(f64::NAN)),
         );
         over.above("share_of_rating", share, Some(line), place);
     }
+    corrections(&mut over, task, points);
     over.found
+}
+
+/// Points at which the part of own weight is asked for, where a correction is large.
+const ASKED: usize = 4096;
+
+/// The correction at a point or, of an analysis, what it would have to make up for, mm.
+fn to_make_up(point: &PointResult) -> f64 {
+    length(&point.correction_mm).max(length(&point.error_before_mm))
+}
+
+/// The same without what is due to the machine's own weight.
+fn besides(point: &PointResult, own: &Vector3<f64>) -> f64 {
+    let correction = Vector3::from(point.correction_mm);
+    // A correction is against what it makes up for; an analysis has none.
+    let corrected = match correction == Vector3::zeros() {
+        true => 0.0,
+        false => (correction + own).norm(),
+    };
+    corrected.max((Vector3::from(point.error_before_mm) - own).norm())
+}
+
+/// Corrections beyond their limit, that by own weight and that by the rest each by its own.
+fn corrections(over: &mut Over<'_>, task: &Task<'_>, points: &[PointResult]) {
+    let limits = over.limits;
+    let least = limits.correction_mm.min(limits.own_weight_mm);
+    // What is no number is beyond every limit.
+    let large: Vec<&PointResult> = points
+        .iter()
+        .filter(|p| !matches!(to_make_up(p).partial_cmp(&least), Some(order) if order.is_le()))
+        .collect();
+    let mut asked: Vec<&PointResult> = large
+        .iter()
+        .step_by(large.len().div_ceil(ASKED).max(1))
+        .copied()
+        .collect();
+    asked.extend(
+        most(points, to_make_up)
+            .map(|(_, at)| at)
+            .filter(|_| !large.is_empty()),
+    );
+    let own = by_own_loads(task, &asked);
+    let mut worst: [Option<(f64, &PointResult)>; 2] = [None, None];
+    let mut note = |kind: usize, value: f64, at| {
+        let key = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+        if worst[kind].is_none_or(|(most, _)| key(value) > key(most)) {
+            worst[kind] = Some((value, at));
+        }
+    };
+    for (point, own) in asked.into_iter().zip(own) {
+        let own = own.unwrap_or_default();
+        note(0, besides(point, &own), point);
+        note(1, own.norm(), point);
+    }
+    for (name, found) in ["correction_mm", "own_weight_mm"].into_iter().zip(worst) {
+        if let Some((value, at)) = found {
+            over.above(name, value, Some(at.line), place(at));
+        }
+    }
+}
+
+/// How far own weight and loads of the model put the tool off by themselves, mm, the largest of
+/// [`RunResult::MAX_POSTURES`] points.
+pub(crate) fn largest_by_own_weight(task: &Task<'_>, points: &[&PointResult]) -> Option<f64> {
+    let mut machines = points.iter().map(|p| task.mechanism_on(p.line));
+    if !machines.any(Mechanism::has_own_loads) {
+        return None;
+    }
+    let stride = points.len().div_ceil(RunResult::MAX_POSTURES).max(1);
+    let some: Vec<&PointResult> = points.iter().step_by(stride).copied().collect();
+    let own = by_own_loads(task, &some);
+    let sizes = own.into_iter().flatten().map(|shift| shift.norm());
+    sizes.max_by(f64::total_cmp)
 }
 
 /// What was found beyond a limit, where nothing is refused.
@@ -293,7 +364,7 @@ pub fn odd_correction(
             WarningCode::LargeCorrection,
             format!(
                 "corrections of up to {} mm are large: check units and signs of load and stiffnesses, or of the table",
-                digits(largest_mm)
+                short(largest_mm)
             ),
         )
     } else if largest_mm <= tolerance_mm {
@@ -301,8 +372,8 @@ pub fn odd_correction(
             WarningCode::SmallCorrection,
             format!(
                 "the largest correction, {} mm, is not more than the tolerance, {} mm: there is nothing to correct; check units, load and placement",
-                digits(largest_mm),
-                digits(tolerance_mm)
+                short(largest_mm),
+                short(tolerance_mm)
             ),
         )
     } else {
@@ -322,7 +393,7 @@ pub fn odd_tolerances(path_mm: f64, chord_mm: f64) -> Vec<Warning> {
                 WarningCode::WideTolerance,
                 format!(
                     "the {name} tolerance is {} mm: machines that cut are judged by hundredths; {name}_um is in micrometres",
-                    digits(mm)
+                    short(mm)
                 ),
             )
         })
@@ -349,12 +420,20 @@ pub(crate) fn odd(
     );
     list.extend(outside_workspace(task, points));
     let limits = &task.bounds.limits;
-    let (size, at) = match most(points, |p| length(&p.correction_mm)) {
-        Some((size, at)) if compensated => (size, Some(at.line)),
-        _ => (f64::NAN, None),
-    };
-    if size <= limits.correction_mm {
-        list.extend(odd_correction(limits, size, at, task.writing.tolerance_mm));
+    if let Some((size, at)) = most(points, |p| length(&p.correction_mm)).filter(|_| compensated) {
+        let tolerance = task.writing.tolerance_mm;
+        // A large one is judged without the part of own weight.
+        let size = match size > ODD * limits.correction_mm {
+            true => {
+                let own = by_own_loads(task, &[at])
+                    .pop()
+                    .flatten()
+                    .unwrap_or_default();
+                besides(at, &own).max(2.0 * tolerance)
+            }
+            false => size,
+        };
+        list.extend(odd_correction(limits, size, Some(at.line), tolerance));
     }
     if compensated {
         list.extend(odd_tolerances(
@@ -373,7 +452,7 @@ pub(crate) fn odd(
             WarningCode::OddStiffness,
             format!(
                 "the tool gives way with {} N/mm in its softest direction, {which} than machines that cut (arms 100 to 2000, parallel machines up to 100000 N/mm): check the units of the stiffnesses",
-                digits(stiffness)
+                short(stiffness)
             ),
         ));
     }
@@ -384,8 +463,8 @@ pub(crate) fn odd(
                 WarningCode::NearLimit,
                 format!(
                     "{text} {} of the {} that are allowed",
-                    digits(value),
-                    digits(limit)
+                    short(value),
+                    short(limit)
                 ),
             ));
         }
@@ -436,8 +515,8 @@ fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
             WarningCode::SmallLoad,
             format!(
                 "the load on the tool is only {} N and {} N m: cutting takes 10 to 1000 N; check the unit",
-                digits(force),
-                digits(moment)
+                short(force),
+                short(moment)
             ),
         );
     }
@@ -446,7 +525,7 @@ fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
             WarningCode::LargeLoad,
             format!(
                 "the force on the tool is {} N: robots mill with 50 to 1000 N; check the unit",
-                digits(force)
+                short(force)
             ),
         );
     }
@@ -455,7 +534,7 @@ fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
             WarningCode::LargeLoad,
             format!(
                 "the moment on the tool is {} N m: cutting torques are 0.1 to 100 N m; check the unit (N m, not N mm)",
-                digits(moment)
+                short(moment)
             ),
         );
     }
@@ -464,8 +543,8 @@ fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
             WarningCode::LongLever,
             format!(
                 "the moment on the tool, {} N m, is that of its force {} m away from the tip: check the unit (N m, not N mm)",
-                digits(moment),
-                digits(moment / force)
+                short(moment),
+                short(moment / force)
             ),
         );
     }
@@ -475,7 +554,7 @@ fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
             WarningCode::PullingForce,
             format!(
                 "the force on the tool is {} N along -z of the program: it pulls the tool into the part, more than it pushes across; cutting pushes a tool back, along +z: check the sign",
-                digits(-f.z)
+                short(-f.z)
             ),
         );
     }
@@ -493,7 +572,7 @@ fn never_acts(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
         return None;
     }
     let why = match task.load.below_z_mm {
-        Some(z) => format!("no feed move goes below Z {} mm", digits(z)),
+        Some(z) => format!("no feed move goes below Z {} mm", short(z)),
         None => "the program has no feed move on which it could act".to_owned(),
     };
     Some(Warning::new(
@@ -516,7 +595,7 @@ fn odd_tool(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
             WarningCode::OddTool,
             format!(
                 "the tool is only {} mm long, from the flange to its tip: check the unit",
-                digits(length)
+                short(length)
             ),
         ));
     }
@@ -526,8 +605,8 @@ fn odd_tool(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
             WarningCode::OddTool,
             format!(
                 "the tool is {} mm long, on limbs of {} mm: check the unit",
-                digits(length),
-                digits(machine)
+                short(length),
+                short(machine)
             ),
         )
     })

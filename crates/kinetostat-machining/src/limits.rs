@@ -4,13 +4,17 @@
 
 use std::fmt;
 
+use kinetostat::number::{self, short};
 use serde::{Deserialize, Serialize};
 
 /// Limits of a run, by name; units in the names.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
-    /// Largest correction of a place, mm. Default 2.
+    /// Largest correction of a place, mm, without the part that makes up for the machine's own weight.
+    /// Default 2.
     pub correction_mm: f64,
+    /// How far the machine's own weight and the loads of its model may put the tool off, mm. Default 5.
+    pub own_weight_mm: f64,
     /// Largest tilt of the tool that stays, degrees. Default 1.
     pub tilt_deg: f64,
     /// Largest force on the tool, N. Default 5000.
@@ -33,6 +37,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             correction_mm: 2.0,
+            own_weight_mm: 5.0,
             tilt_deg: 1.0,
             force_n: 5000.0,
             moment_n_m: 200.0,
@@ -85,12 +90,18 @@ macro_rules! limit {
 
 impl Limits {
     /// All of them.
-    pub const ALL: [Limit; 9] = [
+    pub const ALL: [Limit; 10] = [
         limit!(
             correction_mm,
             "mm",
             "the correction",
             "arms give way by 0.1 to 1 mm under a cutting force, parallel machines by hundredths; more is mostly a wrong unit (N m per degree, micrometres for mm), or a table of places instead of differences"
+        ),
+        limit!(
+            own_weight_mm,
+            "mm",
+            "the displacement of the tool by the machine's own weight and the loads of its model",
+            "heavy arms sag by 0.5 to 3 mm with a spindle in their hand, parallel machines by hundredths; more is mostly a wrong mass or stiffness"
         ),
         limit!(
             tilt_deg,
@@ -176,23 +187,6 @@ pub struct Beyond {
     pub place: String,
 }
 
-/// Four digits, without an exponent where that is readable.
-pub(crate) fn digits(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    if !(1e-3..1e7).contains(&size) {
-        return format!("{value:.2e}");
-    }
-    let places = (2 - size.log10().floor() as i32).clamp(0, 5) as usize;
-    let text = format!("{value:.places$}");
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
-}
-
 impl Beyond {
     /// The option that would allow it: a value a little beyond what was found.
     fn allowing(&self) -> f64 {
@@ -207,6 +201,17 @@ impl Beyond {
             false => (room / unit).ceil() * unit,
         }
     }
+}
+
+/// A figure and the bound that it leaves, with as many digits as tell them apart.
+fn apart(found: f64, allowed: f64) -> (String, String) {
+    let shown = |digits: usize| {
+        let of = |value: f64| number::trimmed(value, digits);
+        (of(found), of(allowed))
+    };
+    let mut all = (number::DIGITS..=17).map(shown);
+    let told = all.find(|(found, allowed)| found != allowed);
+    told.unwrap_or_else(|| shown(number::DIGITS))
 }
 
 impl fmt::Display for Beyond {
@@ -227,15 +232,13 @@ impl fmt::Display for Beyond {
         } else {
             "more"
         };
-        let value = digits(self.allowing());
+        let value = short(self.allowing());
+        let (found, allowed) = apart(self.found, self.allowed);
         let name = self.limit.name;
         write!(
             f,
-            "{}{place} is {}{unit}, {side} than the {}{unit} that are allowed. Usual: {}. If it is meant, write  --limit {name}={value}  or, in the job file under [limits],  {name} = {value}",
-            self.limit.what,
-            digits(self.found),
-            digits(self.allowed),
-            self.limit.usual,
+            "{}{place} is {found}{unit}, {side} than the {allowed}{unit} that are allowed. Usual: {}. If it is meant, write  --limit {name}={value}  or, in the job file under [limits],  {name} = {value}",
+            self.limit.what, self.limit.usual,
         )
     }
 }

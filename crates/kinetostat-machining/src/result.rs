@@ -230,6 +230,11 @@ pub struct Summary {
     /// Nothing was to be corrected: the program came back byte for byte.
     #[serde(default)]
     pub unchanged: bool,
+    /// How far the machine's own weight and the loads of its model put the tool off by themselves where it
+    /// cuts, mm, the largest of [`RunResult::MAX_POSTURES`] places; none where nothing acts without a load on
+    /// the tool.
+    #[serde(default)]
+    pub max_error_by_own_weight_mm: Option<f64>,
     /// Share of the points that lie on corner steps, percent.
     #[serde(default)]
     pub corner_points_percent: f64,

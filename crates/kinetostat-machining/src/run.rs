@@ -2,6 +2,7 @@
 //! written bytes.
 
 use kinetostat::batch::BatchEquilibrium;
+use kinetostat::number;
 use kinetostat::{Error, Mechanism, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use kinetostat_program::{
     Corrected, CorrectionField, Monitor, MoveKind, Path, Program, ReadOptions, Verification,
@@ -57,7 +58,7 @@ pub struct Task<'a> {
 
 impl<'a> Task<'a> {
     /// Machine with the tool that the block on a line is made with.
-    fn mechanism_on(&self, line: usize) -> &'a Mechanism {
+    pub(crate) fn mechanism_on(&self, line: usize) -> &'a Mechanism {
         tool_on(self.tools, self.path, line).map_or(self.mechanism, |tool| tool.mechanism)
     }
 
@@ -109,7 +110,8 @@ pub enum RunError {
     },
     /// The written program would be worse somewhere.
     #[error(
-        "line {line}: compensated, this block would end {after_mm:.6} mm off, more than the {before_mm:.6} mm without compensation; nothing was written. Tighten the path tolerance, allow more decimals, or report this with the job"
+        "line {line}: compensated, this block would end {} off, more than the {} without compensation; nothing was written. Tighten the path tolerance, allow more decimals, or report this with the job",
+        number::against(*after_mm, *before_mm).0, number::against(*after_mm, *before_mm).1
     )]
     Worse {
         /// Line of the program, from 1.
@@ -227,6 +229,8 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     }
     // A machine that gives way is the graver finding, so limits come after it.
     let mut beyond = judge::of_accounting(&task.bounds.limits, &written.accounting);
+    // Of a machine the correction is judged with its points: what is due to its own weight is known there.
+    beyond.retain(|b| b.limit.name != "correction_mm");
     for found in judge::of_points(task, &points) {
         if beyond.iter().all(|b| b.limit != found.limit) {
             beyond.push(found);
@@ -461,7 +465,7 @@ impl Loaded {
             commands: posture.commands(),
             actuator_forces: equilibrium.actuator_forces(),
             stiffness_against_force: equilibrium.stiffness_against_force(),
-            share_to_buckling: equilibrium.margin(),
+            share_to_buckling: equilibrium.share_to_buckling(),
             stable: equilibrium.stable(),
         }
     }
@@ -476,7 +480,7 @@ impl Loaded {
             commands: found.commands.row(i).collect(),
             actuator_forces: found.actuator_forces.row(i).collect(),
             stiffness_against_force: verdict.stiffness_against_force,
-            share_to_buckling: verdict.margin,
+            share_to_buckling: verdict.share_to_buckling,
             stable: verdict.stable,
         })
     }
@@ -805,6 +809,7 @@ fn summarise(
             .filter_map(|p| p.share_to_buckling)
             .max_by(f64::total_cmp),
         largest_share_of_rating: judge::largest_share_of_rating(task, points),
+        max_error_by_own_weight_mm: judge::largest_by_own_weight(task, &cutting),
         max_actuator_force: per_actuator(&|p| &p.actuator_force),
         max_actuator_correction: per_actuator(&|p| &p.actuator_correction),
         converged: true,

@@ -345,7 +345,7 @@ fn points_of_a_run_are_those_of_the_general_engine() {
                 let relative = |a: f64, b: f64| (a - b).abs() < 1e-7 * b.abs();
                 let stiffness = 1e-3 * e.stiffness_against_force();
                 assert!(relative(point.smallest_stiffness_n_per_mm, stiffness));
-                let (told, own) = (point.share_to_buckling, e.margin());
+                let (told, own) = (point.share_to_buckling, e.share_to_buckling());
                 let own = own.filter(|mu| mu.is_finite());
                 assert_eq!(told.is_some(), own.is_some());
                 assert!(

@@ -1,6 +1,7 @@
 //! What speaks against a 6 x 6 matrix being the stiffness of a link at its far end: a direction that
 //! is nearly free, couplings of the wrong end, a size out of proportion.
 
+use kinetostat::number::short;
 use nalgebra::{Matrix6, Vector6};
 
 use crate::problem::{Finding, Place};
@@ -82,8 +83,10 @@ fn nearly_free(k: &Matrix6<f64>, length: Option<f64>) -> Option<(String, String)
     };
     Some((
         format!(
-            "the link is nearly free in direction {} ({own:.3e} {unit}): its directions differ by {ratio:.0e} or more",
-            words.join(", ")
+            "the link is nearly free in direction {} ({} {unit}): its directions differ by a factor of {}",
+            words.join(", "),
+            short(own),
+            short(ratio)
         ),
         "a direction that nothing holds is a passive joint of the chain; else check this entry and its unit".into(),
     ))
@@ -201,8 +204,8 @@ pub(crate) fn check(document: &Document, warnings: &mut Vec<Finding>) {
             warnings.push(Finding::new(
                 &place,
                 format!(
-                    "the largest stiffness of this link against a force is {:.3e} N/mm; links lie between 1 N/mm and 1e9 N/mm",
-                    largest * 1e-3
+                    "the largest stiffness of this link against a force is {} N/mm; links lie between 1 N/mm and 1e9 N/mm",
+                    short(largest * 1e-3)
                 ),
                 "check the unit in the key: _n_m_rad or _n_mm_rad",
             ));

@@ -1,6 +1,7 @@
 //! Sections: shape and material to what the cantilever needs.
 
 use kinetostat::BeamSection;
+use kinetostat::number::short;
 
 use crate::problem::{Finding, Place};
 use crate::quantity::{Choice, Found, MM, choice, forbid, pick, positive};
@@ -16,7 +17,7 @@ fn modulus(
     if !(5e8..=2e12).contains(&given.value) {
         warnings.push(Finding::new(
             &place.key(given.key),
-            format!("a {what} of {:.3e} Pa is no usual solid", given.value),
+            format!("a {what} of {} Pa is no usual solid", short(given.value)),
             "steel has 210 GPa (shear 80), aluminium 70 (26), polymers 1 to 4; check the unit in the key",
         ));
     }

@@ -1,6 +1,7 @@
 //! What smells of a wrong unit: each number as it is written, and figures that do not fit the rest
 //! of the machine.
 
+use kinetostat::number::short;
 use std::f64::consts::{PI, TAU};
 
 use kinetostat::{Mechanism, MotionKind, Role, SpringLaw};
@@ -82,7 +83,7 @@ fn smell(key: &str, x: f64) -> Option<(String, &'static str)> {
     // Of a section 2 m wide.
     if let Some(m4) = moment.filter(|m4| *m4 > 1.0) {
         return Some((
-            format!("a second moment of {m4:.3e} m^4"),
+            format!("a second moment of {} m^4", short(m4)),
             "no part of a robot has sections of metres; check the unit in the key: _mm4 or _m4",
         ));
     }
@@ -251,8 +252,8 @@ impl Look<'_> {
             };
             if !(low..=high).contains(&gives) {
                 let amount = match kind {
-                    MotionKind::Revolute => format!("{:.3e} degrees", gives.to_degrees()),
-                    MotionKind::Prismatic => format!("{:.3e} mm", 1e3 * gives),
+                    MotionKind::Revolute => format!("{} degrees", short(gives.to_degrees())),
+                    MotionKind::Prismatic => format!("{} mm", short(1e3 * gives)),
                 };
                 warnings.push(Finding::new(
                     &place.key(key),
@@ -311,7 +312,8 @@ impl Look<'_> {
                 warnings.push(Finding::new(
                     &self.place(name, &KEYS),
                     format!(
-                        "the drive '{name}' has {k:.3e} {unit}, {} than any machine's",
+                        "the drive '{name}' has {} {unit}, {} than any machine's",
+                        short(*k),
                         if *k < low { "softer" } else { "stiffer" }
                     ),
                     format!("check the unit in the key: {mistake}"),

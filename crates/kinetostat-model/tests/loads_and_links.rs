@@ -312,8 +312,13 @@ fn a_slanted_link_buckles_at_its_euler_load() {
             .expect("held")
     };
     // The platform is held whole; the hinges let the column's head turn below it.
-    let margin = |share: f64| pressed(share).limbs[0].stability.margin.expect("margin");
-    let (low, high) = (margin(1.0), margin(2.0));
+    let share_to_buckling = |share: f64| {
+        pressed(share).limbs[0]
+            .stability
+            .share_to_buckling
+            .expect("a share")
+    };
+    let (low, high) = (share_to_buckling(1.0), share_to_buckling(2.0));
     assert!((low - 1.0 / 2.0457).abs() < 2e-3, "{low}");
     assert!((high - 2.0 / 2.0457).abs() < 3e-3, "{high}");
     let load = &pressed(1.0).limbs[0].link_loads[0];

@@ -52,7 +52,7 @@ fn together(found: &[Found]) -> usize {
     found.iter().filter(|f| **f == Found::Together).count()
 }
 
-/// Largest differences of stiffness, forces, softness and margin.
+/// Largest differences of stiffness, forces, softness and share to buckling.
 fn judged(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f64; 4] {
     let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
     let matrix = alone.stiffness.matrix;
@@ -60,7 +60,7 @@ fn judged(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f6
     let verdict = all.verdict(i).expect("asked for");
     assert_eq!(verdict.stable, alone.stable());
     let soft = alone.stiffness_against_force();
-    let margin = match (verdict.margin, alone.margin()) {
+    let share_to_buckling = match (verdict.share_to_buckling, alone.share_to_buckling()) {
         (Some(a), Some(b)) if a == b => 0.0,
         (Some(a), Some(b)) => (a - b).abs(),
         (None, None) => 0.0,
@@ -75,7 +75,7 @@ fn judged(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f6
         (own - matrix).amax() / matrix.amax(),
         apart(&forces, &alone.actuator_forces()),
         softness,
-        margin,
+        share_to_buckling,
     ]
 }
 
@@ -136,11 +136,15 @@ fn every_preset_is_judged_the_same_alone_and_together() {
             "{}: {found} of {count} together, apart {worst:?}",
             preset.name
         );
-        let [stiffness, forces, softness, margin] = worst;
+        let [stiffness, forces, softness, share_to_buckling] = worst;
         assert!(stiffness < 1e-11, "{}: {stiffness:e}", preset.name);
         assert!(forces < 1e-9, "{}: {forces:e}", preset.name);
         assert!(softness < 1e-9, "{}: {softness:e}", preset.name);
-        assert!(margin < 1e-9, "{}: {margin:e}", preset.name);
+        assert!(
+            share_to_buckling < 1e-9,
+            "{}: {share_to_buckling:e}",
+            preset.name
+        );
     }
 }
 

@@ -144,7 +144,11 @@ fn shape_items(items: &mut Vec<Item>, label: &str, e: &Shape) {
         ("F_x", e.force, "K/l"),
         ("K_x", e.stiffness, "K/l^2"),
         ("S_c", e.s_c, "K"),
-        ("margin mu (stable below 1)", e.margin, ""),
+        (
+            "share mu of the way to buckling (stable below 1)",
+            e.share_to_buckling,
+            "",
+        ),
     ] {
         items.push(Item::unprinted(format!("{label}: {what}"), value, unit, ""));
     }

@@ -24,7 +24,7 @@ pub(crate) struct Shape {
     pub(crate) force: f64,
     pub(crate) stiffness: f64,
     pub(crate) s_c: f64,
-    pub(crate) margin: f64,
+    pub(crate) share_to_buckling: f64,
     pub(crate) stable: bool,
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn shape(problem: &ChainProblem<'_>, e: &Equilibrium) -> Result<Shape
         stiffness: e.stiffness.cartesian.matrix[(0, 0)],
         // The end hinge turns for nothing: one inner freedom, and zero for the hinge.
         s_c: criterion.matrix.trace(),
-        margin: e.stability.margin.unwrap_or(f64::NAN),
+        share_to_buckling: e.stability.share_to_buckling.unwrap_or(f64::NAN),
         stable: e.stability.stable,
     })
 }
@@ -233,8 +233,8 @@ pub(crate) fn table_5_1() -> Result<Contents, Cause> {
         mirror.s_c,
         "K",
         &format!(
-            "The same physical state, another S_c: it depends on the coordinates. The margin mu is {:.10} for both.",
-            mirror.margin
+            "The same physical state, another S_c: it depends on the coordinates. The share mu of the way to buckling is {:.10} for both.",
+            mirror.share_to_buckling
         ),
     ));
     z_unstable(&mut items, &pushed)?;

@@ -52,7 +52,7 @@ const TABLE_5_2: [(f64, [&str; 3], [&str; 3]); 4] = [
     (1.5, ["-3.31", "-7.46", "-52.7"], ["0.16", "0.26", "0.60"]),
 ];
 
-const LEFT_OUT: &str = "erratum Table 5.2 S_c: true value for V = (2, -1, -1)/sqrt 6 in (theta, q1, q2), S_c = -(2/3) sin^2(a) K_x. The print leaves the Hessian of G out and uses another unit vector: see the last rows. Only the sign means something; the margin mu does not depend on such a choice.";
+const LEFT_OUT: &str = "erratum Table 5.2 S_c: true value for V = (2, -1, -1)/sqrt 6 in (theta, q1, q2), S_c = -(2/3) sin^2(a) K_x. The print leaves the Hessian of G out and uses another unit vector: see the last rows. Only the sign means something; the share mu of the way to buckling does not depend on such a choice.";
 
 const INFERRED: &str = "Inferred, not proved: (-4 - 2 F_x cos a)/(6 + sin^2 a), the Hessian of G left out and the passive slider dx = 2 L sin(a) with L = 0.5 in the unit vector. All twelve printed numbers follow when rounded.";
 

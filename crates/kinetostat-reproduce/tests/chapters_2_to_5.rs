@@ -431,7 +431,11 @@ fn all_shapes_of_figure_5_8() {
         for (k, what) in ["theta1", "theta2", "F_x", "K_x", "S_c"].iter().enumerate() {
             holds(&e, &format!("{label}: {what}"), row[2 + k]);
         }
-        holds(&e, &format!("{label}: margin mu (stable below 1)"), row[7]);
+        holds(
+            &e,
+            &format!("{label}: share mu of the way to buckling (stable below 1)"),
+            row[7],
+        );
     }
     holds(&e, "pitchfork: Delta", "0.110931613194");
     holds(&e, "pitchfork: x", "2.79838129798");

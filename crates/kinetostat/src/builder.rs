@@ -10,6 +10,7 @@ use crate::chain::{
 };
 use crate::error::{Error, Result};
 use crate::link::{LinkConvention, LinkSpec};
+use crate::number::short;
 use crate::parallelogram::ParallelogramLaw;
 use crate::spatial::Pose;
 use crate::spring::{Segment, SpringBlock, SpringLaw, balanced};
@@ -552,11 +553,11 @@ impl ChainBuilder {
         let least = balanced.symmetric_eigenvalues().min();
         if least < -SINGULAR {
             return Some(format!(
-                "spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {least:.2e})"
+                "spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {})", short(least)
             ));
         }
         (least <= SINGULAR).then(|| {
-            format!("spring '{name}': its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest balanced eigenvalue {least:.2e}, more than {SINGULAR:e} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs")
+            format!("spring '{name}': its stiffness matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest balanced eigenvalue {}, more than {} is needed); a free direction is a passive joint, and a very soft one is held where the spring is given in its principal axes (a rotation before it, the inverse one after it) or as single springs", short(least), short(SINGULAR))
         })
     }
 

@@ -10,6 +10,7 @@ use nalgebra::{Matrix3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
+use crate::number::short;
 use crate::spatial::Pose;
 use crate::spring::SpringBlock;
 
@@ -306,8 +307,10 @@ pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Re
         return Err(Error::model(
             place,
             format!(
-                "{} is {value:e}, a number between -{LARGEST:e} and {LARGEST:e} is needed",
-                what()
+                "{} is {}, a number between -{limit} and {limit} is needed",
+                what(),
+                short(value),
+                limit = short(LARGEST)
             ),
         ));
     }

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::{Chain, MotionKind, Role, Scale};
+use crate::number::short;
 use crate::saddle::{RANK_TOLERANCE, column_space, complement};
 use crate::spatial::Twist;
 
@@ -69,8 +70,8 @@ impl Direction {
         match self.kind {
             DirectionKind::Free => format!("free: {motion}{by}"),
             DirectionKind::Rigid => format!("rigid: nothing {motion}"),
-            DirectionKind::Finite => format!("finite, {stiffness:.3e} N/m: {motion}{by}"),
-            DirectionKind::Negative => format!("negative, {stiffness:.3e} N/m: {motion}{by}"),
+            DirectionKind::Finite => format!("finite, {} N/m: {motion}{by}", short(stiffness)),
+            DirectionKind::Negative => format!("negative, {} N/m: {motion}{by}", short(stiffness)),
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::chain::MotionKind;
 use crate::load_way::LoadLimit;
+use crate::number;
 use crate::spatial::{Pose, Wrench};
 
 /// Joint values in the unit that people read; the unit comes once, at the end.
@@ -35,10 +36,7 @@ fn not_converged(
                 .displacement
                 .linear()
                 .map(|x| (x * 1e7).round() * 1e-4 + 0.0);
-            let share = match limit.share < 0.01 {
-                true => format!("{:.3e}", limit.share),
-                false => format!("{:.4}", limit.share),
-            };
+            let share = number::setting(limit.share);
             format!(
                 "{place}: from rest it carries only {share} of this load: a limit point of the load lies at the displacement [{:.4} {:.4} {:.4}] mm, and there it snaps to another equilibrium",
                 d.x, d.y, d.z
@@ -48,7 +46,9 @@ fn not_converged(
             "{place}: no equilibrium found in {iterations} iterations: with these numbers the deflections grow beyond all limits; the largest share of the load with an equilibrium is {share:.3}. Look for a load, a length or a stiffness in the wrong unit"
         ),
         None => format!(
-            "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a gap of {closure:.3e} m, and torques of {torque:.3e} times the largest without balance)"
+            "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a gap of {} m, and torques of {} times the largest without balance)",
+            number::short(closure),
+            number::short(torque)
         ),
     }
 }
@@ -58,9 +58,9 @@ fn nearest_found(distance_m: f64, angle_rad: f64) -> String {
         return "no pose near it was found: look for a length in the wrong unit".to_owned();
     }
     format!(
-        "the nearest pose found is {:.4e} mm and {:.4e} deg away",
-        distance_m * 1e3,
-        angle_rad.to_degrees()
+        "the nearest pose found is {} and {} away",
+        number::largest_length(distance_m * 1e3),
+        number::largest_angle(angle_rad.to_degrees())
     )
 }
 

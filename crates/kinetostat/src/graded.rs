@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 use crate::chain::{Chain, Scale};
 use crate::directions::{Direction, DirectionKind, directions, scaled_twist};
 use crate::mechanism::Mechanism;
+use crate::number::short;
 use crate::saddle::{RANK_TOLERANCE, Saddle, complement};
 use crate::singular_values::SingularValues;
 use crate::spring::balanced;
@@ -197,7 +198,8 @@ pub fn uneven_in_words(directions: &[Direction]) -> Option<String> {
     (spread > SAID).then(|| {
         let digits = (15.0 - spread.log10()).floor().max(0.0);
         format!(
-            "the stiffest direction is {spread:.1e} times as stiff as the softest: the entries of the 6 x 6 matrix hold the soft ones to about {digits} digits only, the principal directions hold them all; under a load, directions softer than 1e-9 of the stiffest count as free. Is the stiff one meant, or is a unit wrong?"
+            "the stiffest direction is {} times as stiff as the softest: the entries of the 6 x 6 matrix hold the soft ones to about {digits} digits only, the principal directions hold them all; under a load, directions softer than 1e-9 of the stiffest count as free. Is the stiff one meant, or is a unit wrong?",
+            short(spread)
         )
     })
 }

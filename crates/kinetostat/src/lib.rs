@@ -130,6 +130,7 @@ mod near_singular;
 mod nearest;
 mod network;
 mod no_equilibrium;
+pub mod number;
 mod orientation_follows;
 mod overcome;
 mod parallelogram;

@@ -7,6 +7,7 @@ use crate::equilibrium::ChainProblem;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::loading::Load;
+use crate::number::short;
 use crate::spatial::{Pose, Wrench};
 
 /// In debug builds a tangent that is off by more than this share is refused before solving.
@@ -170,9 +171,9 @@ pub(crate) fn check_load(
             return Err(Error::model(
                 format!("chain '{}'", chain.name()),
                 format!(
-                    "the tangent of a load is not the derivative of its wrench: on node '{}' they differ by {:.1e} (share of the load) when '{}' moves ({load:?})",
+                    "the tangent of a load is not the derivative of its wrench: on node '{}' they differ by {} (share of the load) when '{}' moves ({load:?})",
                     chain.nodes()[check.node],
-                    check.largest,
+                    short(check.largest),
                     check.coordinate
                 ),
             ));

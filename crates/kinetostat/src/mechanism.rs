@@ -178,6 +178,25 @@ impl Mechanism {
         self.loads.get(limb).map_or(&[], Vec::as_slice)
     }
 
+    /// Whether anything acts on it without a load on its tool: gravity, or loads of the model.
+    #[must_use]
+    pub fn has_own_loads(&self) -> bool {
+        let loads = self.loads.iter().map(Vec::len).sum::<usize>() + self.platform_loads.len();
+        self.gravity != Vector3::zeros() || loads > 0
+    }
+
+    /// The same machine without gravity and without the loads of its model (springs between nodes,
+    /// counterweights and so on). Deviations and preloads of springs inside its limbs stay.
+    #[must_use]
+    pub fn without_own_loads(&self) -> Self {
+        Self {
+            gravity: Vector3::zeros(),
+            loads: Vec::new(),
+            platform_loads: Vec::new(),
+            ..self.clone()
+        }
+    }
+
     /// Loads on platforms, those between limbs included, in the order in which they were added.
     #[must_use]
     pub fn platform_loads(&self) -> &[PlatformLoad] {

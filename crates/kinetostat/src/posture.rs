@@ -136,12 +136,12 @@ impl MechanismEquilibrium {
         self.platform.stable && self.shapes_stable()
     }
 
-    /// Largest buckling margin `mu` of all limbs; below 1 is stable.
+    /// Largest share of the way to buckling `mu` of all limbs; below 1 is stable.
     #[must_use]
-    pub fn margin(&self) -> Option<f64> {
+    pub fn share_to_buckling(&self) -> Option<f64> {
         self.limbs
             .iter()
-            .filter_map(|l| l.stability.margin)
+            .filter_map(|l| l.stability.share_to_buckling)
             .max_by(f64::total_cmp)
     }
 

@@ -2,8 +2,8 @@
 //!
 //! `S_c = V^T (H - K) V`, where the columns of `V` span the motions that the end condition leaves. Its
 //! sign tells whether the shape holds; its size depends on what is taken as the unit of a motion: here
-//! a turn of one radian and a slide of a stated length count alike, and `V` is orthonormal. The margin
-//! `mu` of [`crate::ShapeStability`] depends on no such choice: prefer it.
+//! a turn of one radian and a slide of a stated length count alike, and `V` is orthonormal. The share of
+//! the way to buckling `mu` of [`crate::ShapeStability`] depends on no such choice: prefer it.
 //!
 //! `H` is the whole Hessian with the terms of loads on nodes [R 5.23], which the print leaves out of
 //! [R 5.10-5.21] and of Table 5.2 (erratum).

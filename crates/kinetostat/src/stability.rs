@@ -2,7 +2,7 @@
 //!
 //! With the end held, the chain can still move along the null space `N` of its Jacobian. The shape
 //! is stable iff `S_c = N^T (H - K) N` is negative definite; equivalently iff the bordered matrix
-//! has as many positive eigenvalues as the Jacobian has rows. The margin `mu` is the largest
+//! has as many positive eigenvalues as the Jacobian has rows. The share of the way to buckling `mu` is the largest
 //! eigenvalue of `(N^T H N) v = mu (N^T K N) v`: it does not depend on coordinates, 0 is unloaded,
 //! 1 is the point of buckling. `S_c` is symmetric even where `H` is not, because null motions do
 //! not turn the end; the symmetric part of `H` is used.
@@ -26,7 +26,7 @@ pub struct ShapeStability {
     pub inertia: Inertia,
     /// `mu`, largest share of the way to buckling: below 1 is stable. `None` for a chain without
     /// inner freedom; infinite where a passive motion is pushed out of line.
-    pub margin: Option<f64>,
+    pub share_to_buckling: Option<f64>,
     /// Motion of all coordinates in the most critical mode (m, rad), largest component 1.
     pub mode: Vec<f64>,
     /// Passive joints that can move for nothing (neutral, taken out of the verdict).
@@ -45,14 +45,14 @@ pub enum ShapeVerdict {
     Singular,
 }
 
-/// Margins that differ from 1 by less are taken as 1: rounding of a converged equilibrium.
+/// Shares that differ from 1 by less are taken as 1: rounding of a converged equilibrium.
 const AT_CRITICAL: f64 = 1e-9;
 
 impl ShapeStability {
     /// Stable, unstable, or singular.
     #[must_use]
     pub fn verdict(&self) -> ShapeVerdict {
-        match self.margin {
+        match self.share_to_buckling {
             Some(mu) if (mu - 1.0).abs() <= AT_CRITICAL => ShapeVerdict::Singular,
             _ if self.stable => ShapeVerdict::Stable,
             _ => ShapeVerdict::Unstable,
@@ -62,7 +62,7 @@ impl ShapeStability {
     /// The verdict and how far it is from changing, for people.
     #[must_use]
     pub fn in_words(&self) -> String {
-        let mu = self.margin.unwrap_or(0.0);
+        let mu = self.share_to_buckling.unwrap_or(0.0);
         match self.verdict() {
             ShapeVerdict::Singular => "stands at its critical load (mu 1)".into(),
             ShapeVerdict::Unstable if mu.is_finite() => {
@@ -71,7 +71,7 @@ impl ShapeStability {
             ShapeVerdict::Unstable => {
                 "does not keep its shape: the load pushes passive joints that nothing holds".into()
             }
-            ShapeVerdict::Stable if self.margin.is_none() => {
+            ShapeVerdict::Stable if self.share_to_buckling.is_none() => {
                 "keeps its shape: it has no inner freedom".into()
             }
             ShapeVerdict::Stable if mu <= 0.0 => {
@@ -108,9 +108,9 @@ pub(crate) fn swept_stability_within(
     let shape = crate::sweep_solve::shape(sweep, ends)?;
     let own = shape.mode.iter().zip(&factors[6..]);
     Some(ShapeStability {
-        stable: shape.margin < 1.0,
+        stable: shape.share_to_buckling < 1.0,
         inertia: shape.inertia,
-        margin: Some(shape.margin),
+        share_to_buckling: Some(shape.share_to_buckling),
         mode: largest_one(own.map(|(v, f)| v * f).collect()),
         neutral: Vec::new(),
     })
@@ -179,15 +179,15 @@ pub(crate) fn stability_within(
     let null = complement(&taken_out);
     let a = null.transpose() * &hessian * &null;
     let b = null.transpose() * &springs * &null;
-    let (margin, mode) = margin(&a, &b);
+    let (share_to_buckling, mode) = share_to_buckling(&a, &b);
     let mode = mode.map_or_else(Vec::new, |v| {
         let motion = &null * v;
         largest_one((0..n).map(|i| motion[i] * factors[6 + i]).collect())
     });
     ShapeStability {
-        stable: margin.is_none_or(|mu| mu < 1.0),
+        stable: share_to_buckling.is_none_or(|mu| mu < 1.0),
         inertia,
-        margin,
+        share_to_buckling,
         mode,
         neutral: names_in(chain, &neutral),
     }
@@ -221,7 +221,10 @@ pub(crate) fn neutral_motions(
 const NEUTRAL: f64 = 1e-7;
 
 /// Largest eigenvalue of the pencil `a v = mu b v`, `b` positive semi-definite, and its vector.
-pub(crate) fn margin(a: &DMatrix<f64>, b: &DMatrix<f64>) -> (Option<f64>, Option<DVector<f64>>) {
+pub(crate) fn share_to_buckling(
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+) -> (Option<f64>, Option<DVector<f64>>) {
     if a.nrows() == 0 {
         return (None, None);
     }

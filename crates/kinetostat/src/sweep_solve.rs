@@ -368,7 +368,7 @@ impl<'s> Shifted<'s> {
 pub(crate) struct Shape {
     pub inertia: Inertia,
     /// Largest eigenvalue of the pencil.
-    pub margin: f64,
+    pub share_to_buckling: f64,
     /// Its vector.
     pub mode: Vec<f64>,
 }
@@ -489,7 +489,7 @@ pub(crate) fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
     if sweep.unloaded() {
         return Some(Shape {
             inertia,
-            margin: 0.0,
+            share_to_buckling: 0.0,
             mode: best.v,
         });
     }
@@ -550,7 +550,7 @@ pub(crate) fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
     }
     Some(Shape {
         inertia,
-        margin: best.quotient,
+        share_to_buckling: best.quotient,
         mode: best.v,
     })
 }

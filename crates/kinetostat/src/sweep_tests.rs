@@ -331,10 +331,10 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
     assert_eq!(a.stability.inertia, b.stability.inertia, "{case}");
     assert_eq!(a.stability.stable, b.stability.stable, "{case}");
     let (ma, mb) = (
-        a.stability.margin.expect("margin"),
-        b.stability.margin.expect("margin"),
+        a.stability.share_to_buckling.expect("a share"),
+        b.stability.share_to_buckling.expect("a share"),
     );
-    close(ma, mb, ma.abs().max(1.0), "margin");
+    close(ma, mb, ma.abs().max(1.0), "a share");
 }
 
 /// Cosine of the angle between two modes in the given units.
@@ -428,7 +428,10 @@ fn buckled_and_straight_columns_get_the_same_verdict() {
         assert_eq!(swept.1, Path::Sweep);
         assert_same(&dense.0, &swept.0, &chain, &format!("{segments} {share}"));
         assert_eq!(swept.0.stability.stable, share < 1.0, "{share}");
-        println!("{segments} {share}: {:?}", swept.0.stability.margin);
+        println!(
+            "{segments} {share}: {:?}",
+            swept.0.stability.share_to_buckling
+        );
     }
 }
 
@@ -455,16 +458,16 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
                 _ => EndMotions::held_in(range.clone(), &held),
             };
             assert_eq!(ends.held_count(), k.min(range.ncols()), "{case} {k}");
-            let margin = expected.margin.expect("margin");
+            let share_to_buckling = expected.share_to_buckling.expect("share_to_buckling");
             let Some(shape) = crate::sweep_solve::shape(sweep, &ends) else {
                 // A passive joint that only the end held.
                 assert!(k < 6 && case % 3 > 0, "{case} {k}");
                 continue;
             };
             assert_eq!(expected.inertia, shape.inertia, "{case} {k}");
-            unstable += usize::from(k == 6 && margin > 1.0);
-            let off = (margin - shape.margin).abs() / margin.abs().max(1.0);
-            assert!(off < 1e-8, "{case} {k}: {margin} {}", shape.margin);
+            unstable += usize::from(k == 6 && share_to_buckling > 1.0);
+            let off = (share_to_buckling - shape.share_to_buckling).abs() / share_to_buckling.abs().max(1.0);
+            assert!(off < 1e-8, "{case} {k}: {share_to_buckling} {}", shape.share_to_buckling);
         }
     }
     println!("{unstable} of 40 unstable");

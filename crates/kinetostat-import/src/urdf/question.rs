@@ -1,6 +1,7 @@
 //! What the options and the loop file ask for, against what the robot has: base and tip, which joints
 //! are passive, where everything stands at home, which stiffnesses there are.
 
+use kinetostat::number;
 use std::collections::BTreeSet;
 
 use kinetostat::MotionKind;
@@ -350,10 +351,10 @@ pub(crate) fn with_unit(value: f64, kind: MotionKind) -> String {
 
 /// A number for people: at most four digits after the point.
 fn tidy(x: f64) -> String {
-    if x.abs() >= 1e9 {
-        return format!("{x:.3e}");
+    let text = number::fixed(x, 4);
+    if !text.contains('.') || text.contains('e') {
+        return text;
     }
-    let text = format!("{x:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 

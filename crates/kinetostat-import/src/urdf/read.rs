@@ -1,6 +1,7 @@
 //! From the XML tree to a [`Robot`]: every element and attribute that moves or bends it is read or
 //! refused; what does neither is counted and skipped.
 
+use kinetostat::number::short;
 use std::collections::BTreeMap;
 
 use kinetostat::MotionKind;
@@ -324,7 +325,7 @@ impl Reader<'_> {
         if most > 1e12 {
             self.log.error(
                 &at,
-                format!("a moment of inertia is {most:e} kg m^2"),
+                format!("a moment of inertia is {} kg m^2", short(most)),
                 "check the unit: kg m^2",
             );
             return false;

@@ -165,8 +165,8 @@ impl Configuration {
             ),
         };
         let knee = format!(
-            "no limit: the force goes on growing. Computed is the knee, where its slope falls fastest: the springs of the parallelograms, translations before rotations, give way under tension (margin {:.3} of 1), an artefact of lumping a bar into one spring that no bar that bows shows (see below); at the printed {inn} mm the force is {at_in:.3} kN",
-            a.knee.margin
+            "no limit: the force goes on growing. Computed is the knee, where its slope falls fastest: the springs of the parallelograms, translations before rotations, give way under tension ({:.3} of the way to buckling), an artefact of lumping a bar into one spring that no bar that bows shows (see below); at the printed {inn} mm the force is {at_in:.3} kN",
+            a.knee.share_to_buckling
         );
         let mut items = vec![
             Item::compared(
@@ -275,11 +275,11 @@ impl Configuration {
                 place.moved,
                 "mm",
                 &format!(
-                    "default law of a link: stable all the way there, far beyond the printed limit; there {:.2} kN, slope {:.0} N/mm, margin {:.3} of 1. {}",
+                    "default law of a link: stable all the way there, far beyond the printed limit; there {:.2} kN, slope {:.0} N/mm, {:.3} of the way to buckling. {}",
                     place.force,
                     place.slope,
-                    place.margin,
-                    if place.margin > 0.999 {
+                    place.share_to_buckling,
+                    if place.share_to_buckling > 0.999 {
                         "Then a bar is bent out of shape by the frames at its ends"
                     } else {
                         "Beyond it the solver found no equilibrium with the tool held, which is no verdict on the machine"
@@ -311,7 +311,7 @@ impl Configuration {
                     ));
                     continue;
                 };
-                let why = match (place.margin > 0.999, side) {
+                let why = match (place.share_to_buckling > 0.999, side) {
                     (true, "inside") => {
                         "a bar under tension loses its shape: an artefact of the springs, no bar does so"
                     }
@@ -324,7 +324,7 @@ impl Configuration {
             }
         }
         if let Some(place) = a.bowed_outside {
-            let why = if place.margin > 0.999 {
+            let why = if place.share_to_buckling > 0.999 {
                 "default law of a link: here the first bar loses its shape (one segment per bar buckles 22 % late), before the force has its limit"
             } else {
                 "default law of a link: limit of the force of the toggle"
@@ -343,9 +343,9 @@ impl Configuration {
             let place = a.bowed.held(low + (high - low) * f64::from(k) / 60.0);
             // Where a bar has lost its shape the solver may be on any of its branches, or on none.
             if let Ok(place) = place
-                && place.margin < 1.0
+                && place.share_to_buckling < 1.0
                 && a.bowed_outside
-                    .is_none_or(|b| b.margin < 0.999 || place.moved > b.moved)
+                    .is_none_or(|b| b.share_to_buckling < 0.999 || place.moved > b.moved)
             {
                 bowed.push(place);
             }
@@ -368,7 +368,7 @@ impl Configuration {
         if a.knee.moved <= high {
             marks.push(mark(&a.knee, "knee"));
         }
-        if let Some(place) = a.bowed_outside.filter(|p| p.margin > 0.999) {
+        if let Some(place) = a.bowed_outside.filter(|p| p.share_to_buckling > 0.999) {
             marks.push(mark(&place, "first bar buckles"));
         }
         Ok(Plot {

@@ -26,7 +26,7 @@ pub(super) struct Place {
     /// Stable while the force is a dead load.
     pub(super) stable: bool,
     /// The leg's shape, the platform held: below 1 is stable.
-    pub(super) margin: f64,
+    pub(super) share_to_buckling: f64,
 }
 
 /// The curve of the machine with its parallelograms as springs, translations before rotations.
@@ -61,7 +61,7 @@ impl Curve {
             force: 3.0 * p.conjugate * 1e-3,
             slope: 3.0 * p.slope * 1e-3,
             stable: p.unstable_modes()[1] == 0,
-            margin: p.held.margin.unwrap_or(0.0),
+            share_to_buckling: p.held.share_to_buckling.unwrap_or(0.0),
         };
         let branch = curves.branches.first();
         let mut places: Vec<Place> = branch
@@ -205,7 +205,7 @@ impl Bars {
         // Where a bar has lost its shape the solver may find nothing at all.
         let holds = |moved: f64| {
             let place = self.held(moved).ok()?;
-            (place.slope > 0.0 && place.margin < 1.0).then_some(place)
+            (place.slope > 0.0 && place.share_to_buckling < 1.0).then_some(place)
         };
         let (mut good, mut bad) = (0.0, None);
         for k in 1..=STEPS {
@@ -240,7 +240,7 @@ pub(super) fn hold(posture: &Posture<'_>, at: f64, moved: f64) -> Result<Place, 
         force: e.wrench.force().dot(&diagonal()) * 1e-3,
         slope,
         stable: slope > 0.0 && e.limbs.iter().all(|l| l.stability.stable),
-        margin: e.margin().unwrap_or(0.0),
+        share_to_buckling: e.share_to_buckling().unwrap_or(0.0),
     })
 }
 

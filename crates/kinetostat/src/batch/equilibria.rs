@@ -40,9 +40,9 @@ pub struct Verdict {
     /// Force (N) per metre in the softest direction with the tool free to turn, as
     /// [`MechanismEquilibrium::stiffness_against_force`].
     pub stiffness_against_force: f64,
-    /// Largest buckling margin `mu` of all limbs, below 1 is stable, as
-    /// [`MechanismEquilibrium::margin`].
-    pub margin: Option<f64>,
+    /// Largest share of the way to buckling `mu` of all limbs, below 1 is stable, as
+    /// [`MechanismEquilibrium::share_to_buckling`].
+    pub share_to_buckling: Option<f64>,
 }
 
 /// Commanded poses of many postures, with the equilibria that they lead to.
@@ -101,11 +101,12 @@ impl BatchEquilibrium {
         if self.verdicts.width() == 0 || self.found[posture] == Found::Not {
             return None;
         }
-        let [stable, stiffness, margin] = [0, 1, 2].map(|k| self.verdicts.get(posture, k));
+        let [stable, stiffness, share_to_buckling] =
+            [0, 1, 2].map(|k| self.verdicts.get(posture, k));
         Some(Verdict {
             stable: stable > 0.0,
             stiffness_against_force: stiffness,
-            margin: (!margin.is_nan()).then_some(margin),
+            share_to_buckling: (!share_to_buckling.is_nan()).then_some(share_to_buckling),
         })
     }
 
@@ -171,7 +172,7 @@ impl Alone {
             verdict: vec![
                 f64::from(u8::from(found.stable())),
                 found.stiffness_against_force(),
-                found.margin().unwrap_or(f64::NAN),
+                found.share_to_buckling().unwrap_or(f64::NAN),
             ],
         }
     }

@@ -1,7 +1,7 @@
-//! Does a limb keep its shape while its end is held? The margin of [`crate::ShapeStability`], several
+//! Does a limb keep its shape while its end is held? The share to buckling of [`crate::ShapeStability`], several
 //! postures at once.
 //!
-//! Springs are counted in units in which their stiffness at rest is one, `C = M M^T`, so that the margin
+//! Springs are counted in units in which their stiffness at rest is one, `C = M M^T`, so that the share
 //! is the largest eigenvalue of the loads' Hessian among motions that leave the end where it is. With
 //! twists `T` of the springs and `P` of the passive joints, `T y + P x = 0`: reflections of `P` give `x = W y`
 //! and conditions on `y` alone, reflections of these leave the motions `y` that are free. What is left
@@ -23,7 +23,7 @@ struct Motion<S: Simd> {
     twist: [Lanes<S>; 6],
 }
 
-/// Buffers for the margin of one limb.
+/// Buffers for the share to buckling of one limb.
 pub(super) struct Shape<S: Simd> {
     motions: Vec<Motion<S>>,
     /// Hessian of the loads, springs first, row by row.
@@ -59,10 +59,10 @@ impl<S: Simd> Shape<S> {
         }
     }
 
-    /// The margin, and the smallest relative pivot on the way to it. `None` where nothing but the end
+    /// The share of the way to buckling, and the smallest relative pivot on the way to it. `None` where nothing but the end
     /// can move.
     #[inline(always)]
-    pub fn margin(
+    pub fn share_to_buckling(
         &mut self,
         plan: &Plan,
         limb: &LoadedLimb<S>,
@@ -78,8 +78,8 @@ impl<S: Simd> Shape<S> {
         for k in 0..held {
             self.hold(k, held);
         }
-        let margin = self.largest(held);
-        Some((margin, self.regular))
+        let share_to_buckling = self.largest(held);
+        Some((share_to_buckling, self.regular))
     }
 
     /// Motions from the base outwards, then the Hessian from the end inwards:

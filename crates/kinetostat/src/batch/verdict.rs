@@ -41,7 +41,7 @@ impl<S: Simd> Machine<'_, S> {
     }
 
     /// Whether the equilibrium holds (one or zero), force per motion in the softest direction of the
-    /// tool, margin (not a number without inner motions), as in [`super::Verdict`]; and the smallest
+    /// tool, share of the way to buckling (not a number without inner motions), as in [`super::Verdict`]; and the smallest
     /// relative pivot on the way: a platform that nothing holds, or that runs away, is judged alone.
     #[inline(always)]
     pub fn verdict(&mut self, simd: S, k: &Mat6<S>) -> ([Lanes<S>; 3], Lanes<S>) {
@@ -54,26 +54,26 @@ impl<S: Simd> Machine<'_, S> {
         }
         let (compliance, mut regular) = own.inverse(simd);
         let softest = largest(compliance.a);
-        let mut margin = None;
+        let mut share_to_buckling = None;
         let limbs = self.shapes.iter_mut().zip(self.actual).zip(&self.limbs);
         for ((shape, plan), limb) in limbs {
-            if let Some((own, pivot)) = shape.margin(plan, limb, &self.gravity) {
+            if let Some((own, pivot)) = shape.share_to_buckling(plan, limb, &self.gravity) {
                 regular = regular.least_of(pivot);
-                margin = Some(match margin {
+                share_to_buckling = Some(match share_to_buckling {
                     Some(other) => own.max(other),
                     None => own,
                 });
             }
         }
-        let stable = match margin {
-            Some(margin) => margin.where_less(one, one, zero),
+        let stable = match share_to_buckling {
+            Some(share_to_buckling) => share_to_buckling.where_less(one, one, zero),
             None => one,
         };
-        let margin = match margin {
-            Some(margin) => margin,
+        let share_to_buckling = match share_to_buckling {
+            Some(share_to_buckling) => share_to_buckling,
             None => zero + f64::NAN,
         };
-        ([stable, one / softest, margin], regular)
+        ([stable, one / softest, share_to_buckling], regular)
     }
 }
 

@@ -36,9 +36,9 @@ pub fn assert_antisymmetric_part(
 
 #[track_caller]
 fn assert_stability_is_consistent(s: &ShapeStability) {
-    if let Some(mu) = s.margin {
-        assert!(!mu.is_nan(), "margin is NaN");
-        assert_eq!(s.stable, mu < 1.0, "verdict and margin disagree: {mu}");
+    if let Some(mu) = s.share_to_buckling {
+        assert!(!mu.is_nan(), "the share is NaN");
+        assert_eq!(s.stable, mu < 1.0, "verdict and share disagree: {mu}");
     } else {
         assert!(s.stable, "no inner freedom but unstable");
     }

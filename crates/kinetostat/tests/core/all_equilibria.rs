@@ -70,7 +70,12 @@ fn the_table_of_the_z_chain_is_complete() {
             close(&label, e.coordinates[2].to_degrees(), n("theta2_deg"), 2e-6);
             close(&label, e.wrench.0[0], n("F_x"), 2e-8);
             close(&label, e.stiffness.cartesian.matrix[(0, 0)], n("K_x"), 1e-6);
-            close(&label, e.stability.margin.unwrap(), n("mu"), 1e-7);
+            close(
+                &label,
+                e.stability.share_to_buckling.unwrap(),
+                n("mu"),
+                1e-7,
+            );
             assert_eq!(
                 e.stability.stable,
                 row["stable"].as_bool().unwrap(),

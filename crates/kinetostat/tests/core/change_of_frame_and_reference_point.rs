@@ -17,7 +17,7 @@ pub struct Turned {
     pub wrench: f64,
     pub stiffness: f64,
     pub energy: f64,
-    pub margins: (Option<f64>, Option<f64>),
+    pub shares_to_buckling: (Option<f64>, Option<f64>),
 }
 
 /// `None` where no equilibrium was found.
@@ -58,7 +58,7 @@ pub fn turned(seed: u64) -> Option<Turned> {
             &e.stiffness.cartesian.rotated(&turn).matrix,
         ),
         energy: (e.energy - o.energy).abs() / e.energy,
-        margins: (e.stability.margin, o.stability.margin),
+        shares_to_buckling: (e.stability.share_to_buckling, o.stability.share_to_buckling),
     })
 }
 
@@ -113,7 +113,7 @@ proptest! {
         prop_assert!(d.wrench < 1e-7, "wrench {:e}", d.wrench);
         prop_assert!(d.stiffness < 1e-8, "stiffness {:e}", d.stiffness);
         prop_assert!(d.energy < 1e-8, "energy {:e}", d.energy);
-        match d.margins {
+        match d.shares_to_buckling {
             (Some(a), Some(b)) => prop_assert!((a - b).abs() < 1e-6 * a.abs().max(1.0)),
             (a, b) => prop_assert_eq!(a.is_some(), b.is_some()),
         }

@@ -345,7 +345,7 @@ fn the_z_chain_forks_at_its_pitchfork() {
         let stable = row["stable"].as_bool().unwrap();
         assert_eq!(p.held.stable, stable, "{label}");
         assert_eq!(p.dead.stable, stable && n("K_x") > 0.0, "{label}");
-        close(&label, p.held.margin.unwrap(), n("mu"), 1e-7);
+        close(&label, p.held.share_to_buckling.unwrap(), n("mu"), 1e-7);
     }
 }
 

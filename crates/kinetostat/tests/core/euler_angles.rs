@@ -213,7 +213,8 @@ pub fn compared() -> Vec<Compared> {
                 return None;
             }
             let e = solve_chain(&problem, &Settings::default()).ok()?;
-            let safe = e.stability.stable && e.stability.margin.is_none_or(|mu| mu < 0.8);
+            let safe =
+                e.stability.stable && e.stability.share_to_buckling.is_none_or(|mu| mu < 0.8);
             safe.then(|| compare(&r, &problem, &e))
         })
         .take(6)

@@ -305,7 +305,7 @@ pub fn elastica(n: usize, convention: LinkConvention) -> f64 {
 
 /// One segment beyond its own buckling load included.
 #[test]
-fn margin_and_inertia_agree_for_every_convention() {
+fn share_to_buckling_and_inertia_agree_for_every_convention() {
     for convention in [
         TranslationsFirst,
         RotationsFirst,

@@ -185,7 +185,7 @@ proptest! {
             if conservative {
                 prop_assert!(asymmetry < 1e-9, "{name}: {asymmetry:e}");
             }
-            if e.stability.margin.is_some_and(|mu| mu > 0.9) {
+            if e.stability.share_to_buckling.is_some_and(|mu| mu > 0.9) {
                 continue;
             }
             let mut near = r.problem(EndCondition::pose(target));

@@ -89,7 +89,7 @@ fn at_rest(chain: &Chain, posture: &[f64]) -> DMatrix<f64> {
 }
 
 /// Largest eigenvalue of `(N^T H N) v = mu (N^T K N) v`, dense, from the oracle's derivatives.
-fn oracle_margin(problem: &ChainProblem<'_>, e: &Equilibrium) -> f64 {
+fn oracle_share(problem: &ChainProblem<'_>, e: &Equilibrium) -> f64 {
     let chain = problem.chain;
     let frames = Frames::new(chain, &problem.base, &e.coordinates, &problem.commands);
     let (_, tangent, _) = springs(chain, &e.coordinates, &problem.posture);
@@ -165,7 +165,10 @@ fn equilibria_of_long_chains_hold_before_the_oracle() {
         );
         let off = (found - expected).amax();
         assert!(off < 1e-8 * expected.amax(), "{case}: K_C off by {off:.2e}");
-        let (found, expected) = (e.stability.margin.unwrap(), oracle_margin(&problem, &e));
+        let (found, expected) = (
+            e.stability.share_to_buckling.unwrap(),
+            oracle_share(&problem, &e),
+        );
         assert!(
             (found - expected).abs() < 1e-9 * expected.abs().max(1.0),
             "{case}: mu {found} {expected}"
@@ -241,11 +244,11 @@ fn a_column_of_many_segments_buckles_at_eulers_load() {
         let e = solve_chain(&problem, &Settings::default()).unwrap();
         // Held at both ends against turning about y, hinged about z; the tip held fast for the
         // verdict of the shape: hinged and clamped in the plane of the hinge, 2.0457 Euler loads.
-        let margin = e.stability.margin.unwrap();
+        let share_to_buckling = e.stability.share_to_buckling.unwrap();
         let expected = 0.5 / 2.045_748;
         assert!(
-            (margin - expected).abs() < 2e-3 * expected,
-            "{segments}: {margin} {expected}"
+            (share_to_buckling - expected).abs() < 2e-3 * expected,
+            "{segments}: {share_to_buckling} {expected}"
         );
         assert!(e.stability.stable);
         assert_eq!(e.nodes.len(), chain.nodes().len());
@@ -273,7 +276,7 @@ fn answers_settle_as_the_same_bar_gets_more_segments() {
             place.x,
             place.y,
             place.z,
-            e.stability.margin.unwrap(),
+            e.stability.share_to_buckling.unwrap(),
             e.energy,
         ]
     };
@@ -374,7 +377,7 @@ fn absurd_questions_to_long_chains_end_in_words() {
                 answered += 1;
                 assert!(e.coordinates.iter().all(|x| x.is_finite()));
                 assert!(e.stiffness.cartesian.matrix.iter().all(|x| x.is_finite()));
-                assert!(!e.stability.margin.unwrap_or(0.0).is_nan());
+                assert!(!e.stability.share_to_buckling.unwrap_or(0.0).is_nan());
             }
             Err(error) => {
                 refused += 1;

@@ -63,7 +63,10 @@ fn slender_links_bend_alike_in_chains_and_machines() {
             let (alone, machine) = both(&rod(segments, axial), wrench);
             let off = pose_residual(&alone.tip, &machine.tool).0.norm();
             assert!(off <= 1e-9, "{case}: off by {off:e}");
-            let (a, b) = (alone.stability.margin.unwrap(), machine.margin().unwrap());
+            let (a, b) = (
+                alone.stability.share_to_buckling.unwrap(),
+                machine.share_to_buckling().unwrap(),
+            );
             assert!((a - b).abs() <= 1e-6 * (1.0 + a.abs()), "{case}: {a}, {b}");
             // Judged by motion, not by what lacks, which grows with the axial stiffness.
             let (few, own) = (alone.residual.iterations, machine.residual.iterations);

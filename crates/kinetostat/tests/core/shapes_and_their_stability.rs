@@ -1,4 +1,4 @@
-//! Which shapes hold: the inertia of the bordered matrix, the margin mu and the null-space criterion
+//! Which shapes hold: the inertia of the bordered matrix, the share mu of the way to buckling and the null-space criterion
 //! by brute force say the same on both sides of every buckling load [R 5.16-5.21].
 
 use crate::common::{
@@ -19,7 +19,7 @@ struct Brute {
     /// Eigenvalues of `N^T (H - K) N`, balanced.
     criterion: Vec<f64>,
     /// Eigenvalues of the pencil, if `N^T K N` is definite.
-    margins: Option<Vec<f64>>,
+    shares_to_buckling: Option<Vec<f64>>,
 }
 
 fn brute(problem: &ChainProblem<'_>, e: &Equilibrium) -> Brute {
@@ -54,13 +54,13 @@ fn brute(problem: &ChainProblem<'_>, e: &Equilibrium) -> Brute {
     if null.is_empty() {
         return Brute {
             criterion: vec![],
-            margins: Some(vec![]),
+            shares_to_buckling: Some(vec![]),
         };
     }
     let null = DMatrix::from_columns(&null);
     let a = null.transpose() * (&h + h.transpose()) * 0.5 * &null;
     let b = null.transpose() * &k * &null;
-    let margins = b.clone().cholesky().map(|c| {
+    let shares_to_buckling = b.clone().cholesky().map(|c| {
         let inverse = c.l().try_inverse().unwrap();
         let m = &inverse * &a * inverse.transpose();
         let mut v: Vec<f64> = (0.5 * (&m + m.transpose()))
@@ -72,7 +72,10 @@ fn brute(problem: &ChainProblem<'_>, e: &Equilibrium) -> Brute {
         v
     });
     let criterion = (a - b).symmetric_eigenvalues().iter().copied().collect();
-    Brute { criterion, margins }
+    Brute {
+        criterion,
+        shares_to_buckling,
+    }
 }
 
 #[track_caller]
@@ -82,18 +85,22 @@ fn same_verdict(label: &str, problem: &ChainProblem<'_>, e: &Equilibrium) {
     let s = &e.stability;
     assert_eq!(
         s.stable, stable,
-        "{label}: criterion {:?}, margin {:?}",
-        b.criterion, s.margin
+        "{label}: criterion {:?}, share {:?}",
+        b.criterion, s.share_to_buckling
     );
-    if let (Some(margins), Some(mu)) = (&b.margins, s.margin) {
+    if let (Some(shares_to_buckling), Some(mu)) = (&b.shares_to_buckling, s.share_to_buckling) {
         close(
             &format!("{label}: mu"),
             mu,
-            *margins.last().unwrap(),
+            *shares_to_buckling.last().unwrap(),
             1e-7 * mu.abs().max(1.0),
         );
     }
-    assert_eq!(s.margin.is_none(), b.criterion.is_empty(), "{label}");
+    assert_eq!(
+        s.share_to_buckling.is_none(),
+        b.criterion.is_empty(),
+        "{label}"
+    );
     let rank = 6 - e.stiffness.count(DirectionKind::Rigid);
     if s.neutral.is_empty() {
         assert_eq!(
@@ -227,7 +234,7 @@ fn straight_columns_buckle_at_two_one_minus_cosine() {
             };
             close(
                 &label,
-                e.stability.margin.unwrap(),
+                e.stability.share_to_buckling.unwrap(),
                 expected,
                 1e-9 * expected.abs().max(1.0),
             );
@@ -349,7 +356,12 @@ fn all_equilibria_of_the_z_chain() {
         close(&label, e.coordinates[0].to_degrees(), n("q_deg"), 2e-6);
         close(&label, e.wrench.0[0], n("F_x"), 2e-8);
         close(&label, e.stiffness.cartesian.matrix[(0, 0)], n("K_x"), 1e-6);
-        close(&label, e.stability.margin.unwrap(), n("mu"), 1e-7);
+        close(
+            &label,
+            e.stability.share_to_buckling.unwrap(),
+            n("mu"),
+            1e-7,
+        );
         close(&label, shape_criterion(&problem, &e), n("S_c"), 1e-7);
         assert_eq!(
             e.stability.stable,
@@ -383,29 +395,37 @@ fn pinned_columns_of_tr_springs_have_the_stated_critical_loads() {
             .passive("e", MotionKind::Revolute, Vector3::z(), 0.0)
             .build()
             .unwrap();
-        // The margin grows with the load: bisect mu = 1 from both verdicts.
-        let margin = |p: f64| {
+        // The share grows with the load: bisect mu = 1 from both verdicts.
+        let share_to_buckling = |p: f64| {
             let problem = pressed(&chain, length, p);
             let e = solve_chain(&problem, &Settings::default()).unwrap();
             assert_chain_equilibrium(&problem, &e);
-            if e.stability.margin.unwrap().abs() < 0.999 || e.stability.margin.unwrap() > 1.001 {
+            if e.stability.share_to_buckling.unwrap().abs() < 0.999
+                || e.stability.share_to_buckling.unwrap() > 1.001
+            {
                 same_verdict(&format!("{n} segments at {p}"), &problem, &e);
             }
-            (e.stability.margin.unwrap(), e.stability.stable)
+            (e.stability.share_to_buckling.unwrap(), e.stability.stable)
         };
         for (key, sign) in [("compression", 1.0), ("tension", -1.0)] {
             let Some(critical) = case[key].as_f64() else {
                 if key == "compression" {
-                    assert!(margin(50.0 * euler).1, "one TR segment never buckles");
+                    assert!(
+                        share_to_buckling(50.0 * euler).1,
+                        "one TR segment never buckles"
+                    );
                 }
                 continue;
             };
             let (low, high) = (0.9 * critical * euler * sign, 1.1 * critical * euler * sign);
-            assert!(margin(low).1 && !margin(high).1, "{n} segments, {key}");
+            assert!(
+                share_to_buckling(low).1 && !share_to_buckling(high).1,
+                "{n} segments, {key}"
+            );
             let (mut a, mut c) = (low, high);
             for _ in 0..40 {
                 let middle = 0.5 * (a + c);
-                if margin(middle).1 {
+                if share_to_buckling(middle).1 {
                     a = middle
                 } else {
                     c = middle

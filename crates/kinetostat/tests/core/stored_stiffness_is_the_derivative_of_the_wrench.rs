@@ -94,12 +94,16 @@ pub fn loaded_stiffness_error(seed: u64) -> Option<StiffnessError> {
     wrenches.push((frames.tip(), e.wrench));
     let own = oracle::chain_stiffness(&r.chain, &frames, &springs, &wrenches);
 
-    let resolved = e.stability.margin.is_none_or(|mu| mu < 0.9).then(|| {
-        let mut near = problem.clone();
-        // Start where the neighbours are, so that no other branch is found.
-        near.posture.clone_from(&e.coordinates);
-        balanced_error(&k, &differences(&near, &e, 1e-4))
-    });
+    let resolved = e
+        .stability
+        .share_to_buckling
+        .is_none_or(|mu| mu < 0.9)
+        .then(|| {
+            let mut near = problem.clone();
+            // Start where the neighbours are, so that no other branch is found.
+            near.posture.clone_from(&e.coordinates);
+            balanced_error(&k, &differences(&near, &e, 1e-4))
+        });
     Some(StiffnessError {
         bordered: balanced_error(&k, &own),
         resolved,

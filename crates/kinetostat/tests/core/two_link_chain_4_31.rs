@@ -81,7 +81,7 @@ fn the_loaded_two_link_chain_has_the_closed_form_of_eqs_4_31_and_4_32() {
         close(&label, k[(5, 5)], 0.0, 1e-9);
         // Both x and y held: a rigid two-link chain has no inner freedom left.
         assert!(e.stability.stable, "{label}");
-        assert_eq!(e.stability.margin, None, "{label}");
+        assert_eq!(e.stability.share_to_buckling, None, "{label}");
     }
 }
 
@@ -89,7 +89,7 @@ fn the_loaded_two_link_chain_has_the_closed_form_of_eqs_4_31_and_4_32() {
 /// one inner freedom, so the true shape criterion S_c of Table 5.2 is visible. S_c belongs to the
 /// unit vector (2, -1, -1)/sqrt 6 of (theta, q1, q2); mu = 1 + (6/4) S_c / K_theta needs no choice.
 #[test]
-fn the_margin_is_the_true_shape_criterion_of_table_5_2() {
+fn the_share_to_buckling_is_the_true_shape_criterion_of_table_5_2() {
     let file = golden("table_5_2.json");
     let a0 = number(&file["alpha0_deg"]).to_radians();
     let chain = Chain::builder("two links, x free")
@@ -133,7 +133,7 @@ fn the_margin_is_the_true_shape_criterion_of_table_5_2() {
             .unwrap_or_else(|error| panic!("{label}: {error}"));
         assert_chain_equilibrium(&problem, &e);
         close(&label, e.coordinates[0], a, 1e-7);
-        close(&label, e.stability.margin.unwrap(), mu, 1e-6);
+        close(&label, e.stability.share_to_buckling.unwrap(), mu, 1e-6);
         assert_eq!(e.stability.stable, s_c < 0.0, "{label}");
         let verdict = e.stability.inertia.positive == 3;
         assert_eq!(

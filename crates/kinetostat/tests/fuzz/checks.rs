@@ -85,10 +85,10 @@ pub fn blocks(blocks: &ChainBlocks) {
 }
 
 pub fn stability(s: &ShapeStability, n: usize) {
-    match s.margin {
+    match s.share_to_buckling {
         Some(mu) => {
-            assert!(!mu.is_nan(), "margin is NaN");
-            assert_eq!(s.stable, mu < 1.0, "verdict and margin {mu} disagree");
+            assert!(!mu.is_nan(), "the share is NaN");
+            assert_eq!(s.stable, mu < 1.0, "verdict and share {mu} disagree");
         }
         None => assert!(s.stable, "unstable without inner freedom"),
     }
@@ -209,7 +209,7 @@ pub fn finite(e: &Equilibrium) {
         all_finite("pose", pose.to_homogeneous().iter());
     }
     stiffness(&e.stiffness);
-    assert!(e.stability.margin.is_none_or(|mu| !mu.is_nan()));
+    assert!(e.stability.share_to_buckling.is_none_or(|mu| !mu.is_nan()));
 }
 
 /// Everything about an equilibrium of a problem.

@@ -1,9 +1,13 @@
-//! How numbers look: one formatter for the terminal, for messages and for the report, so that a figure
-//! has the same digits wherever it stands.
+//! How numbers look in text: one formatter for messages, for the terminal and for the report, so that a
+//! figure has the same digits wherever it stands.
 //!
 //! Text is plain ASCII with a point, `um` for micrometres and engineering notation (`12.5e6`, powers in
 //! steps of three) outside 1e-5 to 1e7. The report sets the same text in type (`µm`, thousands apart,
 //! powers of ten).
+//!
+//! Small values follow one rule. Below 1e-12 a value is the rounding of its arithmetic: it is stated as 0.
+//! Lengths, angles and shares have a smallest figure (0.001 um, 0.0001 deg, 0.0001 %): a largest value
+//! below it is stated as that figure, which is an upper bound; a mean or a least value is "below" it.
 
 /// What stands where there is no number.
 pub const MISSING: &str = "not available";
@@ -82,7 +86,19 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 /// A number as somebody set it: no digits that mean nothing.
 #[must_use]
 pub fn setting(value: f64) -> String {
-    let text = significant(value, 6, Rounding::Nearest);
+    trimmed(value, 6)
+}
+
+/// A number in a message: three digits, to the nearest.
+#[must_use]
+pub fn short(value: f64) -> String {
+    trimmed(value, DIGITS)
+}
+
+/// A number to the nearest, without zeros at its end.
+#[must_use]
+pub fn trimmed(value: f64, digits: usize) -> String {
+    let text = significant(value, digits, Rounding::Nearest);
     if text.contains('.') && !text.contains('e') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -110,20 +126,14 @@ pub fn length_unit(largest_mm: f64) -> (&'static str, f64) {
     }
 }
 
-/// A length with its unit, in micrometres where it is small. Below a picometre there is no length.
+/// A length with its unit, in micrometres where it is small.
 #[must_use]
 pub fn length(value_mm: f64, digits: usize, rounding: Rounding) -> String {
-    let (unit, factor) = length_unit(value_mm);
-    let value = value_mm * factor;
-    if value != 0.0 && value.abs() < 0.001 {
-        // Rounded up, the smallest length that is stated is an upper bound without a word for it.
-        return if rounding == Rounding::Up && value > 0.0 {
-            with_unit("0.001", unit)
-        } else {
-            with_unit("below 0.001", unit)
-        };
+    if value_mm.abs() < NOTHING {
+        return with_unit("0", "mm");
     }
-    with_unit(&significant(value, digits, rounding), unit)
+    let (unit, factor) = length_unit(value_mm);
+    with_unit(&above(value_mm * factor, 0.001, digits, rounding), unit)
 }
 
 /// A length that somebody set.
@@ -154,28 +164,38 @@ pub fn mean_length(value_mm: f64) -> String {
 /// Below this a force, a motion or a share is the rounding of its arithmetic.
 const NOTHING: f64 = 1e-12;
 
+/// A number that has a smallest figure, by the rule of small values; zero: it has none.
+fn above(value: f64, smallest: f64, digits: usize, rounding: Rounding) -> String {
+    if value.abs() < NOTHING {
+        return "0".to_owned();
+    }
+    if value.abs() >= smallest || value.is_nan() {
+        return significant(value, digits, rounding);
+    }
+    match rounding {
+        Rounding::Up if value > 0.0 => setting(smallest),
+        // What is no less than a value a little below zero.
+        Rounding::Up => "0".to_owned(),
+        _ => format!("below {}", setting(smallest)),
+    }
+}
+
 /// The largest of values, never stated too small.
 #[must_use]
 pub fn largest(value: f64, unit: &str) -> String {
-    if value.abs() < NOTHING {
-        return with_unit("0", unit);
-    }
-    with_unit(&significant(value, DIGITS, Rounding::Up), unit)
+    with_unit(&above(value, 0.0, DIGITS, Rounding::Up), unit)
 }
 
 /// The least of values, never stated too large.
 #[must_use]
 pub fn least(value: f64, unit: &str) -> String {
-    with_unit(&significant(value, DIGITS, Rounding::Down), unit)
+    with_unit(&above(value, 0.0, DIGITS, Rounding::Down), unit)
 }
 
 /// The largest of angles in degrees, never stated too small.
 #[must_use]
 pub fn largest_angle(value_deg: f64) -> String {
-    if value_deg > 0.0 && value_deg < 1e-4 {
-        return with_unit("0.0001", "deg");
-    }
-    largest(value_deg, "deg")
+    with_unit(&above(value_deg, 1e-4, DIGITS, Rounding::Up), "deg")
 }
 
 /// The largest of shares of the way to buckling (1 is there), in percent, never stated too small. A
@@ -183,15 +203,12 @@ pub fn largest_angle(value_deg: f64) -> String {
 #[must_use]
 pub fn share(value: f64) -> String {
     let percent = 100.0 * value;
-    if percent.abs() < 1e-4 {
-        return with_unit("0", "%");
-    }
-    let rounding = if value < 0.0 {
-        Rounding::Down
-    } else {
-        Rounding::Up
+    // Away from zero is upwards only above it.
+    let number = match percent <= -1e-4 {
+        true => significant(percent, DIGITS, Rounding::Down),
+        false => above(percent, 1e-4, DIGITS, Rounding::Up),
     };
-    with_unit(&significant(percent, DIGITS, rounding), "%")
+    with_unit(&number, "%")
 }
 
 /// A largest length beside the bound that it is judged by, with as many digits as show on which side
@@ -311,6 +328,29 @@ mod tests {
         assert_eq!(largest_length(f64::NAN), MISSING);
         assert_eq!(share(0.086), "8.60 %");
         assert_eq!(share(0.0), "0 %");
+    }
+
+    #[test]
+    fn small_values_follow_one_rule() {
+        for nothing in [0.0, -0.0, 1e-13, -1e-13] {
+            assert_eq!(largest_length(nothing), "0 mm");
+            assert_eq!(least_length(nothing), "0 mm");
+            assert_eq!(mean_length(nothing), "0 mm");
+            assert_eq!(largest_angle(nothing), "0 deg");
+            assert_eq!(share(1e-2 * nothing), "0 %");
+            assert_eq!(largest(nothing, "N"), "0 N");
+            assert_eq!(least(nothing, "N"), "0 N");
+        }
+        // A largest value is never stated too small.
+        assert_eq!(largest_length(1e-7), "0.001 um");
+        assert_eq!(largest_angle(1e-7), "0.0001 deg");
+        assert_eq!(share(1e-9), "0.0001 %");
+        assert_eq!(largest(1e-7, "N"), "100e-9 N");
+        assert_eq!(share(-1e-9), "0 %");
+        assert_eq!(share(-0.5), "-50.0 %");
+        // Neither a mean nor a least value is an upper bound.
+        assert_eq!(mean_length(1e-7), "below 0.001 um");
+        assert_eq!(least_length(1e-7), "below 0.001 um");
     }
 
     /// A simple sequence of numbers over many powers of ten.
