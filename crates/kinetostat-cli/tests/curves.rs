@@ -571,3 +571,58 @@ fn only_what_is_at_a_limit_is_called_so() {
         );
     }
 }
+
+/// Ziegler's column of two equal springs (1 m, 1 N m/rad each): a force that follows the last link stays, and a
+/// dead one grows. In the absolute angles the tangent is `[[2 - F - p, F - 1], [-1, 1 - p]]`: its determinant
+/// `p^2 - (3 - F) p + 1` has no zero from F = 1 on, where the symmetric part is indefinite long before.
+#[test]
+fn a_column_under_a_force_that_follows_loses_no_stability_by_its_symmetric_part() {
+    let here = workplace();
+    for follows in [0.5, 0.9, 1.1, 2.5] {
+        let text = format!(
+            "schema = 1\n[mechanism]\nname = \"Ziegler\"\n[[platform]]\nname = \"tool\"\nhome = {{ position_mm = [2000, 0, 0] }}\n[chain.column]\nelements = [\n{{ actuator = \"revolute\", name = \"s1\", axis = \"z\", stiffness_n_m_per_rad = 1 }},\n{{ rigid = {{ translation_mm = [1000, 0, 0] }} }},\n{{ actuator = \"revolute\", name = \"s2\", axis = \"z\", stiffness_n_m_per_rad = 1 }},\n{{ rigid = {{ translation_mm = [1000, 0, 0] }} }},\n{{ node = \"top\" }},\n]\n[[limb]]\nname = \"column\"\nfrom = \"base\"\nto = \"tool\"\nchain = \"column\"\n[[limb.load]]\nwrench = \"jet\"\nnode = \"top\"\naxes = \"node\"\nforce_n = [-{follows}, 0, 0]\n"
+        );
+        std::fs::write(here.path().join("ziegler.toml"), text).expect("a model");
+        let line = "curve ziegler.toml --force -0.01 0 0 --factor 0 300";
+        let words: Vec<&str> = line.split(' ').collect();
+        let answer = json(here.path(), &words);
+        let loads = answer["critical_loads"].as_array().expect("a list");
+        let whole = loads
+            .iter()
+            .find(|c| c["judged"] == "shape_and_tool")
+            .expect("the whole");
+        let half: f64 = 0.5 * (3.0 - follows);
+        match half >= 1.0 {
+            true => {
+                let asked = 100.0 * (half - (half * half - 1.0).sqrt());
+                for name in ["factor", "linear_factor"] {
+                    let found = number(&whole[name]);
+                    assert!(
+                        (found - asked).abs() < 1e-4,
+                        "{follows} {name}: {found} {asked}"
+                    );
+                }
+            }
+            false => {
+                assert!(whole["factor"].is_null(), "{follows}: {whole}");
+                assert!(whole["linear_factor"].is_null(), "{follows}: {whole}");
+            }
+        }
+        // Below the factor at which the symmetric part turns indefinite all is well; above it, masses decide.
+        let symmetric = |p: f64| (2.0 - follows - p) * (1.0 - p) - (0.5 * follows - 1.0).powi(2);
+        let until = 1e-2 * number(&whole["safe_below_factor"]);
+        let holds = until == 0.0 && symmetric(0.0) < 0.0;
+        assert!(holds || symmetric(until).abs() < 1e-5, "{follows}: {until}");
+        let caution = whole["caution"].as_str().expect("words");
+        assert!(
+            caution.contains("flutter") && caution.contains("masses"),
+            "{caution}"
+        );
+        let said = run(here.path(), &words).answered();
+        let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            flat.contains("flutter") && flat.contains("depends on the masses"),
+            "{flat}"
+        );
+    }
+}

@@ -21,7 +21,7 @@ use crate::reduced::{LoadPattern, Parameter, Reduced};
 use crate::saddle::{Saddle, column_space, complement};
 use crate::singular_values::SingularValues;
 use crate::spatial::Wrench;
-use crate::stability::margin;
+use crate::stability::share_to_buckling;
 use crate::tracer::Tracer;
 
 /// What must stay stable.
@@ -123,9 +123,14 @@ pub fn critical_load_factor(
     let mut judge = Reduced::new(problem, Some(&parameter), &settings.solver)?;
     judge.start(&start.coordinates, &start.wrench, 0.0)?;
     let judge = RefCell::new(judge);
+    let diverged_before = {
+        let mut judge = judge.borrow_mut();
+        let (springs, loads) = Tangent::at(&mut judge, &z, &z, judged).at_start();
+        largest_real(&springs, &loads).is_some_and(|mu| mu >= 1.0)
+    };
     let unstable = |p: &CurvePoint| {
-        indefinite(p)
-            && (conservative || diverges(&Tangent::at(&mut judge.borrow_mut(), &p.z, judged)))
+        let diverges = || diverges(&Tangent::at(&mut judge.borrow_mut(), &p.z, &z, judged));
+        indefinite(p) && (conservative || diverged_before || diverges())
     };
     let curves = follow_until(problem, &parameter, &start, 0.0, &settings, Some(&unstable))?;
     let points = &curves.branches[0].points;
@@ -145,7 +150,7 @@ pub fn critical_load_factor(
         true => mode_of(p, judged),
         false => {
             let mut judge = judge.borrow_mut();
-            let tangent = Tangent::at(&mut judge, &p.z, judged);
+            let tangent = Tangent::at(&mut judge, &p.z, &z, judged);
             let mut motion = DVector::zeros(judge.count() + 1);
             let first = judge.reactions();
             if let Some(v) = tangent.mode() {
@@ -206,19 +211,34 @@ pub fn critical_load_factor(
     })
 }
 
-/// The tangent among the motions that nothing holds, springs and loads apart.
+/// The tangent among the motions that nothing holds: springs, loads that stay, and loads that grow, apart.
 struct Tangent {
     /// `N`, balanced coordinates.
     null: DMatrix<f64>,
     /// `N^T K N`.
     springs: DMatrix<f64>,
-    /// `N^T H N`, unsymmetric without a potential.
-    loads: DMatrix<f64>,
+    /// `N^T H N` of the loads and reactions at factor 0; unsymmetric without a potential.
+    staying: DMatrix<f64>,
+    /// The same of what has come on top.
+    growing: DMatrix<f64>,
 }
 
 impl Tangent {
-    fn at(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, judged: Judged) -> Self {
+    /// At the state `z` of a path that starts at `start`.
+    fn at(
+        reduced: &mut Reduced<'_, '_>,
+        z: &DVector<f64>,
+        start: &DVector<f64>,
+        judged: Judged,
+    ) -> Self {
         let (r, n) = (reduced.reactions(), reduced.coordinates_count());
+        let last = reduced.count();
+        // This posture under what acts at the start.
+        let mut before = z.clone();
+        before.rows_mut(0, r).copy_from(&start.rows(0, r));
+        before[last] = start[last];
+        reduced.linearised_densely(&before);
+        let staying = reduced.load_hessian();
         let (_, _, matrix) = reduced.linearised_densely(z);
         let rows = match judged {
             Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
@@ -227,14 +247,20 @@ impl Tangent {
         let null = free_motions(reduced, &rows);
         Self {
             springs: null.transpose() * reduced.spring_tangent() * &null,
-            loads: null.transpose() * reduced.load_hessian() * &null,
+            growing: null.transpose() * (reduced.load_hessian() - &staying) * &null,
+            staying: null.transpose() * staying * &null,
             null,
         }
     }
 
+    /// Springs and loads at factor 0.
+    fn at_start(self) -> (DMatrix<f64>, DMatrix<f64>) {
+        (self.springs, self.staying)
+    }
+
     /// Motion of the coordinates that meets the least resistance.
     fn mode(&self) -> Option<DVector<f64>> {
-        let own = SingularValues::of(&(&self.springs - &self.loads));
+        let own = SingularValues::of(&(&self.springs - &self.staying - &self.growing));
         let least = own.right.column_iter().next_back()?;
         Some(&self.null * least)
     }
@@ -259,24 +285,27 @@ fn free_motions(reduced: &Reduced<'_, '_>, rows: &DMatrix<f64>) -> DMatrix<f64> 
     complement(&all)
 }
 
-/// True beyond a zero of `det (K - H)`: a real eigenvalue of `K^-1 H` has passed one. Two that pass
-/// together (a round rod) do not change the determinant's sign, so they are counted one by one.
+/// True beyond a zero of `det (A - G)`, where `A = K - H` at factor 0 and `G` is what has come on top: a real
+/// eigenvalue of `A^-1 G` has passed one. Two that pass together (a round rod) do not change the
+/// determinant's sign, so they are counted one by one. Eigenvalues of `K^-1 H` would not do: beside a load
+/// that stays, two of them may leave the complex plane above one, where nothing has diverged.
 fn diverges(tangent: &Tangent) -> bool {
-    largest_real(&tangent.springs, &tangent.loads).is_some_and(|mu| mu >= 1.0)
+    let springs = &tangent.springs - &tangent.staying;
+    largest_real(&springs, &tangent.growing).is_some_and(|mu| mu >= 1.0)
 }
 
-/// Largest real eigenvalue of `K^-1 H`. Where passive motions strain no spring, the sign of the
-/// determinant decides: infinity if it is negative.
+/// Largest real eigenvalue of `A^-1 G`, neither symmetric. Where `A` is singular (passive motions that
+/// strain no spring), the sign of the determinant of `A - G` decides: infinity if it is negative.
 fn largest_real(springs: &DMatrix<f64>, loads: &DMatrix<f64>) -> Option<f64> {
     if springs.is_empty() || springs.iter().chain(loads.iter()).any(|x| !x.is_finite()) {
         return None;
     }
-    let regular = springs.clone().cholesky().filter(|c| {
-        let d = c.l_dirty().diagonal();
-        d.min() > 1e-5 * d.max()
-    });
-    let found = regular.and_then(|c| {
-        let schur = nalgebra::linalg::Schur::try_new(c.solve(loads), f64::EPSILON, 10_000)?;
+    let own = SingularValues::of(springs);
+    let (most, least) = (own.values.first(), own.values.last());
+    let regular = least > most.map(|x| 1e-10 * x).as_ref();
+    let solved = regular.then(|| springs.clone().lu().solve(loads)).flatten();
+    let found = solved.and_then(|product| {
+        let schur = nalgebra::linalg::Schur::try_new(product, f64::EPSILON, 10_000)?;
         let all = schur.complex_eigenvalues();
         let most = all.iter().fold(0.0_f64, |m, x| m.max(x.norm()));
         let real = all.iter().filter(|x| x.im.abs() <= 1e-6 * most);
@@ -360,9 +389,9 @@ fn linear_prediction(
     }
     let stress = null.transpose() * stress * &null;
     let stiff = -(null.transpose() * at_rest * &null);
-    let (mu, mode) = margin(&stress, &stiff);
+    let (mu, mode) = share_to_buckling(&stress, &stiff);
     // What is positive by rounding only destabilises nothing.
-    let (opposite, _) = margin(&-stress, &stiff);
+    let (opposite, _) = share_to_buckling(&-stress, &stiff);
     let least = 1e-9 * opposite.filter(|o| o.is_finite()).unwrap_or(0.0).max(0.0);
     match (mu, mode) {
         (Some(mu), Some(v)) if mu > least && mu.is_finite() => {

@@ -466,8 +466,13 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
             };
             assert_eq!(expected.inertia, shape.inertia, "{case} {k}");
             unstable += usize::from(k == 6 && share_to_buckling > 1.0);
-            let off = (share_to_buckling - shape.share_to_buckling).abs() / share_to_buckling.abs().max(1.0);
-            assert!(off < 1e-8, "{case} {k}: {share_to_buckling} {}", shape.share_to_buckling);
+            let off = (share_to_buckling - shape.share_to_buckling).abs()
+                / share_to_buckling.abs().max(1.0);
+            assert!(
+                off < 1e-8,
+                "{case} {k}: {share_to_buckling} {}",
+                shape.share_to_buckling
+            );
         }
     }
     println!("{unstable} of 40 unstable");

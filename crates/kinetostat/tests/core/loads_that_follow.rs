@@ -84,3 +84,42 @@ fn partly_following_columns_diverge_by_the_determinant() {
         }
     }
 }
+
+/// A follower that stays, and a dead load that grows beside it: divergence by the closed form or none, also
+/// where eigenvalues of the springs' inverse times the loads turn real above one.
+#[test]
+fn a_dead_load_beside_a_follower_diverges_by_the_determinant() {
+    let chain = ziegler(1.0, 1.0);
+    let press = Wrench::new(vector![-1.0, 0.0, 0.0], Vector3::zeros());
+    let pattern = LoadPattern {
+        end: press,
+        loads: Vec::new(),
+    };
+    for stays in [1e-4, 0.2, 0.5, 0.9, 1.1, 1.5, 2.5] {
+        let mut problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+        let follower = Load::follower(chain.tip(), Wrench(press.0 * stays));
+        problem.loads.push(follower);
+        let found =
+            critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings(3.0)).unwrap();
+        // Absolute angles: [[2 - F - p, F - 1], [-1, 1 - p]] has the determinant p^2 - (3 - F) p + 1.
+        let half: f64 = 0.5 * (3.0 - stays);
+        let asked = (half >= 1.0).then(|| half - (half * half - 1.0).sqrt());
+        let exact = found.exact.map(|e| e.factor);
+        let linear = found.linear;
+        assert_eq!(
+            exact.is_some(),
+            asked.is_some(),
+            "{stays}: {exact:?} {asked:?}"
+        );
+        assert_eq!(
+            linear.is_some(),
+            asked.is_some(),
+            "{stays}: {linear:?} {asked:?}"
+        );
+        if let (Some(exact), Some(linear), Some(asked)) = (exact, linear, asked) {
+            assert!((exact - asked).abs() < 1e-6, "{stays}: {exact} {asked}");
+            assert!((linear - asked).abs() < 1e-9, "{stays}: {linear} {asked}");
+        }
+        assert!(!found.conservative);
+    }
+}
