@@ -136,3 +136,48 @@ fn springs_between_parts_are_named_and_counted() {
     let answer = json(here, &["stiffness", "orthoglide", "--json"]);
     assert!(answer.get("left_out").is_none() && answer.get("at_rest").is_none());
 }
+
+/// One name for it: on the terminal, in the JSON and in the report of a run.
+#[test]
+fn the_smallest_stiffness_has_one_name_in_a_run_and_its_report() {
+    let here = common::workplace();
+    let line = [
+        "compensate",
+        "job.toml",
+        "--report",
+        "r.html",
+        "--json",
+        "r.json",
+    ];
+    let said = common::run(here.path(), &line).answered();
+    let read = |name: &str| std::fs::read_to_string(here.path().join(name)).expect(name);
+    let name = "smallest stiffness against a force";
+    let row = said.out.lines().find(|l| l.contains(name)).expect("a row");
+    let figure = row
+        .trim()
+        .strip_prefix(name)
+        .expect("the name first")
+        .trim()
+        .to_owned();
+    let json: serde_json::Value = serde_json::from_str(&read("r.json")).expect("JSON");
+    let told = json["summary"]["smallest_stiffness_n_per_mm"]
+        .as_f64()
+        .expect("a figure");
+    let shown: f64 = figure.trim_end_matches(" N/mm").parse().expect("a number");
+    assert!(
+        shown <= told && (told - shown).abs() < 0.01 * told,
+        "{shown} {told}"
+    );
+    let page = read("r.html");
+    // A box and the title of a plot, both with that figure.
+    assert!(
+        page.matches("Smallest stiffness against a force").count() >= 2,
+        "{name}"
+    );
+    assert!(!page.contains("Smallest stiffness:") && !page.contains("Smallest stiffness<"));
+    assert!(
+        page.contains(&format!("at least {}", figure.replace(' ', "\u{202f}")))
+            || page.contains(&format!("at least {figure}")),
+        "{figure}"
+    );
+}

@@ -46,7 +46,10 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
     let values = along.values(result.points, |p| Some(p.smallest_stiffness_n_per_mm));
     if let Some(span) = span_of(&values) {
         panels.push(Panel {
-            title: format!("Smallest stiffness: at least {}", result.figures.stiffness),
+            title: format!(
+                "Smallest stiffness against a force: at least {}",
+                result.figures.stiffness
+            ),
             y_label: "stiffness, N/mm".to_owned(),
             span: span.with_near_zero().widened().padded(0.08, 0.08),
             ticks: None,
@@ -92,7 +95,7 @@ pub(crate) fn stiffness(result: &Shown<'_>, sheet: Sheet) -> String {
         &heights,
         &along,
         sheet,
-        "Smallest stiffness and share of the way to buckling along the path",
+        "Smallest stiffness against a force and share of the way to buckling along the path",
     )
 }
 

@@ -46,9 +46,9 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
     };
     cards.push(card(name, figures.rotation.clone(), note.to_owned()));
     cards.push(card(
-        "Smallest stiffness",
+        "Smallest stiffness against a force",
         figures.stiffness.clone(),
-        "against a force in the softest direction".to_owned(),
+        "the tip pushed in its softest direction, the tool free to turn".to_owned(),
     ));
     let (value, note) = match &figures.share_to_buckling {
         Some(share) => (share.clone(), "100 % is buckling"),

@@ -91,6 +91,10 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
     } else {
         analysed(result)
     };
+    if let Some(own) = result.own_weight_in_words() {
+        judged.sentence.push(' ');
+        judged.sentence.push_str(&own);
+    }
     if let Some(corners) = result.corners_in_words() {
         judged.sentence.push(' ');
         judged.sentence.push_str(&corners);
