@@ -151,6 +151,105 @@ fn run_and_compare(here: &Path, line: &str) -> Value {
     json
 }
 
+#[test]
+fn the_demo_and_a_run_with_a_table_state_values_of_their_json() {
+    let here = workplace();
+    let read = |name: &str| std::fs::read_to_string(here.path().join(name)).expect(name);
+    let terminal = |said: &Said, after: &str| {
+        let shown = said.out.split("\nWritten\n").next().unwrap_or_default();
+        let (_, figures) = shown.split_once(after).expect("figures");
+        figures.to_owned()
+    };
+    let said = run(here.path(), &["demo"]).answered();
+    let json: Value = serde_json::from_str(&read("kinetostat-demo/result.json")).expect("JSON");
+    // Above that line the demo tells its story.
+    let count = compare("demo: terminal", &terminal(&said, "original.ngc on"), &json);
+    assert!(count >= 20, "{count} numbers on the terminal");
+    let report = text_of(&read("kinetostat-demo/report.html"));
+    let count = compare("demo: report", &report, &json);
+    assert!(count >= 20, "{count} numbers in the report");
+    points_hold_the_extremes(&json);
+
+    let mut table = String::from("x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n");
+    for (x, y, z) in (0..8).map(|i| (i % 2, i / 2 % 2, i / 4)) {
+        let place = [x, y, z].map(|k| 200 * k - 100);
+        table.push_str(&format!(
+            "{},{},{},{},0.002,0\n",
+            place[0],
+            place[1],
+            place[2],
+            0.013 * f64::from(x)
+        ));
+    }
+    std::fs::write(here.path().join("map.csv"), table).expect("a table");
+    let line = "compensate --map map.csv --program part.ngc --out m.ngc --json m.json";
+    let words: Vec<&str> = line.split(' ').collect();
+    let said = run(here.path(), &words).answered();
+    let json: Value = serde_json::from_str(&read("m.json")).expect("JSON");
+    let count = compare(line, &terminal(&said, "corrected by the table"), &json);
+    assert!(count >= 8, "{count} numbers on the terminal");
+}
+
+/// The table of `map` has its units in the first column.
+#[test]
+fn every_number_of_a_map_is_in_its_json() {
+    let here = workplace();
+    for line in [
+        "map orthoglide --x -40 40 5 --y -20 20 3 --force 100 -20 30 --json",
+        "map orthoglide --x -40 40 5 --z -20 20 3 --json",
+        "map heavy_6r --x 1000 1400 3 --z 800 1000 2 --force 0 0 -500 --json",
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words).answered();
+        let json: Value = serde_json::from_str(&said.out).expect("JSON");
+        let figures = json["figures"].as_array().expect("figures");
+        let mut allowed: BTreeSet<String> = BTreeSet::new();
+        let mut add = |value: f64| {
+            for digits in 3..=5 {
+                allowed.insert(significant(value, digits, Rounding::Nearest));
+            }
+            allowed.extend([fixed(value, 1), setting(value)]);
+        };
+        for figure in figures {
+            for part in [
+                &figure["mean"],
+                &figure["least"]["value"],
+                &figure["most"]["value"],
+            ] {
+                add(part.as_f64().expect("a number"));
+            }
+            for end in ["least", "most"] {
+                for x in figure[end]["position_mm"].as_array().expect("a place") {
+                    add(x.as_f64().expect("mm"));
+                }
+            }
+        }
+        let table = said.err.split("\n\n").find(|part| part.contains("least"));
+        let mut rows = 0;
+        for row in table.expect("a table").lines().skip(1) {
+            let (_, numbers) = row.split_once("  ").expect("columns");
+            let (_, numbers) = numbers
+                .trim()
+                .split_once("  ")
+                .map_or(("", numbers), |(a, b)| (a, b));
+            for word in numbers
+                .split([' ', ',', '(', ')'])
+                .filter(|w| w.parse::<f64>().is_ok())
+            {
+                assert!(allowed.contains(word), "{line}: {word:?} in {row:?}");
+            }
+            rows += 1;
+        }
+        assert_eq!(rows, figures.len(), "{}", said.err);
+        let places = json["places"]["asked"].as_u64().expect("a count");
+        assert!(
+            said.err.contains(&format!("{places} places")),
+            "{}",
+            said.err
+        );
+    }
+}
+
 fn size(vector: &Value) -> f64 {
     let parts = vector.as_array().expect("a vector").iter();
     parts
