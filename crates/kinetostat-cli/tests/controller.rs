@@ -635,3 +635,83 @@ fn arms_of_real_files_are_compared() {
         said.out
     );
 }
+
+/// The table of points: joint values as commanded, pendant values by the declared map, and few bytes a cell.
+#[test]
+fn the_table_of_points_shows_what_the_pendant_shows() {
+    let here = workplace();
+    let at = [10.0, 20.0, 30.0, 15.0, -40.0, 25.0];
+    let pose = tool(at);
+    let turn = pose.rotation.scaled_axis();
+    let p = pose.translation.vector;
+    std::fs::write(here.path().join("arm.toml"), model(plain, CONTROLLER)).expect("a model");
+    let mut program = String::from("G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F300\n");
+    for i in 0..120 {
+        let angle = f64::from(i) * 0.2;
+        program.push_str(&format!(
+            "G1 X{:.3} Y{:.3} F600\n",
+            25.0 * angle.cos(),
+            17.3 * (1.3 * angle).sin()
+        ));
+    }
+    std::fs::write(here.path().join("part.ngc"), program).expect("a program");
+    let job = format!(
+        "schema = 1\nmodel = \"arm.toml\"\nprogram = \"part.ngc\"\n[placement]\npart_origin_mm = [{}, {}, {}]\ntool_orientation = {{ rotation_vector_rad = [{}, {}, {}] }}\n[load]\nforce_n = [120, -40, 60]\n[output]\nprogram = \"out.ngc\"\npoints = \"p.csv\"\n",
+        p.x, p.y, p.z, turn.x, turn.y, turn.z
+    );
+    std::fs::write(here.path().join("job.toml"), job).expect("a job");
+    run(here.path(), &["compensate", "job.toml"]).answered();
+    let text = std::fs::read_to_string(here.path().join("p.csv")).expect("a table");
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().expect("names").split(',').collect();
+    let column = |name: &str| {
+        header
+            .iter()
+            .position(|h| *h == name)
+            .unwrap_or_else(|| panic!("{name}: {header:?}"))
+    };
+    let joints: Vec<usize> = (1..=6)
+        .map(|i| column(&format!("joint_{i}_command_deg")))
+        .collect();
+    let shown: Vec<usize> = (1..=6)
+        .map(|i| column(&format!("pendant_J{i}_deg")))
+        .collect();
+    let mut rows = 0;
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let read = |at: usize| cells[at].parse::<f64>().expect("a number");
+        let q: Vec<f64> = joints.iter().map(|at| read(*at)).collect();
+        // J3 is shown less the second, J4 the other way round.
+        let asked = [q[0], q[1], q[2] - q[1], -q[3], q[4], q[5]];
+        for (at, asked) in shown.iter().zip(asked) {
+            assert!((read(*at) - asked).abs() < 2e-5, "{line}");
+        }
+        // Every joint stands near where the product written out above has it.
+        for (q, near) in q.iter().zip(at) {
+            assert!((q - near).abs() < 15.0, "{line}");
+        }
+        let place: Vec<f64> = ["x_mm", "y_mm", "z_mm"]
+            .iter()
+            .map(|name| read(column(name)))
+            .collect();
+        let correction: Vec<f64> = ["x", "y", "z"]
+            .iter()
+            .map(|axis| read(column(&format!("correction_{axis}_mm"))))
+            .collect();
+        let joints: [f64; 6] = q.clone().try_into().expect("six");
+        let reached = tool(joints).translation.vector - p;
+        for k in 0..3 {
+            let off = reached[k] - place[k] - correction[k];
+            assert!(off.abs() < 5e-3, "{off}: {line}");
+        }
+        rows += 1;
+    }
+    assert!(rows > 100, "{rows}");
+    // The share of a table below 8 MB: at most nine bytes a cell on the average, the comma included.
+    let cells = header.len() * (rows + 1);
+    assert!(
+        text.len() <= 9 * cells,
+        "{} bytes in {cells} cells",
+        text.len()
+    );
+}
