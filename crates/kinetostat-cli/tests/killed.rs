@@ -156,6 +156,65 @@ fn a_kill_at_any_moment_leaves_nothing_half_and_nothing_unsaid() {
     assert!(left > 0, "no kill came while the command was at work");
 }
 
+/// What a kill between two renames leaves, made by hand: a journal of the new contents, and only the first
+/// files in place. The next run names what does not belong together; a whole run settles it.
+#[test]
+fn a_state_between_the_renames_is_named_by_the_next_run() {
+    let here = workplace();
+    let here = here.path();
+    let (new, _) = whole(here, "5");
+    let (old, _) = whole(here, "4");
+    let check = |bytes: &[u8]| {
+        bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+        })
+    };
+    let list: Vec<serde_json::Value> = OUTPUTS
+        .iter()
+        .map(|name| {
+            let bytes = &new[name];
+            serde_json::json!({ "path": name, "contents": { "bytes": bytes.len(), "fnv1a": check(bytes) } })
+        })
+        .collect();
+    let journal = here.join(".kinetostat-dead12.journal");
+    for in_place in 0..=OUTPUTS.len() {
+        for (i, name) in OUTPUTS.iter().enumerate() {
+            let bytes = if i < in_place { &new[name] } else { &old[name] };
+            std::fs::write(here.join(name), bytes).expect("a file");
+        }
+        let text = serde_json::to_vec(&list).expect("JSON");
+        std::fs::write(&journal, text).expect("a journal");
+        let said = run(
+            here,
+            &[
+                "model",
+                "draw",
+                "orthoglide",
+                "--out",
+                "o.svg",
+                "--force-overwrite",
+            ],
+        );
+        let said = said.answered();
+        let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        let apart = in_place > 0 && in_place < OUTPUTS.len();
+        assert_eq!(
+            flat.contains("do not belong together"),
+            apart,
+            "{in_place}: {flat}"
+        );
+        if apart {
+            let (news, olds) = flat.split_once("from another time").expect("both lists");
+            for (i, name) in OUTPUTS.iter().enumerate() {
+                let own = if i < in_place { news } else { olds };
+                assert!(own.contains(name), "{in_place} {name}: {flat}");
+            }
+        }
+        assert_eq!(journal.exists(), apart, "{in_place}");
+        assert_eq!(whole(here, "4").0, old);
+    }
+}
+
 #[test]
 fn a_living_run_keeps_its_files() {
     let here = workplace();
