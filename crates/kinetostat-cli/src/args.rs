@@ -90,7 +90,7 @@ pub(crate) struct DemoArgs {
     #[arg(long)]
     pub(crate) json: bool,
     /// Number of threads; all cores without it
-    #[arg(long, value_name = "N", value_parser = whole)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) threads: Option<usize>,
 }
 
@@ -126,7 +126,7 @@ pub(crate) struct CompensateArgs {
     #[arg(long, value_name = "UM", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = number)]
     pub(crate) tolerance_um: Option<f64>,
     /// Digits after the point in mm, one more in inches [default: 4]
-    #[arg(long, value_name = "N", help_heading = "Tolerances", value_parser = small)]
+    #[arg(long, value_name = "N", help_heading = "Tolerances", allow_negative_numbers = true, value_parser = small)]
     pub(crate) decimals: Option<u8>,
     /// How many times the programmed feed may be written at most, to keep the speed along the part
     /// where the tool's own path is longer [default: 1.2]
@@ -454,8 +454,8 @@ pub(crate) struct ProgramArgs {
     /// compensated program at most 0.8 of the path's default tolerance]
     #[arg(long, value_name = "UM", allow_negative_numbers = true, help_heading = "Tolerances", value_parser = number)]
     pub(crate) chord_tolerance_um: Option<f64>,
-    /// Move a limit, as in correction_mm=5 (repeat for more): correction_mm, tilt_deg, force_n,
-    /// moment_n_m, share_of_rating, share_of_buckling, blocks_per_second, shortest_tool_mm,
+    /// Move a limit, as in correction_mm=5 (repeat for more): correction_mm, own_weight_mm,
+    /// tilt_deg, force_n, moment_n_m, share_of_rating, share_of_buckling, blocks_per_second, shortest_tool_mm,
     /// longest_tool_mm. A program that leaves a limit is refused
     #[arg(long = "limit", value_name = "NAME=VALUE", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Limits")]
     pub(crate) limits: Vec<String>,
@@ -472,7 +472,7 @@ pub(crate) struct ProgramArgs {
     #[arg(long, help_heading = "Outputs")]
     pub(crate) force_overwrite: bool,
     /// Number of threads; all cores without it. The result is the same
-    #[arg(long, value_name = "N", value_parser = whole)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) threads: Option<usize>,
 }
 
@@ -583,7 +583,8 @@ A job file:
   # header = true
 
   [limits]                         # a program that leaves them is refused
-  # correction_mm = 2, tilt_deg = 1, force_n = 5000, moment_n_m = 200
+  # correction_mm = 2, own_weight_mm = 5, tilt_deg = 1
+  # force_n = 5000, moment_n_m = 200
   # share_of_rating = 1, share_of_buckling = 0.5, blocks_per_second = 2000
   # shortest_tool_mm = 1, longest_tool_mm = 1000
 
@@ -648,9 +649,13 @@ mod tests {
         way: &[String],
         found: &mut Vec<(Vec<String>, String, usize)>,
     ) {
-        let number = ValueParser::from(number).type_id();
+        let numbers = [
+            ValueParser::from(number).type_id(),
+            ValueParser::from(whole).type_id(),
+            ValueParser::from(small).type_id(),
+        ];
         for argument in command.get_arguments() {
-            if argument.get_value_parser().type_id() == number {
+            if numbers.contains(&argument.get_value_parser().type_id()) {
                 let name = argument.get_long().expect("numbers are options");
                 let count = argument.get_num_args().expect("built").min_values();
                 found.push((way.to_vec(), format!("--{name}"), count));
@@ -670,7 +675,17 @@ mod tests {
         let mut options = Vec::new();
         options_of_numbers(&command, &["kinetostat".to_owned()], &mut options);
         assert!(options.len() >= 50, "{}", options.len());
-        for (way, name, count) in &options {
+        let number = ValueParser::from(number).type_id();
+        let real = |(way, name, _): &&(Vec<String>, String, usize)| {
+            let mut of = &command;
+            for word in &way[1..] {
+                of = of.find_subcommand(word).expect("a command");
+            }
+            let mut all = of.get_arguments();
+            let own = all.find(|a| a.get_long().is_some_and(|long| name[2..] == *long));
+            own.is_some_and(|a| a.get_value_parser().type_id() == number)
+        };
+        for (way, name, count) in options.iter().filter(real) {
             for written in ["-5e-12", "-1.5E+3", "-2e3", "-.5", "-0", "-1e-320", "-7.25"] {
                 let mut words = way.clone();
                 words.push(name.clone());
@@ -689,6 +704,74 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_wrong_number_is_said_with_its_option() {
+        let mut command = Cli::command();
+        command.build();
+        let mut options = Vec::new();
+        options_of_numbers(&command, &["kinetostat".to_owned()], &mut options);
+        assert!(options.len() >= 60, "{}", options.len());
+        for (way, name, count) in &options {
+            let refused = |values: &[&str]| {
+                let mut words = way.clone();
+                words.push(name.clone());
+                words.extend(values.iter().map(|&value| value.to_owned()));
+                let words = plain_numbers(words.into_iter().map(OsString::from));
+                let error = Cli::try_parse_from(words).expect_err("a wrong value");
+                let said = error.to_string();
+                let first = said.lines().next().unwrap_or_default();
+                assert!(first.contains(name), "{way:?} {name} {values:?}: {said}");
+            };
+            for wrong in [
+                "text", "nan", "inf", "1e400", "-1e400", "1,5", "0x10", "5mm", "",
+            ] {
+                for at in 0..(*count).max(1) {
+                    let mut values = vec!["1"; (*count).max(1)];
+                    values[at] = wrong;
+                    refused(&values);
+                }
+            }
+            // Too few; a value that may be left out is none too few.
+            if *count > 0 {
+                refused(&vec!["1"; count - 1]);
+            }
+        }
+    }
+
+    /// Options whose text holds numbers: the test `numbers_inside_texts_are_refused_with_their_option` has
+    /// them all.
+    #[test]
+    fn the_options_with_numbers_inside_their_text_are_known() {
+        fn texts(command: &clap::Command, found: &mut std::collections::BTreeSet<String>) {
+            for argument in command.get_arguments() {
+                let names = argument.get_value_names().unwrap_or_default();
+                if names.iter().any(|name| name.contains('=')) {
+                    found.insert(argument.get_long().expect("an option").to_owned());
+                }
+            }
+            for inner in command.get_subcommands() {
+                texts(inner, found);
+            }
+        }
+        let mut found = std::collections::BTreeSet::new();
+        texts(&Cli::command(), &mut found);
+        let known = [
+            "axes",
+            "grow",
+            "home",
+            "joints",
+            "limit",
+            "load",
+            "part-orientation",
+            "pendant",
+            "rotation",
+            "section",
+            "tool-orientation",
+            "work-offset",
+        ];
+        assert_eq!(found, known.map(String::from).into());
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(crate) struct AssembleArgs {
     #[arg(long, num_args = 6, value_names = ["X0", "Y0", "Z0", "X1", "Y1", "Z1"], allow_negative_numbers = true, help_heading = "Along a line", value_parser = number, conflicts_with_all = ["at", "rotation", "joints", "pendant"])]
     pub(crate) along: Option<Vec<f64>>,
     /// Points of the line [default: 41]
-    #[arg(long, value_name = "N", help_heading = "Along a line", value_parser = whole, requires = "along")]
+    #[arg(long, value_name = "N", help_heading = "Along a line", allow_negative_numbers = true, value_parser = whole, requires = "along")]
     pub(crate) points: Option<usize>,
     /// Draw the displacement along the line: alone, together, and the sum of both alone (SVG)
     #[arg(

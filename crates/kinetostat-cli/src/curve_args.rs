@@ -53,10 +53,10 @@ pub(crate) struct CurveArgs {
     #[command(flatten)]
     pub(crate) end: EndArgs,
     /// Branches followed at most [default: 12]
-    #[arg(long, value_name = "N", help_heading = "Search", value_parser = whole)]
+    #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) branches: Option<usize>,
     /// Points of one branch at most, each way [default: 600]
-    #[arg(long, value_name = "N", help_heading = "Search", value_parser = whole)]
+    #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) points: Option<usize>,
     /// Search for shapes that no branch connects with the start, and follow them too
     #[arg(long, help_heading = "Search")]
@@ -96,10 +96,10 @@ pub(crate) struct EquilibriaArgs {
     #[command(flatten)]
     pub(crate) end: EndArgs,
     /// Evenly spread starts at most [default: 5000]
-    #[arg(long, value_name = "N", help_heading = "Search", value_parser = whole)]
+    #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) starts: Option<usize>,
     /// The search ends after this many starts in a row that found nothing new [default: 400]
-    #[arg(long, value_name = "N", help_heading = "Search", value_parser = whole)]
+    #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) fruitless: Option<usize>,
     #[command(flatten)]
     pub(crate) outputs: CurveOutputs,

@@ -36,7 +36,7 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_enum, value_name = "VIEW")]
     view: Option<ViewWord>,
     /// Draw the motion in the N-th softest direction of the tool; 1 is a free one, if there is any
-    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "1", value_parser = crate::args::whole, conflicts_with_all = ["force", "moment", "scale"])]
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "1", allow_negative_numbers = true, value_parser = crate::args::whole, conflicts_with_all = ["force", "moment", "scale"])]
     motion: Option<usize>,
     /// Draw the machine under this force on the tool's tip, N (0 0 0: under its own weight)
     #[arg(long, alias = "load", num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]

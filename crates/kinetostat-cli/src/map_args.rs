@@ -67,7 +67,7 @@ pub(crate) struct MapArgs {
     #[arg(long, help_heading = "Outputs")]
     pub(crate) force_overwrite: bool,
     /// Number of threads; all cores without it. The result is the same
-    #[arg(long, value_name = "N", value_parser = whole)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) threads: Option<usize>,
 }
 
@@ -91,8 +91,8 @@ pub(crate) enum Quantity {
 const HELP: &str = "\
 Examples:
   kinetostat map orthoglide --x -60 60 41 --y -60 60 41 --plot xy.svg
-  kinetostat map my_robot.toml --tool-length-mm 180 --x 800 1600 81 \\
-      --y -400 400 81 --z 400 1200 17 --rotation a_b_c_kuka_deg=0,90,0 \\
+  kinetostat map my_robot.toml --tool-length-mm 180 --x 800 1600 21 \\
+      --y -400 400 21 --z 400 1200 5 --rotation a_b_c_kuka_deg=0,90,0 \\
       --csv map.csv
   kinetostat map my_robot.toml --x 800 1600 --z 400 1200 --force 300 0 -500 \\
       --plot bent.svg --show displacement

@@ -275,3 +275,74 @@ fn examples_in_the_help_can_be_copied() {
     }
     assert_eq!(skipped.len(), 2);
 }
+
+/// Numbers inside the text of an option: each refused with the option's name.
+#[test]
+fn numbers_inside_texts_are_refused_with_their_option() {
+    let here = workplace();
+    let shown = "\n[controller]\naxis = [{ name = \"J1\", joint = \"shoulder\" }]\n";
+    std::fs::write(
+        here.path().join("shown.toml"),
+        format!("{}{shown}", common::MODEL),
+    )
+    .expect("a model");
+    let urdf = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child link='b'/><origin xyz='0 0 1'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>";
+    std::fs::write(here.path().join("r.urdf"), urdf).expect("a robot");
+    let mut count = 0;
+    for wrong in ["nan", "inf", "1e400", "text", "1;5", ""] {
+        for (line, option) in [
+            ("curve two_link --factor 0 1 --grow elbow=@,0,0", "--grow"),
+            (
+                "curve two_link --factor 0 1 --force 1 0 0 --load elbow=@,0,0",
+                "--load",
+            ),
+            (
+                "curve two_link --factor 0 1 --force 1 0 0 --hold y --axes a_b_c_kuka_deg=@,0,0",
+                "--axes",
+            ),
+            (
+                "equilibria two_link --force 1 0 0 --load elbow=0,@,0",
+                "--load",
+            ),
+            (
+                "compensate job.toml --work-offset G54=@,0,0",
+                "--work-offset",
+            ),
+            ("compensate job.toml --limit correction_mm=@", "--limit"),
+            (
+                "compensate job.toml --part-orientation a_b_c_kuka_deg=0,@,0",
+                "--part-orientation",
+            ),
+            (
+                "compensate job.toml --tool-orientation a_b_c_kuka_deg=0,0,@",
+                "--tool-orientation",
+            ),
+            (
+                "stiffness orthoglide --rotation a_b_c_kuka_deg=@,0,0",
+                "--rotation",
+            ),
+            (
+                "map orthoglide --x 0 1 2 --rotation a_b_c_kuka_deg=@,0,0",
+                "--rotation",
+            ),
+            (
+                "map orthoglide --x 0 1 2 --y 0 1 2 --z 0 1 2 --plot p.svg --section z=@",
+                "--section",
+            ),
+            ("stiffness model.toml --joints shoulder=@", "--joints"),
+            ("stiffness shown.toml --pendant J1=@", "--pendant"),
+            (
+                "import urdf r.urdf --base a --tip b --home j=@deg",
+                "--home",
+            ),
+        ] {
+            let line = line.replace('@', wrong);
+            let words: Vec<&str> = line.split(' ').collect();
+            let said = run(here.path(), &words);
+            assert_eq!(said.code, 1, "{line}: {said:?}");
+            assert!(said.err.contains(option), "{line}: {}", said.err);
+            count += 1;
+        }
+    }
+    assert_eq!(count, 84);
+}
