@@ -553,7 +553,8 @@ impl ChainBuilder {
         let least = balanced.symmetric_eigenvalues().min();
         if least < -SINGULAR {
             return Some(format!(
-                "spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {})", short(least)
+                "spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {})",
+                short(least)
             ));
         }
         (least <= SINGULAR).then(|| {
