@@ -52,7 +52,7 @@ impl Failure {
         Self::new(Code::ToleranceMissed, message)
     }
 
-    fn new(code: Code, message: impl Display) -> Self {
+    pub(crate) fn new(code: Code, message: impl Display) -> Self {
         Self {
             code,
             plain: safe(&shortened(&message.to_string())),
@@ -108,11 +108,14 @@ impl From<ModelError> for Failure {
     }
 }
 
+/// What a run that Ctrl-C ended says.
+pub(crate) const STOPPED: &str = "stopped on request; nothing was written";
+
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         match error {
             RunError::Cancelled | RunError::Write(WriteError::Cancelled) => {
-                Self::new(Code::Stopped, "stopped on request; nothing was written")
+                Self::new(Code::Stopped, STOPPED)
             }
             error if error.is_unanswered() => Self::unanswered(error),
             error => Self::input(error),

@@ -2,23 +2,30 @@
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinetostat_machining::Watch;
 use kinetostat_program::Monitor;
 
+use crate::failure::{Code, Failure, STOPPED};
 use crate::journal::remove_temporary;
 use crate::screen;
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Ctrl-C asks the work to stop; a second one ends at once, after removing temporary files.
+/// Time that work has to stop by itself and to say so.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Ctrl-C asks the work to stop. What does not look, a single place or a drawing, is ended a second
+/// later, after removing temporary files.
 pub(crate) fn catch_interrupts() {
     let handler = || {
-        if STOP.swap(true, Ordering::SeqCst) {
-            remove_temporary();
-            std::process::exit(130);
-        }
+        STOP.store(true, Ordering::SeqCst);
+        std::thread::sleep(PATIENCE);
+        remove_temporary();
+        screen::complain(&Failure::new(Code::Stopped, STOPPED));
+        std::process::exit(Code::Stopped as i32);
     };
     // Without a handler Ctrl-C ends the program at once: worse, but no reason to refuse.
     let _ = ctrlc::set_handler(handler);

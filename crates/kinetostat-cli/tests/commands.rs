@@ -404,6 +404,44 @@ fn nothing_depends_on_the_locale() {
     assert_eq!(line("C", "a"), line("de_DE.UTF-8", "b"));
 }
 
+/// A single place is not asked on the way whether it should stop; it ends all the same.
+#[test]
+#[cfg(unix)]
+fn an_interrupt_ends_a_single_place() {
+    let here = workplace();
+    let rod = r#"schema = 1
+[mechanism]
+name = "rod"
+[[platform]]
+name = "tip"
+home = { position_mm = [1000, 0, 0] }
+[section.rod]
+rigidities = { axial_n = 1e7, bending_y_n_m2 = 1.0, bending_z_n_m2 = 1.0, torsion_n_m2 = 1.0 }
+[chain.rod]
+elements = [{ link = "rod", name = "rod", length_mm = 1000, segments = 100 }]
+[[limb]]
+name = "rod"
+from = "base"
+to = "tip"
+chain = "rod"
+"#;
+    std::fs::write(here.path().join("rod.toml"), rod).unwrap();
+    let mut child = common::command(here.path())
+        .args(["deflect", "rod.toml", "--force", "0", "1e6", "0"])
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let killed = shell(here.path(), &format!("kill -INT {}", child.id()));
+    assert_eq!(killed.code, 0, "{killed:?}");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let mut said = String::new();
+    let mut from = child.stderr.take().unwrap();
+    std::io::Read::read_to_string(&mut from, &mut said).unwrap();
+    assert!(said.contains("stopped on request"), "{said}");
+}
+
 #[test]
 #[cfg(unix)]
 fn an_interrupt_leaves_nothing_half_written() {

@@ -160,19 +160,19 @@ pub(crate) fn between(
     }
     // Rates of the parameter and of its conjugate.
     let mut shares: Vec<(bool, f64)> = Vec::new();
+    let (_, _, first) = tracer.reduced.gradient(&here.z);
+    let (_, _, last) = tracer.reduced.gradient(&there.z);
     for conjugate in [false, true] {
-        let rate = |reduced: &mut Reduced<'_, '_>, matrix: &CurveMatrix, t: &DVector<f64>| {
+        let rate = |reduced: &Reduced<'_, '_>, gradient: &DVector<f64>, t: &DVector<f64>| {
             if conjugate {
-                let row = reduced.conjugate_row(matrix);
+                let row = reduced.conjugate_row(gradient);
                 row.dot(t) / row.norm().max(f64::MIN_POSITIVE)
             } else {
                 t[m]
             }
         };
-        let (_, _, first) = tracer.reduced.linearised(&here.z);
-        let a = rate(&mut tracer.reduced, &first, &here.tangent);
-        let (_, _, last) = tracer.reduced.linearised(&there.z);
-        let b = rate(&mut tracer.reduced, &last, &there.tangent);
+        let a = rate(&tracer.reduced, &first, &here.tangent);
+        let b = rate(&tracer.reduced, &last, &there.tangent);
         // A rate that is zero throughout (a locked end) has no limit point. A zero right at the
         // first point was found in the step before.
         if a.abs() < 1e-9 || (b.abs() < 1e-9 && a.abs() < 1e-6) {
@@ -180,7 +180,7 @@ pub(crate) fn between(
         }
         let root = |reduced: &mut Reduced<'_, '_>, low: (f64, f64), high: (f64, f64)| {
             segment.root(reduced, low, high, 1e-13, &|reduced, c, t| {
-                rate(reduced, &c.matrix, &t.direction)
+                rate(reduced, &c.matrix.gradient(), &t.direction)
             })
         };
         if b.abs() < 1e-9 {
@@ -191,7 +191,7 @@ pub(crate) fn between(
             // Two limit points within one step: the rate dips through zero and comes back.
             let f = |reduced: &mut Reduced<'_, '_>, share: f64| {
                 let (c, t) = segment.at(reduced, share)?;
-                Some(rate(reduced, &c.matrix, &t.direction))
+                Some(rate(reduced, &c.matrix.gradient(), &t.direction))
             };
             if let Some((share, value)) = dip(&mut tracer.reduced, a, b, &f)
                 && value * a < 0.0

@@ -14,6 +14,8 @@ use crate::number::short;
 use crate::saddle::{RANK_TOLERANCE, Saddle, complement};
 use crate::singular_values::SingularValues;
 use crate::spring::balanced;
+use crate::sweep::{Form, Sweep};
+use crate::sweep_solve::{Bordered, EndRows, STEP_SPRINGS};
 use crate::system::System;
 
 /// Roots of compliances that differ by more than this (stiffnesses by its square) are taken apart.
@@ -86,7 +88,7 @@ impl Graded {
         }
         let own = SingularValues::of(&turned);
         let r = own.rank(RANK_TOLERANCE);
-        let (range, right) = (own.left.columns(0, r), own.right.columns(0, r));
+        let right = own.right.columns(0, r);
         let bordered = system.bordered(true);
         let torques = DMatrix::from_fn(n, n, |i, j| {
             bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j]
@@ -104,25 +106,62 @@ impl Graded {
         let ones = vec![1.0; r + n];
         Saddle::new(a, &ones, &ones).solve(&mut b);
         let inner = b.rows(0, r) * size;
+        let moved = roots * b.rows(r, n);
+        Some(Self::from_motions(factors, &own, r, inner, &moved))
+    }
+
+    /// The same of a long chain by sweeps, `turned` by [`Sweep::by_spring_roots`]; `None` where they
+    /// lose a pivot.
+    pub fn swept(sweep: &Sweep, factors: &[f64], turned: &DMatrix<f64>) -> Option<Self> {
+        let n = turned.ncols();
+        let own = SingularValues::of(turned);
+        let r = own.rank(RANK_TOLERANCE);
+        let range = own.left.columns(0, r).into_owned();
+        let rows = EndRows::held(&range);
+        STEP_SPRINGS.into_iter().find_map(|spring| {
+            let bordered = Bordered::new(sweep, Form::Exact, rows, spring)?;
+            let (mut inner, mut moved) = (DMatrix::zeros(r, r), DMatrix::zeros(n, r));
+            for j in 0..r {
+                // The tip goes as far as it yields.
+                let right = Vector6::from_fn(|i, _| if i == j { own.values[j] } else { 0.0 });
+                let (wrench, x) = bordered.solve(&vec![0.0; n], &right)?;
+                for i in 0..r {
+                    inner[(i, j)] = own.values[i] * range.column(i).dot(&wrench);
+                }
+                moved.column_mut(j).copy_from_slice(&x);
+            }
+            Some(Self::from_motions(factors, &own, r, inner, &moved))
+        })
+    }
+
+    /// From `G` and the coordinates (balanced, n x r) while the tip moves by `U S`.
+    fn from_motions(
+        factors: &[f64],
+        own: &SingularValues,
+        r: usize,
+        inner: DMatrix<f64>,
+        moved: &DMatrix<f64>,
+    ) -> Self {
+        let range = own.left.columns(0, r).into_owned();
         let mut back = range.transpose();
         for (mut row, value) in back.row_iter_mut().zip(&own.values) {
             row.unscale_mut(*value);
         }
         let wrench = back.transpose() * &inner * &back;
-        let moved = roots * b.rows(r, n) * &back;
-        let answer = DMatrix::from_fn(6 + n, 6, |i, j| {
+        let moved = moved * &back;
+        let answer = DMatrix::from_fn(6 + moved.nrows(), 6, |i, j| {
             let balanced = match i < 6 {
                 true => wrench[(i, j)],
                 false => moved[(i - 6, j)],
             };
             balanced * factors[i] * factors[j]
         });
-        Some(Self {
-            range: range.into_owned(),
+        Self {
+            range,
             answer,
             sizes: own.values[..r].to_vec(),
             inner,
-        })
+        }
     }
 
     /// Principal directions. Under a load that makes some negative, those that are softer than 1e-9 of

@@ -8,7 +8,7 @@ use crate::directions::{Direction, DirectionKind};
 use crate::equilibrium::{EndCondition, Residual};
 use crate::error::{Error, Result};
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
-use crate::platform_path::{Path, PathSpecialKind};
+use crate::platform_path::Path;
 use crate::posture::{MechanismEquilibrium, Posture};
 use crate::reduced::{LoadPattern, Parameter};
 use crate::saddle::complement;
@@ -25,6 +25,9 @@ const STEPS: usize = 2000;
 
 /// A limit below this share of the load is none.
 const LEAST_SHARE: f64 = 1e-9;
+
+/// Points times coordinates of a way that only explains why there is no equilibrium.
+const EFFORT: usize = 20_000;
 
 /// Secant and tangent compliances along a load that differ less belong to one smooth branch.
 const SMOOTH: f64 = 2.0;
@@ -134,24 +137,21 @@ impl<'m> Posture<'m> {
             end: *wrench,
             loads: Vec::new(),
         });
-        let settings = CurveSettings::within(0.0, 1.0);
+        // What it may cost is bounded: it only says why there is no equilibrium.
+        let limbs = self.mechanism.limbs.iter();
+        let coordinates: usize = limbs.map(|l| l.actual.coordinate_count()).sum();
+        let mut settings = CurveSettings::within(0.0, 1.0);
+        settings.points = (EFFORT / coordinates.max(1)).clamp(10, settings.points);
         let end = EndCondition::wrench(Wrench::zero());
-        let path = self.path(&load, &end, &settings)?;
-        let limit = path
-            .specials
-            .iter()
-            .filter(|s| s.kind == PathSpecialKind::LoadLimit && s.ends[1])
-            // Motions that cost nothing have no limit but rounding.
-            .find(|s| s.point.parameter > LEAST_SHARE);
-        let limit = limit.map(|s| LoadLimit {
-            share: s.point.parameter,
-            displacement: s.point.equilibrium.displacement,
+        let path = Path::new(self, &load, &end, &settings)?;
+        // Motions that cost nothing have no limit but rounding.
+        let (last, limit) = path.growing(|p| p.parameter <= LEAST_SHARE)?;
+        let limit = limit.map(|p| LoadLimit {
+            share: p.parameter,
+            displacement: p.equilibrium.displacement,
         });
-        let last = path.points.last().filter(|p| p.parameter == 1.0);
-        let state = last
-            .filter(|_| limit.is_none())
-            .map(|p| p.equilibrium.state.clone());
-        Ok((state, limit))
+        let whole = last.filter(|p| limit.is_none() && p.parameter == 1.0);
+        Ok((whole.map(|p| p.equilibrium.state), limit))
     }
 
     /// Motions of the tool that cost nothing without load: the one that all that acts pushes along,

@@ -19,6 +19,9 @@ use crate::reduced::{LoadPattern, Parameter};
 use crate::saddle::complement;
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, turn_matrix};
 
+/// Steps that may fail besides as many as there may be points.
+const LOST_STEPS: usize = 20;
+
 /// Steps of a search between two points.
 const BISECTIONS: usize = 50;
 
@@ -158,7 +161,7 @@ impl<'m> Posture<'m> {
 }
 
 impl<'p, 'm> Path<'p, 'm> {
-    fn new(
+    pub(crate) fn new(
         posture: &'p Posture<'m>,
         parameter: &Parameter,
         end: &EndCondition,
@@ -626,9 +629,13 @@ impl<'p, 'm> Path<'p, 'm> {
         let mut points: Vec<PathPoint> = Vec::new();
         let mut by = largest;
         let mut here = start.clone();
+        let mut lost = 0;
         loop {
             if points.len() >= self.settings.points {
                 return (points, BranchEnd::Points);
+            }
+            if lost > self.settings.points + LOST_STEPS {
+                return (points, BranchEnd::Stalled);
             }
             by = by.min(change / rate(&here).max(1e-300)).min(4.0 * largest);
             let next = self
@@ -636,6 +643,7 @@ impl<'p, 'm> Path<'p, 'm> {
                 .filter(|p| angle(&here, p) < 0.35 && resolved(&here, p, sign * by));
             let Some(next) = next else {
                 by *= 0.5;
+                lost += 1;
                 if by < least_step {
                     return (points, BranchEnd::Lost);
                 }
@@ -738,24 +746,16 @@ impl<'p, 'm> Path<'p, 'm> {
                 false => (&pair[0], &pair[1]),
             };
             let sign = if i < start { -1.0 } else { 1.0 };
-            let (x, y) = (
-                self.motion(&a.equilibrium.tool),
-                self.motion(&b.equilibrium.tool),
-            );
-            let way = &a.tangent.0;
-            let step = (0..6).map(|k| way[k] * (y[k] - x[k]) * self.unit(k)).sum();
+            let step = self.step_between(a, b);
             // Among motions that cost nothing, neighbours may lie across the way: nothing is told.
             if step * sign < 0.0 {
                 continue;
             }
-            let load = |p: &PathPoint| p.tangent.1;
             let moves = |p: &PathPoint| self.displacement(&self.unbalanced(&p.tangent.0));
             let verdict = |p: &PathPoint| [p.held, p.dead];
             let differs = [a.held != b.held, a.dead != b.dead];
             let mut told = [false; 2];
-            if load(a) * load(b) < 0.0
-                && let Some(point) = self.between(a, step, load)
-            {
+            if let Some(point) = self.load_limit(a, b, step) {
                 told[1] = differs[1];
                 list.push(PathSpecial {
                     kind: PathSpecialKind::LoadLimit,
@@ -788,6 +788,46 @@ impl<'p, 'm> Path<'p, 'm> {
             }
         }
         list
+    }
+
+    /// Length of the step from one point to the next along its tangent.
+    fn step_between(&self, a: &PathPoint, b: &PathPoint) -> f64 {
+        let (x, y) = (
+            self.motion(&a.equilibrium.tool),
+            self.motion(&b.equilibrium.tool),
+        );
+        let way = &a.tangent.0;
+        (0..6).map(|k| way[k] * (y[k] - x[k]) * self.unit(k)).sum()
+    }
+
+    /// Where the load has its extreme between two points.
+    fn load_limit(&self, a: &PathPoint, b: &PathPoint, step: f64) -> Option<PathPoint> {
+        let load = |p: &PathPoint| p.tangent.1;
+        (load(a) * load(b) < 0.0)
+            .then(|| self.between(a, step, load))
+            .flatten()
+    }
+
+    /// The path from no load to the whole, as far as it is followed in a bounded number of steps, and
+    /// the first point at which the machine stops being stable under the load because that has its
+    /// extreme; `none` tells which of them are rounding.
+    pub(crate) fn growing(
+        &self,
+        none: impl Fn(&PathPoint) -> bool,
+    ) -> Result<(Option<PathPoint>, Option<PathPoint>)> {
+        let start = self.first(0.0)?;
+        let (ahead, end) = self.walk(&start, 1.0);
+        let last = ahead.last().cloned();
+        let points: Vec<PathPoint> = [start].into_iter().chain(ahead).collect();
+        let limit = points
+            .windows(2)
+            .filter(|w| w[0].dead != w[1].dead)
+            .find_map(|w| {
+                let step = self.step_between(&w[0], &w[1]);
+                let limit = (step >= 0.0).then(|| self.load_limit(&w[0], &w[1], step));
+                limit.flatten().filter(|p| !none(p))
+            });
+        Ok((last.filter(|_| end == BranchEnd::Range), limit))
     }
 
     fn jumps(&self, points: &[PathPoint], specials: &[PathSpecial]) -> Vec<PathJump> {

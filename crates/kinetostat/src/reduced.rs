@@ -560,14 +560,24 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 
     /// `dG/dlambda` at a state, with what equilibrium lacks there; evaluates the system.
-    fn gradient(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DVector<f64>) {
+    pub fn gradient(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DVector<f64>) {
         let m = self.count();
         let r = self.reactions();
         let mut gradient = DVector::zeros(m);
-        match self.parameter {
-            Some(Parameter::Displacement(twist)) => {
+        // All conditions are linear in the factor of loads: elsewhere first, here last.
+        let step = (1.0 / self.sigma).abs().min(1.0);
+        let ahead = match self.parameter {
+            Some(Parameter::Load(pattern)) if !pattern.loads.is_empty() => {
+                let mut ahead = z.clone();
+                ahead[m] += step;
+                Some(self.evaluate(&ahead).0)
+            }
+            _ => None,
+        };
+        let (lack, balance) = self.evaluate(z);
+        match (self.parameter, ahead) {
+            (Some(Parameter::Displacement(twist)), _) => {
                 // A finite turn about a fixed axis keeps its axis; the end's origin moves straight.
-                self.evaluate(z);
                 let turning = rotation_rate(&-self.turned) * twist.angular();
                 let rate = Twist::new(twist.linear(), turning).0;
                 let part = DVector::from_fn(6, |i, _| {
@@ -577,18 +587,15 @@ impl<'p, 'a> Reduced<'p, 'a> {
                     .rows_mut(0, r)
                     .copy_from(&(self.range.transpose() * part));
             }
-            Some(Parameter::Load(_)) => {
-                // All conditions are linear in the factor.
-                let mut ahead = z.clone();
-                let step = (1.0 / self.sigma).abs().min(1.0);
-                ahead[m] += step;
-                let (more, _) = self.evaluate(&ahead);
-                let (less, _) = self.evaluate(z);
-                gradient = (more - less) / step;
+            (Some(Parameter::Load(_)), Some(more)) => gradient = (more - &lack) / step,
+            (Some(Parameter::Load(_)), None) => {
+                for i in 0..m - r {
+                    let pushed = self.system.jacobian.column(i).dot(&self.grown);
+                    gradient[r + i] = pushed * self.factors[6 + i] / self.unit * self.sigma;
+                }
             }
-            None => {}
+            (None, _) => {}
         }
-        let (lack, balance) = self.evaluate(z);
         (lack, balance, gradient)
     }
 
@@ -665,15 +672,14 @@ impl<'p, 'a> Reduced<'p, 'a> {
         }
     }
 
-    /// Change of the conjugate per balanced unknown.
-    pub fn conjugate_row(&self, matrix: &CurveMatrix) -> DVector<f64> {
+    /// Change of the conjugate per balanced unknown, by `dG/dlambda`.
+    pub fn conjugate_row(&self, gradient: &DVector<f64>) -> DVector<f64> {
         let m = self.count();
         let sign = match self.parameter {
             Some(Parameter::Displacement(_)) => -1.0,
             _ => 1.0,
         };
         let scale = sign * self.unit * self.unit / self.sigma;
-        let gradient = matrix.gradient();
         DVector::from_fn(m + 1, |i, _| match i < m {
             true => scale * gradient[i],
             false => 0.0,
@@ -695,7 +701,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
                     (normal, z[m] - value / self.sigma)
                 }
                 Row::Conjugate(value) => {
-                    let normal = self.conjugate_row(&matrix);
+                    let normal = self.conjugate_row(&matrix.gradient());
                     let size = normal.norm().max(f64::MIN_POSITIVE);
                     (normal / size, (self.conjugate(&z) - value) / size)
                 }

@@ -254,8 +254,11 @@ pub(crate) fn swept_stiffness(
     if redundant.ncols() > 0 {
         return None;
     }
-    if Graded::uneven(&jacobian) {
-        return None;
+    let turned = sweep.by_spring_roots(&jacobian);
+    if Graded::uneven(&turned) {
+        let end = Graded::swept(sweep, factors, &turned)?;
+        let list = end.directions(chain);
+        return Some(described(chain, &jacobian, &redundant, &end.answer, list));
     }
     let range = column_space(&jacobian);
     let answer = match solved {

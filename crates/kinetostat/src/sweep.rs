@@ -466,6 +466,29 @@ impl Sweep {
         t
     }
 
+    /// `J T`: the (balanced) Jacobian of the tip in coordinates in which every block of springs is the unit
+    /// matrix, as far as they are positive definite.
+    pub fn by_spring_roots(&self, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut turned = jacobian.clone();
+        for stage in &self.stages {
+            let own = DMatrix::from_column_slice(
+                stage.len,
+                stage.len,
+                &self.springs[stage.block..stage.block + stage.len * stage.len],
+            );
+            let Some(root) = own.cholesky() else {
+                continue; // a passive joint
+            };
+            // J L^-T, from L (J L^-T)^T = J^T.
+            let mut moved = jacobian.columns(stage.first, stage.len).transpose();
+            if root.l_dirty().solve_lower_triangular_mut(&mut moved) {
+                let mut columns = turned.columns_mut(stage.first, stage.len);
+                columns.copy_from(&moved.transpose());
+            }
+        }
+        turned
+    }
+
     /// `K' x` with the springs at rest.
     pub fn spring_product(&self, x: &[f64], out: &mut [f64]) {
         for stage in &self.stages {

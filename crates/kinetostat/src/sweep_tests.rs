@@ -616,3 +616,109 @@ fn curves_are_alike_by_sweeps_and_dense() {
     assert!(worst < 1e-9, "{worst:e}");
     assert!(signs[0] > 5 && signs[1] > 5, "{signs:?}");
 }
+
+/// A slender cantilever from rest to far beyond small deflections: nowhere is its curve's matrix made
+/// dense, and its direction is found to be the only one.
+#[test]
+fn a_cantilever_bent_far_stays_with_sweeps() {
+    for segments in [32, 100] {
+        let rod = BeamSection {
+            youngs_modulus: 1.0,
+            shear_modulus: 0.4,
+            area: 1e6,
+            second_moment_y: 1.0,
+            second_moment_z: 1.0,
+            torsion_constant: 0.8,
+        };
+        let link = LinkSpec::beam(rod, 1.0).segments(segments);
+        let builder = Chain::builder("rod").link_with("rod", &link);
+        let chain = builder.build().expect("chain");
+        let mut problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+        let grown = Wrench::new(vector![0.0, 10.0, 0.0], Vector3::zeros());
+        let parameter = Parameter::end_wrench(grown);
+        let settings = Settings::default();
+        let rest = crate::solve_chain(&problem, &settings).expect("rest");
+        let mut reduced = Reduced::new(&problem, Some(&parameter), &settings)
+            .expect("curve")
+            .by_sweeps();
+        reduced
+            .start(&rest.coordinates, &rest.wrench, 0.0)
+            .expect("start");
+        let mut loaded = problem.clone();
+        for share in [0.0, 0.1, 0.3, 1.0] {
+            loaded.end.wrench = grown * share;
+            let here = crate::solve_chain(&loaded, &settings).expect("bent");
+            let z = reduced.state(&here.coordinates, &here.wrench, share);
+            let (_, _, matrix) = reduced.linearised(&z);
+            let case = format!("{segments} {share}");
+            assert!(matches!(matrix, CurveMatrix::Swept(_)), "{case}");
+            assert!(matrix.only_direction().is_some(), "{case}");
+            let tangent = matrix.only_direction().expect("one");
+            assert!(
+                matrix
+                    .step(
+                        &tangent,
+                        &DVector::from_element(z.len() - 1, 1e-3),
+                        0.0,
+                        None
+                    )
+                    .is_some()
+            );
+        }
+        problem.end.wrench = Wrench::zero();
+    }
+}
+
+/// Slender rods, pushed along and bent: the stiffness of an end that is far stiffer along than across.
+#[test]
+fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
+    let mut worst = [0.0_f64; 2];
+    for (segments, axial) in [(11, 1e5), (16, 1e7), (16, 1e9), (24, 1e11)] {
+        for push in [[-1.0, 0.0, 0.0], [-2.0, 0.3, 0.1], [3.0, 5.0, -2.0]] {
+            let rod = BeamSection {
+                youngs_modulus: 1.0,
+                shear_modulus: 1.0,
+                area: axial,
+                second_moment_y: 1.0,
+                second_moment_z: 1.3,
+                torsion_constant: 0.8,
+            };
+            let link = LinkSpec::beam(rod, 1.0).segments(segments);
+            let builder = Chain::builder("rod").link_with("rod", &link);
+            let chain = builder.build().expect("chain");
+            let posture = chain.home_coordinates();
+            let factors = balance(&chain, &posture);
+            let force = Wrench::new(Vector3::from(push), Vector3::zeros());
+            let problem = ChainProblem::new(&chain, EndCondition::wrench(force));
+            let here = crate::solve_chain(&problem, &Settings::default()).expect("equilibrium");
+            let [dense, swept] = [Path::Dense, Path::Sweep].map(|path| {
+                let mut system =
+                    System::of_chain(&chain, &problem.base, &posture, &[], &factors, Some(path));
+                system.evaluate_problem(&problem, &here.coordinates, &here.wrench, 1.0);
+                system
+            });
+            let case = format!("{segments} {axial:e} {push:?}");
+            let sweep = swept.sweep.as_ref().expect("stages");
+            let by_sweep = crate::stiffness::swept_stiffness(&chain, &swept, sweep, &factors, None);
+            let (a, b) = (
+                crate::stiffness::chain_stiffness(&chain, &dense, &factors, None),
+                by_sweep.expect(&case),
+            );
+            assert_eq!(
+                (a.rank, a.directions.len()),
+                (b.rank, b.directions.len()),
+                "{case}"
+            );
+            for (x, y) in a.directions.iter().zip(&b.directions) {
+                assert_eq!(x.kind, y.kind, "{case}");
+                let off = (x.stiffness_n_per_m / y.stiffness_n_per_m - 1.0).abs();
+                worst[0] = worst[0].max(off);
+            }
+            let (x, y) = (&a.cartesian.matrix, &b.cartesian.matrix);
+            worst[1] = worst[1].max((x - y).amax() / x.amax());
+            assert!(worst.iter().all(|w| w.is_finite()), "{case}");
+        }
+    }
+    println!("directions apart {:e}, matrices {:e}", worst[0], worst[1]);
+    assert!(worst[0] < 1e-7 && worst[1] < 1e-9, "{worst:?}");
+}

@@ -215,7 +215,10 @@ impl Tracer<'_, '_, '_> {
         let (held, u_held) = self.reduced.stability(c, true);
         let (dead, u_dead) = self.reduced.stability(c, false);
         let m = self.reduced.count();
-        let rate = self.reduced.conjugate_row(&c.matrix).dot(&direction);
+        let rate = self
+            .reduced
+            .conjugate_row(&c.matrix.gradient())
+            .dot(&direction);
         let change = direction[m] * self.reduced.sigma;
         let (load, displacement) = if self.reduced.is_load() {
             (change, rate)
