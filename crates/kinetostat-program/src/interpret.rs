@@ -1,7 +1,5 @@
 //! Where the tool goes: the second stage of reading.
 
-use std::collections::BTreeSet;
-
 use nalgebra::Vector3;
 
 use crate::arc::{self, ArcFrame};
@@ -17,6 +15,7 @@ use crate::path::{
     Path, PositionOffset, Warning,
 };
 use crate::program::{LineKind, Program};
+use crate::repeated::Repeated;
 use crate::tools::ToolWords;
 
 /// Coordinates beyond this are no machine's, in mm.
@@ -126,12 +125,9 @@ struct Interpreter<'o> {
     known: [bool; 3],
     ended: Option<usize>,
     no_feed_warned: bool,
-    block_delete_warned: bool,
-    /// M codes of which a warning was given.
-    disputed_warned: BTreeSet<u32>,
+    repeated: Repeated,
     /// Work coordinate system of the first motion.
     first_system: Option<usize>,
-    system_warned: bool,
     moves: Vec<Move>,
     /// For each move: which axes are known before and after it.
     knowledge: Vec<([bool; 3], [bool; 3])>,
@@ -151,10 +147,8 @@ impl<'o> Interpreter<'o> {
             known: [options.start_position_mm.is_some(); 3],
             ended: None,
             no_feed_warned: false,
-            block_delete_warned: false,
-            disputed_warned: BTreeSet::new(),
+            repeated: Repeated::default(),
             first_system: None,
-            system_warned: false,
             moves: Vec::new(),
             knowledge: Vec::new(),
             events: Vec::new(),
@@ -171,10 +165,7 @@ impl<'o> Interpreter<'o> {
     }
 
     fn warn_block_delete(&mut self, line: usize) {
-        if !self.block_delete_warned {
-            self.block_delete_warned = true;
-            self.warn(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off (--block-delete skip leaves them out)");
-        }
+        self.repeated.note(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off (--block-delete skip leaves them out)");
     }
 
     /// Two work coordinate systems in one program are at different places, or one would do; with no
@@ -183,15 +174,17 @@ impl<'o> Interpreter<'o> {
         let now = self.modes.work_offset;
         let first = *self.first_system.get_or_insert(now);
         let offsets = &self.options.work_offsets_mm;
-        if now != first && offsets[now] == offsets[first] && !self.system_warned {
-            self.system_warned = true;
-            self.warn(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
+        if now != first && offsets[now] == offsets[first] {
+            self.repeated.note(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
         }
     }
 
     fn run_line(&mut self, program: &Program, index: usize) -> Result<(), ProgramError> {
         let line = &program.lines()[index];
         let skipped = line.block_delete && self.options.block_delete == BlockDelete::Skip;
+        if line.kind == LineKind::AfterEnd {
+            self.warn_of_text_after_end(program, index);
+        }
         if line.kind == LineKind::AfterEnd || program.words(line).is_empty() || skipped {
             return Ok(());
         }
@@ -200,6 +193,14 @@ impl<'o> Interpreter<'o> {
             self.warn_block_delete(block.line_number);
         }
         self.run(&block)
+    }
+
+    fn warn_of_text_after_end(&mut self, program: &Program, index: usize) {
+        let text = program.bytes()[program.content(&program.lines()[index])].trim_ascii_start();
+        let comment = text.starts_with(b"(") || text.starts_with(b";");
+        if !comment && text.iter().any(u8::is_ascii_alphanumeric) {
+            self.repeated.note(index + 1, "text follows the closing tape mark %: it is carried as it stands, and is taken to be for people");
+        }
     }
 
     fn run(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
@@ -407,8 +408,8 @@ impl<'o> Interpreter<'o> {
                     "write it in a block of its own, before or after the motion",
                 ));
             }
-            if moment.is_disputed() && self.disputed_warned.insert(moment.code) {
-                self.warn(block.line_number, &format!(
+            if moment.is_disputed() {
+                self.repeated.note(block.line_number, &format!(
                     "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
                     moment.code, moment.meaning
                 ));
@@ -628,9 +629,14 @@ impl<'o> Interpreter<'o> {
             .filter(|_| unknown > 0)
             .map(|motion| motion.line)
         {
-            self.warn(first, &format!("{unknown} block(s) move before the program has stated where the tool is; they are carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
+            let (blocks, carried) = match unknown {
+                1 => ("1 block moves".to_owned(), "it is"),
+                _ => (format!("{unknown} blocks move"), "they are"),
+            };
+            self.warn(first, &format!("{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
         }
         self.warn_of_moved_axes();
+        self.warnings.extend(self.repeated.finish());
         let mut path = Path {
             moves: self.moves,
             stated,

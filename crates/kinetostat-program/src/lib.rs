@@ -41,6 +41,7 @@
 //! ```
 
 mod accounting;
+mod after_end;
 mod against;
 mod arc;
 mod block;
@@ -66,6 +67,7 @@ mod options;
 mod path;
 mod program;
 mod render;
+mod repeated;
 mod syntax;
 mod tools;
 mod turn;

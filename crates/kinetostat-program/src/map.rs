@@ -39,52 +39,31 @@ impl CorrectionMap {
     /// Unknown, missing or doubled columns, cells that are no finite numbers, nodes that are missing
     /// or doubled; each with the line.
     pub fn read(bytes: &[u8]) -> Result<Self, MapError> {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .comment(Some(b'#'))
-            .from_reader(bytes);
-        let headers = reader.headers().map_err(csv_error)?.clone();
-        let columns = columns_of(&headers)?;
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(csv_error)?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let mut row = [0.0; 6];
-            for (value, column) in row.iter_mut().zip(columns) {
-                let cell = &record[column];
-                *value = cell
-                    .parse()
-                    .ok()
-                    .filter(|number: &f64| number.is_finite() && number.abs() < 1e9)
-                    .ok_or_else(|| MapError {
-                        line,
-                        found: format!("`{}` in column {}", shown(cell), &headers[column]),
-                        reason: "it is no finite number".to_owned(),
-                        remedy: "write a number with a decimal point, in mm".to_owned(),
-                    })?;
-            }
-            if rows.len() == MAX_ROWS {
-                return Err(MapError {
-                    line,
-                    found: format!("more than {MAX_ROWS} rows"),
-                    reason: "the map is too large".to_owned(),
-                    remedy: "use a coarser grid".to_owned(),
-                });
-            }
-            rows.push((line, row));
-        }
-        Self::from_rows(&rows)
+        Self::read_until(bytes, 1).map_err(|mut faults| faults.swap_remove(0))
     }
 
-    fn from_rows(rows: &[(u64, [f64; 6])]) -> Result<Self, MapError> {
+    /// Everything that is refused in a table, in the order of its lines, up to `most` faults; empty where
+    /// [`CorrectionMap::read`] takes it.
+    pub fn faults(bytes: &[u8], most: usize) -> Vec<MapError> {
+        Self::read_until(bytes, most.max(1))
+            .err()
+            .unwrap_or_default()
+    }
+
+    /// The table, or its first faults: at least one, at most so many.
+    fn read_until(bytes: &[u8], most: usize) -> Result<Self, Vec<MapError>> {
+        let rows = rows_of(bytes, most)?;
+        Self::from_rows(&rows, most)
+    }
+
+    fn from_rows(rows: &[(u64, [f64; 6])], most: usize) -> Result<Self, Vec<MapError>> {
         if rows.is_empty() {
-            return Err(MapError {
+            return Err(vec![MapError {
                 line: 1,
                 found: "no row below the header".to_owned(),
                 reason: "the map says nothing".to_owned(),
                 remedy: "give at least one row: position and correction".to_owned(),
-            });
+            }]);
         }
         let axes: [Vec<f64>; 3] = [0, 1, 2].map(|axis| {
             // Adding zero makes -0 and 0 one coordinate.
@@ -103,7 +82,7 @@ impl CorrectionMap {
         let [nx, ny, nz] = [axes[0].len(), axes[1].len(), axes[2].len()];
         let count = nx.checked_mul(ny).and_then(|count| count.checked_mul(nz));
         if count.is_none_or(|count| count > rows.len()) {
-            return Err(MapError {
+            return Err(vec![MapError {
                 line: rows[rows.len() - 1].0,
                 found: format!(
                     "{} rows with {nx} values of x, {ny} of y, {nz} of z",
@@ -113,9 +92,10 @@ impl CorrectionMap {
                     .to_owned(),
                 remedy: "measure or interpolate on a full grid; scattered positions are not taken"
                     .to_owned(),
-            });
+            }]);
         }
         let mut values = vec![None; nx * ny * nz];
+        let mut faults = Vec::new();
         for (line, row) in rows {
             let place = |axis: usize| {
                 places[axis]
@@ -128,13 +108,19 @@ impl CorrectionMap {
                 .replace(Vector3::new(row[3], row[4], row[5]))
                 .is_some()
             {
-                return Err(MapError {
+                faults.push(MapError {
                     line: *line,
                     found: format!("position {} {} {}", row[0], row[1], row[2]),
                     reason: "the position stands there twice".to_owned(),
                     remedy: "keep one row for each position".to_owned(),
                 });
+                if faults.len() == most {
+                    break;
+                }
             }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
         }
         // As many rows as nodes and none doubled: every node is filled.
         let values = values.into_iter().map(Option::unwrap_or_default).collect();
@@ -211,27 +197,97 @@ impl CorrectionField for CorrectionMap {
     }
 }
 
-fn columns_of(headers: &csv::StringRecord) -> Result<[usize; 6], MapError> {
-    let refuse = |found: String, reason: &str, remedy: String| MapError {
-        line: 1,
+/// Line and cells of every row, or the first faults.
+fn rows_of(bytes: &[u8], most: usize) -> Result<Vec<(u64, [f64; 6])>, Vec<MapError>> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(bytes);
+    let headers = reader
+        .headers()
+        .map_err(|error| vec![csv_error(bytes, &error)])?
+        .clone();
+    let columns = columns_of(&headers, line_of(bytes, headers.position()), most)?;
+    let mut rows = Vec::new();
+    let mut faults = Vec::new();
+    for record in reader.records() {
+        let read = record.map_err(|e| csv_error(bytes, &e)).and_then(|record| {
+            let line = line_of(bytes, record.position());
+            let row = (line, row_of(&record, line, &columns, &headers)?);
+            match rows.len() {
+                MAX_ROWS => Err(MapError {
+                    line: row.0,
+                    found: format!("more than {MAX_ROWS} rows"),
+                    reason: "the map is too large".to_owned(),
+                    remedy: "use a coarser grid".to_owned(),
+                }),
+                _ => Ok(row),
+            }
+        });
+        match read {
+            Ok(row) => rows.push(row),
+            Err(fault) => faults.push(fault),
+        }
+        if faults.len() == most {
+            break;
+        }
+    }
+    if faults.is_empty() {
+        Ok(rows)
+    } else {
+        Err(faults)
+    }
+}
+
+fn row_of(
+    record: &csv::StringRecord,
+    line: u64,
+    columns: &[usize; 6],
+    headers: &csv::StringRecord,
+) -> Result<[f64; 6], MapError> {
+    let mut row = [0.0; 6];
+    for (value, &column) in row.iter_mut().zip(columns) {
+        let cell = &record[column];
+        *value = cell
+            .parse()
+            .ok()
+            .filter(|number: &f64| number.is_finite() && number.abs() < 1e9)
+            .ok_or_else(|| MapError {
+                line,
+                found: format!("`{}` in column {}", shown(cell), &headers[column]),
+                reason: "it is no finite number".to_owned(),
+                remedy: "write a number with a decimal point, in mm".to_owned(),
+            })?;
+    }
+    Ok(row)
+}
+
+fn columns_of(
+    headers: &csv::StringRecord,
+    line: u64,
+    most: usize,
+) -> Result<[usize; 6], Vec<MapError>> {
+    let fault = |found: String, reason: &str, remedy: String| MapError {
+        line,
         found,
         reason: reason.to_owned(),
         remedy,
     };
+    let mut faults = Vec::new();
     for (index, name) in headers.iter().enumerate() {
         if headers.iter().take(index).any(|before| before == name) {
-            return Err(refuse(
+            faults.push(fault(
                 format!("column `{}`", shown(name)),
                 "the column stands there twice",
                 "keep one of the two".to_owned(),
             ));
-        }
-        if !COLUMNS.contains(&name) {
+        } else if !COLUMNS.contains(&name) {
             let nearest = COLUMNS
                 .into_iter()
                 .max_by(|a, b| strsim::jaro(name, a).total_cmp(&strsim::jaro(name, b)))
                 .unwrap_or(COLUMNS[0]);
-            return Err(refuse(
+            faults.push(fault(
                 format!("column `{}`", shown(name)),
                 "the column is not known",
                 format!(
@@ -240,28 +296,54 @@ fn columns_of(headers: &csv::StringRecord) -> Result<[usize; 6], MapError> {
                 ),
             ));
         }
+        if faults.len() == most {
+            return Err(faults);
+        }
     }
+    // A column of another name is one of these with a slip of the pen: it is said already.
+    let known = faults.is_empty();
     let mut columns = [0; 6];
     for (column, name) in columns.iter_mut().zip(COLUMNS) {
-        *column = headers
-            .iter()
-            .position(|header| header == name)
-            .ok_or_else(|| {
-                refuse(
-                    format!("no column `{name}`"),
-                    "a column is missing",
-                    format!("the first line must name {}", COLUMNS.join(",")),
-                )
-            })?;
+        match headers.iter().position(|header| header == name) {
+            Some(index) => *column = index,
+            None if known && faults.len() < most => faults.push(fault(
+                format!("no column `{name}`"),
+                "a column is missing",
+                format!("the first line must name {}", COLUMNS.join(",")),
+            )),
+            None => {}
+        }
     }
-    Ok(columns)
+    if faults.is_empty() {
+        Ok(columns)
+    } else {
+        Err(faults)
+    }
 }
 
-fn csv_error(error: csv::Error) -> MapError {
+/// Line of the record that is read from a position on: comments and empty lines before it are passed over.
+fn line_of(bytes: &[u8], position: Option<&csv::Position>) -> u64 {
+    let Some(position) = position else { return 1 };
+    let from = usize::try_from(position.byte()).unwrap_or(bytes.len());
+    let rest = bytes.get(from..).unwrap_or_default();
+    let passed = rest
+        .split_inclusive(|byte| *byte == b'\n')
+        .take_while(|line| matches!(*line, b"\n" | b"\r\n" | [b'#', ..]))
+        .count();
+    position.line() + passed as u64
+}
+
+fn csv_error(bytes: &[u8], error: &csv::Error) -> MapError {
     MapError {
-        line: error.position().map_or(1, csv::Position::line),
+        line: line_of(bytes, error.position()),
         found: "a row that is no CSV of the header's width".to_owned(),
-        reason: error.to_string(),
+        reason: match error.kind() {
+            csv::ErrorKind::UnequalLengths {
+                expected_len, len, ..
+            } => format!("it has {len} cells, the header has {expected_len}"),
+            csv::ErrorKind::Utf8 { .. } => "it is no UTF-8 text".to_owned(),
+            _ => error.to_string(),
+        },
         remedy: "write six numbers a row, with commas between them".to_owned(),
     }
 }

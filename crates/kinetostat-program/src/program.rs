@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::after_end::acting_word;
 use crate::error::{ProgramError, excerpt};
 use crate::lex::{Spanned, Token, tokens_of};
 use crate::syntax;
@@ -187,6 +188,8 @@ struct Reader {
     program: Program,
     tokens: Vec<Spanned>,
     tape_marks: usize,
+    /// Line of the closing tape mark.
+    closed: usize,
     blocks: usize,
 }
 
@@ -202,6 +205,7 @@ impl Reader {
             },
             tokens: Vec::new(),
             tape_marks: 0,
+            closed: 0,
             blocks: 0,
         }
     }
@@ -258,6 +262,7 @@ impl Reader {
         let first_word = self.program.words.len();
         let mut fault = None;
         let (kind, block_delete) = if self.tape_marks == 2 {
+            fault = self.block_after_end(number, &content);
             (LineKind::AfterEnd, false)
         } else {
             let mut tokens = std::mem::take(&mut self.tokens);
@@ -283,6 +288,22 @@ impl Reader {
             block_delete,
         });
         fault
+    }
+
+    /// The fault of a line after the closing tape mark that a controller might run.
+    fn block_after_end(&mut self, number: usize, content: &Range<usize>) -> Option<ProgramError> {
+        let text = &self.program.bytes[content.clone()];
+        let span = acting_word(text, &mut self.tokens)?;
+        Some(ProgramError {
+            line: number,
+            span: content.start + span.start..content.start + span.end,
+            found: excerpt(text),
+            reason: format!(
+                "the block follows the closing tape mark % on line {}: some controllers run on, some stop",
+                self.closed
+            ),
+            remedy: "remove the blocks after %, or the % before them".to_owned(),
+        })
     }
 
     fn keep_words<'t>(
@@ -380,6 +401,7 @@ impl Reader {
                 self.tape_marks = 1;
             }
             self.tape_marks += 1;
+            self.closed = number;
             return Ok((LineKind::Tape, false));
         }
         if significant.is_empty() {

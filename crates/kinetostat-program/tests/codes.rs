@@ -153,6 +153,56 @@ fn where_controllers_disagree_the_line_is_named() {
         .map(|warning| (warning.line, warning.text.split(' ').next().unwrap()))
         .collect();
     assert_eq!(found, [(4, "M9"), (5, "M5")], "{:?}", path.warnings);
+    for (warning, lines) in path
+        .warnings
+        .iter()
+        .zip(["; so on lines 4 and 6", "is meant"])
+    {
+        assert!(warning.text.ends_with(lines), "{}", warning.text);
+    }
+}
+
+/// A warning that concerns many lines names the first of them and their number, and a warning of one line
+/// only that.
+#[test]
+fn a_warning_names_all_lines_that_it_concerns() {
+    for count in 1..20_usize {
+        for (block, system) in [
+            ("G1 Y1 F50 M5", ""),
+            ("/G1 Y1 F50", ""),
+            ("G1 Y1 F50", "G55 "),
+        ] {
+            let mut text = format!("G21 G90\nG0 X0 Y0 Z0 F50\n{system}\n");
+            let mut lines = Vec::new();
+            for k in 0..count {
+                // At uneven distances.
+                text.push_str(&"M8\n".repeat(k % 3));
+                lines.push(text.lines().count() + 1);
+                text.push_str(block);
+                text.push('\n');
+            }
+            let (_, path) = read(&text).unwrap();
+            let [warning] = &path.warnings[..] else {
+                panic!("{text}{:?}", path.warnings)
+            };
+            assert_eq!(warning.line, lines[0]);
+            let said = warning.text.rsplit_once("; so on ").map(|(_, said)| said);
+            let named: Vec<String> = lines.iter().take(6).map(ToString::to_string).collect();
+            match count {
+                1 => assert_eq!(said, None),
+                2..=6 => {
+                    let (last, rest) = named.split_last().unwrap();
+                    let wanted = format!("lines {} and {last}", rest.join(", "));
+                    assert_eq!(said, Some(wanted.as_str()));
+                }
+                _ => {
+                    let wanted =
+                        format!("{count} lines: {} and {} more", named.join(", "), count - 6);
+                    assert_eq!(said, Some(wanted.as_str()));
+                }
+            }
+        }
+    }
 }
 
 #[test]

@@ -116,7 +116,12 @@ fn bad_maps_are_refused_with_line_reason_and_remedy() {
             "no finite number",
             "decimal point",
         ),
-        (format!("{head}0,0,0,0,0\n"), 2, "6 fields", "six numbers"),
+        (
+            format!("{head}0,0,0,0,0\n"),
+            2,
+            "5 cells, the header has 6",
+            "six numbers",
+        ),
         (
             format!("{head}0,0,0,0,0,0\n0,0,0,1,0,0\n"),
             3,
@@ -147,4 +152,58 @@ fn bad_maps_are_refused_with_line_reason_and_remedy() {
     }
     let error = CorrectionMap::read(b"\xff\xfe\x00").unwrap_err();
     assert!(error.to_string().contains("UTF-8"), "{error}");
+}
+
+/// All faults of a table in one run, in the order of its lines, and never more than asked for.
+#[test]
+fn every_wrong_row_of_a_table_is_found_at_once() {
+    use proptest::prelude::*;
+    let wrong = prop_oneof![
+        Just("0,0,0,0,0,nan"),
+        Just("0,0,0,0,0"),
+        Just("0,0,0,0,0,0,0"),
+        Just("0,1e400,0,0,0,0"),
+        Just("0,0,x,y,0,0"),
+    ];
+    let rows = proptest::collection::vec(proptest::option::of(wrong), 1..60);
+    proptest!(|(rows in rows, most in 1..20_usize, crlf in any::<bool>())| {
+        let mut text = "# a comment\n\nx_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n".to_owned();
+        let mut lines = Vec::new();
+        for (k, row) in rows.iter().enumerate() {
+            if k % 7 == 3 {
+                text.push_str("# a comment, another\n\n");
+            }
+            if row.is_some() {
+                lines.push(text.lines().count() as u64 + 1);
+            }
+            text.push_str(&row.map_or_else(|| format!("{k},0,0,0,0,0"), str::to_owned));
+            text.push('\n');
+        }
+        if crlf {
+            text = text.replace('\n', "\r\n");
+        }
+        let found: Vec<u64> = CorrectionMap::faults(text.as_bytes(), most).iter().map(|fault| fault.line).collect();
+        let wanted: Vec<u64> = lines.iter().copied().take(most).collect();
+        prop_assert_eq!(&found, &wanted, "{}", text);
+        let first = CorrectionMap::read(text.as_bytes()).err();
+        prop_assert_eq!(first.map(|fault| fault.line), lines.first().copied());
+    });
+    let lines = |text: &str| -> Vec<(u64, String)> {
+        let all = CorrectionMap::faults(text.as_bytes(), 100);
+        all.into_iter()
+            .map(|fault| (fault.line, fault.found))
+            .collect()
+    };
+    assert_eq!(
+        lines("x_mm,y,z_mm,z_mm,dx_mm,dz\n"),
+        [(1, "column `y`"), (1, "column `z_mm`"), (1, "column `dz`")]
+            .map(|(line, found)| (line, found.to_owned()))
+    );
+    let missing = lines("# measured\n\nx_mm,y_mm,dx_mm\n");
+    let at: Vec<u64> = missing.iter().map(|(line, _)| *line).collect();
+    assert_eq!(at, [3; 3]);
+    let doubled =
+        "x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n0,0,0,0,0,0\n0,0,0,1,0,0\n1,0,0,0,0,0\n1,0,0,0,0,0\n";
+    let found: Vec<u64> = lines(doubled).iter().map(|(line, _)| *line).collect();
+    assert_eq!(found, [3, 5]);
 }

@@ -385,6 +385,18 @@ const BAD: &[(&str, usize, &str, &str)] = &[
         "follows the program's end on line 3",
         "remove the blocks",
     ),
+    (
+        "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z0 F300\n%\nG1 X50 Y60 Z3\nM2",
+        5,
+        "follows the closing tape mark % on line 4: some controllers run on, some stop",
+        "remove the blocks after %, or the % before them",
+    ),
+    (
+        "%\nG21\nG0 X0 Y0\nM30\n%\nO2\nN10 X5",
+        7,
+        "follows the closing tape mark % on line 5",
+        "remove the blocks",
+    ),
     // Arcs.
     (
         "G21\nG2 X10 Y0 F100",
@@ -621,4 +633,53 @@ fn harmless_words_of_vendors_pass_byte_for_byte() {
     let written = write_corrected(&program, &path, &field, &writing, &Unwatched).unwrap();
     let expected = text.replace("G0 X0 Y0 Z5", "G0 X0.1000 Y0 Z5");
     assert_eq!(String::from_utf8(written.bytes).unwrap(), expected);
+}
+
+/// Behind the closing tape mark, wherever it stands, every block that a controller could run is refused, and
+/// text for people is carried and said.
+#[test]
+fn no_block_is_carried_behind_a_closing_tape_mark() {
+    use proptest::prelude::*;
+    // A line, whether it is refused there, whether it is text.
+    const LINES: [(&str, bool, bool); 14] = [
+        ("G1 X50 Y60 Z3", true, false),
+        ("X5", true, false),
+        ("n20 y3.F100", true, false),
+        ("/G0 X1", true, false),
+        ("(lift) Z9", true, false),
+        ("G2 I5", true, false),
+        ("G1 X[3+4]", true, false),
+        ("M98 P100", true, false),
+        ("", false, false),
+        ("(X9 was the stock)", false, false),
+        ("; G1 X3", false, false),
+        ("%", false, false),
+        ("written for machine X9", false, true),
+        ("--- end ---", false, true),
+    ];
+    proptest!(|(opens in any::<bool>(), ends in any::<bool>(), picks in proptest::collection::vec(0..LINES.len(), 0..12))| {
+        let mut lines = vec!["G21 G90", "G0 X0 Y0 Z0"];
+        if opens {
+            lines.insert(0, "%");
+        }
+        if ends {
+            lines.push("M30");
+        }
+        lines.push("%");
+        let first = lines.len() + 1;
+        lines.extend(picks.iter().map(|&pick| LINES[pick].0));
+        let of = |which: fn(&(&str, bool, bool)) -> bool| -> Vec<usize> {
+            picks.iter().enumerate().filter(|(_, pick)| which(&LINES[**pick])).map(|(k, _)| first + k).collect()
+        };
+        let text = lines.join("\n");
+        let found: Vec<usize> = faults(text.as_str(), &ReadOptions::default()).iter().map(|fault| fault.line).collect();
+        prop_assert_eq!(&found, &of(|line| line.1), "{}", text);
+        if found.is_empty() {
+            let path = interpret(&Program::read(text.as_str()).unwrap(), &ReadOptions::default()).unwrap();
+            prop_assert_eq!(path.moves.len(), 1);
+            let warned: Vec<usize> = path.warnings.iter().map(|warning| warning.line).collect();
+            let told: Vec<usize> = of(|line| line.2).into_iter().take(1).collect();
+            prop_assert_eq!(warned, told, "{}", text);
+        }
+    });
 }

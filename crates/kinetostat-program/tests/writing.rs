@@ -419,7 +419,7 @@ fn blocks_from_an_unknown_place_are_carried_and_never_sent_to_an_axis_they_do_no
     assert!(
         result.accounting.warnings[0]
             .text
-            .contains("2 block(s) move before")
+            .contains("2 blocks move before")
     );
     // With the start position given all blocks are corrected, the first by a step.
     let (output, _) = written_with(text, &field, &at_origin(), &bare());
