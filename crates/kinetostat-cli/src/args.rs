@@ -547,7 +547,7 @@ A job file:
   part_origin_mm = [20, 20, 120]   # the program's zero point, base axes
   part_orientation = { a_b_c_kuka_deg = [0, 0, 0] }
   # tool_orientation = { ... }     # without it, as at home
-  # orientation = "follows"        # the nearest to it that the machine can have; "held": it alone
+  # orientation = "follows"        # the nearest that there is; "held": it alone
   # scale = 1
 
   [tool]
@@ -555,7 +555,7 @@ A job file:
 
   # [[tools]]                      # several tools: T1 M6, T2 M6
   # number = 1
-  # length_mm = 100                # and load = { ... } of its own, at_corners included
+  # length_mm = 100                # and load = { ... }, at_corners too
 
   [load]                           # on feed moves; none in rapids
   milling = { radial_n = 215, tangential_n = -10, axial_n = -25 }

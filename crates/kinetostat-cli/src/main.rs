@@ -58,6 +58,7 @@ mod input;
 mod job;
 mod joints;
 mod journal;
+mod limit_options;
 mod machine;
 mod map;
 mod map_answer;
@@ -90,7 +91,7 @@ fn main() -> ExitCode {
     let cli = match Cli::try_parse_from(plain_numbers(std::env::args_os())) {
         Ok(cli) => cli,
         Err(error) => {
-            let _ = error.print();
+            screen::complain_of_line(&error);
             // Help and version were asked for; everything else is wrong input.
             return match error.kind() {
                 ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => ExitCode::SUCCESS,

@@ -3,7 +3,9 @@
 
 use std::io::{ErrorKind, IsTerminal, Write};
 
+use clap::error::ErrorKind as ClapKind;
 use kinetostat_machining::number as formatter;
+use kinetostat_model::shortened;
 
 use crate::failure::{Answer, Failure, safe};
 
@@ -57,6 +59,22 @@ pub(crate) fn complain(failure: &Failure) {
         None => format!("\u{1b}[1;31merror\u{1b}[0m: {}\n", failure.plain),
     };
     let _ = write(&mut to, text.as_bytes());
+}
+
+/// Tells what is wrong with a command line, in the words of its reader; a word of kilobytes is cut.
+pub(crate) fn complain_of_line(error: &clap::Error) {
+    let asked_for = matches!(
+        error.kind(),
+        ClapKind::DisplayHelp
+            | ClapKind::DisplayVersion
+            | ClapKind::DisplayHelpOnMissingArgumentOrSubcommand
+    );
+    let whole = error.render().to_string();
+    let text = shortened(&safe(&whole));
+    let _ = match asked_for || text == whole {
+        true => error.print(),
+        false => write(&mut anstream::stderr().lock(), text.as_bytes()),
+    };
 }
 
 /// Whether a person watches the standard error.

@@ -12,6 +12,7 @@ use crate::diagnose::Source;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::job::{BlockDeleteWord, Job, UnitsWord};
+use crate::limit_options::limits;
 use crate::origin;
 use crate::output::inside;
 
@@ -288,47 +289,6 @@ pub(crate) fn above_zero(value: f64) -> Result<f64, &'static str> {
     } else {
         Err("a number above zero is needed")
     }
-}
-
-/// The limits of the job file, and over them those of the options.
-fn limits(job: Option<&JobFile>, options: &[String]) -> Answer<Limits> {
-    let names: Vec<&str> = Limits::ALL.iter().map(|limit| limit.name).collect();
-    let names = names.join(", ");
-    let mut limits = Limits::default();
-    for (j, (name, value)) in job
-        .into_iter()
-        .flat_map(|j| j.job.limits.iter().map(move |entry| (j, entry)))
-    {
-        let Some(limit) = Limits::named(name.get_ref()) else {
-            let message = format!("unknown key '{}'", name.get_ref());
-            return Err(j.error(name, &message, &format!("there are: {names}")));
-        };
-        if !value.get_ref().is_finite() {
-            return Err(j.error(
-                value,
-                &format!("the limit '{}' is {}", limit.name, value.get_ref()),
-                "write a finite number",
-            ));
-        }
-        limits.set(limit, *value.get_ref());
-    }
-    for text in options {
-        let refuse = |reason: &str| {
-            Failure::input(format!(
-                "--limit '{text}': {reason}; write NAME=VALUE, as in correction_mm=5. There are: {names}"
-            ))
-        };
-        let (name, value) = text.split_once('=').ok_or_else(|| refuse("no value"))?;
-        let limit = Limits::named(name.trim()).ok_or_else(|| refuse("unknown name"))?;
-        let value: f64 = value
-            .trim()
-            .parse()
-            .ok()
-            .filter(|v: &f64| v.is_finite())
-            .ok_or_else(|| refuse("the value is no finite number"))?;
-        limits.set(limit, value);
-    }
-    Ok(limits)
 }
 
 fn micrometres(value: f64) -> Result<f64, &'static str> {

@@ -552,6 +552,50 @@ fn usual(key: &str, old: f64, new: f64) -> bool {
     }
 }
 
+/// Whatever a model states of its repeatability, a message speaks of that key with its line, never of a
+/// tolerance that nobody wrote.
+#[test]
+fn a_repeatability_is_refused_by_its_own_name_and_line() {
+    let here = workplace();
+    let job = ARM_JOB.replace("path_um = 20\nchord_um = 16\n", "");
+    let line = 1 + arm()
+        .lines()
+        .position(|line| line.starts_with("repeatability_mm"))
+        .expect("stated");
+    for (value, taken) in [
+        ("-60", false),
+        ("0", false),
+        ("1e-300", false),
+        ("1e-7", false),
+        ("9e-6", false),
+        ("0.06", true),
+        ("9.9", true),
+        ("10", true),
+        ("10.1", false),
+        ("29", false),
+        ("60", false),
+        ("1e300", false),
+    ] {
+        let model = arm().replace(
+            "repeatability_mm = 0.06",
+            &format!("repeatability_mm = {value}"),
+        );
+        let (said, _) = compensated(here.path(), &job, &model, &[]);
+        assert_eq!(said.code, i32::from(!taken), "{value}: {said:?}");
+        if !taken {
+            assert!(
+                said.err.contains("the repeatability is "),
+                "{value}: {said:?}"
+            );
+            assert!(
+                said.err.contains(&format!(".toml:{line}")),
+                "{value}: {said:?}"
+            );
+            assert!(!said.err.contains("tolerance"), "{value}: {said:?}");
+        }
+    }
+}
+
 const FACTORS: [f64; 8] = [1e3, 1e-3, 25.4, 57.3, -1.0, 1.0 / 57.3, 1.0 / 25.4, 1e6];
 
 /// Every figure with one factor here, with all of them in `cargo xtask fuzz`.

@@ -171,6 +171,97 @@ fn text_of_megabytes_from_a_job_is_not_echoed_whole() {
     }
 }
 
+/// A word of the command line is cut like one of a file: where it stands, what is wrong with it stays.
+#[test]
+fn text_of_kilobytes_from_the_command_line_is_not_echoed_whole() {
+    let here = workplace();
+    let long = "o".repeat(100_000);
+    for (line, word) in [
+        (format!("compensate --{long}"), "unexpected argument"),
+        (
+            format!("compensate job.toml --{long}=1"),
+            "unexpected argument",
+        ),
+        (long.clone(), "unrecognized subcommand"),
+        (format!("stiffness orthoglide --at {long} 0 0"), "--at"),
+        (format!("compensate job.toml --units {long}"), "--units"),
+        (format!("compensate job.toml --limit {long}=1"), "--limit"),
+        (
+            format!("compensate job.toml --limit correction_mm={long}"),
+            "--limit",
+        ),
+        (
+            format!("compensate job.toml --work-offset {long}"),
+            "--work-offset",
+        ),
+        (format!("compensate job.toml --model {long}"), "model"),
+        (format!("check {long}"), "ooo"),
+        (format!("model show {long}"), "ooo"),
+        (format!("reproduce {long}"), "ooo"),
+        (format!("completions {long}"), "bash"),
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words);
+        assert_eq!(said.code, 1, "{}", &line[..60.min(line.len())]);
+        assert!(
+            said.err.len() < 3_000 && said.out.is_empty(),
+            "{}: {} bytes",
+            &line[..40],
+            said.err.len()
+        );
+        assert!(said.err.contains(word), "{word}: {}", said.err);
+    }
+}
+
+/// A limit that would allow nothing, or is no size, is refused where it stands, with the range.
+#[test]
+fn limits_out_of_their_range_are_refused_with_option_or_line() {
+    let here = workplace();
+    for (name, range) in [
+        ("correction_mm", "0.000001 to 1000000 mm can be allowed"),
+        ("own_weight_mm", "0.000001 to 1000000 mm can be allowed"),
+        ("tilt_deg", "0.000001 to 180 deg can be allowed"),
+        ("force_n", "0.001 to 1000000000 N can be allowed"),
+        ("moment_n_m", "0.001 to 1000000000 N m can be allowed"),
+        ("share_of_rating", "0.001 to 1000 can be allowed"),
+        ("share_of_buckling", "0.001 to 1000 can be allowed"),
+        ("blocks_per_second", "0.1 to 1000000 1/s can be allowed"),
+        ("shortest_tool_mm", "-200000 to 200000 mm can be allowed"),
+        ("longest_tool_mm", "-200000 to 200000 mm can be allowed"),
+    ] {
+        let tool = name.ends_with("tool_mm");
+        let wrong: &[&str] = match tool {
+            true => &["-1e6", "1e6"],
+            false => &["-2", "-1", "0", "-0.0", "1e-30", "1e30"],
+        };
+        for value in wrong {
+            let option = format!("{name}={value}");
+            for command in ["compensate", "deflect"] {
+                let said = run(here.path(), &[command, "job.toml", "--limit", &option]);
+                assert_eq!(said.code, 1, "{option}: {said:?}");
+                let text = flat(&said.err);
+                assert!(
+                    text.contains(&format!("--limit '{option}': {range}")),
+                    "{text}"
+                );
+            }
+            // Beside another fault of the job: both are said, in the order of lines.
+            let job = JOB.replace("length_mm = 100", "lenght_mm = 100");
+            let job = format!("{job}\n[limits]\n{name} = {value}\n");
+            std::fs::write(here.path().join("bad.toml"), &job).expect("a job");
+            for command in ["compensate", "deflect", "check"] {
+                let said = run(here.path(), &[command, "bad.toml"]);
+                assert_eq!(said.code, 1, "{job}: {said:?}");
+                let text = flat(&said.err);
+                let line = job.lines().count();
+                for word in ["bad.toml:9", &format!("bad.toml:{line}"), name, range] {
+                    assert!(text.contains(word), "{command} {word}: {text}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn tiny_negative_numbers_are_numbers() {
     let here = workplace();
@@ -180,6 +271,32 @@ fn tiny_negative_numbers_are_numbers() {
     };
     assert_eq!(at("-25", "-5e-12"), at("-25", "-0.000000000005"));
     assert_eq!(at("-2.5E+1", "0"), at("-25", "0"));
+}
+
+/// The job file that a help shows, cut out as it stands on a terminal of 80 columns and run; false where the help shows none.
+fn the_job_of_a_help_can_be_copied(of: &str, help: &str) -> bool {
+    let shown = help
+        .lines()
+        .skip_while(|line| *line != "A job file:")
+        .skip(1);
+    let job: Vec<&str> = shown
+        .take_while(|line| line.is_empty() || line.starts_with("  "))
+        .collect();
+    let text = format!("{}\n", job.join("\n"));
+    if job.is_empty() {
+        assert!(!help.contains("schema ="), "{of}: {help}");
+        return false;
+    }
+    // What a line of a comment goes on to say would have no # before it, or be cut off.
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{of}: {help}"
+    );
+    let here = workplace();
+    std::fs::write(here.path().join("shown.toml"), &text).expect("a job");
+    let said = run(here.path(), &[of, "shown.toml"]);
+    assert_eq!(said.code, 0, "{of}: {}\n{text}", said.err);
+    true
 }
 
 /// Every command line in every help, run as it stands where the files that it names exist.
@@ -229,13 +346,15 @@ fn examples_in_the_help_can_be_copied() {
         "man",
     ];
     let mut examples: Vec<String> = Vec::new();
+    let mut jobs = 0;
     for of in commands {
-        let mut words: Vec<&str> = of.split_whitespace().collect();
-        words.push("--help");
-        let help = run(here.path(), &words).answered().out;
+        let help = shell(here.path(), &format!("COLUMNS=80 $K {of} --help"))
+            .answered()
+            .out;
         // A longer line would be broken where nobody can copy it.
         let mut examples_of = help.lines().filter(|l| l.starts_with("  kinetostat "));
         assert!(examples_of.all(|l| l.chars().count() <= 80), "{of}: {help}");
+        jobs += usize::from(the_job_of_a_help_can_be_copied(of, &help));
         let joined = help.replace("\\\n", " ");
         let found = joined
             .lines()
@@ -249,6 +368,7 @@ fn examples_in_the_help_can_be_copied() {
         }
     }
     assert!(examples.len() >= 28, "{}: {examples:#?}", examples.len());
+    assert_eq!(jobs, 1);
     let mut skipped = Vec::new();
     let given: Vec<_> = contents(here.path()).into_keys().collect();
     for example in &examples {

@@ -61,6 +61,8 @@ pub struct Limit {
     pub what: &'static str,
     /// What is usual and why.
     pub usual: &'static str,
+    /// The least and the largest value that it can be given.
+    pub range: [f64; 2],
     value: fn(&mut Limits) -> &mut f64,
 }
 
@@ -70,19 +72,54 @@ impl fmt::Debug for Limit {
     }
 }
 
+impl Limit {
+    /// Whether it can be given that value.
+    #[must_use]
+    pub fn takes(&self, value: f64) -> bool {
+        (self.range[0]..=self.range[1]).contains(&value)
+    }
+
+    /// A value with the limit's unit.
+    #[must_use]
+    pub fn with_unit(&self, value: impl fmt::Display) -> String {
+        number::with_unit(&value.to_string(), self.unit)
+    }
+
+    /// The values that it can be given: "0.000001 to 1000000 mm can be allowed".
+    #[must_use]
+    pub fn range_in_words(&self) -> String {
+        let [least, most] = self.range;
+        format!("{least} to {} can be allowed", self.with_unit(most))
+    }
+}
+
 impl PartialEq for Limit {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }
 }
 
+/// How far a tool may be put off, mm: above zero, since nothing would be allowed otherwise, and at most the
+/// largest coordinate of a program.
+const LENGTHS: [f64; 2] = [1e-6, 1e6];
+
+/// Loads, N and N m.
+const LOADS: [f64; 2] = [1e-3, 1e9];
+
+/// Shares of a rating or of the way to buckling.
+const SHARES: [f64; 2] = [1e-3, 1e3];
+
+/// Lengths of tools, mm; negative where the flange's z axis points into the machine.
+const TOOLS: [f64; 2] = [-2e5, 2e5];
+
 macro_rules! limit {
-    ($name:ident, $unit:literal, $what:literal, $usual:literal) => {
+    ($name:ident, $unit:literal, $range:expr, $what:literal, $usual:literal) => {
         Limit {
             name: stringify!($name),
             unit: $unit,
             what: $what,
             usual: $usual,
+            range: $range,
             value: |limits| &mut limits.$name,
         }
     };
@@ -94,60 +131,70 @@ impl Limits {
         limit!(
             correction_mm,
             "mm",
+            LENGTHS,
             "the correction",
             "arms give way by 0.1 to 1 mm under a cutting force, parallel machines by hundredths; more is mostly a wrong unit (N m per degree, micrometres for mm), or a table of places instead of differences"
         ),
         limit!(
             own_weight_mm,
             "mm",
+            LENGTHS,
             "the displacement of the tool by the machine's own weight and the loads of its model",
             "heavy arms sag by 0.5 to 3 mm with a spindle in their hand, parallel machines by hundredths; more is mostly a wrong mass or stiffness"
         ),
         limit!(
             tilt_deg,
             "deg",
+            [1e-6, 180.0],
             "the tilt of the tool",
             "cutting tilts a tool by hundredths of a degree, on soft arms by tenths; a program of positions cannot correct it"
         ),
         limit!(
             force_n,
             "N",
+            LOADS,
             "the force on the tool",
             "robots mill with 50 to 1000 N and drill with up to 3000 N"
         ),
         limit!(
             moment_n_m,
             "N m",
+            LOADS,
             "the moment on the tool",
             "cutting torques are 0.1 to 100 N m; the unit is N m, not N mm"
         ),
         limit!(
             share_of_rating,
             "",
+            SHARES,
             "the load of a drive as a share of its rating",
             "a drive carries at most its rating, cutting force and weights together"
         ),
         limit!(
             share_of_buckling,
             "",
+            SHARES,
             "the share of the way to buckling",
             "columns are loaded to at most a half, better a fifth, of their buckling load; stiffness falls on the way"
         ),
         limit!(
             blocks_per_second,
             "1/s",
+            [0.1, 1e6],
             "the number of blocks per second",
             "controllers of robots take 50 to 250 blocks per second, those of machine tools 500 to 2000"
         ),
         limit!(
             shortest_tool_mm,
             "mm",
+            TOOLS,
             "the tool's length",
             "tools with their holders are 20 to 400 mm long, from the flange outward; millimetres, not metres. Where the flange's z axis points into the machine, a negative length is meant"
         ),
         limit!(
             longest_tool_mm,
             "mm",
+            TOOLS,
             "the tool's length",
             "tools with their holders are 20 to 400 mm long, with a spindle between up to 800 mm"
         ),
@@ -190,16 +237,18 @@ pub struct Beyond {
 impl Beyond {
     /// The option that would allow it: a value a little beyond what was found.
     fn allowing(&self) -> f64 {
+        let [least, most] = self.limit.range;
         let room = if self.found < self.allowed {
             self.found - 0.05 * self.found.abs()
         } else {
             1.05 * self.found
         };
         let unit = 10_f64.powf(room.abs().max(1e-9).log10().floor() - 1.0);
-        match self.found < self.allowed {
+        let value = match self.found < self.allowed {
             true => (room / unit).floor() * unit,
             false => (room / unit).ceil() * unit,
-        }
+        };
+        value.clamp(least, most)
     }
 }
 
@@ -259,6 +308,24 @@ mod tests {
             }
         }
         assert!(Limits::named("correction").is_none());
+    }
+
+    #[test]
+    fn every_default_is_in_its_range_and_no_size_is_zero_or_less() {
+        for limit in Limits::ALL {
+            let value = Limits::default().get(limit);
+            assert!(limit.takes(value), "{limit:?}: {}", limit.range_in_words());
+            let tool = limit.name.ends_with("tool_mm");
+            for none in [0.0, -value, f64::MIN_POSITIVE] {
+                assert_eq!(limit.takes(none), tool, "{limit:?} {none}");
+            }
+            for none in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
+                assert!(!limit.takes(none), "{limit:?} {none}");
+            }
+        }
+        let named = |name: &str| Limits::named(name).expect("known").range_in_words();
+        assert_eq!(named("tilt_deg"), "0.000001 to 180 deg can be allowed");
+        assert_eq!(named("share_of_rating"), "0.001 to 1000 can be allowed");
     }
 
     #[test]

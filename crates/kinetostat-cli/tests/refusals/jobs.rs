@@ -235,6 +235,16 @@ pub fn jobs() -> Vec<Case> {
             &["tolerance", "0.001"],
         ),
         case(
+            "job: more than its shortest tool is its longest",
+            j(
+                "[output]",
+                "[limits]\nlongest_tool_mm = 100\nshortest_tool_mm = 150\n\n[output]",
+            ),
+            &RUN,
+            1,
+            &["bad.toml:16", "shortest_tool_mm is 150", "no tool"],
+        ),
+        case(
             "job: decimals",
             j("[output]", "[tolerances]\ndecimals = 1\n\n[output]"),
             &RUN,

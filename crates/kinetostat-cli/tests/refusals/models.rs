@@ -166,6 +166,16 @@ pub fn models() -> Vec<Case> {
             &["stewart", "stewart_gough_a"],
         ),
         case(
+            "model: a repeatability in micrometres",
+            m(
+                "name = \"arm\"\ng",
+                "name = \"arm\"\nrepeatability_mm = 60\ng",
+            ),
+            &["compensate", "job.toml", "--model", "bad.toml"],
+            1,
+            &["bad.toml:5", "repeatability is 60 mm", "0.00001 to 10 mm"],
+        ),
+        case(
             "model: escape codes in a name",
             m("name = \"shoulder\"", "nam\u{7}e = \"\u{1b}[31mshoulder\""),
             &CHECK,

@@ -183,6 +183,31 @@ pub fn programs() -> Vec<Case> {
             &["part.ngc", "line 2", "outside the map"],
         ),
         case(
+            "program: blocks after a tape mark in its middle",
+            changed("G1 X0", "%\nG1 X0"),
+            &CUT,
+            1,
+            &["3 lines are refused", "line 5", "line 6", "line 7", "% on line 4", "remove the blocks after %"],
+        ),
+        case(
+            "map: all faults at once",
+            vec![(
+                "map.csv",
+                b"x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n0,0,0,0,0,no\n1,0,0,0,0,0\n2,0,0,0\n3,0,0,inf,0,0\n".to_vec(),
+            )],
+            &[
+                "compensate",
+                "--map",
+                "map.csv",
+                "--program",
+                "part.ngc",
+                "--out",
+                "o.ngc",
+            ],
+            1,
+            &["map.csv", "3 places", "line 2", "line 4", "line 5"],
+        ),
+        case(
             "map: a column too few",
             vec![(
                 "map.csv",
