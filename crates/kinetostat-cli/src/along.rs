@@ -1,6 +1,7 @@
 //! A run along a program, from question to files: shared by `compensate`, `deflect` and `demo`.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::PathBuf;
 
 use kinetostat_machining::{
@@ -8,7 +9,7 @@ use kinetostat_machining::{
     compensate_program, load_in_words,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Path as ToolPath, Program, ProgramError, faults, interpret};
+use kinetostat_program::{Path as ToolPath, Program, faults, interpret};
 
 use crate::failure::{Answer, Failure};
 use crate::machine::Machine;
@@ -114,11 +115,7 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
     });
     read.map_err(|error| {
         let all = faults(setting.program.clone(), &setting.reading);
-        let message = if all.len() > 1 {
-            faults_in_words(&all)
-        } else {
-            error.to_string()
-        };
+        let message = faults_in_words("lines", &error, &all, |fault| fault.reason.as_str());
         Failure::input(message).within(&setting.program_name)
     })
 }
@@ -129,13 +126,21 @@ const FAULTS_OF_A_REASON: usize = 3;
 /// Faults listed in all.
 const FAULTS_SHOWN: usize = 40;
 
-/// All faults of a program in the order of its lines.
-fn faults_in_words(all: &[ProgramError]) -> String {
-    let mut text = format!("{} lines are refused:", all.len());
+/// All faults of a file in the order of its lines, or the only one.
+pub(crate) fn faults_in_words<'f, F: Display>(
+    places: &str,
+    first: &F,
+    all: &'f [F],
+    reason: impl Fn(&'f F) -> &'f str,
+) -> String {
+    if all.len() < 2 {
+        return first.to_string();
+    }
+    let mut text = format!("{} {places} are refused:", all.len());
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut shown = 0;
     for fault in all {
-        let count = counts.entry(&fault.reason).or_default();
+        let count = counts.entry(reason(fault)).or_default();
         *count += 1;
         if *count <= FAULTS_OF_A_REASON && shown < FAULTS_SHOWN {
             shown += 1;

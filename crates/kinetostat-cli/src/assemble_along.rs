@@ -2,6 +2,7 @@
 //! [R 6.5.2, figures 6.6 and 6.7].
 
 use kinetostat::{Mechanism, Pose, Posture, Wrench};
+use kinetostat_machining::number::counted;
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
@@ -150,7 +151,10 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
     if unstable > 0 {
         warnings.push(Warning::new(
             WarningCode::NotStable,
-            format!("the machine is NOT STABLE at {unstable} of {count} points"),
+            format!(
+                "the machine is NOT STABLE at {unstable} of {}",
+                counted(count, "point")
+            ),
         ));
     }
     Ok(AlongLine {
@@ -280,12 +284,12 @@ const SHOWN: usize = 11;
 pub(crate) fn in_words(question: &Question, a: &AlongLine) -> String {
     let mut out = wrapped(
         &format!(
-            "{} ({}), from {} to {} mm in {} points",
+            "{} ({}), from {} to {} mm in {}",
             a.model,
             a.model_source,
             triple(a.from_mm, short),
             triple(a.to_mm, short),
-            a.points.len()
+            counted(a.points.len(), "point")
         ),
         0,
     );

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use kinetostat::Mechanism;
+use kinetostat_machining::number::counted;
 use kinetostat_machining::{LoadAlongPath, Placement, Warning, load_in_words};
 use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
@@ -215,13 +216,13 @@ fn in_words(f: &JobFindings) -> String {
     let lines = [
         format!("Model: {} ({})", f.model, f.model_source),
         format!(
-            "Program: {}, {} blocks in {} lines; {} feed moves of {} mm in all, {} rapid moves{corners}",
+            "Program: {}, {} in {}; {} of {} mm in all, {}{corners}",
             p.name,
-            p.blocks,
-            p.lines,
-            p.feed_moves,
+            counted(p.blocks, "block"),
+            counted(p.lines, "line"),
+            counted(p.feed_moves, "feed move"),
             short(p.feed_length_mm),
-            p.rapid_moves
+            counted(p.rapid_moves, "rapid move")
         ),
         format!("Placement: {}", f.placement),
         format!("Tool: {}", f.tool),

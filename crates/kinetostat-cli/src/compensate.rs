@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::number::{MISSING, fixed, largest, largest_length, with_unit};
+use kinetostat_machining::number::{MISSING, counted, fixed, largest, largest_length, with_unit};
 use kinetostat_machining::{
     RESULT_SCHEMA, RunError, Warning, odd_correction, odd_tolerances, of_accounting, of_program,
 };
@@ -129,10 +129,10 @@ fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
     let mut outputs = Outputs::new(existing, setting.inputs.clone());
     let mut text = wrapped(
         &format!(
-            "{}: {} blocks in {} lines, written as read, byte for byte.",
+            "{}: {} in {}, written as read, byte for byte.",
             setting.program_name,
-            program.block_count(),
-            program.line_count()
+            counted(program.block_count(), "block"),
+            counted(program.line_count(), "line")
         ),
         0,
     );
@@ -172,6 +172,9 @@ struct MapResult<'a> {
     warnings: Vec<Warning>,
 }
 
+/// More faults than this are not looked for in a table.
+const FAULTS_OF_A_TABLE: usize = 1000;
+
 fn from_map(
     files: &Files,
     map: &Path,
@@ -186,8 +189,15 @@ fn from_map(
         ));
     }
     let bytes = files.bytes("map", map)?;
-    let field = CorrectionMap::read(&bytes)
-        .map_err(|error| Failure::input(error).within(&map.display().to_string()))?;
+    let field = CorrectionMap::read(&bytes).map_err(|first| {
+        let all = CorrectionMap::faults(&bytes, FAULTS_OF_A_TABLE);
+        let places = match all.len() {
+            FAULTS_OF_A_TABLE => "or more places of the table",
+            _ => "places of the table",
+        };
+        let message = along::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
+        Failure::input(message).within(&map.display().to_string())
+    })?;
     let (program, path) = along::read_program(setting)?;
     let mut inputs = setting.inputs.clone();
     inputs.push(map.to_owned());

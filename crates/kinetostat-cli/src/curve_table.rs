@@ -3,7 +3,7 @@
 use kinetostat::BranchEnd;
 
 use crate::curve_answer::{CriticalAnswer, CurveAnswer, NamedPoint, PointAnswer, kind_in_words};
-use kinetostat_machining::number::share;
+use kinetostat_machining::number::{counted, share};
 
 use crate::screen::{columns, item, number, wrapped};
 use crate::summary;
@@ -350,9 +350,10 @@ fn critical_in_words(c: &CriticalAnswer) -> String {
 
 fn branches(a: &CurveAnswer) -> String {
     let points: usize = a.branches.iter().map(|b| b.points.len()).sum();
+    let points = counted(points, "point");
     let mut text = match a.branches.len() {
-        1 => format!("One branch was followed, {points} points."),
-        n => format!("{n} branches were followed, {points} points."),
+        1 => format!("One branch was followed, {points}."),
+        n => format!("{n} branches were followed, {points}."),
     };
     let shares: Vec<f64> = a
         .branches

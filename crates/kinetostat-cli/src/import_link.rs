@@ -290,10 +290,10 @@ pub(crate) fn displacements(args: &DisplacementsArgs) -> Answer<()> {
     let stiffness = symmetrised(&(turn.transpose() * stiffness * turn));
     let at = end * 1e3;
     let source = format!(
-        "{}: displacements of {} nodes in {} load cases, loads at {:.3}, {:.3}, {:.3} mm of the mesh",
+        "{}: displacements of {} in {}, loads at {:.3}, {:.3}, {:.3} mm of the mesh",
         file_name(&args.file),
-        cases.first().map_or(0, |c| c.places.len()),
-        cases.len(),
+        formatter::counted(cases.first().map_or(0, |c| c.places.len()), "node"),
+        formatter::counted(cases.len(), "load case"),
         at.x,
         at.y,
         at.z

@@ -2,11 +2,13 @@
 
 use std::fmt::Write as _;
 
+use kinetostat_machining::number::counted;
 use kinetostat_machining::{MapPlace, PlaceState};
 
 use crate::machine::short;
 use crate::map_answer::{Extreme, FigureAnswer, MapAnswer};
 use crate::orientation;
+use crate::points_csv::{decimals, digits};
 use crate::screen::{columns, number, triple, wrapped};
 use crate::summary;
 
@@ -32,32 +34,44 @@ pub(crate) fn header(columns: Columns) -> String {
     out
 }
 
-/// One line for each place; a number that does not exist is an empty cell.
+/// One line for each place; a number that does not exist is an empty cell. Digits as in the table of points:
+/// 100 nm for places, 1 nm for displacements, 1e-5 deg, five digits of a stiffness.
 pub(crate) fn lines(places: &[MapPlace], columns: Columns) -> String {
-    let mut out = String::with_capacity(160 * places.len());
-    let cell = |out: &mut String, x: f64| {
-        // Writing to a string cannot fail.
-        let _ = match x.is_nan() {
-            true => write!(out, ","),
-            false => write!(out, "{x},"),
-        };
-    };
+    let mut out = String::with_capacity(100 * places.len());
     for place in places {
-        place.position_mm.iter().for_each(|x| cell(&mut out, *x));
-        cell(&mut out, place.smallest_stiffness_n_per_mm);
-        let along = place.stiffness_n_per_mm.iter();
-        along.for_each(|x| cell(&mut out, *x));
+        let mut cell = |text: String| {
+            out.push_str(&text);
+            out.push(',');
+        };
+        let all = |values: &[f64; 3], most: usize| values.map(|x| decimals(x, most));
+        all(&place.position_mm, 4).into_iter().for_each(&mut cell);
+        cell(stiffness(place.smallest_stiffness_n_per_mm));
+        place
+            .stiffness_n_per_mm
+            .map(stiffness)
+            .into_iter()
+            .for_each(&mut cell);
         if columns.follows {
-            cell(&mut out, place.tool_turn_deg);
+            cell(decimals(place.tool_turn_deg, 5));
         }
         if columns.loaded {
-            let moved = place.displacement_mm.iter().chain(&place.rotation_deg);
-            moved.for_each(|x| cell(&mut out, *x));
+            all(&place.displacement_mm, 6)
+                .into_iter()
+                .for_each(&mut cell);
+            all(&place.rotation_deg, 5).into_iter().for_each(&mut cell);
         }
         out.push_str(status(place.state));
         out.push('\n');
     }
     out
+}
+
+/// A rigid direction has a stiffness: it is infinite.
+fn stiffness(value: f64) -> String {
+    match value == f64::INFINITY {
+        true => "inf".to_owned(),
+        false => digits(value, 5),
+    }
 }
 
 pub(crate) fn status(state: PlaceState) -> &'static str {
@@ -74,10 +88,10 @@ pub(crate) fn status(state: PlaceState) -> &'static str {
 pub(crate) fn in_words(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64>) -> String {
     let mut out = wrapped(
         &format!(
-            "{} ({}), {} places, tool {}",
+            "{} ({}), {}, tool {}",
             a.model,
             a.model_source,
-            a.places.asked,
+            counted(a.places.asked, "place"),
             orientation::in_words(rotation)
         ),
         0,

@@ -140,7 +140,7 @@ fn distinct(names: Vec<String>) -> Vec<String> {
 }
 
 /// At most so many decimals, without zeros at the end.
-fn decimals(value: f64, most: usize) -> String {
+pub(crate) fn decimals(value: f64, most: usize) -> String {
     if !value.is_finite() {
         return String::new();
     }
@@ -151,7 +151,7 @@ fn size([x, y, z]: &[f64; 3]) -> f64 {
     x.hypot(*y).hypot(*z)
 }
 
-fn digits(value: f64, count: usize) -> String {
+pub(crate) fn digits(value: f64, count: usize) -> String {
     if !value.is_finite() {
         return String::new();
     }

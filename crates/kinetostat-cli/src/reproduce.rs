@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use kinetostat_machining::number::counted;
 use kinetostat_machining::{RunError, Watch};
 use kinetostat_reproduce::{Entry, IDS, Item, ReproduceError, Status, all, html, one};
 
@@ -195,7 +196,8 @@ fn tell(out: &mut String, entry: &Entry, everything: bool) {
     let left = entry.items.len() - shown.len();
     if left > 0 {
         let words = format!(
-            "{left} numbers without print: kinetostat reproduce {}",
+            "{} without print: kinetostat reproduce {}",
+            counted(left, "number"),
             entry.id
         );
         out.push_str(&wrapped(&words, 2));
@@ -225,9 +227,13 @@ fn summary(out: &mut String, entries: &[Entry], one: bool) {
         format!(" in {} entries", entries.len())
     };
     out.push_str(&format!(
-        "{all} numbers{place}: {} agree, {} errata, {} not reproduced, {} without print\n",
+        "{}{place}: {} agree, {}, {} not reproduced, {} without print\n",
+        counted(all, "number"),
         count("agree"),
-        count("errata"),
+        match count("errata") {
+            1 => "1 erratum".to_owned(),
+            n => format!("{n} errata"),
+        },
         count("not reproduced"),
         count("without print")
     ));

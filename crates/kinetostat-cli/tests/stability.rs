@@ -3,7 +3,7 @@
 mod common;
 
 use common::checks::{flat, warnings};
-use common::{JOB, MODEL, run, workplace};
+use common::{JOB, MODEL, PROGRAM, run, workplace};
 use serde_json::Value;
 
 /// Version of every JSON output and of every file.
@@ -100,6 +100,45 @@ fn a_compensated_program_carries_its_mark_and_is_not_compensated_twice() {
     run(here.path(), &["compensate", "job.toml"]).answered();
     let written = std::fs::read_to_string(here.path().join("out.ngc")).expect("the program");
     assert!(written.starts_with("(kinetostat: compensated program)\n"));
+    // The mark in the words of the promise, by the comments of the program.
+    let promise = include_str!("../../../STABILITY.md");
+    for mark in [
+        "(kinetostat: compensated program)",
+        "; kinetostat: compensated program",
+    ] {
+        assert!(promise.contains(mark), "{mark}");
+        let comment = match mark.starts_with(';') {
+            true => "; milled dry\n",
+            false => "(milled dry)\n",
+        };
+        std::fs::write(here.path().join("own.ngc"), format!("{comment}{PROGRAM}"))
+            .expect("a program");
+        let line = [
+            "compensate",
+            "job.toml",
+            "--program",
+            "own.ngc",
+            "--out",
+            "marked.ngc",
+            "--force-overwrite",
+        ];
+        run(here.path(), &line).answered();
+        let marked = std::fs::read_to_string(here.path().join("marked.ngc")).expect("written");
+        assert_eq!(marked.lines().next(), Some(mark));
+        let again = [
+            "compensate",
+            "job.toml",
+            "--program",
+            "marked.ngc",
+            "--out",
+            "again.ngc",
+        ];
+        let said = run(here.path(), &again);
+        assert!(
+            said.code == 1 && said.err.contains("compensated already"),
+            "{said:?}"
+        );
+    }
     let again = [
         "compensate",
         "job.toml",

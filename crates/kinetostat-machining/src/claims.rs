@@ -2,7 +2,7 @@
 //! terminal and in the report.
 
 use crate::load::CornerLoad;
-use crate::number::{largest, largest_length};
+use crate::number::{counted, largest, largest_length};
 use crate::result::RunResult;
 
 impl RunResult {
@@ -51,8 +51,8 @@ impl RunResult {
             ),
         };
         Some(format!(
-            "At sharp corners this takes it that {holds}: {} corner steps, up to {} long, {} of the points; {otherwise}.",
-            s.corner_steps,
+            "At sharp corners this takes it that {holds}: {}, up to {} long, {} of the points; {otherwise}.",
+            counted(s.corner_steps, "corner step"),
             largest_length(s.largest_corner_step_mm),
             largest(s.corner_points_percent, "%")
         ))

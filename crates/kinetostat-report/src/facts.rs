@@ -71,7 +71,7 @@ pub(crate) fn cards(result: &Shown<'_>) -> Vec<Value> {
         card(
             "Path cut",
             figures.feed_length.clone(),
-            format!("{} points calculated", number::count(summary.points)),
+            format!("{} calculated", number::counted(summary.points, "point")),
         )
     });
     cards
@@ -202,7 +202,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
     if summary.feed_limited_pieces > 0 {
         rows.push(row(
             "Feed limited",
-            format!("{} pieces", number::count(summary.feed_limited_pieces)),
+            number::counted(summary.feed_limited_pieces, "piece"),
             format!(
                 "Their feed is held to {} times the programmed one, so the part is cut more slowly there than \
                  programmed, at {} % of its speed at least, first at line {}.",

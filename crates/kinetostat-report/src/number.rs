@@ -64,6 +64,11 @@ pub(crate) fn count(value: usize) -> String {
     group(&value.to_string())
 }
 
+/// How many of something, thousands apart.
+pub(crate) fn counted(value: usize, one: &str) -> String {
+    plain::counted(value, one).replacen(&value.to_string(), &count(value), 1)
+}
+
 /// A number with a given number of decimals.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     match drawable(value) {

@@ -106,6 +106,20 @@ pub fn trimmed(value: f64, digits: usize) -> String {
     }
 }
 
+/// How many of something: "1 point", "3 points".
+///
+/// ```
+/// use kinetostat::number::counted;
+/// assert_eq!([0, 1, 2].map(|n| counted(n, "point")), ["0 points", "1 point", "2 points"]);
+/// ```
+#[must_use]
+pub fn counted(count: usize, one: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {one}s"),
+    }
+}
+
 /// A number and its unit; no unit where there is no number.
 #[must_use]
 pub fn with_unit(number: &str, unit: &str) -> String {
