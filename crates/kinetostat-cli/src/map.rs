@@ -71,8 +71,11 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     if figures.places.with_figures() == 0 {
         let p = &figures.places;
         return Err(Failure::unanswered(format!(
-            "the machine can be put at none of the {} places with the tool {}: {} cannot be reached, {} are outside the limits of an actuator; choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
-            p.asked,
+            "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
+            match p.asked {
+                1 => "cannot be put at the place".to_owned(),
+                n => format!("can be put at none of the {n} places"),
+            },
             orientation::in_words(&rotation),
             p.unreachable,
             p.outside_limits

@@ -466,3 +466,83 @@ fn numbers_inside_texts_are_refused_with_their_option() {
     }
     assert_eq!(count, 84);
 }
+
+/// One of something is told as one, in summaries, reports and warnings.
+#[test]
+fn one_is_not_told_in_the_plural() {
+    const MANY: [&str; 24] = [
+        "blocks",
+        "lines",
+        "moves",
+        "places",
+        "points",
+        "pieces",
+        "steps",
+        "branches",
+        "numbers",
+        "nodes",
+        "cases",
+        "warnings",
+        "platforms",
+        "limbs",
+        "directions",
+        "entries",
+        "errata",
+        "poses",
+        "joints",
+        "segments",
+        "tools",
+        "faults",
+        "iterations",
+        "places",
+    ];
+    let here = workplace();
+    let put = |name: &str, text: &str| {
+        std::fs::write(here.path().join(name), text).expect("a file");
+    };
+    // One feed move and one rapid; one sharp corner; one block before the tool's place is stated; one fault.
+    put("one.ngc", "G21 G0 X0 Y0 Z0\nG1 X10 F300\n");
+    put("corner.ngc", "G21 G90 G17\nG0 X0 Y0 Z0\nG1 X20 F300\nY20\n");
+    put("unstated.ngc", "G21 G0 Z5\nX0 Y0\nG1 X10 F300\n");
+    put("line.ngc", "G21 G0 X0 Y0 Z0");
+    put(
+        "one.csv",
+        "x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n0,0,0,0.01,0,0\n",
+    );
+    let job = "--model orthoglide --part-origin-mm 0 0 100 --tool-length-mm 100 --force-overwrite --out o.ngc";
+    let mut corners = 0;
+    for line in [
+        format!("compensate {job} --milling 215 -10 -25 --program corner.ngc --report r.html"),
+        format!("compensate {job} --milling 215 -10 -25 --program one.ngc --report r.html"),
+        format!("compensate {job} --milling 215 -10 -25 --program unstated.ngc --report r.html"),
+        "compensate --model heavy_6r --part-origin-mm 1050 0 1000 --tool-length-mm 150 --milling 215 -10 -25 --program one.ngc --out o.ngc --report r.html --force-overwrite".to_owned(),
+        "compensate --no-compensation --program line.ngc --out o.ngc --force-overwrite".to_owned(),
+        "compensate --map one.csv --program one.ngc --out o.ngc --force-overwrite".to_owned(),
+        "deflect orthoglide --program one.ngc --force 0 0 200 --part-origin-mm 0 0 100 --tool-length-mm 100 --report r.html --force-overwrite".to_owned(),
+        "map orthoglide --x 0".to_owned(),
+        "map orthoglide --x 900".to_owned(),
+        "check model.toml".to_owned(),
+        "check job.toml".to_owned(),
+        "reproduce eq-3.34".to_owned(),
+        "curve two_link --factor 0 1 --force 1 0 0 --points 1".to_owned(),
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words);
+        let report = std::fs::read_to_string(here.path().join("r.html")).unwrap_or_default();
+        let mut text = format!("{} {} ", said.out, said.err);
+        // What stands between the tags.
+        let body = report.split_once("</style>").map_or("", |(_, body)| body);
+        text.extend(body.split('<').filter_map(|part| Some(part.split_once('>')?.1.to_owned() + "\n")));
+        corners += usize::from(flat(&text).contains("1 corner step,"));
+        let words: Vec<&str> = text.split_whitespace().collect();
+        for three in words.windows(3).filter(|three| three[0] == "1") {
+            let plural = |word: &str| MANY.contains(&word.trim_end_matches([',', '.', ':', ';']));
+            let adjective = ["feed", "rapid", "corner", "load"].contains(&three[1]);
+            assert!(
+                !plural(three[1]) && !(adjective && plural(three[2])),
+                "{line}: {three:?}\n{text}"
+            );
+        }
+    }
+    assert!(corners > 0, "a program with one corner step");
+}
