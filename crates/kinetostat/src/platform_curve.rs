@@ -4,6 +4,7 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 use crate::error::Result;
+use crate::graph_check::check_state;
 use crate::platform::{Guide, MechanismState, Unknowns};
 use crate::posture::{MechanismEquilibrium, Posture, conclude};
 use crate::saddle::{complement, pseudo_inverse};
@@ -50,6 +51,7 @@ impl<'m> Posture<'m> {
         start: MechanismState,
     ) -> Result<MechanismEquilibrium> {
         self.finite("the pose", pose.to_homogeneous().iter())?;
+        check_state(self.mechanism, &start)?;
         let tool = self.mechanism.tool;
         let from = start.platforms[tool];
         let way = pose_residual(pose, &from);
@@ -125,6 +127,10 @@ impl<'m> Posture<'m> {
     }
 
     fn curve(&self, kind: &Way, way: &[f64], start: Option<MechanismState>) -> Result<HeldCurve> {
+        if let Some(start) = &start {
+            check_state(self.mechanism, start)?;
+        }
+        self.finite("a distance along the way", way.iter())?;
         let mut curve = HeldCurve {
             points: Vec::with_capacity(way.len()),
             limits: Vec::new(),

@@ -168,6 +168,7 @@ impl<'p, 'm> Path<'p, 'm> {
         settings: &CurveSettings,
     ) -> Result<Self> {
         let place = || format!("mechanism '{}'", posture.mechanism.name);
+        settings.check(&place())?;
         let length = posture.mechanism.scale().length;
         let axes = turn_matrix(&end.axes);
         let of = |wanted: Prescribed| {

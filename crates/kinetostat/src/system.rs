@@ -256,25 +256,28 @@ impl System {
 }
 
 /// Unbalanced torque (balanced) that the rounding of the coordinates leaves where one spring is
-/// very much stiffer than another: its torque is no better known than this. Zero for all others, so that
-/// their equilibria are as exact as the settings ask for.
+/// very much stiffer than another: its torque is no better known than this. A spring is strained by the
+/// coordinates of its own block only (a link that bows is strained by its rotations). Zero for all other
+/// chains, so that their equilibria are as exact as the settings ask for.
 pub(crate) fn rounding(chain: &Chain, factors: &[f64], x: &[f64]) -> f64 {
     if !disparate(factors, chain) {
         return 0.0;
     }
     let length = chain.scale().length;
-    let (mut moved, mut stiffest) = (0.0_f64, 0.0_f64);
-    for ((c, factor), x) in chain.coordinates().iter().zip(&factors[6..]).zip(x) {
-        let unit = match c.kind {
-            MotionKind::Revolute => 1.0,
-            MotionKind::Prismatic => length,
-        };
-        moved = moved.max((x / unit).abs());
-        if c.role == Role::Spring {
-            stiffest = stiffest.max(unit / factor);
+    let mut largest = 0.0_f64;
+    for block in chain.springs() {
+        let (mut moved, mut stiffest) = (0.0_f64, 0.0_f64);
+        for i in block.first..block.first + block.len() {
+            let unit = match chain.coordinates()[i].kind {
+                MotionKind::Revolute => 1.0,
+                MotionKind::Prismatic => length,
+            };
+            moved = moved.max((x[i] / unit).abs());
+            stiffest = stiffest.max(unit / factors[6 + i]);
         }
+        largest = largest.max(stiffest * moved.min(1.0));
     }
-    8.0 * f64::EPSILON * stiffest * moved.min(1.0)
+    8.0 * f64::EPSILON * largest
 }
 
 /// From this ratio of the stiffest to the softest spring on, pivots of dense matrices are lost among

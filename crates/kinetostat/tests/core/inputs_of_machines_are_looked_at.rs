@@ -5,8 +5,8 @@
 use kinetostat::{
     Anchor, Chain, ChainProblem, CurveSettings, EndCondition, IterationSettings, Judged, LengthLaw,
     Limb, Load, LoadPattern, Mechanism, MechanismState, MotionKind, Parameter, Platform,
-    PlatformLoad, Pose, Result, Settings, Wrench, compensate_from, critical_load_factor, follow,
-    newton_iteration, report_iteration, solve_chain,
+    PlatformLoad, Pose, Result, Settings, Twist, Wrench, compensate_from, critical_load_factor,
+    follow, newton_iteration, report_iteration, solve_chain,
 };
 use nalgebra::{UnitQuaternion, Vector3, vector};
 
@@ -155,6 +155,22 @@ fn from(change: impl Fn(&mut MechanismState, &mut Pose, &mut Wrench)) -> Result<
     ])
 }
 
+/// Along the path of a machine under a growing load, and while its tool is taken along.
+fn path(change: impl Fn(&mut CurveSettings, &mut f64)) -> Result<Vec<f64>> {
+    let machine = machine(|_| {})?;
+    let posture = machine.posture(&machine.platforms()[machine.tool()].home)?;
+    let (mut settings, mut along) = (CurveSettings::within(-1.0, 1.0), 1e-4);
+    settings.points = 4;
+    change(&mut settings, &mut along);
+    let end = EndCondition::wrench(Wrench::zero());
+    let growing = Wrench::new(vector![0.3, 0.2, 0.0], Vector3::zeros());
+    let path = posture.path(&Parameter::end_wrench(growing), &end, &settings)?;
+    let direction = Twist::new(vector![1.0, 0.0, 0.0], Vector3::zeros());
+    let held = posture.held_along(&direction, &[0.0, along], Some(posture.rest_state()))?;
+    let points = path.points.iter().map(|p| p.parameter);
+    Ok(points.chain(held.points.iter().map(|p| p.force)).collect())
+}
+
 fn strut(law: LengthLaw) -> PlatformLoad {
     PlatformLoad::strut((0, vector![0.0, 0.4, 0.0]), (2, Vector3::zeros()), law)
 }
@@ -165,6 +181,9 @@ fn inputs() -> Vec<(&'static str, Ask)> {
     };
     let of_critical = |change: fn(&mut CurveSettings, &mut LoadPattern, f64)| -> Ask {
         Box::new(move |x| critical(|s, pattern| change(s, pattern, x)))
+    };
+    let of_path = |change: fn(&mut CurveSettings, &mut f64, f64)| -> Ask {
+        Box::new(move |x| path(|s, along| change(s, along, x)))
     };
     let of_machine =
         |change: fn(&mut Parts, f64)| -> Ask { Box::new(move |x| rest(|parts| change(parts, x))) };
@@ -191,6 +210,10 @@ fn inputs() -> Vec<(&'static str, Ask)> {
             "steps",
             Box::new(move |x| iterated(true, |s| s.steps = count(x))),
         ),
+        ("range", of_path(|s, _, x| s.range.0 = x)),
+        ("range", of_path(|s, _, x| s.range.1 = x)),
+        ("smallest_step", of_path(|s, _, x| s.smallest_step = x)),
+        ("distance", of_path(|_, along, x| *along = x)),
         ("range", of_curve(|s, _, x| s.range.0 = x)),
         ("range", of_curve(|s, _, x| s.range.1 = x)),
         (
