@@ -30,7 +30,7 @@ use crate::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
 use crate::sweep::{Form, Path, Sweep, turned_rows};
 use crate::sweep_solve::{Bordered, EndRows, STEP_SPRINGS};
-pub(crate) use crate::system::{System, balance, rounding};
+pub(crate) use crate::system::{System, balance, beyond, rounding};
 
 /// What is prescribed in one direction of the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -236,7 +236,7 @@ impl Attempt<'_, '_> {
     fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
         self.evaluate_system(x, wrench, share);
         let p = self.problem;
-        self.rounding = rounding(p.chain, &self.factors, x);
+        self.rounding = rounding(p.chain, &self.system, &self.factors, x);
         let tip = self.system.kinematics.tip_pose();
         let (target, offset) = match &self.way {
             Way::Screw(from) if share < 1.0 => (on_screw(from, &p.end.pose, share), Twist::zero()),
@@ -286,7 +286,7 @@ impl Attempt<'_, '_> {
     fn converged(&self, b: &Balance) -> bool {
         let unit = natural(self.problem.chain);
         b.closure <= self.settings.closure * unit
-            && b.torque <= self.settings.torque * b.loads + 1e-16 * unit + self.rounding
+            && beyond(b.torque, self.rounding) <= self.settings.torque * b.loads + 1e-16 * unit
     }
 
     /// Change of the closure (base axes) with the motion of the end. Where all rotations are held

@@ -15,7 +15,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
 use crate::chain::{MotionKind, Scale};
-use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, rounding, step_limit};
+use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, beyond, rounding, step_limit};
 use crate::error::{Error, Result};
 use crate::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
@@ -160,8 +160,8 @@ pub(crate) struct MechanismBalance {
     forces: f64,
     /// What loads count as at least, see [`LEAST_LOAD`].
     least: f64,
-    /// Unbalanced torque that is rounding, see [`rounding`].
-    rounding: f64,
+    /// Largest unbalanced torque without what is rounding, see [`rounding`].
+    exceeding: f64,
 }
 
 impl MechanismBalance {
@@ -288,7 +288,7 @@ impl<'m> PlatformSolver<'m> {
         self.evaluate_limbs();
         let (mut merit, mut closure_m, mut torque, mut loads, mut forces) =
             (0.0, 0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-        let mut rounds = 0.0_f64;
+        let mut exceeding = 0.0_f64;
         // Wrench still missing on each platform, about its origin.
         let mut lack: Vec<Wrench> = m
             .platforms
@@ -337,7 +337,8 @@ impl<'m> PlatformSolver<'m> {
             closure_m = closure_m.max(b.closure / limb.actual.scale().stiffness.sqrt());
             torque = torque.max(b.torque);
             loads = loads.max(b.loads);
-            rounds = rounds.max(rounding(&limb.actual, &self.factors[i], x));
+            let rounds = rounding(&limb.actual, &linear.system, &self.factors[i], x);
+            exceeding = exceeding.max(beyond(b.torque, rounds));
             lack[limb.to] = lack[limb.to] + Wrench(-(shift_matrix(&arm).transpose() * f.0));
             if limb.from != 0 {
                 let n = x.len() + limb.actual.actuators().len();
@@ -368,7 +369,7 @@ impl<'m> PlatformSolver<'m> {
             force,
             forces,
             least: LEAST_LOAD * root * self.length,
-            rounding: rounds,
+            exceeding,
         };
         (balance, lack)
     }
@@ -376,7 +377,7 @@ impl<'m> PlatformSolver<'m> {
     fn converged(&self, b: &MechanismBalance) -> bool {
         let unit = self.stiffness.sqrt() * self.length;
         b.closure_m <= self.settings.closure * self.length
-            && b.torque <= self.settings.torque * b.loads + 1e-16 * unit + b.rounding
+            && b.exceeding <= self.settings.torque * b.loads + 1e-16 * unit
             && b.force <= self.settings.torque * b.forces + 1e-16 * unit
     }
 

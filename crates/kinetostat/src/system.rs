@@ -255,19 +255,21 @@ impl System {
     }
 }
 
-/// Unbalanced torque (balanced) that the rounding of the coordinates leaves where one spring is
-/// very much stiffer than another: its torque is no better known than this. A spring is strained by the
-/// coordinates of its own block only (a link that bows is strained by its rotations). Zero for all other
-/// chains, so that their equilibria are as exact as the settings ask for.
-pub(crate) fn rounding(chain: &Chain, factors: &[f64], x: &[f64]) -> f64 {
+/// The part of the unbalanced torques (balanced, root of the sum of squares) that the rounding of the
+/// coordinates explains where one spring is very much stiffer than another: its torque is no better known
+/// than that. A spring is strained by the coordinates of its own block only (a link that bows is strained
+/// by its rotations). Zero for all other chains, so that their equilibria are as exact as the settings
+/// ask for.
+pub(crate) fn rounding(chain: &Chain, system: &System, factors: &[f64], x: &[f64]) -> f64 {
     if !disparate(factors, chain) {
         return 0.0;
     }
     let length = chain.scale().length;
-    let mut largest = 0.0_f64;
+    let mut explained = 0.0;
     for block in chain.springs() {
+        let own = block.first..block.first + block.len();
         let (mut moved, mut stiffest) = (0.0_f64, 0.0_f64);
-        for i in block.first..block.first + block.len() {
+        for i in own.clone() {
             let unit = match chain.coordinates()[i].kind {
                 MotionKind::Revolute => 1.0,
                 MotionKind::Prismatic => length,
@@ -275,9 +277,22 @@ pub(crate) fn rounding(chain: &Chain, factors: &[f64], x: &[f64]) -> f64 {
             moved = moved.max((x[i] / unit).abs());
             stiffest = stiffest.max(unit / factors[6 + i]);
         }
-        largest = largest.max(stiffest * moved.min(1.0));
+        let most = 8.0 * f64::EPSILON * stiffest * moved.min(1.0);
+        explained += own
+            .map(|i| {
+                (system.unbalanced(i) * factors[6 + i])
+                    .abs()
+                    .min(most)
+                    .powi(2)
+            })
+            .sum::<f64>();
     }
-    8.0 * f64::EPSILON * largest
+    explained.sqrt()
+}
+
+/// Root of the sum of squares without a part of it.
+pub(crate) fn beyond(whole: f64, part: f64) -> f64 {
+    ((whole - part) * (whole + part)).max(0.0).sqrt()
 }
 
 /// From this ratio of the stiffest to the softest spring on, pivots of dense matrices are lost among

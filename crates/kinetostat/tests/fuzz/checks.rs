@@ -288,10 +288,26 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
             MotionKind::Revolute => 1.0 / natural,
         };
     }
+    // A coordinate is known to rounding only, and so is what its spring answers; a link that bows is
+    // strained by its rotations too.
+    let mut rounded = vec![0.0; n];
     for block in chain.springs() {
         let k = block.stiffness_at(&problem.posture);
+        let own = &e.coordinates[block.first..block.first + block.len()];
+        let kinds = chain.coordinates()[block.first..].iter().map(|c| c.kind);
+        let turns = own.iter().zip(kinds);
+        let turns = turns.filter(|(_, kind)| *kind == MotionKind::Revolute);
+        let turned = turns.fold(0.0_f64, |most, (x, _)| most.max(x.abs()));
         for i in 0..block.len() {
-            factor[block.first + i] = 1.0 / k[(i, i)].sqrt();
+            let at = block.first + i;
+            factor[at] = 1.0 / k[(i, i)].sqrt();
+            let unit = match chain.coordinates()[at].kind {
+                MotionKind::Prismatic => scale.length,
+                MotionKind::Revolute => 1.0,
+            };
+            let moved: f64 = (0..block.len()).map(|j| (k[(i, j)] * own[j]).abs()).sum();
+            let bowed = k[(i, i)] * unit * turned * turned;
+            rounded[at] = 4.0 * f64::EPSILON * (moved + bowed) * factor[at];
         }
     }
     for i in 0..n {
@@ -316,7 +332,7 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
         1e-12 * turning / unit * factor[i]
     };
     for i in 0..n {
-        let floor = floor + cancelled(i);
+        let floor = floor + cancelled(i) + rounded[i];
         let left = (torque[i] - spring[i]).abs() * factor[i];
         assert!(
             left <= slack.max(2.0 * exact) * loads + floor,
