@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use kinetostat_machining::number::apart;
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_model::Model;
 use nalgebra::Vector3;
@@ -24,7 +25,7 @@ use crate::job::looks_like_a_job;
 use crate::machine::{deviations_in_words, of_model};
 use crate::overcome::load_names;
 use crate::place::pose_in_words;
-use crate::screen::{self, Stream, number};
+use crate::screen::{self, Stream};
 use crate::setting::vector;
 
 /// Findings, stable names with units.
@@ -110,9 +111,8 @@ fn findings(model: &Model, source: String, force: Option<Vector3<f64>>) -> Findi
                 angle_rad,
                 nearest,
             } => format!(
-                "{place}: this home cannot be reached; the nearest that was found is {} mm and {} deg away: {}",
-                number(1e3 * distance_m, 3),
-                number(angle_rad.to_degrees(), 3),
+                "{place}: this home cannot be reached; the nearest that was found is {} away: {}",
+                apart(1e3 * distance_m, angle_rad.to_degrees()),
                 pose_in_words(nearest)
             ),
             other => other.to_string(),

@@ -316,8 +316,8 @@ impl AssumptionsFinding {
             most = most.max(share);
             let joint = if text.is_empty() { "" } else { "; " };
             text.push_str(&format!(
-                "{joint}the link nearest to its Euler load is '{link}' of '{limb}', {} % of it",
-                number(100.0 * share, 2)
+                "{joint}the link nearest to its Euler load is '{link}' of '{limb}', {} of it",
+                formatter::share(share)
             ));
         }
         let free = states().filter_map(|e| crate::free_machine::share(posture, e));

@@ -428,7 +428,7 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         &format!(
             "The tool's tip moves by {} and turns by {}.",
             formatter::length(a.displacement_size_mm, 4, formatter::Rounding::Nearest),
-            formatter::with_unit(&number(a.rotation_size_deg, 4), "deg")
+            formatter::angle(a.rotation_size_deg, 4, formatter::Rounding::Nearest)
         ),
         2,
     ));

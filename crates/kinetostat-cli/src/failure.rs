@@ -1,7 +1,7 @@
 //! Why a command ends without an answer, and its exit code.
 
 use crate::place::pose_in_words;
-use crate::screen::number;
+use kinetostat_machining::number::apart;
 use std::fmt::Display;
 use std::ops::Range;
 
@@ -148,9 +148,8 @@ impl From<kinetostat::Error> for Failure {
                 angle_rad,
                 nearest,
             } => format!(
-                "{place}: the place cannot be reached; the nearest that was found is {} mm and {} deg away: {}",
-                number(1e3 * distance_m, 3),
-                number(angle_rad.to_degrees(), 3),
+                "{place}: the place cannot be reached; the nearest that was found is {} away: {}",
+                apart(1e3 * distance_m, angle_rad.to_degrees()),
                 pose_in_words(nearest)
             ),
             other => other.to_string(),

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::{LimbPosture, Mechanism, Pose, Posture, Wrench};
+use kinetostat_machining::number::{apart, mean_length};
 use kinetostat_machining::{
     NearSingular, Warning, WarningCode, natural_length, near_singular, straight_tool,
 };
@@ -17,7 +18,7 @@ use crate::joints::{self, JointValue};
 use crate::machine::{deviations_in_words, of_model, short};
 use crate::orientation;
 use crate::overcome::load_names;
-use crate::screen::{number, triple, wrapped};
+use crate::screen::{triple, wrapped};
 use crate::setting::vector;
 
 /// Everything about one place.
@@ -172,8 +173,8 @@ fn followed(
             ..
         }) if distance_m <= ROUNDED * natural_length(m) => {
             warnings.push(nearest_used(format!(
-                "the machine cannot take this place exactly; the nearest is used, {} mm away: {}",
-                number(1e3 * distance_m, 3),
+                "the machine cannot take this place exactly; the nearest is used, {} away: {}",
+                mean_length(1e3 * distance_m),
                 pose_in_words(&nearest)
             )));
             m.posture_following(&nearest.translation.vector, rotation)?
@@ -211,9 +212,8 @@ fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<Warning>) -> Answer
     let (shift, turn) = (off.linear().norm(), off.angular().norm());
     if shift.max(length * turn) <= ROUNDED * length {
         warnings.push(nearest_used(format!(
-            "the machine cannot take this place exactly; the nearest is used, {} mm and {} deg away: {}",
-            number(1e3 * shift, 3),
-            number(turn.to_degrees(), 3),
+            "the machine cannot take this place exactly; the nearest is used, {} away: {}",
+            apart(1e3 * shift, turn.to_degrees()),
             pose_in_words(&nearest)
         )));
         return Ok(nearest);

@@ -133,6 +133,42 @@ fn a_map_tells_how_far_the_tool_turns() {
 }
 
 #[test]
+fn the_table_of_points_tells_how_far_the_tool_turns() {
+    let here = workplace();
+    let here = here.path();
+    std::fs::write(here.join("rpp.toml"), ARM).expect("a model");
+    let of = |model: &str, origin: [f64; 3]| {
+        let [x, y, z] = origin;
+        let line = format!(
+            "deflect {model} --program part.ngc --part-origin-mm {x} {y} {z} --force 30 -40 -20 --points p.csv --force-overwrite"
+        );
+        ask(here, &line).answered();
+        let table = std::fs::read_to_string(here.join("p.csv")).expect("a table");
+        let rows = table
+            .lines()
+            .map(|line| line.split(',').map(str::to_owned).collect());
+        rows.collect::<Vec<Vec<String>>>()
+    };
+    let table = of("rpp.toml", [400.0, 100.0, 0.0]);
+    let column = |name: &str| {
+        let found = table[0].iter().position(|n| n == name);
+        found.unwrap_or_else(|| panic!("{name}: {:?}", table[0]))
+    };
+    let [turn, x, y] = ["tool_turn_deg", "x_mm", "y_mm"].map(column);
+    assert!(table.len() > 100);
+    for row in &table[1..] {
+        assert_eq!(row.len(), table[0].len(), "{row:?}");
+        let number = |k: usize| row[k].parse::<f64>().expect("a number");
+        let own = bearing(400.0 + number(x), 100.0 + number(y)).abs();
+        // Five decimals, of places that have four.
+        assert!((number(turn) - own).abs() < 3e-5, "{row:?} {own}");
+    }
+    // A machine that holds its orientation has no such column.
+    let held = of("orthoglide", [0.0, 0.0, 0.0]);
+    assert!(!held[0].contains(&"tool_turn_deg".to_owned()));
+}
+
+#[test]
 fn a_program_is_corrected_on_an_arm_that_turns() {
     let here = workplace();
     let here = here.path();

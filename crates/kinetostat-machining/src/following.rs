@@ -2,6 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::number::largest_angle;
 use crate::result::{PointResult, Summary};
 use crate::run::Task;
 use crate::solve::{NEAR, reach_of_neighbours};
@@ -36,7 +37,8 @@ pub(crate) fn following(
     let code = WarningCode::OrientationFollows;
     let turns = summary.max_tool_turn_deg.map(|turn| {
         let text = format!(
-            "the orientation follows: the tool turns by up to {turn:.4} deg from the orientation it is kept near to"
+            "the orientation follows: the tool turns by up to {} from the orientation it is kept near to",
+            largest_angle(turn)
         );
         Warning::new(code, text)
     });

@@ -302,7 +302,7 @@ pub struct Summary {
     /// Largest distance of the tool from its programmed place without compensation, on cutting moves
     /// (everywhere if none cuts), mm.
     pub max_position_error_before_mm: f64,
-    /// Root mean square of it along the path that is cut, mm.
+    /// Root mean square of it along the path that is cut, every place with its length of path, mm.
     pub rms_position_error_before_mm: f64,
     /// The same for the written program, solved again from its file, mm.
     pub max_position_error_after_mm: f64,
@@ -367,6 +367,13 @@ pub struct PointResult {
     /// The end of a piece; otherwise the middle of one.
     #[serde(skip)]
     pub end: bool,
+    /// One of the places at which the program is looked at as it is given, compensated or not: figures
+    /// without compensation come from these.
+    #[serde(skip)]
+    pub programmed: bool,
+    /// Length of the path before its move, mm.
+    #[serde(skip)]
+    pub start_mm: f64,
     /// Share of the move of this line, 0 to 1.
     pub share: f64,
     /// Length of the path up to here, mm.

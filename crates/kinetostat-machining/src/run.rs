@@ -197,8 +197,7 @@ pub struct Run {
 /// [`RunError`] naming the line.
 pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
-    let arc_tolerance_mm = 20.0 * task.writing.chord_tolerance_mm;
-    let sites = || of_path(task.path, &load, &task.placement, arc_tolerance_mm);
+    let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
     let (points, _) = solve(task, sites, false, watch)?;
     Ok(conclude(task, &load, points, None, &Checked::default()))
 }
@@ -279,8 +278,12 @@ fn sites<'s>(
     load: &'s LoadAlongPath<'s>,
     written: &'s Corrected,
 ) -> impl Iterator<Item = Site> + 's {
-    let spacing_mm = SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale;
-    of_written(task.path, written, load, &task.placement, spacing_mm)
+    of_written(task.path, written, load, &task.placement, spacing_mm(task))
+}
+
+/// Length from which on a block is looked at in more places, mm of the program.
+fn spacing_mm(task: &Task<'_>) -> f64 {
+    SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale
 }
 
 /// Share of the natural length after which a long piece is looked at in one more place.
@@ -518,6 +521,8 @@ fn point(
         kind: site.kind,
         share: site.share,
         path_mm: site.path_mm,
+        start_mm: site.start_mm,
+        programmed: site.programmed,
         position_mm: site.desired.into(),
         error_before_mm,
         error_after_mm,
@@ -769,7 +774,11 @@ fn summarise(
     // What is no number stays seen.
     let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
     let most = |f: &dyn Fn(&PointResult) -> f64| cutting.iter().map(|p| f(p)).fold(0.0, larger);
-    let rms = |f: &dyn Fn(&PointResult) -> f64| along_path(&cutting, |p| f(p).powi(2)).sqrt();
+    // The mean without compensation is that of the program's own places, whether another is written or not.
+    let programmed: Vec<&PointResult> = cutting.iter().filter(|p| p.programmed).copied().collect();
+    let rms = |points: &[&PointResult], f: &dyn Fn(&PointResult) -> f64| {
+        along_path(points, |p| f(p).powi(2)).sqrt()
+    };
     let before = |p: &PointResult| size(&p.error_before_mm);
     let after = |p: &PointResult| size(&p.error_after_mm);
     let per_actuator = |f: &dyn Fn(&PointResult) -> &Vec<f64>| {
@@ -789,10 +798,14 @@ fn summarise(
             .filter(|m| m.kind == MoveKind::Feed && m.known == kinetostat_program::Knowledge::Whole)
             .map(kinetostat_program::Move::length_mm)
             .sum(),
-        max_position_error_before_mm: most(&before),
-        rms_position_error_before_mm: rms(&before),
+        max_position_error_before_mm: most(&|p| match p.kind {
+            // Only a written program has steps.
+            PointKind::Corner => 0.0,
+            _ => before(p),
+        }),
+        rms_position_error_before_mm: rms(&programmed, &before),
         max_position_error_after_mm: most(&after),
-        rms_position_error_after_mm: rms(&after),
+        rms_position_error_after_mm: rms(&cutting, &after),
         max_correction_mm: most(&|p| size(&p.correction_mm)),
         max_residual_rotation_deg: most(&|p| p.residual_rotation_deg),
         max_speed_deviation_percent: checked.speed_percent,
@@ -809,7 +822,7 @@ fn summarise(
             .filter_map(|p| p.share_to_buckling)
             .max_by(f64::total_cmp),
         largest_share_of_rating: judge::largest_share_of_rating(task, points),
-        max_error_by_own_weight_mm: judge::largest_by_own_weight(task, &cutting),
+        max_error_by_own_weight_mm: judge::largest_by_own_weight(task, &programmed),
         max_actuator_force: per_actuator(&|p| &p.actuator_force),
         max_actuator_correction: per_actuator(&|p| &p.actuator_correction),
         converged: true,
@@ -875,12 +888,19 @@ fn of_what_was_written(
 }
 
 /// Mean of a value along the path that is cut, by the trapezoidal rule: a piece counts with its length, so
-/// that it does not matter into how many pieces a program is divided, nor where they are looked at.
+/// that it does not matter into how many pieces a program is divided, nor where they are looked at. What is
+/// cut before the first place of a block counts with that place.
 fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f64 {
     let (mut sum, mut length) = (0.0, 0.0);
+    let first = points.first().filter(|p| p.kind == PointKind::Feed);
+    if let Some(first) = first {
+        length = first.path_mm - first.start_mm;
+        sum = length * value(first);
+    }
     for pair in points.windows(2) {
         let [from, to] = [pair[0], pair[1]];
-        let way = to.path_mm - from.path_mm;
+        // A rapid between them is no part of the way.
+        let way = to.path_mm - from.path_mm.max(to.start_mm);
         if to.kind != PointKind::Feed || way <= 0.0 {
             continue;
         }
@@ -902,10 +922,11 @@ fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f
 /// Indices of the worst points before compensation, at most ten, not two from one line or from
 /// neighbouring ones.
 fn worst(points: &[PointResult]) -> Vec<usize> {
-    let cutting = |i: &usize| points[*i].kind != PointKind::Rapid;
+    let programmed = |i: &usize| points[*i].kind != PointKind::Corner;
+    let cutting = |i: &usize| points[*i].kind == PointKind::Feed;
     let mut order: Vec<usize> = (0..points.len()).filter(cutting).collect();
     if order.is_empty() {
-        order = (0..points.len()).collect();
+        order = (0..points.len()).filter(programmed).collect();
     }
     order.sort_by(|&i, &j| {
         size(&points[j].error_before_mm)

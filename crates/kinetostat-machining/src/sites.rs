@@ -18,6 +18,10 @@ pub(crate) struct Site {
     pub kind: PointKind,
     pub share: f64,
     pub path_mm: f64,
+    /// Length of the path before its move, mm.
+    pub start_mm: f64,
+    /// One of the places at which a program is looked at however it is written ([`of_path`]).
+    pub programmed: bool,
     /// Where the tool should be, mm, program coordinates.
     pub desired: Vector3<f64>,
     /// What the written program commands, mm; the same without compensation.
@@ -42,12 +46,43 @@ fn starts(path: &Path) -> Vec<f64> {
         .collect()
 }
 
-/// Straight blocks longer than this share of the path that is cut are looked at in more places.
+/// Blocks longer than this share of the path that is cut are looked at in more places.
 const PIECES: f64 = 500.0;
 
-fn longest_piece(path: &Path) -> f64 {
-    let cut = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
-    cut.map(known_length).sum::<f64>() / PIECES
+/// Arcs are looked at where chords leave them by at most this, mm.
+const ARC_MM: f64 = 0.01;
+
+/// The places at which a program is looked at as it is given: the same whether and how it is written anew,
+/// so that figures without compensation are the same in every run.
+struct Programmed {
+    longest_mm: f64,
+    short_mm: f64,
+}
+
+impl Programmed {
+    fn new(path: &Path, spacing_mm: f64) -> Self {
+        let cut = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
+        let length = cut.map(known_length).sum::<f64>();
+        Self {
+            longest_mm: (length / PIECES).min(spacing_mm),
+            short_mm: SHORT * spacing_mm,
+        }
+    }
+
+    /// Ends and middles of equal pieces of a block at feed, as shares of it, and which of them are ends: between
+    /// the ends of a long block the load or the machine may differ much. A very short one has no middle.
+    fn shares(&self, motion: &Move) -> impl Iterator<Item = (f64, bool)> + use<> {
+        let length = motion.length_mm();
+        let pieces = (length / self.longest_mm).ceil().clamp(1.0, 1e6) as usize;
+        let pieces = match &motion.curve {
+            Curve::Line => pieces,
+            Curve::Arc(arc) => pieces.max(arc.chords_within(ARC_MM)),
+        };
+        let middles = pieces > 1 || length > self.short_mm;
+        (1..=2 * pieces)
+            .filter(move |half| middles || half % 2 == 0)
+            .map(move |half| (half as f64 / (2 * pieces) as f64, half % 2 == 0))
+    }
 }
 
 /// A move from a place that the program does not tell has no length that counts.
@@ -59,18 +94,30 @@ fn known_length(motion: &Move) -> f64 {
     }
 }
 
-/// Ends and middles of all blocks, one after the other; arcs at every chord of `arc_tolerance_mm`.
+/// The load at the start of a move is another one than that before it.
+fn jumps(path: &Path, load: &LoadAlongPath<'_>, placement: &Placement, i: usize) -> bool {
+    let Some(before) = i.checked_sub(1) else {
+        return true;
+    };
+    let known = path.moves[before].known == Knowledge::Whole;
+    let before = load.wrench(placement, before, 1.0).0;
+    let after = load.wrench(placement, i, 0.0).0;
+    !known || (after - before).norm() > 1e-6 * (before.norm() + after.norm())
+}
+
+/// Ends and middles of all blocks, and their starts where the load jumps, one after the other; of blocks longer than `spacing_mm` those of their
+/// pieces.
 pub(crate) fn of_path<'a>(
     path: &'a Path,
     load: &'a LoadAlongPath<'a>,
     placement: &'a Placement,
-    arc_tolerance_mm: f64,
+    spacing_mm: f64,
 ) -> impl Iterator<Item = Site> + 'a {
     let starts = starts(path);
-    let longest = longest_piece(path);
+    let programmed = Programmed::new(path, spacing_mm);
     let moves = path.moves.iter().enumerate();
     moves.flat_map(move |(i, motion)| {
-        let site = |share: f64, end: bool| {
+        let site = |(share, end): (f64, bool)| {
             let desired = motion.point(share);
             Site {
                 line: motion.line,
@@ -78,6 +125,8 @@ pub(crate) fn of_path<'a>(
                 kind: kind(motion),
                 share,
                 path_mm: starts[i] + share * known_length(motion),
+                start_mm: starts[i],
+                programmed: true,
                 desired,
                 commanded: desired,
                 wrench: load.wrench(placement, i, share),
@@ -87,17 +136,12 @@ pub(crate) fn of_path<'a>(
         };
         match (motion.known, motion.kind) {
             (Knowledge::Nothing, _) => Vec::new(),
-            (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site(1.0, true)],
+            (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site((1.0, true))],
             (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => Vec::new(),
             (Knowledge::Whole, MoveKind::Feed) => {
-                let pieces = match &motion.curve {
-                    // Between the ends of a long block the load or the machine may differ much.
-                    Curve::Line => (motion.length_mm() / longest).ceil().max(1.0) as usize,
-                    Curve::Arc(arc) => arc.chords_within(arc_tolerance_mm),
-                };
-                let share = |k: usize, x: f64| (k as f64 + x) / pieces as f64;
-                let both = |k| [site(share(k, 0.5), false), site(share(k, 1.0), true)];
-                (0..pieces).flat_map(both).collect()
+                let start = jumps(path, load, placement, i).then_some((0.0, false));
+                let shares = start.into_iter().chain(programmed.shares(motion));
+                shares.map(site).collect()
             }
         }
     })
@@ -111,7 +155,8 @@ const SEED: u64 = 4;
 const SHORT: f64 = 0.05;
 
 /// Ends of all pieces of a written program and irregular places inside them, no farther apart than twice
-/// `spacing_mm`, and the middles of pieces that are not very short, one after the other.
+/// `spacing_mm`, the middles of pieces that are not very short, and the places of the program as it is given
+/// ([`of_path`] with the same spacing), one after the other.
 pub(crate) fn of_written<'a>(
     path: &'a Path,
     written: &'a Corrected,
@@ -120,6 +165,7 @@ pub(crate) fn of_written<'a>(
     spacing_mm: f64,
 ) -> impl Iterator<Item = Site> + 'a {
     let starts = starts(path);
+    let programmed = Programmed::new(path, spacing_mm);
     let pieces = written.pieces.iter().enumerate();
     pieces.flat_map(move |(index, piece)| {
         let motion = &path.moves[piece.move_index];
@@ -127,8 +173,14 @@ pub(crate) fn of_written<'a>(
         if !piece.corrected || motion.known == Knowledge::Nothing || motion.length_mm() == 0.0 {
             return sites;
         }
-        let mut push = |place: f64, (wrench, other_wrench): (Wrench, Option<Wrench>), end: bool| {
-            let share = piece.share_from + place * (piece.share_to - piece.share_from);
+        let width = piece.share_to - piece.share_from;
+        let share_at = |place: f64| match place {
+            1.0 => piece.share_to,
+            _ => piece.share_from + place * width,
+        };
+        let mut push = |(place, share): (f64, f64),
+                        (wrench, other_wrench): (Wrench, Option<Wrench>),
+                        (end, programmed): (bool, bool)| {
             sites.push(Site {
                 line: motion.line,
                 output_line: piece.output_line,
@@ -139,6 +191,8 @@ pub(crate) fn of_written<'a>(
                 },
                 share,
                 path_mm: starts[piece.move_index] + share * known_length(motion),
+                start_mm: starts[piece.move_index],
+                programmed,
                 desired: motion.point(share),
                 commanded: commanded(motion, piece, place),
                 wrench,
@@ -149,7 +203,8 @@ pub(crate) fn of_written<'a>(
         let inside = |k: usize| irregular(SEED, index as u64, k as u64);
         if let Some(turn) = piece.turn {
             for (place, end) in [(inside(0), false), (1.0, true)] {
-                push(place, on_step(piece, &turn, place, load, placement), end);
+                let step = on_step(piece, &turn, place, load, placement);
+                push((place, share_at(place)), step, (end, false));
             }
             return sites;
         }
@@ -167,25 +222,36 @@ pub(crate) fn of_written<'a>(
             let share = share.max(lowest).min(highest);
             (load.wrench(placement, piece.move_index, share), None)
         };
+        // At the end of a move every program is looked at.
+        let mut at_end = piece.share_to >= 1.0;
         if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole {
             let length = motion.length_between_mm(piece.share_from, piece.share_to);
             let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
-            let mut places: Vec<f64> = (0..count)
+            let mut places: Vec<(f64, f64, bool)> = (0..count)
                 .map(|k| (k as f64 + inside(k)) / count as f64)
+                .map(|place| (place, share_at(place), false))
                 .collect();
             let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
-            if divided || length > SHORT * spacing_mm {
-                // A piece leaves its block farthest near its middle; one of a short block that was not
-                // divided does not leave it by anything that could be seen.
-                places.push(0.5);
-                places.sort_by(f64::total_cmp);
+            if divided {
+                // A piece leaves its block farthest near its middle; one of a block that was not
+                // divided is looked at where the program is.
+                places.push((0.5, share_at(0.5), false));
             }
-            for place in places {
-                let share = piece.share_from + place * (piece.share_to - piece.share_from);
-                push(place, at(share), false);
+            if piece.share_from == 0.0 && jumps(path, load, placement, piece.move_index) {
+                places.push((0.0, 0.0, true));
+            }
+            for (share, _) in programmed.shares(motion) {
+                at_end |= share == piece.share_to;
+                if share > piece.share_from && share < piece.share_to {
+                    places.push(((share - piece.share_from) / width, share, true));
+                }
+            }
+            places.sort_by(|a, b| a.1.total_cmp(&b.1));
+            for (place, share, programmed) in places {
+                push((place, share), at(share), (false, programmed));
             }
         }
-        push(1.0, at(piece.share_to), true);
+        push((1.0, piece.share_to), at(piece.share_to), (true, at_end));
         sites
     })
 }

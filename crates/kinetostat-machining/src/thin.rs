@@ -46,6 +46,10 @@ pub fn thinned(points: &[PointResult], always: &[usize], most: usize) -> Vec<usi
 fn extremes(points: &[PointResult]) -> Vec<usize> {
     let mut found: Vec<Option<usize>> = vec![
         farthest(points, |p| size(&p.error_before_mm)),
+        farthest(points, |p| match p.kind {
+            PointKind::Corner => f64::NAN,
+            _ => size(&p.error_before_mm),
+        }),
         farthest(points, |p| size(&p.error_after_mm)),
         farthest(points, |p| size(&p.correction_mm)),
         farthest(points, |p| p.residual_rotation_deg),

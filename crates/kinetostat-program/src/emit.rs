@@ -183,10 +183,10 @@ impl<'a> Emitter<'a> {
                 line,
                 text: format!(
                     "the feed of {} piece(s), first here, is held to {} times the programmed one, though the tool's own \
-                     path is longer: the part is cut more slowly there, at {:.0} % of the programmed speed at least",
+                     path is longer: the part is cut more slowly there, the slowest at {} % of the programmed speed",
                     accounting.feed_limited_pieces,
                     self.options.max_feed_factor,
-                    (100.0 * speed).floor()
+                    least_percent(speed)
                 ),
             });
         }
@@ -598,5 +598,36 @@ pub(crate) fn motion_of(motion: &Move) -> Motion {
     match motion.kind {
         MoveKind::Rapid => Motion::Rapid,
         MoveKind::Feed => Motion::Feed,
+    }
+}
+
+/// A share in percent with two digits, neither stated too large nor as nothing.
+fn least_percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent < 1e-3 {
+        return "less than 0.001".to_owned();
+    }
+    let decimals = (1.0 - percent.log10().floor()).max(0.0) as usize;
+    let place = 10_f64.powi(decimals as i32);
+    format!("{:.decimals$}", (percent * place + 1e-9).floor() / place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::least_percent;
+
+    #[test]
+    fn the_slowest_speed_is_never_nothing_and_never_too_large() {
+        for (share, told) in [
+            (0.999, "99"),
+            (0.5, "50"),
+            (0.058_26, "5.8"),
+            (0.001_999, "0.19"),
+            (4.3e-5, "0.0043"),
+            (1e-9, "less than 0.001"),
+            (0.0, "less than 0.001"),
+        ] {
+            assert_eq!(least_percent(share), told, "{share}");
+        }
     }
 }

@@ -205,9 +205,13 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
             number::counted(summary.feed_limited_pieces, "piece"),
             format!(
                 "Their feed is held to {} times the programmed one, so the part is cut more slowly there than \
-                 programmed, at {} % of its speed at least, first at line {}.",
+                 programmed, the slowest at {} % of its speed, first at line {}.",
                 summary.max_feed_factor,
-                number::fixed(summary.slowest_limited_speed_percent.unwrap_or(0.0).floor(), 0),
+                number::significant(
+                    summary.slowest_limited_speed_percent.unwrap_or(f64::NAN),
+                    2,
+                    Rounding::Down
+                ),
                 number::count(summary.feed_limited_line.unwrap_or(0))
             ),
         ));

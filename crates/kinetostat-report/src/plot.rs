@@ -274,7 +274,7 @@ fn about(span: &Span, length: f64) -> Span {
 pub(crate) fn title_lines(title: &str, width: f64) -> Vec<String> {
     let size = |text: &str| text::bold_width(text, TITLE_SIZE);
     let mut lines = vec![String::new()];
-    for word in title.split_whitespace() {
+    for word in title.split(' ').filter(|word| !word.is_empty()) {
         let last = lines.len() - 1;
         let longer = if lines[last].is_empty() {
             word.to_owned()

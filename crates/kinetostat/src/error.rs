@@ -53,14 +53,18 @@ fn not_converged(
     }
 }
 
-fn nearest_found(distance_m: f64, angle_rad: f64) -> String {
+fn nearest_found(distance_m: f64, angle_rad: f64, nearest: &Pose) -> String {
     if !(distance_m.is_finite() && angle_rad.is_finite()) {
         return "no pose near it was found: look for a length in the wrong unit".to_owned();
     }
+    let [x, y, z]: [f64; 3] = (nearest.translation.vector * 1e3).into();
+    let shown = |x: f64| number::fixed(x, 3);
     format!(
-        "the nearest pose found is {} and {} away",
-        number::largest_length(distance_m * 1e3),
-        number::largest_angle(angle_rad.to_degrees())
+        "the nearest pose found is {} away, at ({}, {}, {}) mm in base axes",
+        number::apart(distance_m * 1e3, angle_rad.to_degrees()),
+        shown(x),
+        shown(y),
+        shown(z)
     )
 }
 
@@ -132,7 +136,7 @@ pub enum Error {
         limit: Option<Box<LoadLimit>>,
     },
     /// The actuators cannot bring the end there.
-    #[error("{place}: the target cannot be reached; {}", nearest_found(*distance_m, *angle_rad))]
+    #[error("{place}: the target cannot be reached; {}", nearest_found(*distance_m, *angle_rad, nearest))]
     Unreachable {
         /// Limb or mechanism.
         place: String,
@@ -145,8 +149,8 @@ pub enum Error {
     },
     /// Loops that do not close with the commands that were given.
     #[error(
-        "{place}: its loops do not close with these commands: from home they close up to {:.1} % of the way, then {:.4} mm and {:.4} deg are missing",
-        100.0 * share, gap_m * 1e3, gap_rad.to_degrees()
+        "{place}: its loops do not close with these commands: from home they close up to {:.1} % of the way, then {} are missing",
+        100.0 * share, number::apart(gap_m * 1e3, gap_rad.to_degrees())
     )]
     NoClosure {
         /// Mechanism.

@@ -10,6 +10,7 @@ use nalgebra::{DVector, Vector6};
 use crate::constraints::Constraints;
 use crate::directions::motion_in_words;
 use crate::error::Result;
+use crate::number;
 use crate::posture::Posture;
 use crate::spatial::{Pose, Twist, moved};
 
@@ -70,8 +71,8 @@ impl NearSingularity {
             "a first-order estimate"
         };
         format!(
-            "a singular posture is {:.3} mm away ({how}) if the tool {way}; there {what}",
-            self.distance_m * 1e3
+            "a singular posture is {} away ({how}) if the tool {way}; there {what}",
+            number::length(self.distance_m * 1e3, 5, number::Rounding::Nearest)
         )
     }
 }

@@ -206,10 +206,29 @@ pub fn least(value: f64, unit: &str) -> String {
     with_unit(&above(value, 0.0, DIGITS, Rounding::Down), unit)
 }
 
+/// An angle in degrees.
+#[must_use]
+pub fn angle(value_deg: f64, digits: usize, rounding: Rounding) -> String {
+    with_unit(&above(value_deg, 1e-4, digits, rounding), "deg")
+}
+
 /// The largest of angles in degrees, never stated too small.
 #[must_use]
 pub fn largest_angle(value_deg: f64) -> String {
-    with_unit(&above(value_deg, 1e-4, DIGITS, Rounding::Up), "deg")
+    angle(value_deg, DIGITS, Rounding::Up)
+}
+
+/// How far one pose is from another; a part that is the rounding of the search for it is zero.
+#[must_use]
+pub fn apart(distance_mm: f64, angle_deg: f64) -> String {
+    /// Searches end at about this share of what they began with (mm and deg).
+    const LEFT: f64 = 1e-9;
+    let clean = |value: f64| if value.abs() < LEFT { 0.0 } else { value };
+    format!(
+        "{} and {}",
+        mean_length(clean(distance_mm)),
+        angle(clean(angle_deg), DIGITS, Rounding::Nearest)
+    )
 }
 
 /// The largest of shares of the way to buckling (1 is there), in percent, never stated too small. A
@@ -362,6 +381,9 @@ mod tests {
         assert_eq!(largest(1e-7, "N"), "100e-9 N");
         assert_eq!(share(-1e-9), "0 %");
         assert_eq!(share(-0.5), "-50.0 %");
+        assert_eq!(apart(3.2391e-3, 6.3611e-15), "3.24 um and 0 deg");
+        assert_eq!(apart(50.0, 7.3123), "50.0 mm and 7.31 deg");
+        assert_eq!(apart(1e-7, 1e-7), "below 0.001 um and below 0.0001 deg");
         // Neither a mean nor a least value is an upper bound.
         assert_eq!(mean_length(1e-7), "below 0.001 um");
         assert_eq!(least_length(1e-7), "below 0.001 um");

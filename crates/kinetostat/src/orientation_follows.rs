@@ -10,6 +10,7 @@
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
 use crate::compensation::Compensation;
+use crate::directions::axis_in_words;
 use crate::equilibrium::Residual;
 use crate::error::{Error, Result};
 use crate::inverse::wrap;
@@ -50,6 +51,26 @@ fn nearest(rows: &DMatrix<f64>, wanted: &DVector<f64>) -> Option<(DVector<f64>, 
         return Some((DVector::zeros(n), DMatrix::identity(n, n)));
     }
     solve(rows, wanted)
+}
+
+/// Normal of the surface that the tool's reference point moves in, of a machine that has no third direction
+/// anywhere: neither where it stands nor beside home, which may be singular.
+fn surface_normal(at: &Posture<'_>) -> Option<Vector3<f64>> {
+    let mechanism = at.mechanism;
+    let home = mechanism.posture(&mechanism.platforms[mechanism.tool].home);
+    let home = home.ok()?;
+    let mut beside = Search::new(&home);
+    beside.beside(0.05, 0)?;
+    let (_, elsewhere) = beside.freedoms()?;
+    let (_, here) = Search::new(at).freedoms()?;
+    if rank(&elsewhere.position) != 2 || rank(&here.position) != 2 {
+        return None;
+    }
+    let gram = (&here.position * here.position.transpose()).symmetric_eigen();
+    let least = gram.eigenvalues.imin();
+    let normal = Vector3::from_iterator(gram.eigenvectors.column(least).iter().copied());
+    // One of the two, the same every time.
+    Some(normal * normal[normal.iamax()].signum())
 }
 
 fn rank(rows: &DMatrix<f64>) -> usize {
@@ -185,20 +206,33 @@ impl Mechanism {
             Some((found, left)) if left <= 1e-10 * self.scale().length => {
                 self.taken(found, left, position)
             }
-            Some((found, left)) => Err(self.too_far(&found, left, wanted)),
-            None => {
-                let left = (position - start.target.translation.vector).norm();
-                Err(self.too_far(&start, left, wanted))
-            }
+            Some((found, _)) => Err(self.too_far(&found, position, wanted)),
+            None => Err(self.too_far(&start, position, wanted)),
         }
     }
 
-    fn too_far(&self, found: &Posture<'_>, left: f64, wanted: &UnitQuaternion<f64>) -> Error {
-        Error::Unreachable {
-            place: format!(
+    fn too_far(
+        &self,
+        found: &Posture<'_>,
+        position: &Vector3<f64>,
+        wanted: &UnitQuaternion<f64>,
+    ) -> Error {
+        let miss = position - found.target.translation.vector;
+        let left = miss.norm();
+        let outside = surface_normal(found).filter(|n| miss.dot(n).abs() > 0.99 * left);
+        let place = match outside {
+            Some(normal) => format!(
+                "mechanism '{}', whose tool point stays in a surface (here square to {}) that the target lies outside of",
+                self.name,
+                axis_in_words(&normal)
+            ),
+            None => format!(
                 "mechanism '{}' with whatever orientation of its tool",
                 self.name
             ),
+        };
+        Error::Unreachable {
+            place,
             distance_m: left,
             angle_rad: wanted.angle_to(&found.target.rotation),
             nearest: Box::new(found.target),
@@ -227,7 +261,7 @@ impl Mechanism {
         if left <= 1e-10 * self.scale().length {
             return Ok(found);
         }
-        Err(self.too_far(&found, left, wanted))
+        Err(self.too_far(&found, position, wanted))
     }
 
     /// The posture at the position, or nearest to it, and the distance left (m).
@@ -258,8 +292,7 @@ impl Mechanism {
             }
         }
         let Some((found, left)) = best else {
-            let left = (position - start.target.translation.vector).norm();
-            return Err(self.too_far(&start, left, wanted));
+            return Err(self.too_far(&start, position, wanted));
         };
         Ok((self.taken(found, left, position)?, left))
     }

@@ -1,0 +1,144 @@
+//! The figures of a program without compensation do not depend on the command that was asked for them.
+
+mod common;
+
+use std::path::Path;
+
+use common::{run, workplace};
+use kinetostat_machining::number::{largest_length, mean_length};
+use serde_json::Value;
+
+/// A plunge, a line, an arc, far apart rapids and a short block: unlike lengths, in which places lie unlike.
+const UNEVEN: &str = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z0 F300\nG1 X20 Y7 F600\nG2 X30 Y17 I10 J0\nG1 X30.2 Y17\n\
+                      G0 Z5\nG0 X-30 Y-30\nG1 Z0 F300\nG1 X-10 Y-30 F600\nG0 Z5\nM2\n";
+
+fn json(here: &Path, line: &str) -> Value {
+    let words: Vec<&str> = line.split(' ').collect();
+    let said = run(here, &words);
+    // A tolerance that is missed is an answer, too.
+    assert!([0, 3].contains(&said.code), "{line}:");
+    serde_json::from_str(&said.out).expect("JSON")
+}
+
+/// Where the tool's tip is at home, mm.
+fn home(here: &Path, preset: &str) -> [f64; 3] {
+    let answer = json(
+        here,
+        &format!("deflect {preset} --tool-length-mm 100 --json"),
+    );
+    let place = &answer["place"]["position_mm"];
+    [0, 1, 2].map(|k| place[k].as_f64().expect("a number"))
+}
+
+#[test]
+fn deflect_and_compensate_agree_before_compensation() {
+    let here = workplace();
+    let here = here.path();
+    std::fs::write(here.join("uneven.ngc"), UNEVEN).expect("a program");
+    for preset in ["scara", "orthoglide", "heavy_6r", "prs3", "hexapod"] {
+        let [x, y, z] = match preset {
+            "scara" => [400.0, 100.0, 230.0],
+            _ => home(here, preset),
+        };
+        let question = format!(
+            "--program uneven.ngc --tool-length-mm 100 --part-origin-mm {x} {y} {z} --milling 20 -5 -10 --json"
+        );
+        let plain = json(here, &format!("deflect {preset} {question}"));
+        let line =
+            format!("compensate --model {preset} {question} - --out o.ngc --force-overwrite");
+        let corrected = json(here, &line);
+        let [plain, corrected] = [&plain["summary"], &corrected["summary"]];
+        let number = |of: &Value, name: &str| of[name].as_f64().unwrap_or(f64::NAN);
+        // Without compensation: the same figure to the last digit shown.
+        for (name, shown) in [
+            (
+                "max_position_error_before_mm",
+                largest_length as fn(f64) -> String,
+            ),
+            ("rms_position_error_before_mm", mean_length),
+            ("feed_length_mm", mean_length),
+            ("max_error_by_own_weight_mm", largest_length),
+        ] {
+            if plain[name].is_null() && corrected[name].is_null() {
+                continue;
+            }
+            let [a, b] = [plain, corrected].map(|of| number(of, name));
+            assert!(a > 0.0, "{preset} {name}: {a}");
+            assert_eq!(shown(a), shown(b), "{preset} {name}: {a} {b}");
+        }
+        // What depends on where the machine stands moves with the correction, here by less than 0.1 %.
+        for name in [
+            "smallest_stiffness_n_per_mm",
+            "largest_share_to_buckling",
+            "max_residual_rotation_deg",
+            "max_tool_turn_deg",
+        ] {
+            assert_eq!(
+                plain[name].is_null(),
+                corrected[name].is_null(),
+                "{preset} {name}"
+            );
+            if plain[name].is_null() {
+                continue;
+            }
+            let [a, b] = [plain, corrected].map(|of| number(of, name));
+            assert!(
+                (a - b).abs() <= 1e-3 * a.abs() + 1e-9,
+                "{preset} {name}: {a} {b}"
+            );
+        }
+    }
+}
+
+/// A table of three slides of 1000 N/mm: where 20 N act on it, it is 0.02 mm off, elsewhere nowhere. The mean of
+/// the squares along the path counts every millimetre alike, in however many blocks it is cut.
+#[test]
+fn the_mean_is_that_of_the_path_and_not_of_the_places() {
+    let here = workplace();
+    let here = here.path();
+    let model = r#"schema = 1
+[mechanism]
+name = "table"
+[[platform]]
+name = "tool"
+home = { position_mm = [300, 0, 0] }
+[chain.arm]
+elements = [
+  { actuator = "prismatic", name = "x", axis = "x", stiffness_n_per_mm = 1000 },
+  { actuator = "prismatic", name = "y", axis = "y", stiffness_n_per_mm = 1000 },
+  { actuator = "prismatic", name = "z", axis = "z", stiffness_n_per_mm = 1000 },
+  { rigid = { translation_mm = [300, 0, 0] } },
+]
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#;
+    std::fs::write(here.join("table.toml"), model).expect("a model");
+    // 10 mm without a load, then 30 mm with it, in one block and in many, and a long rapid between.
+    let short: String = (1..=60)
+        .map(|k| format!("G1 X{}\n", 10.0 + 0.5 * f64::from(k)))
+        .collect();
+    let long = "G1 X40\n".to_owned();
+    for cut in [short, long] {
+        let program =
+            format!("G21 G90 G17\nG0 X0 Y0 Z5\nG1 X10 F600\nG0 Z-1\n{cut}G0 Z50\nG0 X0\nM2\n");
+        std::fs::write(here.join("two.ngc"), program).expect("a program");
+        let question =
+            "--program two.ngc --part-origin-mm 300 0 0 --force 0 20 0 --below-z-mm 0 --json";
+        let most = 20.0 / 1000.0;
+        let own: f64 = most * (30.0_f64 / 40.0).sqrt();
+        for line in [
+            format!("deflect table.toml {question}"),
+            format!("compensate --model table.toml {question} - --out o.ngc --force-overwrite"),
+        ] {
+            let summary = &json(here, &line)["summary"];
+            let number = |name: &str| summary[name].as_f64().expect("a number");
+            let largest = number("max_position_error_before_mm");
+            assert!((largest - most).abs() < 1e-9, "{line}: {largest}");
+            let mean = number("rms_position_error_before_mm");
+            assert!((mean - own).abs() < 1e-9, "{line}: {mean} {own}");
+        }
+    }
+}
