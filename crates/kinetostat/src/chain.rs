@@ -321,7 +321,7 @@ pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Re
 pub(crate) fn odd_number<'a>(
     numbers: impl IntoIterator<Item = (&'a str, &'a f64)>,
 ) -> Option<String> {
-    let odd = |value: &f64| !(value.abs() <= LARGEST);
+    let odd = |value: &f64| value.is_nan() || value.abs() > LARGEST;
     let (what, value) = numbers.into_iter().find(|(_, value)| odd(value))?;
     Some(match value.is_finite() {
         true => format!(

@@ -122,44 +122,58 @@ impl LengthLaw {
     }
 
     pub(crate) fn fault(&self) -> Option<String> {
-        // What must be above zero, or at least zero, beside what may be any number.
-        let (any, least, above): (&[(&str, &f64)], &[(&str, &f64)], &[(&str, &f64)]) = match self {
+        let limits = self.limits();
+        let odd = odd_number(limits.iter().map(|(what, value, _)| (*what, *value)));
+        odd.or_else(|| {
+            let (what, value, limit) = limits.iter().find(|(_, value, limit)| match limit {
+                Limit::None => false,
+                Limit::NotBelowZero => **value < 0.0,
+                Limit::AboveZero => **value <= 0.0,
+            })?;
+            let asked = match limit {
+                Limit::AboveZero => "above zero",
+                _ => "not below zero",
+            };
+            Some(format!(
+                "the {what} of the law {self:?} is {value}, a number {asked} is needed"
+            ))
+        })
+    }
+
+    /// The numbers of a law with their names and with what each of them must be.
+    fn limits(&self) -> Vec<(&'static str, &f64, Limit)> {
+        match self {
             Self::Linear {
                 stiffness,
                 free_length,
                 preload,
-            } => (
-                &[("stiffness", stiffness), ("preload", preload)],
-                &[("free length", free_length)],
-                &[],
-            ),
+            } => vec![
+                ("stiffness", stiffness, Limit::None),
+                ("preload", preload, Limit::None),
+                ("free length", free_length, Limit::NotBelowZero),
+            ],
             Self::Gas {
                 force,
                 length,
                 column,
                 exponent,
-            } => (
-                &[("force", force)],
-                &[],
-                &[
-                    ("length", length),
-                    ("column", column),
-                    ("exponent", exponent),
-                ],
-            ),
-            Self::Constant { tension } => (&[("tension", tension)], &[], &[]),
-            Self::Function(_) => return None,
-        };
-        let all = any.iter().chain(least).chain(above);
-        let odd = odd_number(all.copied());
-        let low = || least.iter().find(|(_, x)| **x < 0.0);
-        let none = || above.iter().find(|(_, x)| **x <= 0.0);
-        let in_words = |(what, x): &(&str, &f64), asked| {
-            format!("the {what} of the law {self:?} is {x}, a number {asked} is needed")
-        };
-        odd.or_else(|| low().map(|found| in_words(found, "not below zero")))
-            .or_else(|| none().map(|found| in_words(found, "above zero")))
+            } => vec![
+                ("force", force, Limit::None),
+                ("length", length, Limit::AboveZero),
+                ("column", column, Limit::AboveZero),
+                ("exponent", exponent, Limit::AboveZero),
+            ],
+            Self::Constant { tension } => vec![("tension", tension, Limit::None)],
+            Self::Function(_) => Vec::new(),
+        }
     }
+}
+
+/// What a number of a law must be.
+enum Limit {
+    None,
+    NotBelowZero,
+    AboveZero,
 }
 
 /// Gas spring compressed by `stroke` (m).
