@@ -146,7 +146,7 @@ fn a_limit_on_the_way_is_told() {
     assert_eq!(said.code, 2, "{said:?}");
     let told = words(&said.err);
     for part in [
-        "0.9997 of this load",
+        "0.999718 of this load",
         "-42.6428] mm",
         "snaps",
         "kinetostat curve",

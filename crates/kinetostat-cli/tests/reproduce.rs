@@ -62,7 +62,7 @@ fn json_is_a_list_and_stands_alone() {
         assert_eq!(item["printed"].is_null(), status == "no-print");
     }
     assert!(
-        said.err.contains("errata"),
+        said.err.contains("1 erratum,"),
         "the text goes to the standard error"
     );
 }
