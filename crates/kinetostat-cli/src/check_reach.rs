@@ -4,6 +4,7 @@
 use kinetostat::{Element, Limb, Mechanism, MotionKind, Pose, Posture, Role};
 use kinetostat_machining::natural_length;
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::machine::short;
@@ -295,14 +296,19 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
     let follows = m.turns_as_it_moves();
     let mut along = [[0.0; 2]; 3];
     let mut ends = <[[String; 2]; 3]>::default();
-    for axis in 0..3 {
-        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let mut direction = Vector3::zeros();
-            direction[axis] = sign;
-            let (far, end) = march(home, follows, &direction, length);
-            along[axis][side] = 1e3 * far;
-            ends[axis][side] = end;
-        }
+    let way = |way: usize| {
+        let mut direction = Vector3::zeros();
+        direction[way / 2] = if way % 2 == 0 { -1.0 } else { 1.0 };
+        march(home, follows, &direction, length)
+    };
+    let (ways, free) = rayon::join(
+        || (0..6).into_par_iter().map(way).collect::<Vec<_>>(),
+        || follows.then(|| crate::check_reach_commands::search(m).ok()),
+    );
+    let free = free.flatten();
+    for (way, (far, end)) in ways.into_iter().enumerate() {
+        along[way / 2][way % 2] = 1e3 * far;
+        ends[way / 2][way % 2] = end;
     }
     let unlimited = || {
         let mut actuators = m.limbs().iter().flat_map(|l| l.nominal.actuators());
@@ -314,8 +320,6 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
         );
     }
     let filled = filled(home, follows, &along);
-    let free = follows.then(|| crate::check_reach_commands::search(m).ok());
-    let free = free.flatten();
     let mm = |v: Vector3<f64>| <[f64; 3]>::from(v * 1e3);
     ReachFinding {
         from_base_mm: free.as_ref().map(|f| 1e3 * f.from_base),
@@ -409,7 +413,7 @@ fn filled(home: &Posture<'_>, follows: bool, along: &[[f64; 2]; 3]) -> Option<[[
     }
     let origin = *home.target();
     let reached = |scale: f64| {
-        let mut seen: Vec<Vector3<f64>> = Vec::new();
+        let mut shifts: Vec<Vector3<f64>> = Vec::new();
         for code in 0..27_usize {
             let part = |axis: usize| match (code / 3_usize.pow(axis as u32)) % 3 {
                 0 => -along[axis][0],
@@ -417,20 +421,18 @@ fn filled(home: &Posture<'_>, follows: bool, along: &[[f64; 2]; 3]) -> Option<[[
                 _ => along[axis][1],
             };
             let shift = Vector3::new(part(0), part(1), part(2)) * (1e-3 * scale);
-            if shift.norm() == 0.0 || seen.contains(&shift) {
-                continue;
-            }
-            seen.push(shift);
-            // In steps, so that every limb stays in its own way of assembly.
-            let mut last = home.clone();
-            for share in [0.35, 0.7, 1.0] {
-                match at(&last, follows, &(shift * share), &origin) {
-                    Ok(posture) => last = posture,
-                    Err(_) => return false,
-                }
+            if shift.norm() > 0.0 && !shifts.contains(&shift) {
+                shifts.push(shift);
             }
         }
-        true
+        // In steps, so that every limb stays in its own way of assembly.
+        shifts.par_iter().all(|shift| {
+            let mut last = home.clone();
+            [0.35, 0.7, 1.0].into_iter().all(|share| {
+                let next = at(&last, follows, &(shift * share), &origin);
+                next.map(|posture| last = posture).is_ok()
+            })
+        })
     };
     let (mut good, mut bad) = (0.0, 1.0);
     if reached(1.0) {

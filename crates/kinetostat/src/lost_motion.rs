@@ -12,7 +12,7 @@ use crate::constraints::limb_motions;
 use crate::inverse::LimbPosture;
 use crate::network::ends;
 use crate::posture::Posture;
-use crate::singular_values::SingularValues;
+use crate::singular_values::{SingularValues, shortest_and_free};
 use crate::spatial::{Pose, Twist, moved, pose_residual};
 
 /// A limb is singular where its singular value is at most this share of the largest.
@@ -311,15 +311,7 @@ pub(crate) fn solve(
     rows: &DMatrix<f64>,
     wanted: &DVector<f64>,
 ) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    if rows.ncols() == 0 {
-        return Some((DVector::zeros(0), DMatrix::zeros(0, 0)));
-    }
-    if rows.iter().any(|x| !x.is_finite()) {
-        return None;
-    }
-    let own = SingularValues::of(rows);
-    let shortest = own.shortest(wanted, 1e-9 * own.largest());
-    Some((shortest, own.null_space(1e-9)))
+    shortest_and_free(rows, wanted, 1e-9)
 }
 
 impl Posture<'_> {

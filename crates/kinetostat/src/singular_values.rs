@@ -203,16 +203,66 @@ pub(crate) fn range(a: &DMatrix<f64>, share: f64) -> DMatrix<f64> {
 /// Matrices of more columns are asked for certainty first.
 const LARGE: usize = 60;
 
-/// The range where the triangle leaves no doubt about the rank: what is left beside it is far below
+/// Shortest `x` with the least `|A x - b|`, and an orthonormal basis of what `A` takes to zero, columns x
+/// (columns - rank), by the values above `share` of the largest; none if a number is not finite.
+///
+/// A complete orthogonal decomposition `A = P R^T Q^T` where the triangle leaves no doubt about the rank,
+/// singular values elsewhere: they cost ten times as much.
+pub(crate) fn shortest_and_free(
+    a: &DMatrix<f64>,
+    b: &DVector<f64>,
+    share: f64,
+) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    let n = a.ncols();
+    if n == 0 {
+        return Some((DVector::zeros(0), DMatrix::zeros(0, 0)));
+    }
+    if a.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let Some((triangle, rank)) = certain_triangle(a.transpose(), share) else {
+        let own = SingularValues::of(a);
+        let shortest = own.shortest(b, share * own.largest());
+        return Some((shortest, own.null_space(share)));
+    };
+    // Of the rows of A in the order of the triangle: R^T y = b with rank columns, then x = Q y.
+    let ordered = DVector::from_fn(a.nrows(), |i, _| b[triangle.order[i]]);
+    let mut shares = triangle.a.rows(0, rank).transpose();
+    for i in 0..rank {
+        shares.view_mut((0, i), (i, 1)).fill(0.0);
+    }
+    let decomposed = shares.qr();
+    let mut y = decomposed.q().transpose() * ordered;
+    if !decomposed.r().solve_upper_triangular_mut(&mut y) {
+        return None;
+    }
+    let mut both = DMatrix::zeros(n, 1 + n - rank);
+    both.view_mut((0, 0), (rank, 1)).copy_from(&y);
+    both.view_mut((rank, 1), (n - rank, n - rank))
+        .fill_with_identity();
+    triangle.reflect(&mut both);
+    let free = both.columns(1, n - rank).into_owned();
+    Some((both.column(0).into_owned(), free))
+}
+
+/// The range where the triangle leaves no doubt about the rank.
+fn certain_range(a: &DMatrix<f64>, share: f64) -> Option<DMatrix<f64>> {
+    let (triangle, rank) = certain_triangle(a.clone(), share)?;
+    let mut basis = DMatrix::identity(a.nrows(), rank);
+    triangle.reflect(&mut basis);
+    Some(basis)
+}
+
+/// The triangle and the rank, where it leaves no doubt about that: what is left beside it is far below
 /// `share` (and bounds all further singular values from above), and the inverse of its regular part
 /// bounds the others from below.
-fn certain_range(a: &DMatrix<f64>, share: f64) -> Option<DMatrix<f64>> {
-    let (m, n) = a.shape();
+fn certain_triangle(a: DMatrix<f64>, share: f64) -> Option<(Triangle, usize)> {
+    let n = a.ncols();
     let most = a.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     if !most.is_finite() || a.iter().any(|x| x.is_nan()) || !(1e-100..1e100).contains(&most) {
         return None;
     }
-    let triangle = Triangle::of(a.clone());
+    let triangle = Triangle::of(a);
     let first = triangle.a[(0, 0)].abs();
     let regular = |i: &usize| triangle.a[(*i, *i)].abs() > share * first;
     let rank = (0..triangle.rank).take_while(regular).count();
@@ -230,9 +280,7 @@ fn certain_range(a: &DMatrix<f64>, share: f64) -> Option<DMatrix<f64>> {
     if left.sqrt() > 0.01 * share * first || inverse.norm() * 10.0 * share * below > 1.0 {
         return None;
     }
-    let mut basis = DMatrix::identity(m, rank);
-    triangle.reflect(&mut basis);
-    Some(basis)
+    Some((triangle, rank))
 }
 
 /// Unit columns; beside a size that is rounding a column has no direction, and gets one that is
@@ -272,7 +320,7 @@ impl Triangle {
         let mut order: Vec<usize> = (0..n).collect();
         let mut heads = Vec::with_capacity(n);
         let mut first = 0.0;
-        for k in 0..n {
+        for k in 0..m.min(n) {
             let rest = |j: usize| a.view((k, j), (m - k, 1)).norm_squared();
             let (mut best, mut size) = (k, rest(k));
             for j in k + 1..n {
@@ -432,3 +480,7 @@ fn completed(basis: &DMatrix<f64>) -> DMatrix<f64> {
     fill_up(&mut all, k);
     all
 }
+
+#[cfg(test)]
+#[path = "singular_values_tests.rs"]
+mod tests;
