@@ -298,7 +298,7 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
     let mut ends = <[[String; 2]; 3]>::default();
     let way = |way: usize| {
         let mut direction = Vector3::zeros();
-        direction[way / 2] = if way % 2 == 0 { -1.0 } else { 1.0 };
+        direction[way / 2] = if way.is_multiple_of(2) { -1.0 } else { 1.0 };
         march(home, follows, &direction, length)
     };
     let (ways, free) = rayon::join(
