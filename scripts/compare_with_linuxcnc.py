@@ -23,6 +23,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -550,7 +551,7 @@ def compare_moves(found, moves, events, name, source):
     if len(moves) != len(events):
         found.differ("the number of moves", f"{name}: {len(moves)} and {len(events)}")
         return
-    here = None
+    here, shift = None, [0.0] * 3
     for move, (line, kind, end, feed, arc) in zip(moves, events):
         text = source[line - 1].strip() if 0 < line <= len(source) else ""
         example = f"{name}:{line}: {text}"
@@ -558,6 +559,9 @@ def compare_moves(found, moves, events, name, source):
         if move["line"] != line or move["kind"] != kind:
             found.differ("line or kind of a move", example + f" ({move['line']} {move['kind']})")
             return
+        known, shift = shift, stated_places(shift, move["end"], end, source[: line - 1])
+        here = here and tuple(here[axis] + shift[axis] - known[axis] for axis in range(3))
+        end = tuple(end[axis] + shift[axis] for axis in range(3))
         found.note("end point, mm", math.dist(move["end"], end), PLACE_MM, example)
         if (move["arc"] is None) != (arc is None):
             found.differ("arc or straight", example)
@@ -565,6 +569,7 @@ def compare_moves(found, moves, events, name, source):
         if arc is not None and here is not None:
             found.counts["arcs compared"] += 1
             axes, centre, turns = arc
+            centre = tuple(centre[axis] + shift[axis] for axis in range(3))
             mine = move["arc"]
             off = math.hypot(*(mine["centre"][axis] - centre[axis] for axis in axes[:2]))
             found.note("arc centre, mm", off, PLACE_MM, example)
@@ -597,6 +602,20 @@ def compare_moves(found, moves, events, name, source):
         if "part" in move and kind == "feed" and move["programmed"] and move["known"]:
             check_speed(found, move, feed, example)
         here = end
+
+
+def stated_places(shift, mine, theirs, before):
+    """For LinuxCNC every axis stands at its zero before the program; for kinetostat a first G92 says where an
+    axis stands that has not been moved yet. From there on their places differ by what that G92 states: one
+    constant for each such axis, taken from the first move after it."""
+    new = list(shift)
+    for axis, letter in enumerate("XYZ"):
+        off = mine[axis] - theirs[axis] - shift[axis]
+        words = [line.upper() for line in before if letter in line.upper()]
+        first = re.sub(r"\([^)]*\)|;.*", "", words[0]) if words else ""
+        if shift[axis] == 0.0 and abs(off) > PLACE_MM and re.search(r"G92(?![.0-9])", first):
+            new[axis] = off
+    return new
 
 
 def check_speed(found, move, feed, example):
