@@ -299,8 +299,9 @@ fn answer(
     let free_share = crate::free_machine::share(posture, loaded);
     if let Some(share) = free_share.filter(|s| *s > 0.5 && loaded.platform.stable) {
         warnings.push(Warning::new(WarningCode::NearBuckling, format!(
-            "the machine with its tool free is {} % of the way to instability under this load: NEAR BUCKLING",
-            number(100.0 * share, 3)
+            "the machine with its tool free is {} % of the way to {} under this load: NEAR BUCKLING",
+            number(100.0 * share, 3),
+            way_to(loaded.conservative)
         )));
     }
     let length = spot
@@ -472,7 +473,15 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     for limb in &a.limbs {
         out.push_str(&screen::item(&limb_in_words(limb)));
     }
-    let platform = if !a.platform_stable {
+    let platform = if !a.platform_stable && !a.conservative {
+        let ways = match a.negative_directions.as_slice() {
+            [] => String::new(),
+            list => format!(" where it {}", list.join("; it ")),
+        };
+        format!(
+            "the platform's stiffness is not positive{ways}; it may swing with growing amplitude (flutter) or go away, and which depends on the masses too, which are not asked for here"
+        )
+    } else if !a.platform_stable {
         match a.negative_directions.as_slice() {
             [] => "the platform does NOT stay: one in between has negative stiffness".to_owned(),
             list => format!(
@@ -499,8 +508,9 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     let share = a.share_to_instability_of_free_machine;
     if let Some(share) = share.filter(|s| *s > noticeable && a.platform_stable) {
         out.push_str(&screen::item(&format!(
-            "the machine with its tool free is {} % of the way to instability",
-            number(100.0 * share, 3)
+            "the machine with its tool free is {} % of the way to {}",
+            number(100.0 * share, 3),
+            way_to(a.conservative)
         )));
     }
     for joint in &a.overcome_joints {
@@ -508,7 +518,7 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     }
     if !a.conservative {
         out.push_str(&screen::item(&format!(
-            "not conservative: {}; the verdicts compare stiffnesses, not energies",
+            "not conservative: {}; the verdicts judge the symmetric part of the stiffness: where it is positive, nothing diverges or flutters, whatever the masses are",
             a.not_conservative_because.join(", ")
         )));
     }
@@ -527,6 +537,15 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     }
     out.push_str(&summary::warnings(&a.warnings));
     out
+}
+
+/// Where a share of the way leads: without a potential only the bound is known below which all is well
+/// (see [`kinetostat::CriticalLoad::definite_until`]).
+fn way_to(conservative: bool) -> &'static str {
+    match conservative {
+        true => "instability",
+        false => "where its stiffness is no more positive in every motion",
+    }
 }
 
 fn limb_in_words(limb: &LimbAnswer) -> String {

@@ -624,5 +624,15 @@ fn a_column_under_a_force_that_follows_loses_no_stability_by_its_symmetric_part(
             flat.contains("flutter") && flat.contains("depends on the masses"),
             "{flat}"
         );
+        // At one place: the symmetric part is positive up to F = 2, and nothing is called unstable beyond.
+        let words = "deflect ziegler.toml --force 0 0.0001 0".split(' ');
+        let said = run(here.path(), &words.collect::<Vec<_>>()).answered();
+        let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            !flat.contains("instability") && !flat.contains("NOT stay"),
+            "{flat}"
+        );
+        assert_eq!(flat.contains("(flutter)"), follows > 2.0, "{flat}");
+        assert_eq!(flat.contains("the platform stays"), follows < 2.0, "{flat}");
     }
 }
