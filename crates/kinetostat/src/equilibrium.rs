@@ -174,6 +174,13 @@ pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 
 /// as that large where a residual is stated relative to them.
 pub(crate) const LEAST_LOAD: f64 = 1e-9;
 
+/// A whole correction of less motion than this (rad, natural lengths) that makes no residual smaller is rounding:
+/// beside a very stiff spring unbalanced torques stay that no coordinate of 16 digits can balance.
+pub(crate) const STANDS: f64 = 1e-13;
+
+/// Share of the largest torque up to which such unbalanced torques are taken for rounding.
+pub(crate) const STANDING: f64 = 1e-6;
+
 /// Unit of balanced residuals: square root of the energy of a deflection by the natural length.
 pub(crate) fn natural(chain: &Chain) -> f64 {
     chain.scale().stiffness.sqrt() * chain.scale().length
@@ -281,6 +288,12 @@ impl Attempt<'_, '_> {
             torque: torque.sqrt(),
             loads,
         }
+    }
+
+    /// Nearly in equilibrium, where nothing moves any more.
+    fn stands(&self, b: &Balance) -> bool {
+        b.closure <= 100.0 * self.settings.closure * natural(self.problem.chain)
+            && b.torque <= STANDING * b.loads
     }
 
     fn converged(&self, b: &Balance) -> bool {
@@ -493,6 +506,9 @@ impl Attempt<'_, '_> {
                     now.closure.powi(2) + now.torque.powi(2) <= merit * (1.0 - 0.1 * length);
                 if better && extent < 1e-6 {
                     break;
+                }
+                if !better && exact && length == 1.0 && extent <= STANDS && self.stands(&now) {
+                    return Ok((iteration, now));
                 }
                 let bent = self
                     .correction(&tangent, &rows)

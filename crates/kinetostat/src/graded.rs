@@ -60,11 +60,14 @@ pub(crate) struct Graded {
 impl Graded {
     /// True if the end moves much more easily in some directions than in others.
     pub fn uneven(jacobian: &DMatrix<f64>) -> bool {
-        // A cheap test first: pivots of the Gram matrix are squares.
+        // A cheap test first: the norms of a triangle and its inverse bound the singular values. Pivots alone
+        // do not: one soft direction that leans towards two others can hide among them.
         let gram = jacobian * jacobian.transpose();
         if let Some(c) = gram.cholesky() {
-            let d = c.l_dirty().diagonal();
-            if d.min() * UNEVEN > d.max() * 10.0 {
+            let root = c.l();
+            let mut inverse = DMatrix::identity(root.nrows(), root.nrows());
+            let solved = root.solve_lower_triangular_mut(&mut inverse);
+            if solved && root.norm() * inverse.norm() < UNEVEN {
                 return false;
             }
         }

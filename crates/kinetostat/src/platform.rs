@@ -15,7 +15,9 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
 use crate::chain::{MotionKind, Scale};
-use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, beyond, rounding, step_limit};
+use crate::equilibrium::{
+    Balance, LEAST_LOAD, STANDING, STANDS, System, balance, beyond, rounding, step_limit,
+};
 use crate::error::{Error, Result};
 use crate::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
@@ -465,9 +467,14 @@ impl<'m> PlatformSolver<'m> {
                 let fine = self.converged(&next) || lagged;
                 let less = better && (extent < SMALL || !by_motion);
                 let mut accepted = reached && (fine || less);
-                // Rounding: no further progress is possible and the conditions nearly hold.
+                // Rounding: no further progress is possible and the conditions nearly hold; less nearly
+                // where nothing moves any more.
+                let nearly = match by_motion && length == 1.0 && extent <= STANDS {
+                    true => STANDING,
+                    false => 10.0 * self.settings.torque,
+                };
                 let close = next.closure_m <= 100.0 * self.settings.closure * self.length
-                    && next.torque <= 10.0 * self.settings.torque * next.loads
+                    && next.torque <= nearly * next.loads
                     && next.force <= 10.0 * self.settings.torque * next.forces;
                 if reached && !accepted && !better && close {
                     return Ok((iteration, next));

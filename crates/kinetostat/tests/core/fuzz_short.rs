@@ -39,3 +39,17 @@ fn a_coordinate_that_is_off_is_noticed() {
         seen.len()
     );
 }
+
+/// Seeds of long runs that found a fault once: rods of few segments that hardly stretch, and a soft axis beside
+/// five stiff ones.
+#[test]
+fn what_long_runs_found_stays_mended() {
+    let seeds = [
+        20262171, 20262762, 20263179, 20270613, 20271711, 20272639, 20272839,
+    ];
+    let faults: Vec<String> = seeds
+        .into_iter()
+        .filter_map(|seed| fuzz::run(seed, 16).err())
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
