@@ -346,6 +346,7 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
     if let Some(j) = job.filter(|j| !j.job.tools.is_empty()) {
         let numbers = j.job.tools.iter().map(|tool| tool.get_ref().number);
         reading.tools = Some(numbers.collect());
+        reading.tool_before_first = j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some();
     }
     reading.start_position_mm = match (&flags.start_position_mm, table.start_position_mm) {
         (Some(v), _) => Some(vector("--start-position-mm", v)?),

@@ -9,7 +9,15 @@ impl RunResult {
     /// What a program that came back byte for byte means; none for others.
     #[must_use]
     pub fn unchanged_in_words(&self) -> Option<String> {
-        self.summary.unchanged.then(|| {
+        let s = &self.summary;
+        if s.unchanged && s.within_tolerance_before {
+            return Some(format!(
+                "Nothing was corrected: as the program is, the tool is at most {} off, which is within the tolerance, \
+                 and it comes back byte for byte. A smaller --tolerance-um corrects that too.",
+                largest_length(s.max_position_error_before_mm)
+            ));
+        }
+        s.unchanged.then(|| {
             "Nothing was to be corrected: no correction along the program reaches the last digit written, and it \
              comes back byte for byte."
                 .to_owned()

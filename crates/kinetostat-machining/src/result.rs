@@ -230,6 +230,9 @@ pub struct Summary {
     /// Nothing was to be corrected: the program came back byte for byte.
     #[serde(default)]
     pub unchanged: bool,
+    /// It came back so because the tool keeps the tolerance as the program is.
+    #[serde(default)]
+    pub within_tolerance_before: bool,
     /// How far the machine's own weight and the loads of its model put the tool off by themselves where it
     /// cuts, mm, the largest of [`RunResult::MAX_POSTURES`] places; none where nothing acts without a load on
     /// the tool.

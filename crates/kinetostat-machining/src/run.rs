@@ -5,8 +5,8 @@ use kinetostat::batch::BatchEquilibrium;
 use kinetostat::number;
 use kinetostat::{Error, Mechanism, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use kinetostat_program::{
-    Corrected, CorrectionField, Monitor, MoveKind, Path, Program, ReadOptions, Verification,
-    WriteError, WriteOptions, verify_written, write_corrected,
+    Corrected, CorrectionField, Monitor, MoveKind, NoCorrection, Path, Program, ReadOptions,
+    Verification, WriteError, WriteOptions, verify_written, write_corrected,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -211,7 +211,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     let field = ModelField::new(task.mechanism, task.placement, &load);
     let mut again = Again::default();
-    let (written, check, points, worse) = loop {
+    let (mut written, mut check, mut points, mut worse) = loop {
         let (written, check) = write_and_read_again(task, &again.field(&field), watch)?;
         let (points, worse) = solve(task, || sites(task, &load, &written), true, watch)?;
         let stable = points.iter().all(|p| p.stable);
@@ -236,6 +236,13 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         }
     }
     refuse(beyond)?;
+    let within_before = written.bytes != task.program.bytes()
+        && within_before(&points, bound_mm(&task.writing, &written.accounting));
+    if within_before {
+        // As it is, the program keeps what is claimed of a corrected one, which could be farther off.
+        (written, check) = write_and_read_again(task, &NoCorrection, watch)?;
+        (points, worse) = solve(task, || sites(task, &load, &written), true, watch)?;
+    }
     if let Some(worse) = worse {
         return Err(worse);
     }
@@ -247,9 +254,18 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         speed_percent: 100.0 * check.largest_speed_error,
         if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
-        divided_again: again.in_words(bound_mm(&task.writing, &written.accounting)),
+        divided_again: match within_before {
+            true => None,
+            false => again.in_words(bound_mm(&task.writing, &written.accounting)),
+        },
+        within_before,
     };
     Ok(conclude(task, &load, points, Some(written), &checked))
+}
+
+/// The tool is no farther off anywhere, as the program is.
+fn within_before(points: &[PointResult], bound_mm: f64) -> bool {
+    points.iter().all(|p| size(&p.error_before_mm) <= bound_mm)
 }
 
 /// The compensated program and what its own reader says of it.
@@ -300,6 +316,8 @@ struct Checked {
     if_follows_mm: Option<f64>,
     /// What was divided again because the tool was found off.
     divided_again: Option<Warning>,
+    /// The program as it is keeps the tolerance, and was left so.
+    within_before: bool,
 }
 
 /// Everything that bends the machine along a program, in words: cutting load and own weight.
@@ -867,6 +885,7 @@ fn of_what_was_written(
     summary.blocks_per_second = a.peak_blocks_per_second.unwrap_or(0.0);
     summary.max_rounding_error_mm = a.largest_rounding_mm;
     summary.unchanged = written.bytes == task.program.bytes();
+    summary.within_tolerance_before = checked.within_before;
     summary.corner_points_percent = 100.0 * corners().count() as f64 / points.len().max(1) as f64;
     summary.max_corner_error_if_load_turns_mm = turns;
     summary.max_corner_error_if_load_follows_feed_mm = follows;

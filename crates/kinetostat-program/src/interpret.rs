@@ -224,7 +224,7 @@ impl<'o> Interpreter<'o> {
         }
         self.refuse_other_axes(block)?;
         self.modes.set(block)?;
-        self.tools.note(block);
+        self.tools.note(block)?;
         if block.codes.position_offset.is_some() {
             self.set_position_offset(block, has_axis_words)?;
         } else if has_axis_words || self.is_centre_only(block) {

@@ -77,6 +77,9 @@ pub struct ReadOptions {
     /// default) means one tool for the whole program: a second tool is warned of. With a list, a tool
     /// outside it is refused, and so is a tool change beside a motion.
     pub tools: Option<Vec<u32>>,
+    /// Beside such a list: whether the field knows the tool that is in the spindle before the program names one.
+    /// If not, a block that cuts before that is refused.
+    pub tool_before_first: bool,
 }
 
 impl Default for ReadOptions {
@@ -89,6 +92,7 @@ impl Default for ReadOptions {
             block_delete: BlockDelete::Run,
             other_axes: OtherAxes::Refused,
             tools: None,
+            tool_before_first: true,
         }
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::block::Block;
 use crate::error::ProgramError;
 use crate::options::ReadOptions;
-use crate::path::{Path, Warning};
+use crate::path::{MoveKind, Path, Warning};
 use crate::program::Program;
 
 /// A block from which on another tool is used.
@@ -38,12 +38,21 @@ pub(crate) struct ToolWords {
 }
 
 impl ToolWords {
-    pub fn note(&mut self, block: &Block<'_>) {
+    pub fn note(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
         let line = block.line_number;
         let whole = |letter: u8| {
             let value = block.word(letter)?.value;
             (value.fract() == 0.0 && (0.0..1e9).contains(&value)).then_some(value as u32)
         };
+        if let Some(word) = block.word(b'T')
+            && whole(b'T').is_none()
+        {
+            return Err(block.refuse(
+                None,
+                &format!("T{} is no number of a tool", word.value),
+                "write a whole number that is not negative, such as T2",
+            ));
+        }
         if let Some(number) = whole(b'T') {
             self.selected = Some(number);
             push(&mut self.named, line, number);
@@ -64,6 +73,7 @@ impl ToolWords {
         {
             push(&mut self.lengths, line, number);
         }
+        Ok(())
     }
 
     /// Fills in the tools of a path and says what does not fit the tools that are known.
@@ -83,7 +93,7 @@ impl ToolWords {
             None => warn_of_one_tool(path),
             Some(known) => {
                 refuse_unknown_tools(path, program, known)?;
-                warn_before_first_tool(path);
+                before_first_tool(path, program, options)?;
             }
         }
         Ok(())
@@ -157,14 +167,39 @@ fn refuse_unknown_tools(path: &Path, program: &Program, known: &[u32]) -> Result
     Ok(())
 }
 
-fn warn_before_first_tool(path: &mut Path) {
-    let Some(first) = path.moves.first().map(|motion| motion.line) else {
-        return;
-    };
-    if path.tool_on(first).is_none() {
-        path.warnings.push(Warning {
-            line: first,
-            text: "the first blocks move before the program has named a tool; they are corrected for the one under [tool]".to_owned(),
-        });
+/// Blocks that move before a tool is named: those that cut need a tool that is known.
+fn before_first_tool(
+    path: &mut Path,
+    program: &Program,
+    options: &ReadOptions,
+) -> Result<(), ProgramError> {
+    let unnamed = |motion: &&crate::path::Move| path.tool_on(motion.line).is_none();
+    let cut = path
+        .moves
+        .iter()
+        .filter(unnamed)
+        .find(|m| m.kind == MoveKind::Feed);
+    if let (Some(cut), false) = (cut, options.tool_before_first) {
+        return Err(Block::of(program, cut.line - 1)?.refuse(
+            None,
+            "the block cuts before the program has named a tool, and the tools are known by number only",
+            "name the tool before it (T1 M6), or give the one that is in the spindle at the start as [tool] in the job file",
+        ));
     }
+    let Some(first) = path.moves.iter().find(unnamed).map(|motion| motion.line) else {
+        return Ok(());
+    };
+    let text = match options.tool_before_first {
+        true => {
+            "the first blocks move before the program has named a tool; they are corrected for the one under [tool]"
+        }
+        false => {
+            "the first blocks move, without a cut, before the program has named a tool; they are corrected for a tool without length"
+        }
+    };
+    path.warnings.push(Warning {
+        line: first,
+        text: text.to_owned(),
+    });
+    Ok(())
 }

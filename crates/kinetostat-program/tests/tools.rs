@@ -87,6 +87,31 @@ fn with_a_table_of_tools_an_unknown_tool_and_a_change_beside_a_motion_are_refuse
     );
     let path = path_with("G21 G90\nG0 X0 Y0 Z0\nT1 M6\nG0 X5\n", &with(&[1])).unwrap();
     assert_eq!(warned(&path, "before the program has named a tool"), [2]);
+    // What cuts before that needs a tool that is known.
+    let unnamed = ReadOptions {
+        tool_before_first: false,
+        ..with(&[1])
+    };
+    let path = path_with("G21 G90\nG0 X0 Y0 Z0\nT1 M6\nG1 X5 F9\n", &unnamed).unwrap();
+    assert_eq!(warned(&path, "a tool without length"), [2]);
+    let cuts = "G21 G90\nG0 X0 Y0 Z0\nG1 X5 F9\nT1 M6\nG1 X9\n";
+    let error = path_with(cuts, &unnamed).unwrap_err();
+    assert!(
+        error.line == 3 && error.reason.contains("before the program has named a tool"),
+        "{error}"
+    );
+    path_with(cuts, &with(&[1])).unwrap();
+}
+
+#[test]
+fn a_tool_that_is_no_number_is_refused() {
+    for word in ["T2.5", "T-2", "T1e9"] {
+        let text = format!("G21 G90\nT1 M6\nG0 X0 Y0 Z0\n{word} M6\nG1 X5 F9\n");
+        let Err(error) = path_with(&text, &ReadOptions::default()) else {
+            panic!("{text}");
+        };
+        assert_eq!(error.line, 4, "{text}{error}");
+    }
 }
 
 #[test]

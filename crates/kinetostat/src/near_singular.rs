@@ -158,11 +158,13 @@ impl Posture<'_> {
             .iter()
             .map(|way| [at(&(way * step)), at(&(way * -step))])
             .collect();
-        let most = here.values[0];
-        let value = here.values[last];
+        // Where the machine has fewer motions, those that it has elsewhere are lost.
+        let valued = |m: &Measure| m.values.get(last).copied().unwrap_or(0.0);
+        let most = here.values.first().copied().unwrap_or(0.0);
+        let value = valued(&here);
         let mut slope = DVector::zeros(ways.len());
         for (k, pair) in around.iter().enumerate() {
-            let one = |m: &Option<Measure>| m.as_ref().map(|m| m.values[last]);
+            let one = |m: &Option<Measure>| m.as_ref().map(valued);
             slope[k] = match (one(&pair[0]), one(&pair[1])) {
                 (Some(a), Some(b)) => (a - b) / (2.0 * step),
                 (Some(a), None) => (a - value) / step,
