@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::number::{MISSING, counted, fixed, largest, largest_length, with_unit};
+use kinetostat_machining::number::{
+    MISSING, Rounding, counted, fixed, largest, largest_length, significant, with_unit,
+};
 use kinetostat_machining::{
     RESULT_SCHEMA, RunError, Warning, odd_correction, odd_tolerances, of_accounting, of_program,
 };
@@ -287,6 +289,10 @@ fn from_map(
     text.push('\n');
     let per_second =
         |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |rate| largest(rate, "1/s"));
+    let mean_per_second = |rate: Option<f64>| {
+        let nearest = |rate| with_unit(&significant(rate, 3, Rounding::Nearest), "1/s");
+        rate.map_or_else(|| MISSING.to_owned(), nearest)
+    };
     let seconds = |time: Option<f64>| {
         time.map_or_else(
             || MISSING.to_owned(),
@@ -306,7 +312,10 @@ fn from_map(
             row("places checked", result.places_checked.to_string()),
             row("rounding", largest_length(a.largest_rounding_mm)),
             row(
-                "speed along the part, error",
+                match a.feed_limited_pieces {
+                    0 => "speed along the part, error",
+                    _ => "the same where no feed is limited",
+                },
                 largest(result.largest_speed_error_percent, "%"),
             ),
             row("blocks read", a.blocks_in.to_string()),
@@ -324,11 +333,11 @@ fn from_map(
             row("time at feed, after", seconds(a.feed_time_out_s)),
             row(
                 "blocks per second, before",
-                per_second(a.mean_blocks_per_second_in),
+                mean_per_second(a.mean_blocks_per_second_in),
             ),
             row(
                 "blocks per second, after",
-                per_second(a.mean_blocks_per_second),
+                mean_per_second(a.mean_blocks_per_second),
             ),
             row(
                 "most of 16 in a row, after",

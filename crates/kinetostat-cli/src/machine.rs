@@ -20,7 +20,7 @@ use crate::journal::{FNV1A, fnv1a};
 use crate::orientation;
 use crate::origin;
 use crate::screen::{fixed, triple};
-use crate::setting::{JobFile, above_zero, chosen, finite, vector};
+use crate::setting::{JobFile, chosen, finite, scale_of_program, vector};
 
 /// The machine with its tool, where the program lies, and what acts.
 pub(crate) struct Machine {
@@ -332,7 +332,7 @@ fn placement(
         job,
         ("--scale", flags.scale),
         table.scale.as_ref(),
-        above_zero,
+        scale_of_program,
     )?
     .unwrap_or(1.0);
     Ok(Placement {

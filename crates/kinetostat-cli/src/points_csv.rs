@@ -213,12 +213,20 @@ fn lines(
         row.push(
             point
                 .share_to_buckling
-                .map_or_else(String::new, |share| digits(share, 4)),
+                .map_or_else(String::new, |share| digits(rounded_away(share), 4)),
         );
         row.push(if point.stable { "ok" } else { "unstable" }.into());
         writer.write_record(&row).map_err(failed)?;
     }
     bytes(writer)
+}
+
+/// Shares below 1e-12 are the rounding of their arithmetic.
+fn rounded_away(share: f64) -> f64 {
+    match share.abs() < 1e-12 {
+        true => 0.0,
+        false => share,
+    }
 }
 
 /// Joint values in m and rad.

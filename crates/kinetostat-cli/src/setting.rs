@@ -291,6 +291,16 @@ pub(crate) fn above_zero(value: f64) -> Result<f64, &'static str> {
     }
 }
 
+/// Programs are drawn larger or smaller, in inches for millimetres at most (25.4), or in metres (1000).
+pub(crate) fn scale_of_program(value: f64) -> Result<f64, &'static str> {
+    match (1e-3..=1e3).contains(&value) {
+        true => Ok(value),
+        false => Err(
+            "a number from 0.001 to 1000 is needed: the machine's length for one of the program",
+        ),
+    }
+}
+
 fn micrometres(value: f64) -> Result<f64, &'static str> {
     if (1e-3..=1e4).contains(&value) {
         Ok(1e-3 * value)

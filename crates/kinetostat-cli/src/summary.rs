@@ -114,7 +114,17 @@ fn figures(result: &RunResult) -> String {
         row("error allowed in all", "", &allowed);
         row("largest correction", "", &f.correction);
         row("tool tilt that stays", "", &f.rotation);
-        row("speed along the part, error", "", &f.speed);
+        // Pieces whose feed is limited are slower, and have a row of their own.
+        let speed = match s.feed_limited_pieces {
+            0 => "speed along the part, error",
+            _ => "the same where no feed is limited",
+        };
+        if s.feed_limited_pieces > 0 {
+            let slowest = s.slowest_limited_speed_percent.unwrap_or(f64::NAN);
+            let slowest = with_unit(&significant(slowest, 2, Rounding::Down), "%");
+            row("slowest speed along the part", "", &slowest);
+        }
+        row(speed, "", &f.speed);
         let of = |count: usize| count.to_string();
         if s.feed_limited_pieces > 0 {
             row(
@@ -143,10 +153,14 @@ fn figures(result: &RunResult) -> String {
         }
         let rate =
             |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |r| largest(r, "1/s"));
+        let mean = |rate: Option<f64>| {
+            let nearest = |r| with_unit(&significant(r, 3, Rounding::Nearest), "1/s");
+            rate.map_or_else(|| MISSING.to_owned(), nearest)
+        };
         row(
             "blocks per second",
-            &rate(s.mean_blocks_per_second_before),
-            &rate(s.mean_blocks_per_second_after),
+            &mean(s.mean_blocks_per_second_before),
+            &mean(s.mean_blocks_per_second_after),
         );
         row(
             "most of 16 in a row",

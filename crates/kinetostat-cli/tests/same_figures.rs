@@ -142,3 +142,75 @@ chain = "arm"
         }
     }
 }
+
+/// Arcs divided within a tolerance would put the tool farther off than a small load does.
+#[test]
+fn no_program_is_made_worse_by_its_compensation() {
+    let here = workplace();
+    let here = here.path();
+    std::fs::write(here.join("uneven.ngc"), UNEVEN).expect("a program");
+    let [x, y, z] = home(here, "orthoglide");
+    let (mut as_it_is, mut corrected) = (0, 0);
+    for (force, tolerance) in [
+        ("0 0 -0.05", 0.5),
+        ("0 0 -0.2", 0.5),
+        ("0.5 1 -0.5", 0.5),
+        ("3 -2 -9", 0.5),
+        ("3 -2 -9", 4.0),
+        ("100 50 -30", 20.0),
+        ("100 50 -30", 500.0),
+    ] {
+        let line = format!(
+            "compensate --model orthoglide --program uneven.ngc --tool-length-mm 100 --part-origin-mm {x} {y} {z} --force {force} --tolerance-um {tolerance} --json - --out o.ngc --force-overwrite"
+        );
+        let answer = json(here, &line);
+        let number = |name: &str| answer["summary"][name].as_f64().unwrap_or(f64::NAN);
+        let [before, after] =
+            ["before", "after"].map(|when| number(&format!("max_position_error_{when}_mm")));
+        assert!(after <= before, "{line}: {before} {after}");
+        let unchanged = std::fs::read(here.join("o.ngc")).expect("written") == UNEVEN.as_bytes();
+        assert_eq!(answer["summary"]["unchanged"], unchanged, "{line}");
+        if before > 1e-4 {
+            // Within the tolerance (and that of chords, and the last digit) nothing is touched.
+            assert_eq!(
+                answer["summary"]["within_tolerance_before"], unchanged,
+                "{line}"
+            );
+        }
+        match unchanged {
+            true => as_it_is += 1,
+            false => corrected += 1,
+        }
+    }
+    assert!(as_it_is >= 3 && corrected >= 3, "{as_it_is} {corrected}");
+}
+
+/// A folded arm has fewer motions than its neighbours.
+#[test]
+fn folded_arms_are_answered() {
+    let here = workplace();
+    for line in [
+        "stiffness two_link --at 0 0 0",
+        "deflect two_link --at 0 0 0",
+    ] {
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words);
+        assert!([0, 2].contains(&said.code), "{line}: {said:?}");
+    }
+}
+
+/// The scale of a program is no way to a question without sense.
+#[test]
+fn a_scale_out_of_range_is_refused() {
+    let here = workplace();
+    std::fs::write(here.path().join("uneven.ngc"), UNEVEN).expect("a program");
+    for scale in ["1e-5", "1e9", "0"] {
+        let line = format!(
+            "compensate --model orthoglide --program uneven.ngc --force 1 2 3 --scale {scale} --out o.ngc"
+        );
+        let words: Vec<&str> = line.split(' ').collect();
+        let said = run(here.path(), &words);
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        assert!(said.err.contains("--scale is"), "{line}: {said:?}");
+    }
+}

@@ -383,7 +383,19 @@ fn written(result: &Shown<'_>) -> Vec<Value> {
         ),
         fact(
             "Speed along the part",
-            format!("within {} of the programmed one", result.figures.speed),
+            match summary.feed_limited_pieces {
+                0 => format!("within {} of the programmed one", result.figures.speed),
+                pieces => format!(
+                    "within {} of the programmed one, but for {} whose feed is limited: the slowest has {} % of it",
+                    result.figures.speed,
+                    number::counted(pieces, "piece"),
+                    number::significant(
+                        summary.slowest_limited_speed_percent.unwrap_or(f64::NAN),
+                        2,
+                        Rounding::Down
+                    ),
+                ),
+            },
         ),
         fact(
             "Tolerance of the path",

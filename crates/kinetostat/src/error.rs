@@ -47,7 +47,8 @@ fn not_converged(
         ),
         None => format!(
             "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a gap of {} m, and torques of {} times the largest without balance)",
-            number::short(closure),
+            // Below this a gap is the rounding of its arithmetic.
+            number::short(if closure < 1e-12 { 0.0 } else { closure }),
             number::short(torque)
         ),
     }
