@@ -314,7 +314,7 @@ fn from_map(
             row(
                 match a.feed_limited_pieces {
                     0 => "speed along the part, error",
-                    _ => "the same where no feed is limited",
+                    _ => "error of the speed, feed not limited",
                 },
                 largest(result.largest_speed_error_percent, "%"),
             ),

@@ -291,10 +291,13 @@ fn answer(
     let near_singularity = spot.near_singular();
     warnings.extend(near_singularity.iter().map(NearSingular::warning));
     if loaded.platform.free > 0 {
-        warnings.push(Warning::new(WarningCode::FreeDirection, format!(
-            "the machine has {} direction(s) without any stiffness here: see `kinetostat stiffness`",
-            loaded.platform.free
-        )));
+        warnings.push(Warning::new(
+            WarningCode::FreeDirection,
+            format!(
+                "the machine has {} without any stiffness here: see `kinetostat stiffness`",
+                formatter::counted(loaded.platform.free, "direction")
+            ),
+        ));
     }
     let free_share = crate::free_machine::share(posture, loaded);
     if let Some(share) = free_share.filter(|s| *s > 0.5 && loaded.platform.stable) {
@@ -491,8 +494,8 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         }
     } else if a.free_directions > 0 {
         format!(
-            "the platform stays, but {} direction(s) have no stiffness at all",
-            a.free_directions
+            "the platform stays, but without any stiffness in {}",
+            formatter::counted(a.free_directions, "direction")
         )
     } else {
         match a.smallest_stiffness_n_per_mm.is_finite() {

@@ -117,7 +117,7 @@ fn figures(result: &RunResult) -> String {
         // Pieces whose feed is limited are slower, and have a row of their own.
         let speed = match s.feed_limited_pieces {
             0 => "speed along the part, error",
-            _ => "the same where no feed is limited",
+            _ => "its error where no feed is limited",
         };
         if s.feed_limited_pieces > 0 {
             let slowest = s.slowest_limited_speed_percent.unwrap_or(f64::NAN);

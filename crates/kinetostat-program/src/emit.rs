@@ -182,9 +182,9 @@ impl<'a> Emitter<'a> {
             accounting.warnings.push(Warning {
                 line,
                 text: format!(
-                    "the feed of {} piece(s), first here, is held to {} times the programmed one, though the tool's own \
+                    "the feed of {}, first here, is held to {} times the programmed one, though the tool's own \
                      path is longer: the part is cut more slowly there, the slowest at {} % of the programmed speed",
-                    accounting.feed_limited_pieces,
+                    counted(accounting.feed_limited_pieces, "piece"),
                     self.options.max_feed_factor,
                     least_percent(speed)
                 ),
@@ -196,10 +196,10 @@ impl<'a> Emitter<'a> {
         accounting.warnings.push(Warning {
             line,
             text: format!(
-                "{} step(s) or piece(s) of the written program go against the direction of motion by more than \
-                 {} mm, here by {:.4} mm, to follow a load that turns or begins at once: where the load does not do \
-                 so, the tool cuts backwards",
-                accounting.backward_steps,
+                "the written program goes {} against the direction of motion by more than {} mm, here by {:.4} mm, to \
+                 follow a correction that changes at once (a load that turns or begins, a table that folds back): where \
+                 the machine does not do so, the tool cuts backwards",
+                counted(accounting.backward_steps, "time"),
                 self.options.backward_step_mm,
                 accounting.largest_backward_mm
             ),
@@ -610,6 +610,14 @@ fn least_percent(share: f64) -> String {
     let decimals = (1.0 - percent.log10().floor()).max(0.0) as usize;
     let place = 10_f64.powi(decimals as i32);
     format!("{:.decimals$}", (percent * place + 1e-9).floor() / place)
+}
+
+/// "1 piece", "2 pieces".
+fn counted(count: usize, one: &str) -> String {
+    match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {one}s"),
+    }
 }
 
 #[cfg(test)]
