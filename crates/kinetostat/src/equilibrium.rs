@@ -290,12 +290,6 @@ impl Attempt<'_, '_> {
         }
     }
 
-    /// Nearly in equilibrium, where nothing moves any more.
-    fn stands(&self, b: &Balance) -> bool {
-        b.closure <= 100.0 * self.settings.closure * natural(self.problem.chain)
-            && b.torque <= STANDING * b.loads
-    }
-
     fn converged(&self, b: &Balance) -> bool {
         let unit = natural(self.problem.chain);
         b.closure <= self.settings.closure * unit
@@ -506,9 +500,6 @@ impl Attempt<'_, '_> {
                     now.closure.powi(2) + now.torque.powi(2) <= merit * (1.0 - 0.1 * length);
                 if better && extent < 1e-6 {
                     break;
-                }
-                if !better && exact && length == 1.0 && extent <= STANDS && self.stands(&now) {
-                    return Ok((iteration, now));
                 }
                 let bent = self
                     .correction(&tangent, &rows)

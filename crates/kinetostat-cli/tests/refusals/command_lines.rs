@@ -120,7 +120,7 @@ pub fn command_lines() -> Vec<Case> {
             "line: no scale",
             &["compensate", "job.toml", "--scale", "0"],
             1,
-            &["--scale", "above zero"],
+            &["--scale", "from 0.001 to 1000"],
         ),
         c(
             "line: two loads",

@@ -45,7 +45,7 @@ fn a_coordinate_that_is_off_is_noticed() {
 #[test]
 fn what_long_runs_found_stays_mended() {
     let seeds = [
-        20262171, 20262762, 20263179, 20270613, 20271711, 20272639, 20272839,
+        780182, 20262171, 20262762, 20263179, 20270613, 20271711, 20272639, 20272839,
     ];
     let faults: Vec<String> = seeds
         .into_iter()
