@@ -45,11 +45,12 @@ fn a_coordinate_that_is_off_is_noticed() {
 #[test]
 fn what_long_runs_found_stays_mended() {
     let seeds = [
+        777133, 778997, 779023, 779399, 788367, 789785, 790650, 791650, 792193, 792756, 792832,
         780182, 20262171, 20262762, 20263179, 20270613, 20271711, 20272639, 20272839,
     ];
     let faults: Vec<String> = seeds
         .into_iter()
-        .filter_map(|seed| fuzz::run(seed, 16).err())
+        .filter_map(|seed| fuzz::run(seed, 40).err())
         .collect();
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
