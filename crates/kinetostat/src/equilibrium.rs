@@ -176,7 +176,7 @@ pub(crate) const LEAST_LOAD: f64 = 1e-9;
 
 /// A whole correction of less motion than this (rad, natural lengths) that makes no residual smaller is rounding:
 /// beside a very stiff spring unbalanced torques stay that no coordinate of 16 digits can balance.
-pub(crate) const STANDS: f64 = 1e-13;
+pub(crate) const STANDS: f64 = 1e-10;
 
 /// Share of the largest torque up to which such unbalanced torques are taken for rounding.
 pub(crate) const STANDING: f64 = 1e-6;

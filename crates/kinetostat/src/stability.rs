@@ -27,7 +27,8 @@ pub struct ShapeStability {
     /// `mu`, largest share of the way to buckling: below 1 is stable. `None` for a chain without
     /// inner freedom; infinite where a passive motion is pushed out of line.
     pub share_to_buckling: Option<f64>,
-    /// Motion of all coordinates in the most critical mode (m, rad), largest component 1.
+    /// Motion of all coordinates in the most critical mode (m, rad), largest component 1; empty where
+    /// nothing can buckle or numbers of 16 digits do not tell it.
     pub mode: Vec<f64>,
     /// Passive joints that can move for nothing (neutral, taken out of the verdict).
     pub neutral: Vec<String>,
@@ -106,6 +107,10 @@ pub(crate) fn swept_stability_within(
     ends: &EndMotions,
 ) -> Option<ShapeStability> {
     let shape = crate::sweep_solve::shape(sweep, ends)?;
+    let numbers = shape.mode.iter().chain([&shape.share_to_buckling]);
+    if !numbers.into_iter().all(|x| x.is_finite()) {
+        return None;
+    }
     let own = shape.mode.iter().zip(&factors[6..]);
     Some(ShapeStability {
         stable: shape.share_to_buckling < 1.0,
@@ -116,8 +121,11 @@ pub(crate) fn swept_stability_within(
     })
 }
 
-/// A motion scaled so that its largest component is 1.
+/// A motion scaled so that its largest component is 1; empty where its numbers are lost.
 fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
+    if motion.iter().any(|x| !x.is_finite()) {
+        return Vec::new();
+    }
     let most = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for x in &mut motion {
         *x /= most.max(f64::MIN_POSITIVE);
