@@ -1,5 +1,6 @@
 //! A machine at home: mobility, what holds it, what its own loads do.
 
+use kinetostat::number::counted;
 use kinetostat::{
     DirectionKind, Kinematics, Mechanism, MechanismEquilibrium, Posture, Role, Wrench,
 };
@@ -9,7 +10,7 @@ use serde::Serialize;
 
 use crate::check::Findings;
 use crate::check_assumptions::{AssumptionsFinding, assumptions};
-use crate::check_limbs::{LimbFinding, counted};
+use crate::check_limbs::LimbFinding;
 use crate::check_reach;
 use crate::overcome::{Overcome, overcome};
 use crate::screen::{fixed, item, triple};

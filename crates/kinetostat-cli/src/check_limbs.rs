@@ -1,5 +1,6 @@
 //! Limbs of a model: what they are made of, and what each of them holds.
 
+use kinetostat::number::counted;
 use kinetostat::{MotionKind, Role};
 use kinetostat_model::Model;
 use kinetostat_model::schema::{Convention, Element};
@@ -161,11 +162,6 @@ pub(crate) fn platform_loads(model: &Model) -> Vec<LoadFinding> {
         conservative: load.conservative(),
     })
     .collect()
-}
-
-/// `1 actuator`, `3 actuators`.
-pub(crate) fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 pub(crate) fn load_in_words(load: &LoadFinding) -> String {

@@ -75,6 +75,16 @@ fn kills() -> u32 {
         .unwrap_or(16)
 }
 
+/// The next run in a directory, whatever it does.
+const DRAW: [&str; 6] = [
+    "model",
+    "draw",
+    "orthoglide",
+    "--out",
+    "o.svg",
+    "--force-overwrite",
+];
+
 #[test]
 fn a_kill_at_any_moment_leaves_nothing_half_and_nothing_unsaid() {
     let here = workplace();
@@ -123,17 +133,7 @@ fn a_kill_at_any_moment_leaves_nothing_half_and_nothing_unsaid() {
         mixed += usize::from(apart);
         // The next run in that directory, whatever it does.
         for _ in 0..2 {
-            let said = run(
-                here,
-                &[
-                    "model",
-                    "draw",
-                    "orthoglide",
-                    "--out",
-                    "o.svg",
-                    "--force-overwrite",
-                ],
-            );
+            let said = run(here, &DRAW);
             let said = said.answered();
             let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
             assert_eq!(flat.contains("do not belong together"), apart, "{flat}");
@@ -184,17 +184,7 @@ fn a_state_between_the_renames_is_named_by_the_next_run() {
         }
         let text = serde_json::to_vec(&list).expect("JSON");
         std::fs::write(&journal, text).expect("a journal");
-        let said = run(
-            here,
-            &[
-                "model",
-                "draw",
-                "orthoglide",
-                "--out",
-                "o.svg",
-                "--force-overwrite",
-            ],
-        );
+        let said = run(here, &DRAW);
         let said = said.answered();
         let flat = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
         let apart = in_place > 0 && in_place < OUTPUTS.len();

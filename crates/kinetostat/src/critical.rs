@@ -171,7 +171,11 @@ pub fn critical_load_factor(
             factor: 0.0,
             kind: None,
             mode: mode(&points[0]),
-            equilibrium: points[0].equilibrium.clone(),
+            // The first point of a curve may lie a little beside its start, where a motion is free.
+            equilibrium: Equilibrium {
+                conservative,
+                ..start.clone()
+            },
         }),
         Some(i) => {
             let special = curves.specials.iter().find(|s| {

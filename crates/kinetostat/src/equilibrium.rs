@@ -174,13 +174,6 @@ pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 
 /// as that large where a residual is stated relative to them.
 pub(crate) const LEAST_LOAD: f64 = 1e-9;
 
-/// A whole correction of less motion than this (rad, natural lengths) that makes no residual smaller is rounding:
-/// beside a very stiff spring unbalanced torques stay that no coordinate of 16 digits can balance.
-pub(crate) const STANDS: f64 = 1e-10;
-
-/// Share of the largest torque up to which such unbalanced torques are taken for rounding.
-pub(crate) const STANDING: f64 = 1e-6;
-
 /// Unit of balanced residuals: square root of the energy of a deflection by the natural length.
 pub(crate) fn natural(chain: &Chain) -> f64 {
     chain.scale().stiffness.sqrt() * chain.scale().length
@@ -243,7 +236,7 @@ impl Attempt<'_, '_> {
     fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
         self.evaluate_system(x, wrench, share);
         let p = self.problem;
-        self.rounding = rounding(p.chain, &self.system, &self.factors, x);
+        self.rounding = rounding(p.chain, &self.system, &self.factors);
         let tip = self.system.kinematics.tip_pose();
         let (target, offset) = match &self.way {
             Way::Screw(from) if share < 1.0 => (on_screw(from, &p.end.pose, share), Twist::zero()),

@@ -15,9 +15,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
 use crate::chain::{MotionKind, Scale};
-use crate::equilibrium::{
-    Balance, LEAST_LOAD, STANDING, STANDS, System, balance, beyond, rounding, step_limit,
-};
+use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, beyond, rounding, step_limit};
 use crate::error::{Error, Result};
 use crate::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
@@ -339,7 +337,7 @@ impl<'m> PlatformSolver<'m> {
             closure_m = closure_m.max(b.closure / limb.actual.scale().stiffness.sqrt());
             torque = torque.max(b.torque);
             loads = loads.max(b.loads);
-            let rounds = rounding(&limb.actual, &linear.system, &self.factors[i], x);
+            let rounds = rounding(&limb.actual, &linear.system, &self.factors[i]);
             exceeding = exceeding.max(beyond(b.torque, rounds));
             lack[limb.to] = lack[limb.to] + Wrench(-(shift_matrix(&arm).transpose() * f.0));
             if limb.from != 0 {
@@ -467,14 +465,9 @@ impl<'m> PlatformSolver<'m> {
                 let fine = self.converged(&next) || lagged;
                 let less = better && (extent < SMALL || !by_motion);
                 let mut accepted = reached && (fine || less);
-                // Rounding: no further progress is possible and the conditions nearly hold; less nearly
-                // where nothing moves any more.
-                let nearly = match by_motion && length == 1.0 && extent <= STANDS {
-                    true => STANDING,
-                    false => 10.0 * self.settings.torque,
-                };
+                // Rounding: no further progress is possible and the conditions nearly hold.
                 let close = next.closure_m <= 100.0 * self.settings.closure * self.length
-                    && next.torque <= nearly * next.loads
+                    && next.torque <= 10.0 * self.settings.torque * next.loads
                     && next.force <= 10.0 * self.settings.torque * next.forces;
                 if reached && !accepted && !better && close {
                     return Ok((iteration, next));

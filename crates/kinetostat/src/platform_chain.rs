@@ -110,14 +110,11 @@ impl PlatformSolver<'_> {
         lack: &[Wrench],
         tangents: Tangents,
     ) -> Option<(PlatformStep, Vec<DVector<f64>>)> {
+        let mut new = None;
         if let Tangents::New { with_hessian } = tangents {
             let (balance, rows) = self.tool_balance();
-            if !self.linear[0].linearise_loaded(with_hessian, rows, &self.factors[0]) {
-                self.linear[0].system.make_dense();
-                self.evaluate_limb(0);
-                self.linear[0].linearise_loaded(with_hessian, rows, &self.factors[0]);
-            }
             self.balance = Some(balance);
+            new = Some((with_hessian, rows));
         }
         let (tool, k) = (self.mechanism.tool, self.guided());
         let pose = &self.state.platforms[tool];
@@ -135,6 +132,16 @@ impl PlatformSolver<'_> {
             };
             given * balance.sizes[i]
         });
+        if let Some((with_hessian, rows)) = new {
+            let linear = &mut self.linear[0];
+            if !linear.linearise_loaded(with_hessian, rows, &right, &self.factors[0]) {
+                linear.system.make_dense();
+                self.evaluate_limb(0);
+                let linear = &mut self.linear[0];
+                linear.linearise_loaded(with_hessian, rows, &right, &self.factors[0]);
+            }
+        }
+        let balance = self.balance.as_ref()?;
         let change = self.linear[0].loaded(&right, &self.factors[0])?;
         if change.iter().any(|x| !x.is_finite()) {
             return None;

@@ -140,8 +140,15 @@ impl Linear {
     }
 
     /// As [`Self::linearise`], while six conditions (balanced) say what the tip does: no solution for
-    /// motions of the tip, which may be worlds stiffer in one direction than in another.
-    pub fn linearise_loaded(&mut self, with_hessian: bool, rows: EndRows, factors: &[f64]) -> bool {
+    /// motions of the tip, which may be worlds stiffer in one direction than in another. `right` is what
+    /// these conditions lack now.
+    pub fn linearise_loaded(
+        &mut self,
+        with_hessian: bool,
+        rows: EndRows,
+        right: &Vector6<f64>,
+        factors: &[f64],
+    ) -> bool {
         let tangent = if let Some(sweep) = &self.system.sweep {
             let form = match with_hessian {
                 true => Form::Exact,
@@ -149,7 +156,7 @@ impl Linear {
             };
             let swept = STEP_SPRINGS.into_iter().find_map(|spring| {
                 let bordered = Bordered::new(sweep.clone(), form, rows, spring)?;
-                self.swept_residual(&bordered, &Vector6::zeros(), factors)?;
+                self.swept_residual(&bordered, right, factors)?;
                 Some(bordered)
             });
             let Some(bordered) = swept else {

@@ -79,29 +79,13 @@ impl SpringBlock {
         self.rest.is_empty()
     }
 
-    /// Adds this block's energy gradient to `torque` (all coordinates of the chain) and its second
-    /// derivative to `tangent` (n x n); returns the energy (J). `values` are the coordinates,
-    /// `posture` those of the commanded, unloaded posture, `preload` scales `theta0` (1 is the real one).
+    /// Adds this block's energy gradient to `torque` (all coordinates of the chain) and gives its second
+    /// derivative to `entry`: row and column, both counted within the block, and the value there. Returns the
+    /// energy (J). `values` are the coordinates, `posture` those of the commanded, unloaded posture,
+    /// `preload` scales `theta0` (1 is the real one).
     /// A law whose tangent depends on the deflection appends its first coordinate and the change of
     /// the tangent since rest to `geometric`: like the loads' Hessian, it decides about stability.
-    #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
     pub(crate) fn add(
-        &self,
-        values: &[f64],
-        posture: &[f64],
-        preload: f64,
-        torque: &mut [f64],
-        tangent: &mut DMatrix<f64>,
-        geometric: &mut Vec<(usize, Matrix6<f64>)>,
-    ) -> f64 {
-        let first = self.first;
-        let entry = &mut |i: usize, j: usize, k: f64| tangent[(first + i, first + j)] += k;
-        self.add_entries(values, posture, preload, torque, entry, geometric)
-    }
-
-    /// The same for a tangent that is kept otherwise: `entry` takes row, column (both counted within
-    /// the block) and what is added there.
-    pub(crate) fn add_entries(
         &self,
         values: &[f64],
         posture: &[f64],
@@ -220,7 +204,7 @@ mod tests {
             &[0.0; 6],
             1.0,
             &mut torque,
-            &mut tangent,
+            &mut |i, j, value| tangent[(i, j)] += value,
             &mut Vec::new(),
         );
         (energy, torque, tangent)

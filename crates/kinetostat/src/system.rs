@@ -21,6 +21,9 @@ pub(crate) struct System {
     pub hessian: DMatrix<f64>,
     /// Gradient of the springs' energy, n.
     pub spring_torque: Vec<f64>,
+    /// Sum of the magnitudes of what the coordinates contribute to it by its tangent, n: its rounding is a few
+    /// units of the last place of these.
+    pub spring_turnover: Vec<f64>,
     /// Its derivative, n x n.
     pub spring_tangent: DMatrix<f64>,
     /// Change of the tangent since rest, per block of six coordinates: first coordinate, matrix.
@@ -50,6 +53,7 @@ impl System {
             torque: vec![0.0; all],
             hessian: DMatrix::zeros(all, all),
             spring_torque: vec![0.0; n],
+            spring_turnover: vec![0.0; n],
             spring_tangent: DMatrix::zeros(n, n),
             spring_geometric: Vec::new(),
             energy: 0.0,
@@ -86,6 +90,7 @@ impl System {
             torque: vec![0.0; all],
             hessian: DMatrix::zeros(0, 0),
             spring_torque: vec![0.0; n],
+            spring_turnover: vec![0.0; n],
             spring_tangent: DMatrix::zeros(0, 0),
             spring_geometric: Vec::new(),
             energy: 0.0,
@@ -183,34 +188,38 @@ impl System {
             self.torque.fill(f64::NAN);
         }
         self.spring_torque.fill(0.0);
+        self.spring_turnover.fill(0.0);
         self.spring_geometric.clear();
         self.energy = 0.0;
-        if let Some(sweep) = &mut self.sweep {
-            let (energy, torque) = (&mut self.energy, &mut self.spring_torque);
-            let geometric = &mut self.spring_geometric;
-            sweep.set_springs(|k, entry| {
-                *energy += chain.springs()[k].add_entries(
-                    coordinates,
-                    posture,
-                    factor,
-                    torque,
-                    &mut |i, j, value| entry(i, j, value),
-                    geometric,
-                );
-            });
-            sweep.set_geometric(&self.spring_geometric);
-            return;
-        }
-        self.spring_tangent.fill(0.0);
-        for block in chain.springs() {
-            self.energy += block.add(
+        let (energy, torque) = (&mut self.energy, &mut self.spring_torque);
+        let (turnover, geometric) = (&mut self.spring_turnover, &mut self.spring_geometric);
+        let mut add = |k: usize, entry: &mut dyn FnMut(usize, usize, f64)| {
+            let block = &chain.springs()[k];
+            let first = block.first;
+            *energy += block.add(
                 coordinates,
                 posture,
                 factor,
-                &mut self.spring_torque,
-                &mut self.spring_tangent,
-                &mut self.spring_geometric,
+                torque,
+                &mut |i, j, value| {
+                    turnover[first + i] += (value * coordinates[first + j]).abs();
+                    entry(i, j, value);
+                },
+                geometric,
             );
+        };
+        if let Some(sweep) = &mut self.sweep {
+            sweep.set_springs(add);
+            sweep.set_geometric(&self.spring_geometric);
+            return;
+        }
+        let tangent = &mut self.spring_tangent;
+        tangent.fill(0.0);
+        for (k, block) in chain.springs().iter().enumerate() {
+            let first = block.first;
+            add(k, &mut |i, j, value| {
+                tangent[(first + i, first + j)] += value
+            });
         }
     }
 
@@ -256,38 +265,20 @@ impl System {
 }
 
 /// The part of the unbalanced torques (balanced, root of the sum of squares) that the rounding of the
-/// coordinates explains where one spring is very much stiffer than another: its torque is no better known
+/// coordinates explains where one spring is very much stiffer than another: torques are no better known
 /// than that. A spring is strained by the coordinates of its own block only (a link that bows is strained
-/// by its rotations). Zero for all other chains, so that their equilibria are as exact as the settings
-/// ask for.
-pub(crate) fn rounding(chain: &Chain, system: &System, factors: &[f64], x: &[f64]) -> f64 {
+/// by its rotations, and turned back by its axial force). Zero for all other chains, so that their
+/// equilibria are as exact as the settings ask for.
+pub(crate) fn rounding(chain: &Chain, system: &System, factors: &[f64]) -> f64 {
     if !disparate(factors, chain) {
         return 0.0;
     }
-    let length = chain.scale().length;
-    let mut explained = 0.0;
-    for block in chain.springs() {
-        let own = block.first..block.first + block.len();
-        let (mut moved, mut stiffest) = (0.0_f64, 0.0_f64);
-        for i in own.clone() {
-            let unit = match chain.coordinates()[i].kind {
-                MotionKind::Revolute => 1.0,
-                MotionKind::Prismatic => length,
-            };
-            moved = moved.max((x[i] / unit).abs());
-            stiffest = stiffest.max(unit / factors[6 + i]);
-        }
-        let most = 8.0 * f64::EPSILON * stiffest * moved.min(1.0);
-        explained += own
-            .map(|i| {
-                (system.unbalanced(i) * factors[6 + i])
-                    .abs()
-                    .min(most)
-                    .powi(2)
-            })
-            .sum::<f64>();
-    }
-    explained.sqrt()
+    let explained = system.spring_turnover.iter().zip(&factors[6..]);
+    let explained = explained.enumerate().map(|(i, (turnover, factor))| {
+        let most = 4.0 * f64::EPSILON * turnover;
+        (system.unbalanced(i).abs().min(most) * factor).powi(2)
+    });
+    explained.sum::<f64>().sqrt()
 }
 
 /// Root of the sum of squares without a part of it.

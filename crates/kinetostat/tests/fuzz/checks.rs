@@ -179,6 +179,31 @@ fn block_torque(
     Some((torque, 1e-8))
 }
 
+/// What rounding is counted in, per torque of a block: each coordinate is known to its last digits only, and so
+/// is what the springs answer to it. A link that bows is strained by its rotations too, and turned back by its
+/// axial force. By differences of the torques.
+fn rounding(block: &SpringBlock, x: &[f64], posture: &[f64], length: f64) -> Vec<f64> {
+    let torque = |x: &[f64]| block_torque(block, x, posture, length).map(|(torque, _)| torque);
+    let k = block.stiffness_at(posture);
+    let n = block.len();
+    let mut moved = vec![0.0; n];
+    for j in 0..n {
+        let own = x[block.first + j];
+        let step = 1e-3 * own.abs().max(1e-30);
+        let (mut more, mut less) = (x.to_vec(), x.to_vec());
+        more[block.first + j] += step;
+        less[block.first + j] -= step;
+        let change = torque(&more).zip(torque(&less));
+        for i in 0..n {
+            let slope = change
+                .as_ref()
+                .map_or(k[(i, j)], |(more, less)| (more[i] - less[i]) / (2.0 * step));
+            moved[i] += (slope * own).abs();
+        }
+    }
+    moved
+}
+
 /// Wrenches of all loads at the given state.
 fn wrenches(problem: &ChainProblem<'_>, x: &[f64]) -> Vec<(usize, Wrench)> {
     let chain = problem.chain;
@@ -288,26 +313,14 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
             MotionKind::Revolute => 1.0 / natural,
         };
     }
-    // A coordinate is known to rounding only, and so is what its spring answers; a link that bows is
-    // strained by its rotations too.
     let mut rounded = vec![0.0; n];
     for block in chain.springs() {
         let k = block.stiffness_at(&problem.posture);
-        let own = &e.coordinates[block.first..block.first + block.len()];
-        let kinds = chain.coordinates()[block.first..].iter().map(|c| c.kind);
-        let turns = own.iter().zip(kinds);
-        let turns = turns.filter(|(_, kind)| *kind == MotionKind::Revolute);
-        let turned = turns.fold(0.0_f64, |most, (x, _)| most.max(x.abs()));
-        for i in 0..block.len() {
+        let moved = rounding(block, &e.coordinates, &problem.posture, scale.length);
+        for (i, moved) in moved.into_iter().enumerate() {
             let at = block.first + i;
             factor[at] = 1.0 / k[(i, i)].sqrt();
-            let unit = match chain.coordinates()[at].kind {
-                MotionKind::Prismatic => scale.length,
-                MotionKind::Revolute => 1.0,
-            };
-            let moved: f64 = (0..block.len()).map(|j| (k[(i, j)] * own[j]).abs()).sum();
-            let bowed = k[(i, i)] * unit * turned * turned;
-            rounded[at] = 4.0 * f64::EPSILON * (moved + bowed) * factor[at];
+            rounded[at] = 4.0 * f64::EPSILON * moved * factor[at];
         }
     }
     for i in 0..n {
@@ -411,10 +424,15 @@ fn energy_balance(
             x[i] += s * step;
             load_energy(problem, &x).ok().flatten().unwrap_or(f64::NAN)
         };
-        let points = [at(1.0), at(-1.0), at(2.0), at(-2.0)];
-        let slope = (8.0 * (points[0] - points[1]) - (points[2] - points[3])) / (12.0 * step);
-        // Differences of large energies are coarse; where they are, nothing is learnt.
-        let coarse = 1e-14 * here.abs().max(points[0].abs()) / step * factor[i];
+        let slope = |h: f64| {
+            let near = 8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h));
+            near / (12.0 * h * step)
+        };
+        let (rough, slope) = (slope(1.0), slope(0.5));
+        // Differences of large energies are coarse, and so are those of energies that bend much; where they
+        // are, nothing is learnt.
+        let rounding = 2e-14 * here.abs().max(at(1.0).abs()) / step;
+        let coarse = (rounding + (slope - rough).abs()) * factor[i];
         let left = (slope + torque[i]).abs() * factor[i];
         assert!(
             left <= 1e-4 * loads + 10.0 * coarse,
