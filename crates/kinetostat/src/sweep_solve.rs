@@ -3,7 +3,7 @@
 
 use std::ops::Deref;
 
-use nalgebra::{DMatrix, Dyn, LU, Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix6, Vector6};
 
 use crate::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space, complement};
 use crate::sweep::{Form, Sweep, column};
@@ -285,12 +285,19 @@ struct Shifted<'s> {
     sweep: &'s Sweep,
     factored: Factored,
     ends: &'s EndMotions,
-    /// The matrix above, `F` over the range.
+    /// The matrix above, `F` over the range, balanced by `units`.
     end: LU<f64, Dyn, Dyn>,
+    /// Units of `F` and `u` by the spring at the end: of the size of what the chain answers, in every
+    /// direction, however many springs it has.
+    units: DVector<f64>,
     /// Eigenvalues of the pencil above `mu`.
     above: usize,
     inertia: Inertia,
 }
+
+/// Share of the largest eigenvalue below which the sign of another is rounding: the spring at the end is up to
+/// 1e7 times stiffer in one direction than in another.
+const LOST_SIGN: f64 = 1e-9;
 
 impl<'s> Shifted<'s> {
     /// `None` where a pivot is lost in rounding.
@@ -304,6 +311,12 @@ impl<'s> Shifted<'s> {
         }
         let (own, spring) = (factored.end, factored.spring);
         let mut end = DMatrix::zeros(r + c, r + c);
+        let within = range.transpose() * spring * range;
+        let between = free.transpose() * spring * free;
+        let units = DVector::from_fn(r + c, |i, _| match i < r {
+            true => within[(i, i)].sqrt(),
+            false => between[(i - r, i - r)].sqrt().recip(),
+        });
         end.view_mut((0, 0), (r, r))
             .copy_from(&(range.transpose() * own * range));
         if c > 0 {
@@ -313,12 +326,14 @@ impl<'s> Shifted<'s> {
             let along = free.transpose() * (spring * own * spring - spring) * free;
             end.view_mut((r, r), (c, c)).copy_from(&along);
         }
-        let end = 0.5 * (&end + end.transpose());
+        let end = DMatrix::from_fn(r + c, r + c, |i, j| {
+            0.5 * (end[(i, j)] + end[(j, i)]) * units[i] * units[j]
+        });
         let values = end.symmetric_eigenvalues();
         let most = values.amax();
         let mut inertia = factored.inertia;
         for value in values.iter() {
-            if value.abs() <= RANK_TOLERANCE * most {
+            if value.abs() <= LOST_SIGN * most {
                 inertia.zero += 1;
             } else if *value > 0.0 {
                 inertia.positive += 1;
@@ -336,6 +351,7 @@ impl<'s> Shifted<'s> {
             factored,
             ends,
             end: end.lu(),
+            units,
         })
     }
 
@@ -352,7 +368,9 @@ impl<'s> Shifted<'s> {
             let pulled = free.transpose() * (self.factored.spring * start);
             b.rows_mut(r, c).copy_from(&pulled);
         }
-        let held = self.end.solve(&b)?;
+        b.column_mut(0).component_mul_assign(&self.units);
+        let mut held = self.end.solve(&b)?;
+        held.column_mut(0).component_mul_assign(&self.units);
         let mut wrench = -(range * held.rows(0, r));
         if c > 0 {
             let moved = free * held.rows(r, c);
