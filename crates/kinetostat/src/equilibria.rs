@@ -581,7 +581,13 @@ impl Search<'_, '_, '_> {
             }
         }
         self.reduced.evaluate(&c.z);
-        let idle = self.idle(&mut c.z);
+        let mut rested = c.z.clone();
+        let idle = self.idle(&mut rested);
+        // A motion that changes nothing at first may change a lot further on.
+        let (_, balance) = self.reduced.evaluate(&rested);
+        if self.reduced.converged(&balance) {
+            c.z = rested;
+        }
         let x = self.reduced.coordinates(&c.z);
         if !self.bounds.hold(&x) {
             self.outside += usize::from(plain);

@@ -285,7 +285,9 @@ impl Attempt<'_, '_> {
 
     fn converged(&self, b: &Balance) -> bool {
         let unit = natural(self.problem.chain);
-        b.closure <= self.settings.closure * unit
+        // Of numbers beyond all sense the squares are infinite, on either side.
+        b.torque.is_finite()
+            && b.closure <= self.settings.closure * unit
             && beyond(b.torque, self.rounding) <= self.settings.torque * b.loads + 1e-16 * unit
     }
 

@@ -376,7 +376,8 @@ impl<'m> PlatformSolver<'m> {
 
     fn converged(&self, b: &MechanismBalance) -> bool {
         let unit = self.stiffness.sqrt() * self.length;
-        b.closure_m <= self.settings.closure * self.length
+        b.torque.is_finite()
+            && b.closure_m <= self.settings.closure * self.length
             && b.exceeding <= self.settings.torque * b.loads + 1e-16 * unit
             && b.force <= self.settings.torque * b.forces + 1e-16 * unit
     }
