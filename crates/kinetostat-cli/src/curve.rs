@@ -32,18 +32,19 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
         outputs: &args.outputs,
     };
     let about = |spot: &Spot| -> Answer<Work<CurveAnswer>> {
+        let length = spot.length();
         if is_chain(spot) {
             let chain = with_loads(serial_chain(spot)?, &args.end)?;
             let q = question(&chain.moves(), Some(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
-                curve_answer::solve(&chain, &q, place, names, stage)
+                curve_answer::solve(&chain, &q, place, names, stage).map(|a| a.judged(length))
             }))
         } else {
             curve_machine::refuse(args)?;
             let machine = Machine::of(spot)?;
             let q = question(&machine.moves, None, args)?;
             Ok(Box::new(move |place, names, stage| {
-                curve_machine::solve(&machine, &q, place, names, stage)
+                curve_machine::solve(&machine, &q, place, names, stage).map(|a| a.judged(length))
             }))
         }
     };

@@ -54,6 +54,32 @@ pub(crate) struct CurveAnswer {
     pub(crate) reached: (f64, f64),
 }
 
+/// A chain that is turned over moves its tip by twice its length: what goes further is stretched.
+const STRETCHED: f64 = 2.5;
+
+impl CurveAnswer {
+    /// With a warning where the tool goes further than a machine of this length (m) can.
+    pub(crate) fn judged(mut self, length: f64) -> Self {
+        let points = self.branches.iter().flat_map(|b| &b.points);
+        let places = points.map(|p| Vector3::from(p.position_mm));
+        let start = self.branches.first().and_then(|b| b.points.first());
+        let farthest = start.map_or(0.0, |start| {
+            let start = Vector3::from(start.position_mm);
+            places.map(|p| (p - start).norm()).fold(0.0, f64::max)
+        });
+        if farthest > STRETCHED * 1e3 * length {
+            self.warnings.push(Warning::new(
+                WarningCode::LargeDisplacement,
+                format!(
+                    "the tool goes {} times as far as the machine is long: its springs are stretched beyond all sense; check the range and its unit",
+                    crate::screen::number(farthest / (1e3 * length), 2)
+                ),
+            ));
+        }
+        self
+    }
+}
+
 /// Names of the quantities of a curve.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Units {

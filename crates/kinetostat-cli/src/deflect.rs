@@ -307,12 +307,7 @@ fn answer(
             way_to(loaded.conservative)
         )));
     }
-    let length = spot
-        .mechanism
-        .limbs()
-        .iter()
-        .map(|l| l.nominal.scale().length)
-        .fold(0.0, f64::max);
+    let length = spot.length();
     if shift.norm() > LARGE * 1e3 * length {
         warnings.push(Warning::new(WarningCode::LargeDisplacement, format!(
             "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",

@@ -636,3 +636,19 @@ fn a_column_under_a_force_that_follows_loses_no_stability_by_its_symmetric_part(
         assert_eq!(flat.contains("the platform stays"), follows < 2.0, "{flat}");
     }
 }
+
+/// A unit too many: the answer says that no machine goes that far.
+#[test]
+fn a_curve_beyond_all_sense_says_so() {
+    let here = workplace();
+    let pushed = |to: &str| {
+        let range = ["--direction", "1", "0", "0", "--displacement-mm", "0", to];
+        let arguments = ["curve", "scara"].into_iter().chain(range);
+        let a = json(here.path(), &arguments.collect::<Vec<_>>());
+        let warnings = a["warnings"].as_array().expect("warnings").clone();
+        let mut codes = warnings.iter().map(|w| w["code"].clone());
+        codes.any(|code| code == "large_displacement")
+    };
+    assert!(pushed("1e9"));
+    assert!(!pushed("5"));
+}
