@@ -369,3 +369,60 @@ fn no_example_escapes_the_tests() {
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert!(counts.contains("rust") && counts.contains("console"));
 }
+
+/// Bold symbols of formulas, as `K` or `\\theta`.
+fn symbols(text: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for command in ["\\mathbf", "\\boldsymbol"] {
+        for rest in text.split(command).skip(1) {
+            let rest = rest.trim_start_matches([' ', '{']);
+            let name: String = match rest.strip_prefix('\\') {
+                Some(greek) => greek
+                    .chars()
+                    .take_while(char::is_ascii_alphabetic)
+                    .collect(),
+                None => rest.chars().take(1).collect(),
+            };
+            found.insert(name);
+        }
+    }
+    found
+}
+
+/// One symbol for one thing: a formula has none that its page or the conventions do not bring in by a sentence.
+#[test]
+fn every_symbol_of_the_theory_is_introduced_in_words() {
+    let page = |name: &str| read(&root().join("book/src").join(name));
+    let (conventions, equations) = (page("conventions.md"), page("equations.md"));
+    let words = |text: &str| symbols(&parted(text).0.join("\n"));
+    let known = words(&conventions);
+    let mut seen = 0;
+    for (name, text) in [
+        ("conventions.md", &conventions),
+        ("equations.md", &equations),
+    ] {
+        let mut own = words(text);
+        let formulas = parted(text).1.into_iter();
+        let formulas: Vec<String> = formulas
+            .filter(|(language, _)| language.starts_with("math"))
+            .map(|(_, formula)| formula)
+            .collect();
+        // What stands alone before an equals sign is what the formula says.
+        for part in formulas.iter().flat_map(|f| f.split("\\qquad")) {
+            let left = symbols(part.split('=').next().unwrap_or_default());
+            if part.contains('=') && left.len() == 1 {
+                own.extend(left);
+            }
+        }
+        for formula in &formulas {
+            for symbol in symbols(formula) {
+                seen += 1;
+                assert!(
+                    known.contains(&symbol) || own.contains(&symbol),
+                    "{name}: no sentence says what {symbol} is:\n{formula}"
+                );
+            }
+        }
+    }
+    assert!(seen > 50, "{seen} symbols were seen");
+}
