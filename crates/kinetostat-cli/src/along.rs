@@ -187,9 +187,11 @@ pub(crate) fn solve(
     question.tolerance_from = "as stated".to_owned();
     if aim == Aim::Compensate {
         let (usual_mm, from) = &machine.usual_tolerance;
+        // Of the machine, where the program may be scaled.
+        let usual_mm = usual_mm / machine.placement.scale;
         let [path_stated, chord_stated] = setting.stated;
         if !path_stated {
-            writing.tolerance_mm = *usual_mm;
+            writing.tolerance_mm = usual_mm;
             question.tolerance_from.clone_from(from);
         }
         if !chord_stated {

@@ -120,9 +120,12 @@ fn compare(what: &str, shown: &str, json: &Value) -> usize {
     }
     // What the report sums up: the error that a written program may have.
     let number = |group: &str, name: &str| json[group][name].as_f64().unwrap_or(0.0);
-    let sum = number("question", "tolerance_mm")
-        + number("question", "chord_tolerance_mm")
-        + number("summary", "max_rounding_error_mm");
+    let chords = match number("summary", "feed_arcs") > 0.0 {
+        true => number("question", "chord_tolerance_mm"),
+        false => 0.0,
+    };
+    let sum =
+        number("question", "tolerance_mm") + chords + number("summary", "max_rounding_error_mm");
     ways(sum, &mut allowed);
     allowed.insert("100 %".to_owned());
     allowed.insert("0 %".to_owned());

@@ -185,6 +185,57 @@ fn no_program_is_made_worse_by_its_compensation() {
     assert!(as_it_is >= 3 && corrected >= 3, "{as_it_is} {corrected}");
 }
 
+/// A tolerance of chords allows nothing on a program without arcs.
+#[test]
+fn straight_lines_are_corrected_whatever_chords_may_do() {
+    let here = workplace();
+    let here = here.path();
+    let lines = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX40 F600\nY20\nX0\nG0 Z5\nM2\n";
+    std::fs::write(here.join("lines.ngc"), lines).expect("a program");
+    for chord in ["0.4", "50", "1000"] {
+        let line = format!(
+            "compensate --model orthoglide --program lines.ngc --tool-length-mm 100 --part-origin-mm 0 0 100 --force 215 -10 -25 --tolerance-um 0.5 --chord-tolerance-um {chord} --json - --out o.ngc --force-overwrite"
+        );
+        let answer = json(here, &line);
+        let number = |group: &str, name: &str| answer[group][name].as_f64().unwrap_or(f64::NAN);
+        assert!(number("summary", "max_position_error_before_mm") > 0.05);
+        assert!(number("summary", "max_position_error_after_mm") < 6e-4);
+        assert!(number("tolerance", "allowed_mm") < 6e-4, "{answer}");
+        assert_eq!(answer["summary"]["unchanged"], false);
+    }
+}
+
+/// Limits and the usual tolerance are those of the machine, in which a program may be scaled.
+#[test]
+fn limits_are_millimetres_of_the_machine() {
+    let here = workplace();
+    let here = here.path();
+    std::fs::write(
+        here.join("s.ngc"),
+        "G21 G90 G17\nG0 X0 Y0 Z0\nG1 X20 F600\nM2\n",
+    )
+    .expect("a program");
+    for (scale, shown) in [("1", "3.6"), ("10", "4.0")] {
+        let line = format!(
+            "compensate --model kuka_kr270_like --program s.ngc --force 2500 -1200 150 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --scale {scale} --out o.ngc --force-overwrite"
+        );
+        let said = run(here, &line.split(' ').collect::<Vec<_>>());
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        assert!(
+            said.err.contains("correction_mm") && said.err.contains(shown),
+            "{line}: {said:?}"
+        );
+    }
+    let line = "compensate --model kuka_kr270_like --program s.ngc --force 250 -120 15 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --out o.ngc --force-overwrite --json -";
+    let [one, ten] = ["1", "10"].map(|scale| {
+        let answer = json(here, &format!("{line} --scale {scale}"));
+        answer["question"]["tolerance_mm"]
+            .as_f64()
+            .expect("a number")
+    });
+    assert!((one - 10.0 * ten).abs() < 1e-12, "{one} {ten}");
+}
+
 /// A folded arm has fewer motions than its neighbours.
 #[test]
 fn folded_arms_are_answered() {

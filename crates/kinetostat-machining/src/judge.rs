@@ -285,10 +285,12 @@ fn besides(point: &PointResult, own: &Vector3<f64>) -> f64 {
     corrected.max((Vector3::from(point.error_before_mm) - own).norm())
 }
 
-/// Corrections beyond their limit, that by own weight and that by the rest each by its own.
+/// Corrections beyond their limit, that by own weight and that by the rest each by its own. Limits are
+/// millimetres of the machine, results those of a program that may be scaled in it.
 fn corrections(over: &mut Over<'_>, task: &Task<'_>, points: &[PointResult]) {
     let limits = over.limits;
-    let least = limits.correction_mm.min(limits.own_weight_mm);
+    let scale = task.placement.scale;
+    let least = limits.correction_mm.min(limits.own_weight_mm) / scale;
     // What is no number is beyond every limit.
     let large: Vec<&PointResult> = points
         .iter()
@@ -314,8 +316,8 @@ fn corrections(over: &mut Over<'_>, task: &Task<'_>, points: &[PointResult]) {
     };
     for (point, own) in asked.into_iter().zip(own) {
         let own = own.unwrap_or_default();
-        note(0, besides(point, &own), point);
-        note(1, own.norm(), point);
+        note(0, scale * besides(point, &own), point);
+        note(1, scale * own.norm(), point);
     }
     for (name, found) in ["correction_mm", "own_weight_mm"].into_iter().zip(worst) {
         if let Some((value, at)) = found {
@@ -422,8 +424,9 @@ pub(crate) fn odd(
     let limits = &task.bounds.limits;
     if let Some((size, at)) = most(points, |p| length(&p.correction_mm)).filter(|_| compensated) {
         let tolerance = task.writing.tolerance_mm;
+        let scale = task.placement.scale;
         // A large one is judged without the part of own weight.
-        let size = match size > ODD * limits.correction_mm {
+        let size = match scale * size > ODD * limits.correction_mm {
             true => {
                 let own = by_own_loads(task, &[at])
                     .pop()
@@ -433,7 +436,8 @@ pub(crate) fn odd(
             }
             false => size,
         };
-        list.extend(odd_correction(limits, size, Some(at.line), tolerance));
+        let sizes = [scale * size, scale * tolerance];
+        list.extend(odd_correction(limits, sizes[0], Some(at.line), sizes[1]));
     }
     if compensated {
         list.extend(odd_tolerances(

@@ -45,13 +45,17 @@ impl RunResult {
     /// Most places whose posture is compared with singular ones.
     pub const MAX_POSTURES: usize = 64;
 
-    /// Error that the written program may have, mm: the tolerances of the path and of chords in arcs,
-    /// and the rounding to decimals. By this bound it is judged everywhere.
+    /// Error that the written program may have, mm: the tolerance of the path, that of chords where the program
+    /// has arcs, and the rounding to decimals. By this bound it is judged everywhere.
     #[must_use]
     pub fn allowed_mm(&self) -> f64 {
         sum_of_bounds([
             self.question.tolerance_mm,
-            self.question.chord_tolerance_mm,
+            if self.summary.feed_arcs > 0 {
+                self.question.chord_tolerance_mm
+            } else {
+                0.0
+            },
             self.summary.max_rounding_error_mm,
         ])
     }
@@ -68,10 +72,14 @@ impl RunResult {
 }
 
 /// [`RunResult::allowed_mm`] of a written program whose result is not made yet.
-pub(crate) fn bound_mm(writing: &WriteOptions, accounting: &Accounting) -> f64 {
+pub(crate) fn bound_mm(writing: &WriteOptions, arcs: usize, accounting: &Accounting) -> f64 {
     sum_of_bounds([
         writing.tolerance_mm,
-        writing.chord_tolerance_mm,
+        if arcs > 0 {
+            writing.chord_tolerance_mm
+        } else {
+            0.0
+        },
         accounting.largest_rounding_mm,
     ])
 }
@@ -311,6 +319,9 @@ pub struct Summary {
     pub max_position_error_after_mm: f64,
     /// See `max_position_error_after_mm`.
     pub rms_position_error_after_mm: f64,
+    /// Arcs at feed in the program: without them no chord is written, and none is allowed for.
+    #[serde(default)]
+    pub feed_arcs: usize,
     /// Share of the after-error that comes from the decimals written, mm.
     pub max_rounding_error_mm: f64,
     /// Largest correction, mm.

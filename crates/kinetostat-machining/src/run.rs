@@ -5,7 +5,7 @@ use kinetostat::batch::BatchEquilibrium;
 use kinetostat::number;
 use kinetostat::{Error, Mechanism, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use kinetostat_program::{
-    Corrected, CorrectionField, Monitor, MoveKind, NoCorrection, Path, Program, ReadOptions,
+    Corrected, CorrectionField, Curve, Monitor, MoveKind, NoCorrection, Path, Program, ReadOptions,
     Verification, WriteError, WriteOptions, verify_written, write_corrected,
 };
 use nalgebra::{UnitQuaternion, Vector3};
@@ -215,7 +215,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         let (written, check) = write_and_read_again(task, &again.field(&field), watch)?;
         let (points, worse) = solve(task, || sites(task, &load, &written), true, watch)?;
         let stable = points.iter().all(|p| p.stable);
-        let bound_mm = bound_mm(&task.writing, &written.accounting);
+        let bound_mm = bound_mm(&task.writing, feed_arcs(task), &written.accounting);
         if !stable || !again.divides(task.path, &field, &points, bound_mm) {
             break (written, check, points, worse);
         }
@@ -236,8 +236,9 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         }
     }
     refuse(beyond)?;
+    let allowed_mm = bound_mm(&task.writing, feed_arcs(task), &written.accounting);
     let within_before = written.bytes != task.program.bytes()
-        && within_before(&points, bound_mm(&task.writing, &written.accounting));
+        && within_before(&points, task.writing.tolerance_mm, allowed_mm);
     if within_before {
         // As it is, the program keeps what is claimed of a corrected one, which could be farther off.
         (written, check) = write_and_read_again(task, &NoCorrection, watch)?;
@@ -256,16 +257,28 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
         divided_again: match within_before {
             true => None,
-            false => again.in_words(bound_mm(&task.writing, &written.accounting)),
+            false => again.in_words(allowed_mm),
         },
         within_before,
     };
     Ok(conclude(task, &load, points, Some(written), &checked))
 }
 
-/// The tool is no farther off anywhere, as the program is.
-fn within_before(points: &[PointResult], bound_mm: f64) -> bool {
-    points.iter().all(|p| size(&p.error_before_mm) <= bound_mm)
+/// As it is, the program keeps the tolerance of the path, for it has no chords; or what is allowed, and no less
+/// than the corrected one does.
+fn within_before(points: &[PointResult], tolerance_mm: f64, allowed_mm: f64) -> bool {
+    let largest = |error: fn(&PointResult) -> f64| points.iter().map(error).fold(0.0, f64::max);
+    let before = largest(|p| size(&p.error_before_mm));
+    let after = largest(|p| size(&p.error_after_mm));
+    before <= tolerance_mm || before <= allowed_mm.min(after)
+}
+
+/// Arcs at feed.
+fn feed_arcs(task: &Task<'_>) -> usize {
+    let moves = task.path.moves.iter();
+    moves
+        .filter(|m| m.kind == MoveKind::Feed && matches!(m.curve, Curve::Arc(_)))
+        .count()
 }
 
 /// The compensated program and what its own reader says of it.
@@ -884,6 +897,7 @@ fn of_what_was_written(
     summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
     summary.blocks_per_second = a.peak_blocks_per_second.unwrap_or(0.0);
     summary.max_rounding_error_mm = a.largest_rounding_mm;
+    summary.feed_arcs = feed_arcs(task);
     summary.unchanged = written.bytes == task.program.bytes();
     summary.within_tolerance_before = checked.within_before;
     summary.corner_points_percent = 100.0 * corners().count() as f64 / points.len().max(1) as f64;

@@ -180,6 +180,7 @@ pub fn circle_groove() -> RunResult {
     summary.blocks_per_second = 46.2;
     summary.feed_length_mm = 159.1;
     summary.max_rounding_error_mm = 0.000_087;
+    summary.feed_arcs = 1;
     summary.max_speed_deviation_percent = 0.041;
     result.warnings = vec![Warning::new(
         WarningCode::Model,
