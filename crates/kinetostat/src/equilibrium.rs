@@ -30,7 +30,7 @@ use crate::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
 use crate::sweep::{Form, Path, Sweep, turned_rows};
 use crate::sweep_solve::{Bordered, EndRows, STEP_SPRINGS};
-pub(crate) use crate::system::{System, balance, beyond, rounding};
+pub(crate) use crate::system::{System, balance, beyond, disparate, rounding};
 
 /// What is prescribed in one direction of the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

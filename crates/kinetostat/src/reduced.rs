@@ -20,7 +20,8 @@ use crate::chain::{Role, sensible};
 use crate::curve_matrix::CurveMatrix;
 use crate::curve_sweep::CurveSweep;
 use crate::equilibrium::{
-    Balance, ChainProblem, Equilibrium, Prescribed, System, balance, check_problem, natural, nudged,
+    Balance, ChainProblem, Equilibrium, Prescribed, System, balance, beyond, check_problem,
+    disparate, natural, nudged, rounding,
 };
 use crate::error::{Error, Result};
 use crate::family::Family;
@@ -122,6 +123,8 @@ pub(crate) struct Reduced<'p, 'a> {
     unit: f64,
     /// Rotation (vector, rad) that the end lacks: it is not small where some rotations are free.
     turned: Vector3<f64>,
+    /// What rounding leaves unbalanced at the state evaluated last, balanced, see [`rounding`].
+    rounding: f64,
     /// All loads, those that grow included, have a potential.
     conservative: bool,
     /// Poses of the nodes at the start, for the displacement along a load pattern.
@@ -211,6 +214,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             sigma: 1.0,
             unit: natural(chain),
             turned: Vector3::zeros(),
+            rounding: 0.0,
             conservative,
             reference: Vec::new(),
             family: None,
@@ -384,6 +388,24 @@ impl<'p, 'a> Reduced<'p, 'a> {
             .collect()
     }
 
+    /// The state `to`, a step of an iteration away from `from`, as the springs of a chain with very stiff ones
+    /// take that step: in their own strain, see [`crate::spring::SpringBlock::follow`].
+    pub fn followed(&self, from: &DVector<f64>, mut to: DVector<f64>) -> DVector<f64> {
+        let chain = self.problem.chain;
+        if !disparate(&self.factors, chain) {
+            return to;
+        }
+        let (start, mut x) = (self.coordinates(from), self.coordinates(&to));
+        for block in chain.springs() {
+            block.follow(&start, 1.0, &mut x);
+        }
+        let r = self.reactions();
+        for (i, x) in x.into_iter().enumerate() {
+            to[r + i] = x / (self.factors[6 + i] * self.unit);
+        }
+        to
+    }
+
     /// Physical motion of the coordinates (m, rad) along a direction of states.
     pub fn motion(&self, direction: &DVector<f64>) -> Vec<f64> {
         self.coordinates(direction)
@@ -409,6 +431,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
         let (x, wrench) = (self.coordinates(z), self.wrench(z));
         self.system.pattern.1 = value;
         self.system.evaluate_problem(p, &x, &wrench, 1.0);
+        self.rounding = rounding(p.chain, &self.system, &self.factors) / self.unit;
         let target = match self.parameter {
             Some(Parameter::Displacement(twist)) => moved(&p.end.pose, &Twist(twist.0 * value)),
             _ => p.end.pose,
@@ -442,7 +465,8 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 
     pub fn converged(&self, b: &Balance) -> bool {
-        b.closure <= self.settings.closure && b.torque <= self.settings.torque * b.loads + 1e-14
+        b.closure <= self.settings.closure
+            && beyond(b.torque, self.rounding) <= self.settings.torque * b.loads + 1e-14
     }
 
     /// Change of the closure with the coordinates, balanced, r x n. Where some rotations are free,
@@ -731,7 +755,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
                 return None;
             }
             last = length;
-            z += step;
+            z = self.followed(&z, &z + step);
         }
         None
     }

@@ -291,7 +291,7 @@ pub(crate) fn beyond(whole: f64, part: f64) -> f64 {
 const DISPARATE: f64 = 1e7;
 
 /// Whether the springs' stiffnesses (rotations at the natural length) differ by more than [`DISPARATE`].
-fn disparate(factors: &[f64], chain: &Chain) -> bool {
+pub(crate) fn disparate(factors: &[f64], chain: &Chain) -> bool {
     let length = chain.scale().length;
     let own = chain.coordinates().iter().zip(&factors[6..]);
     let stiffnesses = own

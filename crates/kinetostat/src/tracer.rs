@@ -396,8 +396,9 @@ impl Tracer<'_, '_, '_> {
     /// One step of length `h`, `None` if it is too long.
     fn step(&mut self, here: &CurvePoint, h: f64) -> Option<(CurvePoint, Tangent, usize)> {
         let t = &here.tangent;
-        let predicted = &here.z + t * h;
-        let offset = t.dot(&predicted);
+        let straight = &here.z + t * h;
+        let offset = t.dot(&straight);
+        let predicted = self.reduced.followed(&here.z, straight);
         let c = self
             .reduced
             .correct(&predicted, &Row::Plane(t, offset), 8)?;
