@@ -465,7 +465,8 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 
     pub fn converged(&self, b: &Balance) -> bool {
-        b.closure <= self.settings.closure
+        b.torque.is_finite()
+            && b.closure <= self.settings.closure
             && beyond(b.torque, self.rounding) <= self.settings.torque * b.loads + 1e-14
     }
 

@@ -52,10 +52,6 @@ use run::{Places, Work};
 use table::BLOCK;
 pub use table::Table;
 
-/// Coordinates of the longest limb that is solved with others: kernels are dense, and longer ones are solved
-/// faster alone, by sweeps along them.
-const LONGEST: usize = 120;
-
 /// Blocks of eight postures that a thread takes at a time.
 const BLOCKS: usize = 32;
 
@@ -324,12 +320,7 @@ fn compiled(
             if limb.from != 0 || limb.to != tool {
                 return Err(format!("'{}' does not lead from base to tool", limb.name));
             }
-            let chain = chain(limb);
-            let count = chain.coordinate_count();
-            if count > LONGEST {
-                return Err(format!("'{}' has {count} coordinates", limb.name));
-            }
-            Plan::new(chain, &limb.platform_from_tip.inverse())
+            Plan::new(chain(limb), &limb.platform_from_tip.inverse())
         })
         .collect()
 }
