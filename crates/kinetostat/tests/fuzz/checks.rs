@@ -117,7 +117,14 @@ fn strain(law: &SpringLaw, d: &Vector6<f64>) -> Vector6<f64> {
     let rotation = turn(Vector3::x(), d[3]) * turn(Vector3::y(), d[4]) * turn(Vector3::z(), d[5]);
     match law {
         SpringLaw::Bowing(law) => {
-            let (h, f) = (law.length, rotation.scaled_axis());
+            // A quaternion forgets angles below its last digit; they add up as they are.
+            let small = (3..6).all(|k| d[k].abs() < 1e-9);
+            let turned = if small {
+                Vector3::new(d[3], d[4], d[5])
+            } else {
+                rotation.scaled_axis()
+            };
+            let (h, f) = (law.length, turned);
             let bow =
                 |w: f64, p: f64| 0.5 * (1.2 * w * w / h - 0.2 * w * p + 2.0 / 15.0 * h * p * p);
             let x = d[0] + bow(d[1], f.z) + bow(d[2], -f.y);
