@@ -91,3 +91,32 @@ fn a_moment_rolls_a_long_machine_up() {
         }
     }
 }
+
+#[test]
+fn curves_reach_what_chains_reach() {
+    for (segments, axial, force, moment) in [
+        (10, 1e11, [0.0; 3], [0.0, 1.0, 2.0]),
+        (10, 1e11, [0.0; 3], [1.0, 0.0, 3.0]),
+        (10, 1e10, [0.0; 3], [0.0, 0.0, 3.0]),
+        (4, 1e9, [0.0, 5.0, 5.0], [0.0; 3]),
+        (8, 1e13, [0.0, 10.0, 0.0], [0.0; 3]),
+    ] {
+        let chain = rod(segments, axial);
+        let wrench = Wrench::new(Vector3::from(force), Vector3::from(moment));
+        let loaded = ChainProblem::new(&chain, EndCondition::wrench(wrench));
+        let there = solve_chain(&loaded, &Settings::default()).unwrap();
+        let still = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+        let rest = solve_chain(&still, &Settings::default()).unwrap();
+        let grown = Parameter::end_wrench(wrench);
+        let settings = CurveSettings::within(0.0, 1.0);
+        let curves = follow(&still, &grown, &rest, 0.0, &settings).unwrap();
+        let last = curves.branches[0].points.last().unwrap();
+        assert!(
+            (last.parameter - 1.0).abs() < 1e-9,
+            "{segments} {axial:e}: the curve ends at {}",
+            last.parameter
+        );
+        let off = pose_residual(&there.tip, &last.equilibrium.tip).0.norm();
+        assert!(off < 1e-5, "{segments} {axial:e}: {off:e}");
+    }
+}
