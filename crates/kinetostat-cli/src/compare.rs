@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use kinetostat::{Mechanism, MotionKind, Pose, Role, shift_matrix, turn_matrix, unloaded_tip};
+use kinetostat_machining::longest_limb;
 use kinetostat_model::Model;
 use serde::Serialize;
 
@@ -125,7 +126,7 @@ fn compare(one: &Model, other: &Model, a: &str, b: &str) -> Answer<Comparison> {
         )));
     }
     let quick = product(m) && product(n);
-    let length = size(m);
+    let length = longest_limb(m).max(1e-3);
     let forward = |m: &Mechanism, q: &[f64]| match product(m) {
         true => plain(m, q),
         false => m.posture_at(q).ok().map(|p| *p.target()),
@@ -217,12 +218,6 @@ fn plain(m: &Mechanism, q: &[f64]) -> Option<Pose> {
     let base = &m.platforms()[limb.from].home;
     let tip = unloaded_tip(&limb.nominal, base, &limb.nominal.home_coordinates(), q);
     Some(tip * limb.platform_from_tip.inverse())
-}
-
-/// A length of the machine, m.
-fn size(m: &Mechanism) -> f64 {
-    let limbs = m.limbs().iter();
-    limbs.map(|l| l.nominal.scale().length).fold(1e-3, f64::max)
 }
 
 /// Irregular postures around home: a serial arm in all its range, a parallel machine near home.

@@ -242,12 +242,6 @@ pub(crate) fn pose_in_words(pose: &Pose) -> String {
 }
 
 impl Spot {
-    /// Length of the machine's longest limb, m.
-    pub(crate) fn length(&self) -> f64 {
-        let limbs = self.mechanism.limbs().iter();
-        limbs.map(|l| l.nominal.scale().length).fold(0.0, f64::max)
-    }
-
     /// The machine commanded for the place, within the limits of its actuators.
     pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
         let posture = self.standing()?;

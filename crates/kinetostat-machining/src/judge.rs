@@ -193,7 +193,7 @@ pub fn of_accounting(limits: &Limits, accounting: &Accounting) -> Vec<Beyond> {
 }
 
 /// The place where a figure is largest; places without a number count as the largest.
-fn most(
+pub(crate) fn most(
     points: &[PointResult],
     figure: impl Fn(&PointResult) -> f64,
 ) -> Option<(f64, &PointResult)> {
@@ -436,8 +436,12 @@ pub(crate) fn odd(
             }
             false => size,
         };
-        let sizes = [scale * size, scale * tolerance];
-        list.extend(odd_correction(limits, sizes[0], Some(at.line), sizes[1]));
+        list.extend(odd_correction(
+            limits,
+            scale * size,
+            Some(at.line),
+            scale * tolerance,
+        ));
     }
     if compensated {
         list.extend(odd_tolerances(

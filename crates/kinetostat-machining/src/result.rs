@@ -49,15 +49,11 @@ impl RunResult {
     /// has arcs, and the rounding to decimals. By this bound it is judged everywhere.
     #[must_use]
     pub fn allowed_mm(&self) -> f64 {
-        sum_of_bounds([
+        sum_of_bounds(
             self.question.tolerance_mm,
-            if self.summary.feed_arcs > 0 {
-                self.question.chord_tolerance_mm
-            } else {
-                0.0
-            },
+            (self.question.chord_tolerance_mm, self.summary.feed_arcs),
             self.summary.max_rounding_error_mm,
-        ])
+        )
     }
 
     /// Whether the written program stays within [`Self::allowed_mm`]; none if none was written. A
@@ -73,20 +69,21 @@ impl RunResult {
 
 /// [`RunResult::allowed_mm`] of a written program whose result is not made yet.
 pub(crate) fn bound_mm(writing: &WriteOptions, arcs: usize, accounting: &Accounting) -> f64 {
-    sum_of_bounds([
+    sum_of_bounds(
         writing.tolerance_mm,
-        if arcs > 0 {
-            writing.chord_tolerance_mm
-        } else {
-            0.0
-        },
+        (writing.chord_tolerance_mm, arcs),
         accounting.largest_rounding_mm,
-    ])
+    )
 }
 
-fn sum_of_bounds(parts: [f64; 3]) -> f64 {
+/// The tolerance of chords counts where there are arcs.
+fn sum_of_bounds(path_mm: f64, (chord_mm, arcs): (f64, usize), rounding_mm: f64) -> f64 {
+    let chord_mm = if arcs > 0 { chord_mm } else { 0.0 };
     let counts = |part: &f64| part.is_finite() && *part > 0.0;
-    parts.into_iter().filter(counts).sum()
+    [path_mm, chord_mm, rounding_mm]
+        .into_iter()
+        .filter(counts)
+        .sum()
 }
 
 /// How a written program stands to its tolerance.

@@ -211,13 +211,14 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
     let field = ModelField::new(task.mechanism, task.placement, &load);
     let mut again = Again::default();
-    let (mut written, mut check, mut points, mut worse) = loop {
+    let arcs = feed_arcs(task);
+    let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
         let (written, check) = write_and_read_again(task, &again.field(&field), watch)?;
         let (points, worse) = solve(task, || sites(task, &load, &written), true, watch)?;
         let stable = points.iter().all(|p| p.stable);
-        let bound_mm = bound_mm(&task.writing, feed_arcs(task), &written.accounting);
-        if !stable || !again.divides(task.path, &field, &points, bound_mm) {
-            break (written, check, points, worse);
+        let allowed_mm = bound_mm(&task.writing, arcs, &written.accounting);
+        if !stable || !again.divides(task.path, &field, &points, allowed_mm) {
+            break (written, check, points, worse, allowed_mm);
         }
     };
     if let Some(point) = points.iter().find(|p| !p.stable) {
@@ -236,7 +237,6 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         }
     }
     refuse(beyond)?;
-    let allowed_mm = bound_mm(&task.writing, feed_arcs(task), &written.accounting);
     let within_before = written.bytes != task.program.bytes()
         && within_before(&points, task.writing.tolerance_mm, allowed_mm);
     if within_before {
@@ -267,10 +267,12 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
 /// As it is, the program keeps the tolerance of the path, for it has no chords; or what is allowed, and no less
 /// than the corrected one does.
 fn within_before(points: &[PointResult], tolerance_mm: f64, allowed_mm: f64) -> bool {
-    let largest = |error: fn(&PointResult) -> f64| points.iter().map(error).fold(0.0, f64::max);
+    let largest = |error: fn(&PointResult) -> f64| {
+        judge::most(points, error).map_or(0.0, |(largest, _)| largest)
+    };
     let before = largest(|p| size(&p.error_before_mm));
     let after = largest(|p| size(&p.error_after_mm));
-    before <= tolerance_mm || before <= allowed_mm.min(after)
+    before <= tolerance_mm || (before <= allowed_mm && before <= after)
 }
 
 /// Arcs at feed.

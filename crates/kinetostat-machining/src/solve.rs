@@ -9,6 +9,7 @@ use kinetostat::{
 use rayon::prelude::*;
 
 use crate::load::ProgramLoad;
+use crate::near::longest_limb;
 use crate::placement::Placement;
 
 /// Points that share a chain of starting values.
@@ -70,16 +71,10 @@ pub(crate) struct Neighbour<'m> {
 /// from rest.
 pub(crate) const NEAR: f64 = 0.05;
 
-/// Length that neighbours are measured by, m.
-pub(crate) fn reach_of_neighbours(mechanism: &Mechanism) -> f64 {
-    let limbs = mechanism.limbs().iter();
-    limbs.map(|l| l.nominal.scale().length).fold(0.0, f64::max)
-}
-
 impl<'m> Neighbour<'m> {
     fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {
         self.last.as_ref().filter(|(posture, _)| {
-            let length = reach_of_neighbours(posture.mechanism());
+            let length = longest_limb(posture.mechanism());
             (posture.target().translation.vector - pose.translation.vector).norm() < NEAR * length
         })
     }

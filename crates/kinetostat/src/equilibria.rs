@@ -584,17 +584,17 @@ impl Search<'_, '_, '_> {
         let mut rested = c.z.clone();
         let idle = self.idle(&mut rested);
         // A motion that changes nothing at first may change a lot further on.
-        let (_, balance) = self.reduced.evaluate(&rested);
-        if self.reduced.converged(&balance) {
+        c.balance = self.reduced.evaluate(&rested).1;
+        if self.reduced.converged(&c.balance) {
             c.z = rested;
+        } else {
+            c.balance = self.reduced.evaluate(&c.z).1;
         }
         let x = self.reduced.coordinates(&c.z);
         if !self.bounds.hold(&x) {
             self.outside += usize::from(plain);
             return false;
         }
-        let (_, balance) = self.reduced.evaluate(&c.z);
-        c.balance = balance;
         let energy = self.reduced.system.energy;
         let (stability, unstable) = self.reduced.stability(&c, false);
         for k in &mut self.known {

@@ -186,6 +186,15 @@ pub(crate) struct Balance {
     pub torque: f64,
     /// What torques are measured against.
     pub loads: f64,
+    /// The part of `torque` that is rounding, see [`rounding`].
+    pub rounding: f64,
+}
+
+impl Balance {
+    /// What is unbalanced and no rounding.
+    pub fn exceeding(&self) -> f64 {
+        beyond(self.torque, self.rounding)
+    }
 }
 
 /// A factored linearisation of one state.
@@ -214,8 +223,6 @@ struct Attempt<'p, 'a> {
     way: Way,
     /// Rotation (vector, rad) that the end lacks.
     turned: Vector3<f64>,
-    /// What rounding leaves unbalanced at the state evaluated last, see [`rounding`].
-    rounding: f64,
     /// Norms of the last two corrections, balanced, the last one first.
     corrections: [f64; 2],
 }
@@ -236,7 +243,6 @@ impl Attempt<'_, '_> {
     fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
         self.evaluate_system(x, wrench, share);
         let p = self.problem;
-        self.rounding = rounding(p.chain, &self.system, &self.factors);
         let tip = self.system.kinematics.tip_pose();
         let (target, offset) = match &self.way {
             Way::Screw(from) if share < 1.0 => (on_screw(from, &p.end.pose, share), Twist::zero()),
@@ -280,6 +286,7 @@ impl Attempt<'_, '_> {
             closure: closure.sqrt(),
             torque: torque.sqrt(),
             loads,
+            rounding: rounding(self.problem.chain, &self.system, &self.factors),
         }
     }
 
@@ -288,7 +295,7 @@ impl Attempt<'_, '_> {
         // Of numbers beyond all sense the squares are infinite, on either side.
         b.torque.is_finite()
             && b.closure <= self.settings.closure * unit
-            && beyond(b.torque, self.rounding) <= self.settings.torque * b.loads + 1e-16 * unit
+            && b.exceeding() <= self.settings.torque * b.loads + 1e-16 * unit
     }
 
     /// Change of the closure (base axes) with the motion of the end. Where all rotations are held
@@ -585,7 +592,6 @@ pub(crate) fn solve_along(
         spare: None,
         way: Way::Straight(Twist::zero()),
         turned: Vector3::zeros(),
-        rounding: 0.0,
         corrections: [0.0; 2],
     };
     let mut spent = 0;
@@ -682,6 +688,7 @@ fn grow_load(
         closure: 0.0,
         torque: 0.0,
         loads: 1.0,
+        rounding: 0.0,
     };
     while share < 1.0 {
         let next = (share + step).min(1.0);

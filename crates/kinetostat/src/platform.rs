@@ -14,8 +14,8 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
-use crate::chain::{MotionKind, Scale};
-use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, beyond, rounding, step_limit};
+use crate::chain::{Chain, MotionKind, Scale};
+use crate::equilibrium::{Balance, LEAST_LOAD, System, balance, rounding, step_limit};
 use crate::error::{Error, Result};
 use crate::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::inverse::{LimbPosture, command_rates, inverse_kinematics};
@@ -332,13 +332,18 @@ impl<'m> PlatformSolver<'m> {
             let tip = linear.system.kinematics.tip_pose();
             linear.closure =
                 Twist(pose_residual(&target, &tip).0 - self.offsets[i].0 * (1.0 - self.share));
-            let b = measure(&linear.system, &linear.closure, f, &self.factors[i]);
+            let b = measure(
+                &limb.actual,
+                &linear.system,
+                &linear.closure,
+                f,
+                &self.factors[i],
+            );
             merit += b.closure.powi(2) + b.torque.powi(2);
             closure_m = closure_m.max(b.closure / limb.actual.scale().stiffness.sqrt());
             torque = torque.max(b.torque);
             loads = loads.max(b.loads);
-            let rounds = rounding(&limb.actual, &linear.system, &self.factors[i]);
-            exceeding = exceeding.max(beyond(b.torque, rounds));
+            exceeding = exceeding.max(b.exceeding());
             lack[limb.to] = lack[limb.to] + Wrench(-(shift_matrix(&arm).transpose() * f.0));
             if limb.from != 0 {
                 let n = x.len() + limb.actual.actuators().len();
@@ -792,7 +797,13 @@ fn tree(mechanism: &Mechanism) -> Vec<usize> {
     order
 }
 
-fn measure(system: &System, closure: &Twist, wrench: &Wrench, factors: &[f64]) -> Balance {
+fn measure(
+    chain: &Chain,
+    system: &System,
+    closure: &Twist,
+    wrench: &Wrench,
+    factors: &[f64],
+) -> Balance {
     let (torque, mut loads) = system.unbalanced_torques(factors);
     let mut gap = 0.0;
     for k in 0..6 {
@@ -803,5 +814,6 @@ fn measure(system: &System, closure: &Twist, wrench: &Wrench, factors: &[f64]) -
         closure: gap.sqrt(),
         torque: torque.sqrt(),
         loads,
+        rounding: rounding(chain, system, factors),
     }
 }

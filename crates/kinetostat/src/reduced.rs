@@ -20,8 +20,8 @@ use crate::chain::{Role, sensible};
 use crate::curve_matrix::CurveMatrix;
 use crate::curve_sweep::CurveSweep;
 use crate::equilibrium::{
-    Balance, ChainProblem, Equilibrium, Prescribed, System, balance, beyond, check_problem,
-    disparate, natural, nudged, rounding,
+    Balance, ChainProblem, Equilibrium, Prescribed, System, balance, check_problem, disparate,
+    natural, nudged, rounding,
 };
 use crate::error::{Error, Result};
 use crate::family::Family;
@@ -123,8 +123,6 @@ pub(crate) struct Reduced<'p, 'a> {
     unit: f64,
     /// Rotation (vector, rad) that the end lacks: it is not small where some rotations are free.
     turned: Vector3<f64>,
-    /// What rounding leaves unbalanced at the state evaluated last, balanced, see [`rounding`].
-    rounding: f64,
     /// All loads, those that grow included, have a potential.
     conservative: bool,
     /// Poses of the nodes at the start, for the displacement along a load pattern.
@@ -214,7 +212,6 @@ impl<'p, 'a> Reduced<'p, 'a> {
             sigma: 1.0,
             unit: natural(chain),
             turned: Vector3::zeros(),
-            rounding: 0.0,
             conservative,
             reference: Vec::new(),
             family: None,
@@ -431,7 +428,6 @@ impl<'p, 'a> Reduced<'p, 'a> {
         let (x, wrench) = (self.coordinates(z), self.wrench(z));
         self.system.pattern.1 = value;
         self.system.evaluate_problem(p, &x, &wrench, 1.0);
-        self.rounding = rounding(p.chain, &self.system, &self.factors) / self.unit;
         let target = match self.parameter {
             Some(Parameter::Displacement(twist)) => moved(&p.end.pose, &Twist(twist.0 * value)),
             _ => p.end.pose,
@@ -460,6 +456,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             closure: (self.frame.transpose() * &scaled).norm(),
             torque: lack.rows(r, m - r).norm(),
             loads,
+            rounding: rounding(p.chain, &self.system, &self.factors) / self.unit,
         };
         (lack, balance)
     }
@@ -467,7 +464,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
     pub fn converged(&self, b: &Balance) -> bool {
         b.torque.is_finite()
             && b.closure <= self.settings.closure
-            && beyond(b.torque, self.rounding) <= self.settings.torque * b.loads + 1e-14
+            && b.exceeding() <= self.settings.torque * b.loads + 1e-14
     }
 
     /// Change of the closure with the coordinates, balanced, r x n. Where some rotations are free,
@@ -870,6 +867,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             closure: c.balance.closure * self.unit,
             torque: c.balance.torque * self.unit,
             loads: c.balance.loads * self.unit,
+            rounding: c.balance.rounding * self.unit,
         };
         let swept = self
             .system

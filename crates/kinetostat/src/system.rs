@@ -21,11 +21,11 @@ pub(crate) struct System {
     pub hessian: DMatrix<f64>,
     /// Gradient of the springs' energy, n.
     pub spring_torque: Vec<f64>,
-    /// Sum of the magnitudes of what the coordinates contribute to it by its tangent, n: its rounding is a few
-    /// units of the last place of these.
-    pub spring_turnover: Vec<f64>,
     /// Its derivative, n x n.
     pub spring_tangent: DMatrix<f64>,
+    /// Sum of the magnitudes of what the coordinates contribute to the gradient by its derivative, n: its rounding
+    /// is a few units of the last place of these.
+    pub spring_turnover: Vec<f64>,
     /// Change of the tangent since rest, per block of six coordinates: first coordinate, matrix.
     pub spring_geometric: Vec<(usize, Matrix6<f64>)>,
     pub energy: f64,
