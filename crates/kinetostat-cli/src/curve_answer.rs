@@ -142,8 +142,11 @@ pub(crate) struct PointAnswer {
     slope_per_j: Option<f64>,
     pub(crate) stable_under_dead_load: bool,
     pub(crate) stable_under_prescribed_motion: bool,
-    /// Largest share of the way to buckling while the motion is prescribed; null without inner
-    /// freedom, and where a passive joint is pushed out of line.
+    /// Under the load, which has no potential, nothing goes away, but it may swing with growing
+    /// amplitude; whether it does depends on the masses.
+    pub(crate) may_flutter: bool,
+    /// Largest share of the way to buckling while the tool is held where it is, as in `deflect`; null
+    /// without inner freedom, and where a passive joint is pushed out of line.
     pub(crate) share_to_buckling: Option<f64>,
     pub(crate) spring_energy_j: f64,
     pub(crate) force_n: [f64; 3],
@@ -529,6 +532,7 @@ pub(crate) struct Found {
     pub(crate) slope: f64,
     /// Under a dead load, under prescribed motion.
     pub(crate) stable: [bool; 2],
+    pub(crate) may_flutter: bool,
     pub(crate) share_to_buckling: Option<f64>,
     pub(crate) energy: f64,
     pub(crate) wrench: Wrench,
@@ -575,6 +579,7 @@ impl Found {
             slope_per_j: of(work, slope),
             stable_under_dead_load: p.stable[0],
             stable_under_prescribed_motion: p.stable[1],
+            may_flutter: p.may_flutter,
             share_to_buckling: p.share_to_buckling.filter(|m| m.is_finite()),
             spring_energy_j: p.energy,
             force_n: p.wrench.force().into(),
@@ -614,7 +619,8 @@ impl View<'_> {
             conjugate: p.conjugate,
             slope: p.slope,
             stable: [p.dead.stable, p.held.stable],
-            share_to_buckling: p.held.share_to_buckling,
+            may_flutter: p.dead.may_flutter(),
+            share_to_buckling: e.stability.share_to_buckling,
             energy: e.energy,
             wrench: e.wrench,
             tip: e.tip,

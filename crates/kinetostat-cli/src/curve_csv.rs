@@ -37,6 +37,7 @@ pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
         [
             "stable_under_dead_load",
             "stable_under_prescribed_motion",
+            "may_flutter",
             "share_to_buckling",
             "spring_energy_j",
         ]
@@ -53,6 +54,7 @@ pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
         row.extend(p.shown.iter().map(|x| cell(*x)));
         row.push(yes(p.stable_under_dead_load));
         row.push(yes(p.stable_under_prescribed_motion));
+        row.push(yes(p.may_flutter));
         row.push(p.share_to_buckling.map_or_else(String::new, cell));
         row.push(cell(p.spring_energy_j));
         row.extend(
@@ -96,6 +98,7 @@ pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {
         "number",
         "energy_j",
         "stable",
+        "may_flutter",
         "shape_stable",
         "share_to_buckling",
         "singular",
@@ -112,6 +115,7 @@ pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {
             e.number.to_string(),
             cell(e.energy_j),
             yes(e.stable),
+            yes(e.may_flutter),
             yes(e.shape_stable),
             e.share_to_buckling.map_or_else(String::new, cell),
             yes(e.singular),

@@ -179,6 +179,7 @@ pub(crate) fn solve(
             conjugate: p.conjugate,
             slope: p.slope,
             stable: [p.dead, p.held],
+            may_flutter: p.may_flutter,
             share_to_buckling: e.share_to_buckling(),
             energy: e.limbs.iter().map(|l| l.energy).sum(),
             wrench: e.wrench,

@@ -37,8 +37,22 @@ pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
     out
 }
 
-/// One or two sentences that answer the question.
+/// Sentences that answer the question.
 fn verdict(a: &CurveAnswer) -> String {
+    let mut text = going_away(a);
+    let points = a.branches.first().map_or(&[][..], |b| &b.points);
+    let swings = points.iter().filter(|p| p.may_flutter).count();
+    if swings > 0 {
+        text.push_str(&format!(
+            " At {swings} of {} on branch 1 it may swing with growing amplitude (flutter): the load has no potential, and that depends on the masses, which are not asked for here.",
+            counted(points.len(), "point")
+        ));
+    }
+    text
+}
+
+/// Whether and where it goes away.
+fn going_away(a: &CurveAnswer) -> String {
     let subject = a.subject;
     let place = |p: &PointAnswer| {
         let u = &a.units;
@@ -183,7 +197,10 @@ fn table(a: &CurveAnswer) -> String {
             } else {
                 number(slope, 5)
             },
-            verdict_of(p.limits[0], p.point.stable_under_dead_load),
+            match p.point.may_flutter {
+                true => "may swing".to_owned(),
+                false => verdict_of(p.limits[0], p.point.stable_under_dead_load),
+            },
             verdict_of(p.limits[1], p.point.stable_under_prescribed_motion),
         ];
         if factor {

@@ -60,6 +60,9 @@ pub(crate) struct ShapeAnswer {
     pub(crate) energy_j: f64,
     /// Under the conditions as prescribed.
     pub(crate) stable: bool,
+    /// Under loads without a potential it does not go away, but it may swing with growing amplitude;
+    /// whether it does depends on the masses.
+    pub(crate) may_flutter: bool,
     /// With the tool held.
     pub(crate) shape_stable: bool,
     /// mu; null without inner freedom, and where a passive joint is pushed out of line.
@@ -160,6 +163,7 @@ fn shape(
         number,
         energy_j: f.potential.unwrap_or(e.energy),
         stable: f.stable,
+        may_flutter: f.may_flutter,
         shape_stable: e.stability.stable,
         share_to_buckling: e.stability.share_to_buckling.filter(|m| m.is_finite()),
         mode_in_words: if e.stability.mode.is_empty() {

@@ -36,6 +36,7 @@ pub(crate) fn solve(
                 number: i + 1,
                 energy_j: f.potential,
                 stable: f.stable,
+                may_flutter: f.may_flutter,
                 shape_stable: e.shapes_stable(),
                 share_to_buckling: e.share_to_buckling().filter(|m| m.is_finite()),
                 mode_in_words: String::new(),

@@ -37,6 +37,14 @@ pub(crate) fn in_words(heading: &str, a: &EquilibriaAnswer) -> String {
 }
 
 fn verdict(a: &EquilibriaAnswer) -> String {
+    let mut text = found(a);
+    if a.equilibria.iter().any(|e| e.may_flutter) {
+        text.push_str(" Under the load, which has no potential, some may swing with growing amplitude (flutter); whether they do depends on the masses, which are not asked for here.");
+    }
+    text
+}
+
+fn found(a: &EquilibriaAnswer) -> String {
     let stable = a.equilibria.iter().filter(|e| e.stable).count();
     match a.equilibria.len() {
         0 => "No equilibrium was found. This does not say that there is none: the tool may be out of reach, and near a posture in which the chain is stretched out and locked the search may miss some (`kinetostat curve` follows them there from a nearer place).".into(),
@@ -106,6 +114,7 @@ fn table(a: &EquilibriaAnswer) -> String {
     for e in a.equilibria.iter().take(MOST_SHOWN) {
         let verdict = match (e.stable, e.shape_stable, e.singular) {
             (_, _, true) => "at a limit",
+            _ if e.may_flutter => "may swing",
             (true, ..) => "yes",
             (false, true, _) => "shape only",
             (false, false, _) => "NO",

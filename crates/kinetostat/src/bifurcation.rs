@@ -311,8 +311,8 @@ fn bifurcation(
         let differs = move |reduced: &mut Reduced<'_, '_>, c: &Corrected| {
             reduced.evaluate(&c.z);
             let same = (0..2).all(|k| {
-                let (_, u) = reduced.stability(c, k == 0);
-                u == count[k]
+                let modes = reduced.stability(c, k == 0).unstable_modes;
+                modes == count[k]
             });
             if same { 1.0 } else { -1.0 }
         };

@@ -116,9 +116,14 @@ pub fn critical_load_factor(
     if settings.largest_change.is_none() {
         settings.largest_change = linear.map(|f| f / 6.0);
     }
-    let indefinite = move |p: &CurvePoint| match judged {
-        Judged::Shape => !p.equilibrium.stability.stable,
-        Judged::ShapeAndEnd => !p.dead.stable,
+    let stability = move |p: &CurvePoint| match judged {
+        Judged::Shape => p.equilibrium.stability.clone(),
+        Judged::ShapeAndEnd => p.dead.clone(),
+    };
+    // Of the symmetric part, below whose critical factor nothing happens.
+    let indefinite = move |p: &CurvePoint| {
+        let stability = stability(p);
+        !stability.stable || stability.may_flutter()
     };
     let mut judge = Reduced::new(problem, Some(&parameter), &settings.solver)?;
     judge.start(&start.coordinates, &start.wrench, 0.0)?;
@@ -130,7 +135,7 @@ pub fn critical_load_factor(
     };
     let unstable = |p: &CurvePoint| {
         let diverges = || diverges(&Tangent::at(&mut judge.borrow_mut(), &p.z, &z, judged));
-        indefinite(p) && (conservative || diverged_before || diverges())
+        !stability(p).stable && (conservative || diverged_before || diverges())
     };
     let curves = follow_until(problem, &parameter, &start, 0.0, &settings, Some(&unstable))?;
     let points = &curves.branches[0].points;
@@ -364,12 +369,18 @@ fn linear_prediction(
     ahead[m] += 1.0 / reduced.sigma;
     reduced.evaluate(&ahead);
     let mut stress = reduced.curvature() - &at_rest;
-    // Springs that stiffen or soften with their deflection (links that bow) do so from the start.
+    // Links that bow take a geometric stiffness from the start.
     let springs = |reduced: &Reduced<'_, '_>| {
-        DMatrix::from_fn(n, n, |i, j| {
-            let k = reduced.system.spring_tangent[(i, j)];
-            k * reduced.factors[6 + i] * reduced.factors[6 + j]
-        })
+        let mut sum = DMatrix::zeros(n, n);
+        for (first, matrix) in &reduced.system.spring_geometric {
+            let unit = &reduced.factors[6 + first..];
+            for i in 0..6 {
+                for j in 0..6 {
+                    sum[(first + i, first + j)] += matrix[(i, j)] * unit[i] * unit[j];
+                }
+            }
+        }
+        sum
     };
     let before = springs(reduced);
     let share = 1e-5 / step.rows(r, n).amax().max(1e-300);

@@ -140,6 +140,9 @@ pub struct FoundEquilibrium {
     /// Whether it holds under the conditions as prescribed: dead wrench where the wrench is
     /// prescribed, held where the pose is.
     pub stable: bool,
+    /// Under loads without a potential it does not go away, but may swing with growing amplitude
+    /// (flutter), which depends on the masses.
+    pub may_flutter: bool,
     /// Potential energy of springs and loads, J, up to a constant of the problem; `None` where a
     /// load has none (see [`crate::load_energy`]).
     pub potential: Option<f64>,
@@ -346,6 +349,7 @@ struct Known {
     z: DVector<f64>,
     equilibrium: Equilibrium,
     stable: bool,
+    may_flutter: bool,
     /// Number of unstable modes under the conditions as prescribed.
     unstable: usize,
     hits: usize,
@@ -596,7 +600,8 @@ impl Search<'_, '_, '_> {
             return false;
         }
         let energy = self.reduced.system.energy;
-        let (stability, unstable) = self.reduced.stability(&c, false);
+        let stability = self.reduced.stability(&c, false);
+        let unstable = stability.unstable_modes;
         for k in &mut self.known {
             let near = if k.unstable == unstable || k.least < 1e-8 {
                 (1e-8 / k.least.max(1e-12)).clamp(1e-6, 1e-2)
@@ -635,6 +640,7 @@ impl Search<'_, '_, '_> {
             z: c.z,
             equilibrium,
             stable: stability.stable && unstable == 0,
+            may_flutter: stability.may_flutter(),
             unstable,
             hits: usize::from(plain),
             least,
@@ -669,6 +675,7 @@ impl Search<'_, '_, '_> {
                     .flatten()
                     .map(|loads| k.equilibrium.energy + loads),
                 stable: k.stable,
+                may_flutter: k.may_flutter,
                 hits: k.hits,
                 singular: k.least < 1e-7,
                 equilibrium: k.equilibrium,

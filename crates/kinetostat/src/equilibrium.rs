@@ -746,17 +746,19 @@ impl Attempt<'_, '_> {
     ) -> (Equilibrium, Path) {
         self.evaluate_system(&x, &wrench, 1.0);
         let (chain, factors) = (self.problem.chain, &self.factors);
-        let verdicts = match self.system.swept_verdicts(chain, factors, None) {
+        let conservative = is_conservative(self.problem);
+        let swept = self.system.swept_verdicts(chain, factors, None);
+        let verdicts = match swept.filter(|(_, s)| conservative || s.stable) {
             Some(verdicts) => verdicts,
             None => {
                 if self.system.sweep.is_some() {
                     self.system.make_dense();
                     self.evaluate_system(&x, &wrench, 1.0);
                 }
-                self.system.dense_verdicts(chain, &self.factors)
+                self.system
+                    .dense_verdicts(chain, &self.factors, conservative)
             }
         };
-        let conservative = is_conservative(self.problem);
         let mut equilibrium = self.system.described(
             chain,
             x,
@@ -788,9 +790,15 @@ impl System {
         Some((stiffness, stability))
     }
 
-    fn dense_verdicts(&self, chain: &Chain, factors: &[f64]) -> (ChainStiffness, ShapeStability) {
+    fn dense_verdicts(
+        &self,
+        chain: &Chain,
+        factors: &[f64],
+        conservative: bool,
+    ) -> (ChainStiffness, ShapeStability) {
         let stiffness = chain_stiffness(chain, self, factors, None);
-        (stiffness, shape_stability(chain, self, factors))
+        let stability = shape_stability(chain, self, factors, conservative);
+        (stiffness, stability)
     }
 
     /// Everything that is known about the state at which the system was evaluated; it is dense unless
@@ -807,7 +815,8 @@ impl System {
         balance: &Balance,
         verdicts: Option<(ChainStiffness, ShapeStability)>,
     ) -> Equilibrium {
-        let verdicts = verdicts.unwrap_or_else(|| self.dense_verdicts(chain, factors));
+        let verdicts =
+            verdicts.unwrap_or_else(|| self.dense_verdicts(chain, factors, conservative));
         self.described(
             chain,
             x,

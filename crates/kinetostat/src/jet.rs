@@ -145,15 +145,16 @@ pub(crate) fn quadratic(matrix: &Matrix6<f64>, strain: &[Jet; 6]) -> Response {
     let values = Vector6::from_fn(|i, _| strain[i].value);
     let force = matrix * values;
     let mut rates = Matrix6::zeros();
-    let mut tangent = Matrix6::zeros();
+    let mut geometric = Matrix6::zeros();
     for i in 0..6 {
         rates.set_row(i, &strain[i].gradient.transpose());
-        tangent += strain[i].curvature * force[i];
+        geometric += strain[i].curvature * force[i];
     }
     Response {
         energy: 0.5 * force.dot(&values),
         torque: rates.transpose() * force,
-        tangent: tangent + rates.transpose() * matrix * rates,
+        material: rates.transpose() * matrix * rates,
+        geometric,
     }
 }
 

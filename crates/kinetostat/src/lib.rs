@@ -98,6 +98,7 @@ mod critical;
 mod curve_matrix;
 mod curve_sweep;
 mod directions;
+mod divergence;
 mod elimination;
 mod equilibria;
 mod equilibrium;

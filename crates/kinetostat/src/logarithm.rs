@@ -52,9 +52,10 @@ impl LogarithmLaw {
             (0.5, 1.0 / 6.0)
         };
         let once = turn.cross(&rho);
-        let p = rho + once * a + turn.cross(&once) * b;
+        // The length is never added to what is moved: a stiff axis would feel the digits that it takes.
+        let p = next.fixed_rows::<3>(0) + once * a + turn.cross(&once) * b;
         let angles = angles(&turn);
-        Vector6::new(p.x - self.length, p.y, p.z, angles.x, angles.y, angles.z)
+        Vector6::new(p.x, p.y, p.z, angles.x, angles.y, angles.z)
     }
 
     /// Energy (J), torques and tangent at a deflection (m, rad).
@@ -108,13 +109,14 @@ fn logarithm(deflection: &Vector6<f64>, length: f64) -> [Jet; 6] {
     let turn = turn(deflection);
     let t = square(&turn);
     let factor = t.map(logarithm_factor(t.value));
-    let mut point: [Jet; 3] = std::array::from_fn(|i| Jet::coordinate(deflection[i], i));
+    let moved: [Jet; 3] = std::array::from_fn(|i| Jet::coordinate(deflection[i], i));
+    let mut point = moved;
     point[0].value += length;
     let once = cross(&turn, &point);
     let twice = cross(&turn, &once);
-    let mut linear: [Jet; 3] =
-        std::array::from_fn(|i| point[i] - once[i].scaled(0.5) + factor * twice[i]);
-    linear[0].value -= length;
+    // As in `follow`, the length is not added to what is moved.
+    let linear: [Jet; 3] =
+        std::array::from_fn(|i| moved[i] - once[i].scaled(0.5) + factor * twice[i]);
     let ([x, y, z], [a, b, c]) = (linear, turn);
     [x, y, z, a, b, c]
 }

@@ -37,6 +37,9 @@ pub struct MachineFound {
     /// Whether it stays under the conditions as prescribed: held where the tool is held, under the
     /// dead wrench where it is free.
     pub stable: bool,
+    /// Under a wrench without a potential it does not go away, but may swing with growing amplitude
+    /// (flutter), which depends on the masses.
+    pub may_flutter: bool,
     /// At a limit: a motion of the tool that needs no force and is free.
     pub singular: bool,
     /// Energy of springs and loads less the work of the dead wrench from the nominal target, J; of

@@ -741,7 +741,9 @@ impl<'m> PlatformSolver<'m> {
         // Wrench and coordinates per unit motion of the tip, (6 + n) x 6.
         let units = self.linear[limb].solution.columns(1, 6).into_owned();
         let system = &self.linear[limb].system;
-        if let Some(found) = system.swept_verdicts(chain, &self.factors[limb], Some(&units)) {
+        let conservative = self.mechanism.loads_conservative(limb);
+        let found = system.swept_verdicts(chain, &self.factors[limb], Some(&units));
+        if let Some(found) = found.filter(|(_, s)| conservative || s.stable) {
             return found;
         }
         let swept = system.sweep.is_some();
@@ -752,7 +754,8 @@ impl<'m> PlatformSolver<'m> {
         let (system, factors) = (&self.linear[limb].system, &self.factors[limb]);
         let units = (!swept).then_some(units);
         let stiffness = chain_stiffness(chain, system, factors, units);
-        (stiffness, shape_stability(chain, system, factors))
+        let stability = shape_stability(chain, system, factors, conservative);
+        (stiffness, stability)
     }
 }
 

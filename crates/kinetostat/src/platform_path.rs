@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::branches::{BranchEnd, CurveSettings};
 use crate::directions::DirectionKind;
+use crate::divergence::diverging_motions;
 use crate::equilibrium::{EndCondition, Prescribed};
 use crate::error::{Error, Result};
 use crate::machine_directions::independent_columns;
@@ -41,6 +42,9 @@ pub struct PathPoint {
     pub held: bool,
     /// The same while the load that is reached acts as a dead load instead.
     pub dead: bool,
+    /// Under that load without a potential it does not go away, but may swing with growing amplitude
+    /// (flutter), which depends on the masses.
+    pub may_flutter: bool,
     /// The equilibrium.
     pub equilibrium: MechanismEquilibrium,
     /// Motion of the tool (balanced: m and rad times the natural length) and of the load factor per
@@ -97,6 +101,20 @@ pub struct MachinePath {
     pub jumps: Vec<PathJump>,
     /// Why it ends at its first and at its last point.
     pub ends: [BranchEnd; 2],
+}
+
+/// How the tool keeps its place under dead wrenches.
+struct Holding {
+    /// It does not go away.
+    stays: bool,
+    /// The symmetric part of its stiffness is positive: it does not swing with growing amplitude either.
+    definite: bool,
+}
+
+impl Holding {
+    fn may_flutter(&self) -> bool {
+        self.stays && !self.definite
+    }
 }
 
 /// The question in numbers.
@@ -311,10 +329,12 @@ impl<'p, 'm> Path<'p, 'm> {
             let most = values.amax();
             values.iter().any(|v| v.abs() < 1e-7 * most)
         };
+        let holding = self.holds(&e, &self.free);
         let springs: f64 = e.limbs.iter().map(|l| l.energy).sum();
         let motion = self.motion(&e.tool);
         MachineFound {
-            stable: e.shapes_stable() && e.others_hold && self.holds(&e, &self.free),
+            stable: e.shapes_stable() && e.others_hold && holding.stays,
+            may_flutter: holding.may_flutter(),
             singular,
             potential: e.energy.unwrap_or(springs) - dead.0.dot(&motion),
             hits: 1,
@@ -425,6 +445,7 @@ impl<'p, 'm> Path<'p, 'm> {
         let motion = self.motion(&e.tool);
         let displacement = self.displacement(&motion);
         let shapes = e.shapes_stable() && e.others_hold;
+        let dead = self.holds(&e, &self.motions);
         let restraint = if self.by_motion {
             self.free.clone()
         } else {
@@ -443,8 +464,9 @@ impl<'p, 'm> Path<'p, 'm> {
             parameter,
             conjugate,
             slope: tangent.1 / along,
-            held: shapes && self.holds(&e, &restraint),
-            dead: shapes && self.holds(&e, &self.motions),
+            held: shapes && self.holds(&e, &restraint).stays,
+            dead: shapes && dead.stays,
+            may_flutter: shapes && dead.may_flutter(),
             equilibrium: e,
             tangent,
             factor,
@@ -489,16 +511,22 @@ impl<'p, 'm> Path<'p, 'm> {
     }
 
     /// Whether the tool keeps its place in some motions (balanced) under dead wrenches.
-    fn holds(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> bool {
+    fn holds(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> Holding {
         let possible = self.possible(e, motions);
         if possible.ncols() == 0 {
-            return true;
+            return Holding {
+                stays: true,
+                definite: true,
+            };
         }
-        let k = self.balanced_stiffness(e);
-        let k = possible.transpose() * (&k + k.transpose()) * &possible * 0.5;
-        let eigenvalues = k.symmetric_eigenvalues();
+        let k = possible.transpose() * self.balanced_stiffness(e) * &possible;
+        let eigenvalues = (0.5 * (&k + k.transpose())).symmetric_eigenvalues();
         let size = e.stiffness.matrix.fixed_view::<3, 3>(0, 0).amax();
-        eigenvalues.min() >= -1e-9 * eigenvalues.amax().max(size)
+        let zero = 1e-9 * eigenvalues.amax().max(size);
+        Holding {
+            stays: diverging_motions(&k, zero) == 0,
+            definite: eigenvalues.min() >= -zero,
+        }
     }
 
     /// Null vector of `[K, -P]` in the motions of the tool that goes on as `before`; its motion has

@@ -803,22 +803,30 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 
     /// Stability at a state, which was evaluated last, with the conjugate motion held (`motion`), or
-    /// under a dead load, and the number of unstable modes.
-    pub fn stability(&mut self, c: &Corrected, motion: bool) -> (ShapeStability, usize) {
+    /// under a dead load.
+    pub fn stability(&mut self, c: &Corrected, motion: bool) -> ShapeStability {
         if let Some(sweep) = &self.system.sweep {
             let swept = self.held_motions(&c.matrix, motion).and_then(|held| {
                 let moved = column_space(&self.balanced_jacobian());
                 let ends = EndMotions::held_in(moved, &held);
-                let stability = swept_stability_within(sweep, &self.factors, &ends)?;
-                let unstable = stability.inertia.positive;
-                Some((stability, unstable.saturating_sub(ends.held_count())))
+                swept_stability_within(sweep, &self.factors, &ends)
             });
-            if let Some(swept) = swept {
-                return swept;
-            }
+            // Without a potential the symmetric part, which sweeps judge, is not the whole.
+            let alone = match swept {
+                Some(swept) if self.conservative || swept.stable => return swept,
+                // One motion goes away exactly where the determinant is negative (`divergence.rs`).
+                one => one.filter(|s| s.unstable_modes == 1 && self.family.is_none()),
+            };
             let dense = self.densely(|own| {
                 own.evaluate(&c.z);
-                own.dense_stability(&c.matrix, motion)
+                match alone {
+                    Some(mut one) => {
+                        one.stable = !own.determinant_is_negative(&c.matrix, motion);
+                        one.unstable_modes = usize::from(!one.stable);
+                        one
+                    }
+                    None => own.dense_stability(&c.matrix, motion),
+                }
             });
             self.evaluate(&c.z);
             return dense;
@@ -826,19 +834,39 @@ impl<'p, 'a> Reduced<'p, 'a> {
         self.dense_stability(&c.matrix, motion)
     }
 
-    fn dense_stability(&self, matrix: &CurveMatrix, motion: bool) -> (ShapeStability, usize) {
+    /// Whether `det V^T (K - H) V` is negative, `V` the motions that are free: `[0 R; R^T H - K]` with independent
+    /// rows `R` of the others has its sign times `(-1)^n`.
+    fn determinant_is_negative(&self, matrix: &CurveMatrix, motion: bool) -> bool {
+        let rows = self.held_rows(matrix, motion);
+        let rows = column_space(&rows).transpose() * rows;
+        let (r, n) = rows.shape();
+        let mut bordered = DMatrix::zeros(r + n, r + n);
+        bordered
+            .view_mut((r, 0), (n, r))
+            .copy_from(&rows.transpose());
+        bordered.view_mut((0, r), (r, n)).copy_from(&rows);
+        bordered
+            .view_mut((r, r), (n, n))
+            .copy_from(&(self.load_hessian() - self.spring_tangent()));
+        let factors = bordered.lu();
+        // The product itself would leave the range of numbers.
+        let turned = factors.u().diagonal().iter().filter(|x| **x < 0.0).count();
+        let swapped = usize::from(factors.p().determinant::<f64>() < 0.0);
+        (turned + swapped + n) % 2 == 1
+    }
+
+    fn dense_stability(&self, matrix: &CurveMatrix, motion: bool) -> ShapeStability {
         let rows = self.held_rows(matrix, motion);
         let rank = column_space(&rows).ncols();
-        let stability = self.within_family(&rows, rank);
-        let unstable = stability.inertia.positive.saturating_sub(rank);
-        (stability, unstable)
+        self.within_family(&rows, rank)
     }
 
     /// Stability while `rows` (of a rank) are held. The motions of a family are neither stable nor
     /// unstable, whatever rounding says: they are held too, counted as zeros, and named.
     fn within_family(&self, rows: &DMatrix<f64>, rank: usize) -> ShapeStability {
         let judge = |rows: &DMatrix<f64>| {
-            stability_within(self.problem.chain, &self.system, &self.factors, rows)
+            let (chain, conservative) = (self.problem.chain, self.conservative);
+            stability_within(chain, &self.system, &self.factors, rows, conservative)
         };
         let Some(family) = &self.family else {
             return judge(rows);
@@ -871,7 +899,8 @@ impl<'p, 'a> Reduced<'p, 'a> {
         };
         let swept = self
             .system
-            .swept_verdicts(self.problem.chain, &self.factors, None);
+            .swept_verdicts(self.problem.chain, &self.factors, None)
+            .filter(|(_, s)| self.conservative || s.stable);
         if swept.is_none() && self.system.sweep.is_some() {
             let dense = self.densely(|own| {
                 own.evaluate(&c.z);

@@ -32,8 +32,10 @@ pub(crate) struct Response {
     pub energy: f64,
     /// Its gradient, N or N m.
     pub torque: Vector6<f64>,
-    /// Its second derivative.
-    pub tangent: Matrix6<f64>,
+    /// Second derivative that the strains' rates make: positive definite as the matrix of the law is.
+    pub material: Matrix6<f64>,
+    /// Second derivative that a curvature of the strains adds under load: the geometric stiffness.
+    pub geometric: Matrix6<f64>,
 }
 
 /// A named group of spring coordinates with one law.
@@ -83,8 +85,8 @@ impl SpringBlock {
     /// derivative to `entry`: row and column, both counted within the block, and the value there. Returns the
     /// energy (J). `values` are the coordinates, `posture` those of the commanded, unloaded posture,
     /// `preload` scales `theta0` (1 is the real one).
-    /// A law whose tangent depends on the deflection appends its first coordinate and the change of
-    /// the tangent since rest to `geometric`: like the loads' Hessian, it decides about stability.
+    /// A law with strains that are not linear appends its first coordinate and its geometric stiffness to
+    /// `geometric`: like the loads' Hessian, it decides about stability.
     pub(crate) fn add(
         &self,
         values: &[f64],
@@ -96,7 +98,7 @@ impl SpringBlock {
     ) -> f64 {
         let deflection =
             || Vector6::from_fn(|i, _| values[self.first + i] - preload * self.rest[i]);
-        let (response, at_rest) = match &self.law {
+        let response = match &self.law {
             SpringLaw::Linear(matrix) => {
                 return self.add_constant(matrix, values, preload, torque, entry);
             }
@@ -104,16 +106,16 @@ impl SpringBlock {
                 let matrix = law.matrix(posture[law.inclination]);
                 return self.add_constant(&matrix, values, preload, torque, entry);
             }
-            SpringLaw::Bowing(law) => (law.respond(&deflection()), law.matrix),
-            SpringLaw::Logarithm(law) => (law.respond(&deflection()), law.at_rest()),
+            SpringLaw::Bowing(law) => law.respond(&deflection()),
+            SpringLaw::Logarithm(law) => law.respond(&deflection()),
         };
         for i in 0..6 {
             torque[self.first + i] += response.torque[i];
             for j in 0..6 {
-                entry(i, j, response.tangent[(i, j)]);
+                entry(i, j, response.material[(i, j)] + response.geometric[(i, j)]);
             }
         }
-        geometric.push((self.first, response.tangent - at_rest));
+        geometric.push((self.first, response.geometric));
         response.energy
     }
 

@@ -4,13 +4,18 @@
 //! is stable iff `S_c = N^T (H - K) N` is negative definite; equivalently iff the bordered matrix
 //! has as many positive eigenvalues as the Jacobian has rows. The share of the way to buckling `mu` is the largest
 //! eigenvalue of `(N^T H N) v = mu (N^T K N) v`: it does not depend on coordinates, 0 is unloaded,
-//! 1 is the point of buckling. `S_c` is symmetric even where `H` is not, because null motions do
-//! not turn the end; the symmetric part of `H` is used.
+//! 1 is the point of buckling.
+//!
+//! `S_c` is symmetric even where `H` of a moment on the end is not, because null motions do not turn the
+//! end. With the end free, or with moments and followers elsewhere, it need not be: `mu` is then that of
+//! the symmetric part, below 1 of which neither divergence nor flutter can happen, and beyond it
+//! [`crate::divergence`] decides.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::Chain;
+use crate::divergence::diverging_motions;
 use crate::saddle::{Inertia, RANK_TOLERANCE, column_space, complement, inertia};
 use crate::stiffness::{balanced_jacobian, names_in, passive_null_space};
 use crate::sweep::Sweep;
@@ -20,12 +25,18 @@ use crate::system::System;
 /// Whether a chain keeps its shape while its end is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShapeStability {
-    /// No neighbouring shape of the held chain has less energy.
+    /// No neighbouring shape of the held chain has less energy; for loads without a potential: it does
+    /// not go away (divergence), but see [`may_flutter`](Self::may_flutter).
     pub stable: bool,
-    /// Of the bordered matrix; stable iff `positive` equals the rank of the Jacobian.
+    /// Of the bordered matrix, symmetric part; with a potential stable iff `positive` equals the rank of
+    /// the Jacobian.
     pub inertia: Inertia,
+    /// Number of motions in which the shape goes away.
+    #[serde(default)]
+    pub unstable_modes: usize,
     /// `mu`, largest share of the way to buckling: below 1 is stable. `None` for a chain without
-    /// inner freedom; infinite where a passive motion is pushed out of line.
+    /// inner freedom; infinite where a passive motion is pushed out of line. Of loads without a potential
+    /// that of the tangent's symmetric part.
     pub share_to_buckling: Option<f64>,
     /// Motion of all coordinates in the most critical mode (m, rad), largest component 1; empty where
     /// nothing can buckle or numbers of 16 digits do not tell it.
@@ -50,6 +61,16 @@ pub enum ShapeVerdict {
 const AT_CRITICAL: f64 = 1e-9;
 
 impl ShapeStability {
+    /// The loads have no potential and the shape does not go away, but it may swing with growing amplitude
+    /// (flutter); whether it does depends on the masses.
+    #[must_use]
+    pub fn may_flutter(&self) -> bool {
+        self.stable
+            && self
+                .share_to_buckling
+                .is_some_and(|mu| mu > 1.0 + AT_CRITICAL)
+    }
+
     /// Stable, unstable, or singular.
     #[must_use]
     pub fn verdict(&self) -> ShapeVerdict {
@@ -78,6 +99,9 @@ impl ShapeStability {
             ShapeVerdict::Stable if mu <= 0.0 => {
                 format!("keeps its shape; the load only stiffens it (mu {mu:.4})")
             }
+            ShapeVerdict::Stable if self.may_flutter() => format!(
+                "does not go away, but may swing with growing amplitude (flutter), which depends on its masses (mu {mu:.4} of the tangent's symmetric part)"
+            ),
             ShapeVerdict::Stable => format!(
                 "keeps its shape, {:.3} % of the way to buckling (mu {mu:.4})",
                 100.0 * mu
@@ -86,11 +110,18 @@ impl ShapeStability {
     }
 }
 
-pub(crate) fn shape_stability(chain: &Chain, system: &System, factors: &[f64]) -> ShapeStability {
-    stability_within(chain, system, factors, &balanced_jacobian(system, factors))
+pub(crate) fn shape_stability(
+    chain: &Chain,
+    system: &System,
+    factors: &[f64],
+    conservative: bool,
+) -> ShapeStability {
+    let held = balanced_jacobian(system, factors);
+    stability_within(chain, system, factors, &held, conservative)
 }
 
-/// The same by sweeps along a long chain without redundant passive joints; `None` where they cannot.
+/// The same by sweeps along a long chain without redundant passive joints; `None` where they cannot. They
+/// know the symmetric part of the tangent alone.
 pub(crate) fn swept_stability(
     system: &System,
     sweep: &Sweep,
@@ -115,6 +146,7 @@ pub(crate) fn swept_stability_within(
     Some(ShapeStability {
         stable: shape.share_to_buckling < 1.0,
         inertia: shape.inertia,
+        unstable_modes: shape.inertia.positive.saturating_sub(ends.held_count()),
         share_to_buckling: Some(shape.share_to_buckling),
         mode: largest_one(own.map(|(v, f)| v * f).collect()),
         neutral: Vec::new(),
@@ -134,12 +166,14 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
 }
 
 /// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
-/// per held motion. The whole end held gives [`shape_stability`].
+/// per held motion. The whole end held gives [`shape_stability`]. `conservative`: the loads have a
+/// potential.
 pub(crate) fn stability_within(
     chain: &Chain,
     system: &System,
     factors: &[f64],
     jacobian: &DMatrix<f64>,
+    conservative: bool,
 ) -> ShapeStability {
     let n = system.spring_torque.len();
     let range = column_space(jacobian);
@@ -150,7 +184,7 @@ pub(crate) fn stability_within(
     let mut springs = DMatrix::from_fn(n, n, |i, j| {
         system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
     });
-    // What a deflection changed in the springs is the load's doing; at rest they are positive definite.
+    // The springs' geometric stiffness is the load's doing; what is left of them is positive definite.
     for &(first, matrix) in &system.spring_geometric {
         for i in 0..6 {
             for j in 0..6 {
@@ -179,25 +213,80 @@ pub(crate) fn stability_within(
 
     // Neutral passive motions leave the verdict.
     let neutral = neutral_motions(chain, jacobian, &rows, &hessian);
+    let units = MaterialUnits::of(chain, &springs);
     let mut taken_out = DMatrix::zeros(n, rank + neutral.ncols());
     taken_out.columns_mut(0, rank).copy_from(&rows.transpose());
+    units.gather(&mut taken_out);
     taken_out
         .columns_mut(rank, neutral.ncols())
         .copy_from(&neutral);
     let null = complement(&taken_out);
-    let a = null.transpose() * &hessian * &null;
-    let b = null.transpose() * &springs * &null;
+    let a = null.transpose() * units.matrix(&hessian) * &null;
+    let b = null.transpose() * units.matrix(&springs) * &null;
     let (share_to_buckling, mode) = share_to_buckling(&a, &b);
+    let mut stable = share_to_buckling.is_none_or(|mu| mu < 1.0);
+    let mut unstable_modes = inertia.positive.saturating_sub(rank);
+    if !conservative && share_to_buckling.is_some_and(|mu| mu >= 1.0 && mu.is_finite()) {
+        let turning = DMatrix::from_fn(n, n, |i, j| {
+            0.5 * (system.hessian[(i, j)] - system.hessian[(j, i)])
+                * (factors[6 + i] * factors[6 + j])
+        });
+        let turning = null.transpose() * units.matrix(&turning) * &null;
+        unstable_modes = diverging_motions(&(b - a - turning), 0.0);
+        stable = unstable_modes == 0;
+    }
     let mode = mode.map_or_else(Vec::new, |v| {
-        let motion = &null * v;
+        let motion = units.motion(&null * v);
         largest_one((0..n).map(|i| motion[i] * factors[6 + i]).collect())
     });
     ShapeStability {
-        stable: share_to_buckling.is_none_or(|mu| mu < 1.0),
+        stable,
         inertia,
+        unstable_modes,
         share_to_buckling,
         mode,
         neutral: names_in(chain, &neutral),
+    }
+}
+
+/// Units in which the material stiffness `K' = L L^T` of every spring is one: an axis that is worlds
+/// stiffer than bending would otherwise drown it. Passive coordinates keep theirs.
+pub(crate) struct MaterialUnits(Vec<(usize, DMatrix<f64>)>);
+
+impl MaterialUnits {
+    /// A block that is not positive definite keeps its units.
+    pub fn of(chain: &Chain, springs: &DMatrix<f64>) -> Self {
+        let blocks = chain.springs().iter().filter_map(|block| {
+            let (first, len) = (block.first, block.len());
+            let own = springs.view((first, first), (len, len)).into_owned();
+            Some((first, own.cholesky()?.l()))
+        });
+        Self(blocks.collect())
+    }
+
+    /// Forces of the coordinates, one column each, in these units: `L^-1 f`.
+    pub fn gather(&self, forces: &mut DMatrix<f64>) {
+        for (first, l) in &self.0 {
+            // A pivot of a Cholesky factor is positive.
+            let _ = l.solve_lower_triangular_mut(&mut forces.rows_mut(*first, l.nrows()));
+        }
+    }
+
+    /// A matrix of stiffnesses: `L^-1 A L^-T`.
+    pub fn matrix(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut half = a.clone();
+        self.gather(&mut half);
+        let mut whole = half.transpose();
+        self.gather(&mut whole);
+        whole.transpose()
+    }
+
+    /// A motion in these units as one of the coordinates: `L^-T y`.
+    pub fn motion(&self, mut y: DVector<f64>) -> DVector<f64> {
+        for (first, l) in &self.0 {
+            let _ = l.tr_solve_lower_triangular_mut(&mut y.rows_mut(*first, l.nrows()));
+        }
+        y
     }
 }
 

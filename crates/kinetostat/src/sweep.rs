@@ -102,9 +102,9 @@ pub(crate) enum Form {
     Lagged,
     /// `H - K`, `H` of dead wrenches as it is.
     Exact,
-    /// `-K'`: springs at rest, no load.
-    Rest,
-    /// `H' - mu K'` in exponential coordinates: `K'` at rest, `H'` with what deflection changed in
+    /// `-K'`: the springs' material stiffness, no load.
+    Material,
+    /// `H' - mu K'` in exponential coordinates: `K'` without and `H'` with the geometric stiffness of
     /// the springs. At `mu = 1` the symmetric part of [`Form::Exact`].
     Pencil(f64),
 }
@@ -113,7 +113,7 @@ impl Form {
     /// Factors of `A` below and above the diagonal.
     pub fn skew(self) -> (f64, f64) {
         match self {
-            Self::Lagged | Self::Rest => (0.0, 0.0),
+            Self::Lagged | Self::Material => (0.0, 0.0),
             Self::Exact => (1.0, 0.0),
             Self::Pencil(_) => (0.5, -0.5),
         }
@@ -133,8 +133,8 @@ pub(crate) struct Sweep {
     pub twists: Vec<f64>,
     /// `K`, a block per stage.
     springs: Vec<f64>,
-    /// `K'`: the same at rest.
-    rest: Vec<f64>,
+    /// `K'`: the same without geometric stiffness.
+    material: Vec<f64>,
     /// Inverse of `K` of the posture at rest.
     compliance: Vec<f64>,
     /// Wrench beyond each stage about the tip's place, N and N m.
@@ -230,7 +230,7 @@ impl Sweep {
             factors: factors.to_vec(),
             twists: vec![0.0; 6 * chain.coordinate_count()],
             springs: vec![0.0; blocks],
-            rest: vec![0.0; blocks],
+            material: vec![0.0; blocks],
             compliance,
             outer: vec![Vector6::zeros(); count],
             between: vec![0; count + 1],
@@ -257,18 +257,18 @@ impl Sweep {
                 own[j * len + i] += value * unit[i] * unit[j]
             });
         }
-        self.rest.copy_from_slice(&self.springs);
+        self.material.copy_from_slice(&self.springs);
     }
 
-    /// What deflection changed in the springs since rest: first coordinate and matrix, in N, m, rad.
-    pub fn set_geometric(&mut self, changes: &[(usize, Matrix6<f64>)]) {
-        for (first, change) in changes {
+    /// Geometric stiffness of the springs: first coordinate and matrix, in N, m, rad.
+    pub fn set_geometric(&mut self, parts: &[(usize, Matrix6<f64>)]) {
+        for (first, geometric) in parts {
             if let Ok(at) = self.stages.binary_search_by_key(first, |s| s.first) {
                 let Stage { len, block, .. } = self.stages[at];
                 let unit = &self.factors[6 + first..];
                 for j in 0..len {
                     for i in 0..len {
-                        self.rest[block + j * len + i] -= change[(i, j)] * unit[i] * unit[j];
+                        self.material[block + j * len + i] -= geometric[(i, j)] * unit[i] * unit[j];
                     }
                 }
             }
@@ -384,7 +384,7 @@ impl Sweep {
     pub fn between(&self, form: Form, stage: usize) -> Option<Matrix6<f64>> {
         let g = self.nodes.get(self.between[stage].wrapping_sub(1))?;
         match form {
-            Form::Lagged | Form::Rest => None,
+            Form::Lagged | Form::Material => None,
             Form::Exact => Some(*g),
             Form::Pencil(_) => Some(0.5 * (g + g.transpose())),
         }
@@ -394,21 +394,21 @@ impl Sweep {
     pub fn held(&self, form: Form, stage: &Stage) -> Matrix6<f64> {
         match form {
             Form::Lagged | Form::Exact => stage.square(&self.springs),
-            Form::Rest => stage.square(&self.rest),
+            Form::Material => stage.square(&self.material),
             Form::Pencil(mu) => {
-                let rest = stage.square(&self.rest);
-                stage.square(&self.springs) - rest + rest * mu
+                let material = stage.square(&self.material);
+                stage.square(&self.springs) - material + material * mu
             }
         }
     }
 
     /// The same of a stage of one coordinate.
     pub fn held_alone(&self, form: Form, stage: &Stage) -> f64 {
-        let (now, rest) = (self.springs[stage.block], self.rest[stage.block]);
+        let (now, material) = (self.springs[stage.block], self.material[stage.block]);
         match form {
             Form::Lagged | Form::Exact => now,
-            Form::Rest => rest,
-            Form::Pencil(mu) => now - rest + rest * mu,
+            Form::Material => material,
+            Form::Pencil(mu) => now - material + material * mu,
         }
     }
 
@@ -489,13 +489,13 @@ impl Sweep {
         turned
     }
 
-    /// `K' x` with the springs at rest.
+    /// `K' x` with the springs' material stiffness.
     pub fn spring_product(&self, x: &[f64], out: &mut [f64]) {
         for stage in &self.stages {
             let len = stage.len;
             for i in 0..len {
                 out[stage.first + i] = (0..len)
-                    .map(|j| self.rest[stage.block + j * len + i] * x[stage.first + j])
+                    .map(|j| self.material[stage.block + j * len + i] * x[stage.first + j])
                     .sum();
             }
         }
@@ -503,12 +503,12 @@ impl Sweep {
 
     /// Nothing depends on how far the chain is loaded.
     pub fn unloaded(&self) -> bool {
-        let springs = self.springs.iter().zip(&self.rest);
+        let springs = self.springs.iter().zip(&self.material);
         self.nodes.is_empty()
             && self.outer.iter().all(|w| *w == Vector6::zeros())
             && springs
                 .into_iter()
-                .all(|(now, rest)| (now - rest).abs() <= RANK_TOLERANCE)
+                .all(|(now, material)| (now - material).abs() <= RANK_TOLERANCE)
     }
 }
 

@@ -391,7 +391,7 @@ pub(crate) struct Shape {
     pub mode: Vec<f64>,
 }
 
-/// Vector of the pencil with its springs at rest storing one half, and what acts on it.
+/// Vector of the pencil whose springs store one half, and what acts on it.
 struct Trial {
     v: Vec<f64>,
     /// `K' v`.
@@ -431,13 +431,15 @@ impl Trial {
 /// Steps of Lanczos' method before shifts take over.
 const LANCZOS: usize = 16;
 
-/// Lanczos' method for `K'^-1 H'` with motions of the end held, in the energy of the springs at
-/// rest: a vector near the largest eigenvalue, and how near its quotient may be.
+/// Lanczos' method for `K'^-1 H'` with motions of the end held, in the energy of the springs
+/// without geometric stiffness: a vector near the largest eigenvalue, and how near its quotient may be.
 fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
     let n = sweep.count();
-    let rest = Shifted::new(sweep, ends, Form::Rest)?;
+    let material = Shifted::new(sweep, ends, Form::Material)?;
     // Where the end is not held, passive joints may move that no spring holds.
-    if ends.free.ncols() > 0 && rest.inertia.positive + rest.inertia.zero > ends.held_count() {
+    if ends.free.ncols() > 0
+        && material.inertia.positive + material.inertia.zero > ends.held_count()
+    {
         return None;
     }
     // Any start that no eigenvector is orthogonal to.
@@ -446,13 +448,13 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
         .map(|i| (i as f64 * 0.618_033_988_749_895 + 0.25).fract() - 0.4)
         .collect();
     let mut basis: Vec<Trial> = Vec::with_capacity(LANCZOS);
-    basis.push(Trial::new(sweep, rest.solve(&start)?)?);
+    basis.push(Trial::new(sweep, material.solve(&start)?)?);
     let mut beyond = 0.0;
     let mut couplings = Vec::with_capacity(LANCZOS);
     while let Some(last) = basis.last() {
         // -K' x = -H' v, but for reactions.
         let torque: Vec<f64> = last.loads.iter().map(|x| -x).collect();
-        let mut next = rest.solve(&torque)?;
+        let mut next = material.solve(&torque)?;
         for _ in 0..2 {
             for other in &basis {
                 let share = dot(&next, &other.springs);

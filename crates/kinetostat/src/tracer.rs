@@ -212,8 +212,8 @@ impl Tracer<'_, '_, '_> {
 
     fn described(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
         self.reduced.evaluate(&c.z);
-        let (held, u_held) = self.reduced.stability(c, true);
-        let (dead, u_dead) = self.reduced.stability(c, false);
+        let held = self.reduced.stability(c, true);
+        let dead = self.reduced.stability(c, false);
         let m = self.reduced.count();
         let rate = self
             .reduced
@@ -235,12 +235,12 @@ impl Tracer<'_, '_, '_> {
             conjugate: self.reduced.conjugate(&c.z),
             equilibrium: self.reduced.equilibrium(c),
             slope,
+            unstable: [held.unstable_modes, dead.unstable_modes],
             held,
             dead,
             arc: 0.0,
             z: c.z.clone(),
             tangent: direction,
-            unstable: [u_held, u_dead],
             family: self.reduced.family.clone(),
         }
     }

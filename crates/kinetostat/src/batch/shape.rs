@@ -1,8 +1,9 @@
 //! Does a limb keep its shape while its end is held? The share to buckling of [`crate::ShapeStability`], several
 //! postures at once.
 //!
-//! Springs are counted in units in which their stiffness at rest is one, `C = M M^T`, so that the share
-//! is the largest eigenvalue of the loads' Hessian among motions that leave the end where it is. With
+//! Springs are counted in units in which their material stiffness is one, `C = M M^T`, so that the share
+//! is the largest eigenvalue of the loads' Hessian among motions that leave the end where it is. A link
+//! that is bent takes its geometric stiffness from that Hessian, as [`crate::stability`] does. With
 //! twists `T` of the springs and `P` of the passive joints, `T y + P x = 0`: reflections of `P` give `x = W y`
 //! and conditions on `y` alone, reflections of these leave the motions `y` that are free. What is left
 //! is made tridiagonal, and Laguerre's iteration goes down to the largest eigenvalue from above: it
@@ -83,8 +84,8 @@ impl<S: Simd> Shape<S> {
     }
 
     /// Motions from the base outwards, then the Hessian from the end inwards:
-    /// `H_ij = s_i^T (G + A / 2) s_j` for `i` beyond `j`, `G` symmetric ([`crate::sweep`]), less what a
-    /// deflection changed in the springs.
+    /// `H_ij = s_i^T (G + A / 2) s_j` for `i` beyond `j`, `G` symmetric ([`crate::sweep`]), less the
+    /// springs' geometric stiffness.
     #[inline(always)]
     fn hessian(&mut self, plan: &Plan, limb: &LoadedLimb<S>, gravity: &[f64; 3]) {
         let simd = self.simd;
@@ -113,7 +114,7 @@ impl<S: Simd> Shape<S> {
                     });
                 }
                 Step::Spring(spring) => {
-                    let root = root(simd, limb, spring, law);
+                    let (root, _) = root(simd, limb, spring, law);
                     law += usize::from(matches!(spring.law, Law::Parallelogram(..)));
                     let s = twists(simd, plan, limb, spring);
                     for k in 0..6 {
@@ -121,7 +122,7 @@ impl<S: Simd> Shape<S> {
                             continue;
                         }
                         let mut sum = [zero; 6];
-                        for d in k..6 {
+                        for d in first_row(spring, k)..6 {
                             for r in 0..6 {
                                 sum[r] = s[d][r].times_plus(root[d][k], sum[r]);
                             }
@@ -176,7 +177,7 @@ impl<S: Simd> Shape<S> {
                     let first = self.motions[last].place;
                     let root = root(simd, limb, spring, law);
                     let s = twists(simd, plan, limb, spring);
-                    self.within(limb, spring, first, (&s, &root), &loads);
+                    self.within(spring, first, (&s, &root), &loads);
                 }
                 Step::Shift(_) | Step::Rotate(_) => {}
             }
@@ -218,10 +219,9 @@ impl<S: Simd> Shape<S> {
     #[inline(always)]
     fn within(
         &mut self,
-        limb: &LoadedLimb<S>,
         spring: &Spring,
         first: usize,
-        (s, root): (&Mat6<S>, &Mat6<S>),
+        (s, (root, geometric)): (&Mat6<S>, &(Mat6<S>, Mat6<S>)),
         loads: &Loads<S>,
     ) {
         let zero = Lanes::new(self.simd, 0.0);
@@ -241,20 +241,18 @@ impl<S: Simd> Shape<S> {
                 b[j][i] = b[i][j];
             }
         }
-        if let Law::Bowing(length) = spring.law {
-            let at = deflection(limb, spring);
-            let k = law::bowing_tangent(&spring.stiffness, length, &at);
+        if matches!(spring.law, Law::Bowing(_)) {
             for i in 0..6 {
                 for j in 0..6 {
-                    let change = (k[i][j] + k[j][i]) * 0.5 - spring.stiffness[6 * i + j];
-                    b[i][j] = b[i][j] - change;
+                    let own = (geometric[i][j] + geometric[j][i]) * 0.5;
+                    b[i][j] = b[i][j] - own;
                 }
             }
         }
         let mut bm = [[zero; 6]; 6];
         for i in 0..6 {
             for k in 0..6 {
-                for d in k..6 {
+                for d in first_row(spring, k)..6 {
                     bm[i][k] = b[i][d].times_plus(root[d][k], bm[i][k]);
                 }
             }
@@ -270,7 +268,7 @@ impl<S: Simd> Shape<S> {
                     continue;
                 }
                 let mut sum = zero;
-                for d in i..6 {
+                for d in first_row(spring, i)..6 {
                     sum = root[d][i].times_plus(bm[d][k], sum);
                 }
                 self.add(row, column, sum);
@@ -592,9 +590,10 @@ fn inner<S: Simd>(a: &[Lanes<S>; 6], b: &[Lanes<S>; 6]) -> Lanes<S> {
     sum
 }
 
-/// `M` of the compliance at rest, `C = M M^T`, lower triangular; nothing where a direction does not move.
+/// `M` of the compliance, `C = M M^T`, and the geometric stiffness; nothing where a direction does not
+/// move. Lower triangular unless the spring is a beam that bends.
 #[inline(always)]
-fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> Mat6<S> {
+fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> (Mat6<S>, Mat6<S>) {
     let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
     let mut m = [[zero; 6]; 6];
     for j in 0..6 {
@@ -618,5 +617,29 @@ fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> 
             }
         }
     }
-    m
+    let Law::Bowing(length) = spring.law else {
+        return (m, [[zero; 6]; 6]);
+    };
+    // Strains to motions: the compliance of the strains is that of rest.
+    let at = deflection(limb, spring);
+    let (geometric, inverse) = law::bowing_geometric(&spring.stiffness, length, &at);
+    let mut motions = [[zero; 6]; 6];
+    for i in 0..6 {
+        for d in 0..6 {
+            for k in 0..=d {
+                motions[i][k] = inverse[i][d].times_plus(m[d][k], motions[i][k]);
+            }
+        }
+    }
+    (motions, geometric)
+}
+
+/// The first row of column `k` of a spring's `M` that is not zero.
+#[inline(always)]
+fn first_row(spring: &Spring, k: usize) -> usize {
+    if matches!(spring.law, Law::Bowing(_)) {
+        0
+    } else {
+        k
+    }
 }

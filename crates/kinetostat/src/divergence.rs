@@ -1,0 +1,126 @@
+//! Motions in which a shape goes away: divergence with and without a potential.
+//!
+//! With a potential the tangent stiffness `T` is symmetric, and every negative eigenvalue is a motion that
+//! frees energy. Forces that follow the chain and moments about fixed axes make `T` unsymmetric: then a
+//! neighbouring equilibrium exists where `det T = 0`, not where its symmetric part is indefinite
+//! (Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963). Below the latter
+//! neither divergence nor flutter can happen, whatever the masses are; above it the count here tells.
+//!
+//! Let `U` span the eigenvectors of the symmetric part with negative eigenvalues and `P` the others. Among `P`
+//! alone the symmetric part is positive, so that `T_PP` is regular, and
+//!
+//! ```text
+//! det T = det T_PP det R,     R = T_UU - T_UP T_PP^-1 T_PU,     det T_PP > 0
+//! ```
+//!
+//! `R`, static condensation onto the few motions in question, is singular exactly where `T` is. Real negative
+//! eigenvalues of `R` are counted; conjugate ones may be a flutter, which depends on the masses.
+
+use nalgebra::{DMatrix, linalg::Schur};
+
+/// Number of motions in which a shape of tangent stiffness `tangent` (n x n, in units in which motions
+/// count alike) goes away. Eigenvalues of the symmetric part down to `-zero` count as none.
+pub(crate) fn diverging_motions(tangent: &DMatrix<f64>, zero: f64) -> usize {
+    if tangent.is_empty() {
+        return 0;
+    }
+    let symmetric = 0.5 * (tangent + tangent.transpose());
+    let size = symmetric.amax();
+    let eigen = symmetric.symmetric_eigen();
+    let (unstable, others): (Vec<usize>, Vec<usize>) =
+        (0..tangent.nrows()).partition(|&i| eigen.eigenvalues[i] < -zero);
+    if unstable.is_empty() || (tangent - tangent.transpose()).amax() <= TURNS_NOTHING * size {
+        return unstable.len();
+    }
+    let (u, p) = (
+        eigen.eigenvectors.select_columns(&unstable),
+        eigen.eigenvectors.select_columns(&others),
+    );
+    let mut condensed = u.transpose() * tangent * &u;
+    if !others.is_empty() {
+        let own = p.transpose() * tangent * &p;
+        if let Some(follows) = own.lu().solve(&(p.transpose() * tangent * &u)) {
+            condensed -= u.transpose() * tangent * &p * follows;
+        }
+    }
+    let Some(schur) = Schur::try_new(condensed, f64::EPSILON, 10_000) else {
+        return unstable.len();
+    };
+    let all = schur.complex_eigenvalues();
+    let most = all.iter().fold(0.0_f64, |m, x| m.max(x.norm()));
+    // Two equal ones (a round rod) part by the root of what rounding leaves.
+    let real = all.iter().filter(|x| x.im.abs() <= 1e-6 * most);
+    real.filter(|x| x.re < 0.0).count()
+}
+
+/// Share of a tangent's largest entry below which what is not symmetric in it is rounding.
+const TURNS_NOTHING: f64 = 1e-10;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ziegler's column: two bars of length one, two springs of one, a force that follows the second
+    /// bar by the share `a` of its turn. `T = K - P [1, -a; 0, 1 - a]`, `K = [2, -1; -1, 1]`.
+    fn column(force: f64, a: f64) -> DMatrix<f64> {
+        DMatrix::from_row_slice(
+            2,
+            2,
+            &[2.0 - force, a * force - 1.0, -1.0, 1.0 - (1.0 - a) * force],
+        )
+    }
+
+    #[test]
+    fn a_follower_force_diverges_where_the_determinant_says() {
+        // det = 1 - 3 (1 - a) P + (1 - a) P^2.
+        for a in [0.0_f64, 0.2, 0.4, 0.5, 0.55] {
+            let b = 1.0 - a;
+            let root = (9.0 * b * b - 4.0 * b).max(0.0).sqrt();
+            let (first, second) = ((3.0 * b - root) / (2.0 * b), (3.0 * b + root) / (2.0 * b));
+            for (force, count) in [(0.0, 0), (first - 1e-6, 0), (first + 1e-6, 1)] {
+                assert_eq!(
+                    diverging_motions(&column(force, a), 0.0),
+                    count,
+                    "{a} {force}"
+                );
+            }
+            assert_eq!(diverging_motions(&column(second - 1e-6, a), 0.0), 1, "{a}");
+        }
+        // Beyond a = 5/9 no force makes it diverge, though the symmetric part turns indefinite.
+        for a in [0.56, 0.8, 1.0] {
+            for force in [0.3, 1.0, 1.5, 1.9] {
+                assert_eq!(diverging_motions(&column(force, a), 0.0), 0, "{a} {force}");
+            }
+        }
+    }
+
+    #[test]
+    fn its_parity_is_the_sign_of_the_determinant() {
+        let mut state = 1_u64;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
+        };
+        let mut counts = [0; 8];
+        for case in 0..400 {
+            let n = 2 + case % 6;
+            let skew = [0.0, 0.3, 1.0][case % 3];
+            let t = DMatrix::from_fn(n, n, |_, _| next());
+            let shift = DMatrix::identity(n, n) * 0.5;
+            let t = 0.5 * (&t + t.transpose()) + skew * 0.5 * (&t - t.transpose()) + shift;
+            let count = diverging_motions(&t, 0.0);
+            counts[count] += 1;
+            assert_eq!(count % 2 == 1, t.determinant() < 0.0, "case {case}: {t}");
+            if skew == 0.0 {
+                let all = t.symmetric_eigenvalues();
+                assert_eq!(count, all.iter().filter(|x| **x < 0.0).count());
+            }
+        }
+        assert!(
+            counts[0] > 50 && counts[1] > 50 && counts[2] > 20,
+            "{counts:?}"
+        );
+    }
+}
