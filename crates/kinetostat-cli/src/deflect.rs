@@ -554,10 +554,13 @@ fn limb_in_words(limb: &LimbAnswer) -> String {
         None if limb.stable => "it has no inner freedom that could buckle".to_owned(),
         None => "a passive joint is pushed out of line".to_owned(),
     };
-    let verdict = if limb.stable {
-        "keeps its shape"
-    } else {
-        "does NOT keep its shape: it snaps to another one"
+    let verdict = match limb.stable {
+        // Only loads without a potential are stable beyond one.
+        true if limb.share_to_buckling.is_some_and(|mu| mu > 1.0) => {
+            "does not go away, but may swing with growing amplitude (flutter), which depends on its masses"
+        }
+        true => "keeps its shape",
+        false => "does NOT keep its shape: it snaps to another one",
     };
     let neutral = if limb.neutral_passive_joints.is_empty() {
         String::new()

@@ -190,10 +190,14 @@ pub(crate) struct Balance {
     pub rounding: f64,
 }
 
+/// Share of the loads beyond which no unbalanced torque is taken for rounding.
+const MOST_ROUNDING: f64 = 1e-3;
+
 impl Balance {
-    /// What is unbalanced and no rounding.
+    /// What is unbalanced and no rounding: a state that has run away may have coordinates whose digits are worth more
+    /// than all loads, and balances nothing.
     pub fn exceeding(&self) -> f64 {
-        beyond(self.torque, self.rounding)
+        beyond(self.torque, self.rounding.min(MOST_ROUNDING * self.loads))
     }
 }
 

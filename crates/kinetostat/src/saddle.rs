@@ -125,6 +125,10 @@ pub(crate) fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
 /// Orthonormal basis of everything orthogonal to the (independent) columns of `a`, n x (n - k).
 pub(crate) fn complement(a: &DMatrix<f64>) -> DMatrix<f64> {
     let (n, k) = a.shape();
+    // As many columns as rows span all there is; more can only be rounding's.
+    if k >= n {
+        return DMatrix::zeros(n, 0);
+    }
     let mut augmented = DMatrix::zeros(n, k + n);
     augmented.columns_mut(0, k).copy_from(a);
     augmented.columns_mut(k, n).fill_with_identity();
