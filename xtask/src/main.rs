@@ -9,6 +9,7 @@ mod test;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
+use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 
@@ -62,6 +63,7 @@ fn root() -> PathBuf {
 /// Runs a command at the root; its output is shown, failure is an error.
 fn step(title: &str, command: &mut Command) -> Result<()> {
     eprintln!("== {title}");
+    let start = Instant::now();
     let status = command
         .current_dir(root())
         .status()
@@ -69,6 +71,7 @@ fn step(title: &str, command: &mut Command) -> Result<()> {
     if !status.success() {
         bail!("{title} failed ({status})");
     }
+    eprintln!("== {title}: {:.0} s", start.elapsed().as_secs_f64());
     Ok(())
 }
 

@@ -11,7 +11,7 @@ use crate::curve_chain::{Moves, SerialChain};
 use crate::failure::{Answer, Failure};
 use crate::machine::short;
 use crate::orientation;
-use crate::screen::triple;
+use crate::screen::{number, triple};
 use crate::setting::vector;
 
 pub(crate) const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -357,6 +357,26 @@ pub(crate) fn with_loads(mut chain: SerialChain, args: &EndArgs) -> Answer<Seria
     Ok(chain)
 }
 
+/// A number that was asked for, as short as it can be: a small one is never called nothing.
+fn given(value: f64) -> String {
+    match short(value).as_str() {
+        "0" | "-0" if value != 0.0 => number(value, 4),
+        text => text.to_owned(),
+    }
+}
+
+/// Three components that were asked for; what turning them left of nothing is nothing.
+fn given_triple(v: [f64; 3]) -> String {
+    let most = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    triple(v, |x| {
+        if x.abs() < 1e-12 * most {
+            "0".into()
+        } else {
+            given(x)
+        }
+    })
+}
+
 /// What acts all the time, in words; nothing if nothing does.
 pub(crate) fn constant_in_words(args: &EndArgs) -> String {
     let mut parts = Vec::new();
@@ -539,28 +559,28 @@ fn load_pattern(
     if force > 0.0 {
         parts.push(format!(
             "the force {} N on the tool",
-            triple(end.force().into(), short)
+            given_triple(end.force().into())
         ));
     }
     if moment > 0.0 {
         parts.push(format!(
             "the moment {} N m on the tool",
-            triple(end.moment().into(), short)
+            given_triple(end.moment().into())
         ));
     }
     for load in &loads {
         if let (Load::Dead { node, wrench }, Some(chain)) = (load, chain) {
             parts.push(format!(
                 "the force {} N on '{}'",
-                triple(wrench.force().into(), short),
+                given_triple(wrench.force().into()),
                 chain.chain.nodes()[*node]
             ));
         }
     }
     question.words = format!(
         "The load grows from {} to {} times {}.",
-        short(question.range.0),
-        short(question.range.1),
+        given(question.range.0),
+        given(question.range.1),
         parts.join(" with ")
     );
     let holding = holding(moves, &args.end, &moves.place, constant, false, None)?;

@@ -96,11 +96,16 @@ fn going_away(a: &CurveAnswer) -> String {
             .min_by(|p, q| from(p).total_cmp(&from(q)))
             .map(|p| ("does NOT hold", format!("from {} on, or before", place(p))))
     };
+    let along = if covers_what_was_asked(a) {
+        "all along"
+    } else {
+        "as far as it was followed"
+    };
     if a.grows == "load" {
         return match (stable(start, 0), end(0)) {
             (false, _) => format!("The {subject} does NOT hold at the start under this load."),
             (true, Some((what, place))) => format!("The {subject} {what} {place}."),
-            (true, None) => format!("The {subject} holds all along under this load."),
+            (true, None) => format!("The {subject} holds {along} under this load."),
         };
     }
     let held = stable(start, 1);
@@ -111,7 +116,7 @@ fn going_away(a: &CurveAnswer) -> String {
             )
         }
         (true, Some((what, place))) => format!("The {subject} {what} {place}."),
-        (true, None) => "The shape holds all along while the motion is prescribed.".to_owned(),
+        (true, None) => format!("The shape holds {along} while the motion is prescribed."),
     };
     match (held, stable(start, 0), end(0)) {
         (true, false, _) => text.push_str(
@@ -127,13 +132,24 @@ fn going_away(a: &CurveAnswer) -> String {
     text
 }
 
+/// What the ends of a curve may miss by rounding.
+fn slack(a: &CurveAnswer) -> f64 {
+    1e-6 * (a.asked.1 - a.asked.0)
+}
+
+/// Whether the start's own branch covers what was asked.
+fn covers_what_was_asked(a: &CurveAnswer) -> bool {
+    let (low, high) = a.reached;
+    low <= a.asked.0 + slack(a) && high >= a.asked.1 - slack(a)
+}
+
 /// Says so if the start's own branch does not cover what was asked.
 fn reach(a: &CurveAnswer) -> String {
-    let slack = 1e-6 * (a.asked.1 - a.asked.0);
-    let (low, high) = a.reached;
-    if low <= a.asked.0 + slack && high >= a.asked.1 - slack {
+    if covers_what_was_asked(a) {
         return String::new();
     }
+    let slack = slack(a);
+    let (low, high) = a.reached;
     let unit = if a.grows == "load" {
         "times the load".to_owned()
     } else {

@@ -200,6 +200,19 @@ fn wrong_questions_are_refused_with_what_to_do() {
 }
 
 #[test]
+fn small_loads_are_not_called_nothing() {
+    let here = workplace();
+    let pushed = ["--force", "-1e-6", "0", "0", "--factor", "0", "2e-6"];
+    let list: Vec<&str> = ["curve", "scara"].into_iter().chain(pushed).collect();
+    let said = run(here.path(), &list).answered().out;
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("grows from 0 to 2.000e-6 times the force (-1.000e-6, 0, 0) N"),
+        "{said}"
+    );
+}
+
+#[test]
 fn the_words_say_how_far_a_branch_was_followed() {
     let here = workplace();
     let pushed = |to: &'static str, more: &[&'static str]| {
@@ -223,6 +236,7 @@ fn the_words_say_how_far_a_branch_was_followed() {
     assert!(said.contains("was followed only from 0 to "), "{said}");
     assert!(said.contains("as many points as --points allows"), "{said}");
     assert!(!said.contains("from 0 to 0 mm"), "{said}");
+    assert!(!said.contains("all along"), "{said}");
     // Out of reach without any load: nothing is said of one that is too large.
     let said = run(
         here.path(),

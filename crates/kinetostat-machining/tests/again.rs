@@ -114,7 +114,8 @@ fn what_only_the_check_finds_is_divided_again() {
     // Not where the division looks.
     let hidden = places.filter(|x| ((*x / 25.0).round() * 25.0 - *x).abs() > 5.0);
     let mut again = 0;
-    for place in hidden {
+    // Every third of them: each is a run of its own.
+    for place in hidden.step_by(3) {
         let bump = [1e-3 * (place + 0.3), 0.0015];
         let run = run(bump);
         let told = run.result.warnings.iter();

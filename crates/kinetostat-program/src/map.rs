@@ -14,6 +14,9 @@ const COLUMNS: [&str; 6] = ["x_mm", "y_mm", "z_mm", "dx_mm", "dy_mm", "dz_mm"];
 /// Points this far outside the grid still count as on its border: the rounding of programs, in mm.
 const BORDER_MM: f64 = 1e-6;
 
+/// Nodes nearer than this are one place written twice: no machine is measured more finely.
+const NEAREST_MM: f64 = 1e-3;
+
 /// Largest number of rows.
 const MAX_ROWS: usize = 10_000_000;
 
@@ -72,6 +75,10 @@ impl CorrectionMap {
             values.dedup();
             values
         });
+        let near = too_near(&axes, rows, most);
+        if !near.is_empty() {
+            return Err(near);
+        }
         let places: [BTreeMap<u64, usize>; 3] = [0, 1, 2].map(|axis: usize| {
             axes[axis]
                 .iter()
@@ -195,6 +202,41 @@ impl CorrectionField for CorrectionMap {
             course: Course::Cubic,
         }
     }
+}
+
+/// Nodes that are all but at the same place along an axis: they are told apart by rounding, and a field
+/// between them would jump.
+fn too_near(axes: &[Vec<f64>; 3], rows: &[(u64, [f64; 6])], most: usize) -> Vec<MapError> {
+    let mut faults = Vec::new();
+    for (axis, nodes) in axes.iter().enumerate() {
+        for pair in nodes.windows(2) {
+            // Numbers as far out as a machine reaches have this much rounding.
+            if pair[1] - pair[0] >= NEAREST_MM - 1e-9 {
+                continue;
+            }
+            // The later of the two lines on which they stand first.
+            let line_of = |value: f64| rows.iter().find(|(_, row)| row[axis] == value);
+            let lines = [line_of(pair[0]), line_of(pair[1])].map(|row| row.map_or(1, |r| r.0));
+            faults.push(MapError {
+                line: lines[0].max(lines[1]),
+                found: format!(
+                    "{} {} mm beside {} mm on line {}",
+                    ["x", "y", "z"][axis],
+                    pair[usize::from(lines[1] > lines[0])],
+                    pair[usize::from(lines[1] <= lines[0])],
+                    lines[0].min(lines[1]),
+                ),
+                reason: format!("nodes of a grid are at least {NEAREST_MM} mm apart"),
+                remedy: "write the same place with the same digits in every row".to_owned(),
+            });
+            if faults.len() == most {
+                break;
+            }
+        }
+    }
+    faults.sort_by_key(|fault| fault.line);
+    faults.truncate(most);
+    faults
 }
 
 /// Line and cells of every row, or the first faults.

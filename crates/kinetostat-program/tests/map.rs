@@ -135,6 +135,18 @@ fn bad_maps_are_refused_with_line_reason_and_remedy() {
             "full grid",
         ),
         (
+            format!("{head}0,0,0,0,0,0\n10.0,0,0,0,0,0\n10.0009,0,0,1,0,0\n"),
+            4,
+            "at least 0.001 mm apart",
+            "same digits",
+        ),
+        (
+            format!("{head}0,0.1,0,0,0,0\n0,0.10000000000001,0,0,0,0\n1,0.1,0,0,0,0\n"),
+            3,
+            "at least 0.001 mm apart",
+            "same digits",
+        ),
+        (
             format!("{head}0,0,0,0,0,\u{1}0\n"),
             2,
             "no finite number",

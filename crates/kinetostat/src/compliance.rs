@@ -72,13 +72,13 @@ impl CartesianCompliance {
         let rows = crate::graded::root_rows(directions, length);
         let uneven = crate::graded::spread(directions) > 1e8;
         let symmetric = (stiffness - stiffness.transpose()).amax() <= 1e-9 * stiffness.amax();
-        if let Some(rows) = rows.filter(|_| uneven && symmetric) {
+        if uneven && symmetric {
             // The matrix has lost its soft directions, the list has not.
-            for row in rows {
+            for (sign, row) in rows {
                 let v = Vector6::from_fn(|i, _| row[i] / unit(i));
                 let moves = v / v.norm_squared();
                 let moves = Vector6::from_fn(|i, _| moves[i] / unit(i));
-                springs += moves * moves.transpose();
+                springs += sign * moves * moves.transpose();
             }
         } else if !held.is_empty() {
             let n = column_space(&DMatrix::from_columns(&held));

@@ -13,38 +13,40 @@
 //! det T = det T_PP det R,     R = T_UU - T_UP T_PP^-1 T_PU,     det T_PP > 0
 //! ```
 //!
-//! `R`, static condensation onto the few motions in question, is singular exactly where `T` is. Real negative
-//! eigenvalues of `R` are counted; conjugate ones may be a flutter, which depends on the masses.
+//! `R`, static condensation onto the few motions in question, is singular exactly where `T` is, and its inverse is
+//! `U^T T^-1 U`. Its real negative eigenvalues are counted; conjugate ones may be a flutter, which depends on
+//! the masses.
 
 use nalgebra::{DMatrix, linalg::Schur};
+
+use crate::krylov::largest_eigenvalues;
+use crate::saddle::inertia;
 
 /// Number of motions in which a shape of tangent stiffness `tangent` (n x n, in units in which motions
 /// count alike) goes away. Eigenvalues of the symmetric part down to `-zero` count as none.
 pub(crate) fn diverging_motions(tangent: &DMatrix<f64>, zero: f64) -> usize {
-    if tangent.is_empty() {
+    let n = tangent.nrows();
+    if n == 0 {
         return 0;
     }
     let symmetric = 0.5 * (tangent + tangent.transpose());
-    let size = symmetric.amax();
-    let eigen = symmetric.symmetric_eigen();
-    let (unstable, others): (Vec<usize>, Vec<usize>) =
-        (0..tangent.nrows()).partition(|&i| eigen.eigenvalues[i] < -zero);
-    if unstable.is_empty() || (tangent - tangent.transpose()).amax() <= TURNS_NOTHING * size {
-        return unstable.len();
+    let turns = (tangent - tangent.transpose()).amax() > TURNS_NOTHING * symmetric.amax();
+    // Those above `zero` of the negative matrix.
+    let shifted = DMatrix::from_fn(n, n, |i, j| {
+        -symmetric[(i, j)] - if i == j { zero } else { 0.0 }
+    });
+    let unstable = inertia(shifted).positive;
+    if unstable == 0 || !turns {
+        return unstable;
     }
-    let (u, p) = (
-        eigen.eigenvectors.select_columns(&unstable),
-        eigen.eigenvectors.select_columns(&others),
-    );
-    let mut condensed = u.transpose() * tangent * &u;
-    if !others.is_empty() {
-        let own = p.transpose() * tangent * &p;
-        if let Some(follows) = own.lu().solve(&(p.transpose() * tangent * &u)) {
-            condensed -= u.transpose() * tangent * &p * follows;
-        }
-    }
+    let (_, u) = largest_eigenvalues(&-symmetric, unstable);
+    // The inverse of `R` is that part of the inverse of `T`.
+    let Some(moved) = tangent.clone().lu().solve(&u) else {
+        return unstable;
+    };
+    let condensed = u.transpose() * moved;
     let Some(schur) = Schur::try_new(condensed, f64::EPSILON, 10_000) else {
-        return unstable.len();
+        return unstable;
     };
     let all = schur.complex_eigenvalues();
     let most = all.iter().fold(0.0_f64, |m, x| m.max(x.norm()));

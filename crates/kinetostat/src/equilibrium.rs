@@ -231,7 +231,24 @@ struct Attempt<'p, 'a> {
     corrections: [f64; 2],
 }
 
-impl Attempt<'_, '_> {
+impl<'p, 'a> Attempt<'p, 'a> {
+    fn new(problem: &'p ChainProblem<'a>, settings: &'p Settings, path: Option<Path>) -> Self {
+        let chain = problem.chain;
+        let factors = balance(chain, &problem.posture);
+        let (posture, commands) = (&problem.posture, &problem.commands);
+        let system = System::of_chain(chain, &problem.base, posture, commands, &factors, path);
+        Self {
+            problem,
+            settings,
+            system,
+            factors,
+            spare: None,
+            way: Way::Straight(Twist::zero()),
+            turned: Vector3::zeros(),
+            corrections: [0.0; 2],
+        }
+    }
+
     /// The system at a state and a share of the load.
     fn evaluate_system(&mut self, x: &[f64], wrench: &Wrench, share: f64) {
         let p = self.problem;
@@ -580,24 +597,7 @@ pub(crate) fn solve_along(
     check_problem(problem)?;
     let chain = problem.chain;
     settings.check(&format!("chain '{}'", chain.name()))?;
-    let factors = balance(chain, &problem.posture);
-    let mut attempt = Attempt {
-        problem,
-        settings,
-        system: System::of_chain(
-            chain,
-            &problem.base,
-            &problem.posture,
-            &problem.commands,
-            &factors,
-            path,
-        ),
-        factors,
-        spare: None,
-        way: Way::Straight(Twist::zero()),
-        turned: Vector3::zeros(),
-        corrections: [0.0; 2],
-    };
+    let mut attempt = Attempt::new(problem, settings, path);
     let mut spent = 0;
     let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
         let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
@@ -612,9 +612,11 @@ pub(crate) fn solve_along(
     };
     // As given; then slightly out of line, because a straight or flat posture has no linear answer.
     for nudge in [0.0, 1e-3, 3e-2] {
-        if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
-            return Ok(attempt.finish(x, wrench, iterations, &balance));
-        }
+        let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) else {
+            continue;
+        };
+        let found = attempt.finish(x, wrench, iterations, &balance);
+        return Ok(led_to(problem, settings, path, &found.0).unwrap_or(found));
     }
     let mut failure = match grow_load(&mut attempt, false) {
         Ok((x, wrench, iterations, balance)) => {
@@ -669,6 +671,34 @@ struct Failure {
     /// What it lacks at the full load.
     balance: Balance,
     iterations: usize,
+}
+
+/// The stable shape to which the growing load leads, where one step found another that is unstable and bent by
+/// more than half a turn in all: it may have passed the former. A straight column, pressed, stays straight.
+fn led_to(
+    problem: &ChainProblem<'_>,
+    settings: &Settings,
+    path: Option<Path>,
+    found: &Equilibrium,
+) -> Option<(Equilibrium, Path)> {
+    if found.stability.stable {
+        return None;
+    }
+    let kinds = problem.chain.coordinates().iter().map(|c| c.kind);
+    let ends = found.coordinates.iter().zip(&problem.posture);
+    let turned: f64 = kinds
+        .zip(ends)
+        .filter(|(kind, _)| *kind == MotionKind::Revolute)
+        .map(|(_, (there, here))| (there - here).abs())
+        .sum();
+    if turned <= std::f64::consts::PI {
+        return None;
+    }
+    let mut attempt = Attempt::new(problem, settings, path);
+    let (x, wrench, iterations, balance) = grow_load(&mut attempt, false).ok()?;
+    let spent = found.residual.iterations + iterations;
+    let grown = attempt.finish(x, wrench, spent, &balance);
+    grown.0.stability.stable.then_some(grown)
 }
 
 /// Loads, preloads and closure grow together from the unloaded posture; the closure straight, or on

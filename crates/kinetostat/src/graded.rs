@@ -5,10 +5,10 @@
 //! springs are (exactly one without passive joints). Ranks are decided on `G`, values are squares of
 //! singular values, so that stiffnesses of a ratio of 1e14 keep eight digits.
 
-use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::{Chain, Scale};
-use crate::directions::{Direction, DirectionKind, directions, scaled_twist};
+use crate::directions::{Direction, DirectionKind, scaled_twist};
 use crate::mechanism::Mechanism;
 use crate::number::short;
 use crate::saddle::{RANK_TOLERANCE, Saddle, complement};
@@ -167,20 +167,17 @@ impl Graded {
         }
     }
 
-    /// Principal directions. Under a load that makes some negative, those that are softer than 1e-9 of
-    /// the stiffest count as free.
+    /// Principal directions.
     pub fn directions(&self, chain: &Chain) -> Vec<Direction> {
         let scale = chain.scale();
-        let eigen = (0.5 * (&self.inner + self.inner.transpose())).symmetric_eigen();
+        let inner = 0.5 * (&self.inner + self.inner.transpose());
+        let eigen = inner.clone().symmetric_eigen();
         let most = eigen.eigenvalues.amax();
         let zero = 100.0 * RANK_TOLERANCE * most;
         if eigen.eigenvalues.min() < -zero {
-            let mut back = self.range.transpose();
-            for (mut row, value) in back.row_iter_mut().zip(&self.sizes) {
-                row.unscale_mut(*value);
-            }
-            let k = back.transpose() * &self.inner * back;
-            return directions(scale, &Matrix6::from_fn(|i, j| k[(i, j)]), &self.range);
+            let sizes = DVector::from_iterator(self.sizes.len(), self.sizes.iter().copied());
+            let back = DMatrix::from_diagonal(&sizes.map(f64::recip));
+            return by_levels(scale, &back, &inner, &self.range);
         }
         let held: Vec<usize> = (0..self.sizes.len())
             .filter(|&i| eigen.eigenvalues[i] > zero)
@@ -193,14 +190,75 @@ impl Graded {
     }
 }
 
-/// Principal directions of `root^T root` (balanced) within a range; `rank` of them are not free.
-fn by_root(scale: Scale, root: &DMatrix<f64>, range: &DMatrix<f64>, rank: usize) -> Vec<Direction> {
-    let direction = |kind, stiffness_n_per_m, motion: &DVector<f64>| Direction {
+/// Principal stiffnesses below this share of the stiffest are computed again without the stiffer ones.
+const LEVEL: f64 = 1e-4;
+
+/// Principal directions of `back^T inner back` (balanced, in coordinates of the range), some of them
+/// negative: the stiffest first, then the others in what is left, where the stiff ones no longer drown them.
+/// Those in which nothing is left but rounding are free.
+fn by_levels(
+    scale: Scale,
+    back: &DMatrix<f64>,
+    inner: &DMatrix<f64>,
+    range: &DMatrix<f64>,
+) -> Vec<Direction> {
+    let mut found: Vec<(f64, DVector<f64>)> = Vec::new();
+    let mut rest = DMatrix::identity(range.ncols(), range.ncols());
+    while rest.ncols() > 0 {
+        let moved = back * &rest;
+        let eigen = (moved.transpose() * inner * &moved).symmetric_eigen();
+        let most = eigen.eigenvalues.amax();
+        let parts = inner.amax() * moved.norm_squared();
+        if moved.norm() <= RANK_TOLERANCE * back.norm() || most <= 100.0 * RANK_TOLERANCE * parts {
+            found.extend(rest.column_iter().map(|motion| (0.0, range * motion)));
+            break;
+        }
+        let motions = rest * &eigen.eigenvectors;
+        let (now, later): (Vec<usize>, Vec<usize>) =
+            (0..motions.ncols()).partition(|&i| eigen.eigenvalues[i].abs() > LEVEL * most);
+        found.extend(
+            now.iter()
+                .map(|&i| (eigen.eigenvalues[i], range * motions.column(i))),
+        );
+        rest = motions.select_columns(&later);
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let rigid = complement(range);
+    let rigid = rigid
+        .column_iter()
+        .map(|column| (DirectionKind::Rigid, f64::INFINITY, column.into_owned()));
+    let found = found.into_iter().map(|(value, motion)| {
+        let kind = match value {
+            v if v > 0.0 => DirectionKind::Finite,
+            v if v < 0.0 => DirectionKind::Negative,
+            _ => DirectionKind::Free,
+        };
+        (kind, value * scale.stiffness, motion)
+    });
+    rigid
+        .chain(found)
+        .map(|(kind, stiffness, motion)| direction(scale, kind, stiffness, &motion))
+        .collect()
+}
+
+fn direction(
+    scale: Scale,
+    kind: DirectionKind,
+    stiffness_n_per_m: f64,
+    motion: &DVector<f64>,
+) -> Direction {
+    Direction {
         kind,
         stiffness_n_per_m,
         twist: scaled_twist(scale, &Vector6::from_fn(|i, _| motion[i])),
         behind: Vec::new(),
-    };
+    }
+}
+
+/// Principal directions of `root^T root` (balanced) within a range; `rank` of them are not free.
+fn by_root(scale: Scale, root: &DMatrix<f64>, range: &DMatrix<f64>, rank: usize) -> Vec<Direction> {
+    let direction =
+        |kind, stiffness, motion: &DVector<f64>| direction(scale, kind, stiffness, motion);
     let mut list = Vec::with_capacity(6);
     for column in complement(range).column_iter() {
         let motion = column.into_owned();
@@ -240,7 +298,7 @@ pub fn uneven_in_words(directions: &[Direction]) -> Option<String> {
     (spread > SAID).then(|| {
         let digits = (15.0 - spread.log10()).floor().max(0.0);
         format!(
-            "the stiffest direction is {} times as stiff as the softest: the entries of the 6 x 6 matrix hold the soft ones to about {digits} digits only, the principal directions hold them all; under a load, directions softer than 1e-9 of the stiffest count as free. Is the stiff one meant, or is a unit wrong?",
+            "the stiffest direction is {} times as stiff as the softest: the entries of the 6 x 6 matrix hold the soft ones to about {digits} digits only, the principal directions hold them all. Is the stiff one meant, or is a unit wrong?",
             short(spread)
         )
     })
@@ -272,29 +330,35 @@ pub fn uneven_springs_in_words(mechanism: &Mechanism) -> Vec<String> {
         .collect()
 }
 
-/// Rows `r_i` with `K = sum r_i r_i^T` (SI) of principal directions that are all positive or free.
-pub(crate) fn root_rows(list: &[Direction], length: f64) -> Option<Vec<Vector6<f64>>> {
+/// Signs `s_i` and rows `r_i` with `K = sum s_i r_i r_i^T` (SI) of principal directions.
+pub(crate) fn root_rows(list: &[Direction], length: f64) -> Vec<(f64, Vector6<f64>)> {
     let unit = |i: usize| if i < 3 { 1.0 } else { length };
-    let mut rows = Vec::new();
-    for d in list {
-        match d.kind {
-            DirectionKind::Negative => return None,
-            DirectionKind::Finite => {
-                let balanced = Vector6::from_fn(|i, _| d.twist.0[i] * unit(i));
-                let size = d.stiffness_n_per_m.sqrt() / balanced.norm();
-                rows.push(Vector6::from_fn(|i, _| balanced[i] * unit(i) * size));
-            }
-            DirectionKind::Free | DirectionKind::Rigid => {}
-        }
-    }
-    Some(rows)
+    let finite = list
+        .iter()
+        .filter(|d| matches!(d.kind, DirectionKind::Finite | DirectionKind::Negative));
+    finite
+        .map(|d| {
+            let balanced = Vector6::from_fn(|i, _| d.twist.0[i] * unit(i));
+            let size = d.stiffness_n_per_m.abs().sqrt() / balanced.norm();
+            let row = Vector6::from_fn(|i, _| balanced[i] * unit(i) * size);
+            (d.stiffness_n_per_m.signum(), row)
+        })
+        .collect()
 }
 
-/// Principal directions of several stiffnesses that add up, from rows as in [`root_rows`] at the common
-/// place, within a balanced range.
-pub(crate) fn summed(rows: &[Vector6<f64>], scale: Scale, range: &DMatrix<f64>) -> Vec<Direction> {
+/// Principal directions of several stiffnesses that add up, from signs and rows as in [`root_rows`] at the
+/// common place, within a balanced range.
+pub(crate) fn summed(
+    rows: &[(f64, Vector6<f64>)],
+    scale: Scale,
+    range: &DMatrix<f64>,
+) -> Vec<Direction> {
     let unit = |i: usize| scale.stiffness.sqrt() * if i < 3 { 1.0 } else { scale.length };
-    let all = DMatrix::from_fn(rows.len(), 6, |i, j| rows[i][j] / unit(j)) * range;
+    let all = DMatrix::from_fn(rows.len(), 6, |i, j| rows[i].1[j] / unit(j)) * range;
+    if rows.iter().any(|(sign, _)| *sign < 0.0) {
+        let signs = DVector::from_iterator(rows.len(), rows.iter().map(|(sign, _)| *sign));
+        return by_levels(scale, &all, &DMatrix::from_diagonal(&signs), range);
+    }
     let rank = SingularValues::of(&all).rank(RANK_TOLERANCE);
     by_root(scale, &all, range, rank)
 }

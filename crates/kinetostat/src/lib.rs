@@ -114,6 +114,7 @@ mod inverse;
 mod jet;
 mod jumps;
 mod kinematics;
+mod krylov;
 mod length_law;
 mod link;
 mod link_load;

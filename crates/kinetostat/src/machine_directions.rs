@@ -27,16 +27,13 @@ pub(crate) fn balanced_directions<'a>(
     let factor = |i: usize| if i < 3 { root } else { root * scale.length };
     let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (factor(i) * factor(j)));
     let mut blocked: Vec<DVector<f64>> = Vec::new();
-    let mut rows = Some(Vec::new());
+    let mut rows = Vec::new();
     let mut uneven = false;
     for (limb, arm, own) in limbs {
         uneven |= crate::graded::spread(&limb.directions) > UNEVEN;
         let shift = shift_matrix(&arm).transpose();
         let own_rows = crate::graded::root_rows(&limb.directions, own.length);
-        rows = rows.zip(own_rows).map(|(mut all, more)| {
-            all.extend(more.into_iter().map(|row: Vector6<f64>| shift * row));
-            all
-        });
+        rows.extend(own_rows.into_iter().map(|(sign, row)| (sign, shift * row)));
         for direction in limb
             .directions
             .iter()
@@ -55,9 +52,9 @@ pub(crate) fn balanced_directions<'a>(
     } else {
         complement(&column_space(&DMatrix::from_columns(&blocked)))
     };
-    let mut list = match rows.filter(|_| uneven) {
-        Some(rows) => crate::graded::summed(&rows, scale, &range),
-        None => directions(scale, &balanced, &range),
+    let mut list = match uneven {
+        true => crate::graded::summed(&rows, scale, &range),
+        false => directions(scale, &balanced, &range),
     };
     for kind in [DirectionKind::Rigid, DirectionKind::Free] {
         along_axes(&mut list, kind, scale);

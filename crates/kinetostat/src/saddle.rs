@@ -136,6 +136,18 @@ pub(crate) fn complement(a: &DMatrix<f64>) -> DMatrix<f64> {
     q.columns(k, n - k).into_owned()
 }
 
+/// The same of few columns in many rows, in a number of steps that grows with `n^2 k` only; a basis whose
+/// columns lie along no axes.
+pub(crate) fn complement_of_few(a: &DMatrix<f64>) -> DMatrix<f64> {
+    let (n, k) = a.shape();
+    if k >= n {
+        return DMatrix::zeros(n, 0);
+    }
+    let mut turned = DMatrix::identity(n, n);
+    a.clone().qr().q_tr_mul(&mut turned);
+    turned.rows(k, n - k).transpose()
+}
+
 /// Number of positive, negative and zero eigenvalues.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Inertia {

@@ -16,7 +16,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::Chain;
 use crate::divergence::diverging_motions;
-use crate::saddle::{Inertia, RANK_TOLERANCE, column_space, complement, inertia};
+use crate::krylov::largest_eigenvalues;
+use crate::saddle::{
+    Inertia, RANK_TOLERANCE, column_space, complement, complement_of_few, inertia,
+};
 use crate::stiffness::{balanced_jacobian, names_in, passive_null_space};
 use crate::sweep::Sweep;
 use crate::sweep_solve::EndMotions;
@@ -220,9 +223,11 @@ pub(crate) fn stability_within(
     taken_out
         .columns_mut(rank, neutral.ncols())
         .copy_from(&neutral);
-    let null = complement(&taken_out);
-    let a = null.transpose() * units.matrix(&hessian) * &null;
-    let b = null.transpose() * units.matrix(&springs) * &null;
+    let null = complement_of_few(&taken_out);
+    let stiffness = units.stiffness(springs);
+    let b = null.transpose() * stiffness * &null;
+    let motions = units.motions(null);
+    let a = motions.transpose() * &hessian * &motions;
     let (share_to_buckling, mode) = share_to_buckling(&a, &b);
     let mut stable = share_to_buckling.is_none_or(|mu| mu < 1.0);
     let mut unstable_modes = inertia.positive.saturating_sub(rank);
@@ -231,12 +236,12 @@ pub(crate) fn stability_within(
             0.5 * (system.hessian[(i, j)] - system.hessian[(j, i)])
                 * (factors[6 + i] * factors[6 + j])
         });
-        let turning = null.transpose() * units.matrix(&turning) * &null;
+        let turning = motions.transpose() * turning * &motions;
         unstable_modes = diverging_motions(&(b - a - turning), 0.0);
         stable = unstable_modes == 0;
     }
     let mode = mode.map_or_else(Vec::new, |v| {
-        let motion = units.motion(&null * v);
+        let motion = &motions * v;
         largest_one((0..n).map(|i| motion[i] * factors[6 + i]).collect())
     });
     ShapeStability {
@@ -272,21 +277,23 @@ impl MaterialUnits {
         }
     }
 
-    /// A matrix of stiffnesses: `L^-1 A L^-T`.
-    pub fn matrix(&self, a: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut half = a.clone();
-        self.gather(&mut half);
-        let mut whole = half.transpose();
-        self.gather(&mut whole);
-        whole.transpose()
+    /// The material stiffness itself: one, but for the blocks that keep their units.
+    pub fn stiffness(&self, mut springs: DMatrix<f64>) -> DMatrix<f64> {
+        for (first, l) in &self.0 {
+            let size = (l.nrows(), l.nrows());
+            springs
+                .view_mut((*first, *first), size)
+                .fill_with_identity();
+        }
+        springs
     }
 
-    /// A motion in these units as one of the coordinates: `L^-T y`.
-    pub fn motion(&self, mut y: DVector<f64>) -> DVector<f64> {
+    /// Motions in these units, one column each, as those of the coordinates: `L^-T y`.
+    pub fn motions(&self, mut motions: DMatrix<f64>) -> DMatrix<f64> {
         for (first, l) in &self.0 {
-            let _ = l.tr_solve_lower_triangular_mut(&mut y.rows_mut(*first, l.nrows()));
+            let _ = l.tr_solve_lower_triangular_mut(&mut motions.rows_mut(*first, l.nrows()));
         }
-        y
+        motions
     }
 }
 
@@ -317,6 +324,9 @@ pub(crate) fn neutral_motions(
 /// Share of the largest entry of the loads' Hessian that counts as nothing.
 const NEUTRAL: f64 = 1e-7;
 
+/// What products of orthonormal columns may differ from one by rounding.
+const ORTHONORMAL: f64 = 1e-13;
+
 /// Largest eigenvalue of the pencil `a v = mu b v`, `b` positive semi-definite, and its vector.
 pub(crate) fn share_to_buckling(
     a: &DMatrix<f64>,
@@ -325,7 +335,12 @@ pub(crate) fn share_to_buckling(
     if a.nrows() == 0 {
         return (None, None);
     }
-    // The usual case: every inner motion strains a spring.
+    // Without passive joints every inner motion has a material stiffness of one.
+    if b.is_identity(ORTHONORMAL) {
+        let (largest, modes) = largest_eigenvalues(&(0.5 * (a + a.transpose())), 1);
+        return (Some(largest[0]), Some(modes.column(0).into_owned()));
+    }
+    // The usual case otherwise: every inner motion strains a spring.
     if let Some(factor) = b.clone().cholesky().filter(|c| {
         let d = c.l_dirty().diagonal();
         d.min() > 1e-4 * d.max()

@@ -108,7 +108,8 @@ fn axis(random: &mut Random) -> Vec<f64> {
         0 => return vec![0.0],
         // A ridge one cell wide.
         1 => {
-            let (place, width) = (random.between(-SPACE, SPACE), random.between(0.5, 12.0));
+            let place = random.between(-SPACE, SPACE);
+            let width = 10_f64.powf(random.between(-3.0, 1.1));
             nodes.extend([place - width, place, place + width]);
         }
         // Even, as a pitch error is measured.

@@ -7,6 +7,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::{Lanes, minus};
 use super::loaded::{select, turned};
 use super::reach::{Target, turn_between};
@@ -29,34 +30,36 @@ impl<S: Simd> Machine<'_, S> {
         directions: &[bool; 6],
         good: Lanes<S>,
     ) -> Lanes<S> {
-        let zero = Lanes::new(simd, 0.0);
-        let mut miss = minus(&aim.point, &self.point);
-        let mut most = zero;
-        for k in 0..3 {
-            if !directions[k] {
-                miss[k] = zero;
+        apart!(simd, {
+            let zero = Lanes::new(simd, 0.0);
+            let mut miss = minus(&aim.point, &self.point);
+            let mut most = zero;
+            for k in 0..3 {
+                if !directions[k] {
+                    miss[k] = zero;
+                }
+                most = most.max(miss[k].abs() * (1.0 / self.nominal[0].length));
             }
-            most = most.max(miss[k].abs() * (1.0 / self.nominal[0].length));
-        }
-        let mut turn = [zero; 3];
-        if directions[3] {
-            turn = turn_between(&aim.rotation, &self.rotation);
-            for x in &turn {
-                most = most.max(x.abs());
+            let mut turn = [zero; 3];
+            if directions[3] {
+                turn = turn_between(&aim.rotation, &self.rotation);
+                for x in &turn {
+                    most = most.max(x.abs());
+                }
             }
-        }
-        let able = (zero + REGULAR).where_less(good, zero + 1.0, zero);
-        let off = (zero + OFF).where_less(most, able, zero);
-        for k in 0..3 {
-            let moved = self.target.point[k] + miss[k];
-            self.target.point[k] = select(off, moved, self.target.point[k]);
-        }
-        if directions[3] {
-            let rotation = turned(&turn, &self.target.rotation);
-            for k in 0..9 {
-                self.target.rotation[k] = select(off, rotation[k], self.target.rotation[k]);
+            let able = (zero + REGULAR).where_less(good, zero + 1.0, zero);
+            let off = (zero + OFF).where_less(most, able, zero);
+            for k in 0..3 {
+                let moved = self.target.point[k] + miss[k];
+                self.target.point[k] = select(off, moved, self.target.point[k]);
             }
-        }
-        off
+            if directions[3] {
+                let rotation = turned(&turn, &self.target.rotation);
+                for k in 0..9 {
+                    self.target.rotation[k] = select(off, rotation[k], self.target.rotation[k]);
+                }
+            }
+            off
+        })
     }
 }

@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::Lanes;
 use super::symmetric::Symmetric;
 use super::unloaded::LimbStiffness;
@@ -38,46 +39,48 @@ impl<S: Simd> Eliminated<S> {
         compliance: &Symmetric<S>,
         columns: &[[Lanes<S>; 6]; 6],
     ) -> Self {
-        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-        let (d, m) = (d.min(6), m.min(d).min(6));
-        let nothing = [[zero; 6]; 6];
-        let mut own = Self {
-            d,
-            m,
-            v: nothing,
-            u: nothing,
-            r: *columns,
-            c: nothing,
-            l: nothing,
-            regular: one,
-        };
-        for i in 0..d {
-            for j in 0..d {
-                own.c[i][j] = compliance.get(i, j);
-            }
-        }
-        for k in 0..m {
-            own.reflect(simd, k);
-        }
-        // The last block as L L^T.
-        for j in m..d {
-            let diagonal = own.c[j][j];
-            let mut pivot = diagonal;
-            for k in m..j {
-                pivot = own.l[j][k].times_from(own.l[j][k], pivot);
-            }
-            own.regular = own.regular.least_of(pivot / diagonal.abs());
-            let reciprocal = one / pivot.sqrt();
-            own.l[j][j] = reciprocal;
-            for i in j + 1..d {
-                let mut x = own.c[i][j];
-                for k in m..j {
-                    x = own.l[i][k].times_from(own.l[j][k], x);
+        apart!(simd, {
+            let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+            let (d, m) = (d.min(6), m.min(d).min(6));
+            let nothing = [[zero; 6]; 6];
+            let mut own = Self {
+                d,
+                m,
+                v: nothing,
+                u: nothing,
+                r: *columns,
+                c: nothing,
+                l: nothing,
+                regular: one,
+            };
+            for i in 0..d {
+                for j in 0..d {
+                    own.c[i][j] = compliance.get(i, j);
                 }
-                own.l[i][j] = x * reciprocal;
             }
-        }
-        own
+            for k in 0..m {
+                own.reflect(simd, k);
+            }
+            // The last block as L L^T.
+            for j in m..d {
+                let diagonal = own.c[j][j];
+                let mut pivot = diagonal;
+                for k in m..j {
+                    pivot = own.l[j][k].times_from(own.l[j][k], pivot);
+                }
+                own.regular = own.regular.least_of(pivot / diagonal.abs());
+                let reciprocal = one / pivot.sqrt();
+                own.l[j][j] = reciprocal;
+                for i in j + 1..d {
+                    let mut x = own.c[i][j];
+                    for k in m..j {
+                        x = own.l[i][k].times_from(own.l[j][k], x);
+                    }
+                    own.l[i][j] = x * reciprocal;
+                }
+            }
+            own
+        })
     }
 
     /// Reflection `k`: of the columns and of the compliance.
@@ -210,47 +213,49 @@ impl<S: Simd> Eliminated<S> {
         torque: &[Lanes<S>],
         joints: &mut [Lanes<S>],
     ) -> [Lanes<S>; 6] {
-        let zero = Lanes::new(simd, 0.0);
-        let (d, m) = (self.d, self.m);
-        let g = self.reflected(motion);
-        let mut w = [zero; 6];
-        // R^T w_1 = torque.
-        for k in 0..m {
-            let mut x = torque[k];
-            for i in 0..k {
-                x = self.r[k][i].times_from(w[i], x);
-            }
-            w[k] = x / self.r[k][k];
-        }
-        // L L^T w_2 = g_2 - C_21 w_1.
-        for i in m..d {
-            let mut x = g[i];
+        apart!(simd, {
+            let zero = Lanes::new(simd, 0.0);
+            let (d, m) = (self.d, self.m);
+            let g = self.reflected(motion);
+            let mut w = [zero; 6];
+            // R^T w_1 = torque.
             for k in 0..m {
-                x = self.c[i][k].times_from(w[k], x);
+                let mut x = torque[k];
+                for i in 0..k {
+                    x = self.r[k][i].times_from(w[i], x);
+                }
+                w[k] = x / self.r[k][k];
             }
-            for k in m..i {
-                x = self.l[i][k].times_from(w[k], x);
+            // L L^T w_2 = g_2 - C_21 w_1.
+            for i in m..d {
+                let mut x = g[i];
+                for k in 0..m {
+                    x = self.c[i][k].times_from(w[k], x);
+                }
+                for k in m..i {
+                    x = self.l[i][k].times_from(w[k], x);
+                }
+                w[i] = x * self.l[i][i];
             }
-            w[i] = x * self.l[i][i];
-        }
-        for i in (m..d).rev() {
-            let mut x = w[i];
-            for k in i + 1..d {
-                x = self.l[k][i].times_from(w[k], x);
+            for i in (m..d).rev() {
+                let mut x = w[i];
+                for k in i + 1..d {
+                    x = self.l[k][i].times_from(w[k], x);
+                }
+                w[i] = x * self.l[i][i];
             }
-            w[i] = x * self.l[i][i];
-        }
-        // R dq = g_1 - C_1. w.
-        for k in (0..m).rev() {
-            let mut x = g[k];
-            for j in 0..d {
-                x = self.c[k][j].times_from(w[j], x);
+            // R dq = g_1 - C_1. w.
+            for k in (0..m).rev() {
+                let mut x = g[k];
+                for j in 0..d {
+                    x = self.c[k][j].times_from(w[j], x);
+                }
+                for j in k + 1..m {
+                    x = self.r[j][k].times_from(joints[j], x);
+                }
+                joints[k] = x / self.r[k][k];
             }
-            for j in k + 1..m {
-                x = self.r[j][k].times_from(joints[j], x);
-            }
-            joints[k] = x / self.r[k][k];
-        }
-        self.reflected_back(w)
+            self.reflected_back(w)
+        })
     }
 }

@@ -6,6 +6,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::Lanes;
 use super::plan::Plan;
 use super::tangent::Mat6;
@@ -15,109 +16,111 @@ type Mat12<S> = [[Lanes<S>; 12]; 12];
 /// Stiffness from `[D E; G H]` (column by column, spoilt), and the smallest relative pivot.
 #[inline(always)]
 pub(super) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>, Lanes<S>) {
-    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-    let joints = plan.passive.len().min(6);
-    let width = 6 + joints;
-    // Rotations count as motions at the natural length.
-    let unit = 1.0 / plan.length;
-    for c in 0..width {
-        for k in 0..3 {
-            z[c][k] = z[c][k] * unit;
-        }
-    }
-    for c in 0..3 {
-        for r in 0..width {
-            z[c][r] = z[c][r] * unit;
-        }
-    }
-    let mut regular = one;
-    let (mut v, mut u) = ([[zero; 6]; 6], [[zero; 6]; 6]);
-    for k in 0..joints {
-        let column = z[6 + k];
-        let (mut whole, mut rest) = (zero, zero);
-        for i in 0..6 {
-            whole = column[i].times_plus(column[i], whole);
-            if i >= k {
-                rest = column[i].times_plus(column[i], rest);
-            }
-        }
-        regular = regular.least_of(rest / whole);
-        let norm = rest.sqrt();
-        let signed = column[k].where_less(zero, -norm, norm);
-        v[k][k..].copy_from_slice(&column[k..6]);
-        v[k][k] = column[k] + signed;
-        let scale = one / (signed * v[k][k]);
-        for i in k..6 {
-            u[k][i] = v[k][i] * scale;
-        }
+    apart!(simd, {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let joints = plan.passive.len().min(6);
+        let width = 6 + joints;
+        // Rotations count as motions at the natural length.
+        let unit = 1.0 / plan.length;
         for c in 0..width {
-            let mut along = zero;
+            for k in 0..3 {
+                z[c][k] = z[c][k] * unit;
+            }
+        }
+        for c in 0..3 {
+            for r in 0..width {
+                z[c][r] = z[c][r] * unit;
+            }
+        }
+        let mut regular = one;
+        let (mut v, mut u) = ([[zero; 6]; 6], [[zero; 6]; 6]);
+        for k in 0..joints {
+            let column = z[6 + k];
+            let (mut whole, mut rest) = (zero, zero);
+            for i in 0..6 {
+                whole = column[i].times_plus(column[i], whole);
+                if i >= k {
+                    rest = column[i].times_plus(column[i], rest);
+                }
+            }
+            regular = regular.least_of(rest / whole);
+            let norm = rest.sqrt();
+            let signed = column[k].where_less(zero, -norm, norm);
+            v[k][k..].copy_from_slice(&column[k..6]);
+            v[k][k] = column[k] + signed;
+            let scale = one / (signed * v[k][k]);
             for i in k..6 {
-                along = u[k][i].times_plus(z[c][i], along);
+                u[k][i] = v[k][i] * scale;
             }
-            for i in k..6 {
-                z[c][i] = along.times_from(v[k][i], z[c][i]);
+            for c in 0..width {
+                let mut along = zero;
+                for i in k..6 {
+                    along = u[k][i].times_plus(z[c][i], along);
+                }
+                for i in k..6 {
+                    z[c][i] = along.times_from(v[k][i], z[c][i]);
+                }
             }
-        }
-        for r in 0..width {
-            let mut along = zero;
-            for i in k..6 {
-                along = u[k][i].times_plus(z[i][r], along);
-            }
-            for i in k..6 {
-                z[i][r] = along.times_from(v[k][i], z[i][r]);
-            }
-        }
-    }
-    let mut m = [[zero; 12]; 12];
-    let mut x = [[zero; 6]; 12];
-    for p in 0..width {
-        // Rows: motions along the joints, their torques, the other motions.
-        let row = if p < joints {
-            p
-        } else if p < 2 * joints {
-            6 + p - joints
-        } else {
-            p - joints
-        };
-        for q in 0..width {
-            let column = if q < joints { 6 + q } else { q - joints };
-            m[p][q] = z[column][row];
-        }
-        if row < 6 {
-            x[p][row] = one;
-        }
-    }
-    regular = regular.least_of(solve(simd, joints, width, &mut m, &mut x));
-    let mut k = [[zero; 6]; 6];
-    k.copy_from_slice(&x[joints..width]);
-    for j in (0..joints).rev() {
-        for c in 0..6 {
-            let mut column = zero;
-            for i in j..6 {
-                column = u[j][i].times_plus(k[i][c], column);
-            }
-            for i in j..6 {
-                k[i][c] = column.times_from(v[j][i], k[i][c]);
+            for r in 0..width {
+                let mut along = zero;
+                for i in k..6 {
+                    along = u[k][i].times_plus(z[i][r], along);
+                }
+                for i in k..6 {
+                    z[i][r] = along.times_from(v[k][i], z[i][r]);
+                }
             }
         }
-        for r in 0..6 {
-            let mut row = zero;
-            for i in j..6 {
-                row = u[j][i].times_plus(k[r][i], row);
+        let mut m = [[zero; 12]; 12];
+        let mut x = [[zero; 6]; 12];
+        for p in 0..width {
+            // Rows: motions along the joints, their torques, the other motions.
+            let row = if p < joints {
+                p
+            } else if p < 2 * joints {
+                6 + p - joints
+            } else {
+                p - joints
+            };
+            for q in 0..width {
+                let column = if q < joints { 6 + q } else { q - joints };
+                m[p][q] = z[column][row];
             }
-            for i in j..6 {
-                k[r][i] = row.times_from(v[j][i], k[r][i]);
+            if row < 6 {
+                x[p][row] = one;
             }
         }
-    }
-    for i in 0..6 {
-        for j in 0..3 {
-            k[i][j] = k[i][j] * unit;
-            k[j][i] = k[j][i] * unit;
+        regular = regular.least_of(solve(simd, joints, width, &mut m, &mut x));
+        let mut k = [[zero; 6]; 6];
+        k.copy_from_slice(&x[joints..width]);
+        for j in (0..joints).rev() {
+            for c in 0..6 {
+                let mut column = zero;
+                for i in j..6 {
+                    column = u[j][i].times_plus(k[i][c], column);
+                }
+                for i in j..6 {
+                    k[i][c] = column.times_from(v[j][i], k[i][c]);
+                }
+            }
+            for r in 0..6 {
+                let mut row = zero;
+                for i in j..6 {
+                    row = u[j][i].times_plus(k[r][i], row);
+                }
+                for i in j..6 {
+                    k[r][i] = row.times_from(v[j][i], k[r][i]);
+                }
+            }
         }
-    }
-    (k, regular)
+        for i in 0..6 {
+            for j in 0..3 {
+                k[i][j] = k[i][j] * unit;
+                k[j][i] = k[j][i] * unit;
+            }
+        }
+        (k, regular)
+    })
 }
 
 /// `M X = B` in place without pivoting, `X` from row `joints` on; the smallest relative pivot: of the

@@ -70,6 +70,12 @@ impl<S: Simd> Lanes<S> {
         }
     }
 
+    /// The instruction set.
+    #[inline(always)]
+    pub fn simd(self) -> S {
+        self.simd
+    }
+
     /// The first numbers of a slice, one per lane.
     #[inline(always)]
     pub fn load(simd: S, from: &[f64]) -> Self {

@@ -3,6 +3,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::dual::{Dual, Number, inner, outer};
 use super::lanes::Lanes;
 use super::symmetric::Symmetric;
@@ -20,29 +21,31 @@ pub(super) fn parallelogram<S: Simd>(
     law: &ParallelogramLaw,
     inclination: Lanes<S>,
 ) -> Symmetric<S> {
-    let k = &law.bar;
-    let square = law.width * law.width;
-    let (s, c) = inclination.sin_cos();
-    let one = Lanes::new(simd, 1.0);
-    // Stiffnesses of the pair: y with rz, rx with rz; the others alone.
-    let yy = one * (2.0 * k[(1, 1)]);
-    let y_rz = one * (2.0 * k[(1, 5)]);
-    let rx = (c * c).times_plus(one * (square * k[(1, 1)] / 2.0), one * (2.0 * k[(3, 3)]));
-    let rx_rz = s * c * (square * k[(1, 1)] / 2.0);
-    let rz = (s * s).times_plus(one * (square * k[(1, 1)] / 2.0), one * (2.0 * k[(5, 5)]));
-    // Inverse of [yy, 0, y_rz; 0, rx, rx_rz; y_rz, rx_rz, rz] by elimination of y and rx.
-    let (a, b) = (y_rz / yy, rx_rz / rx);
-    let last = one / rx_rz.times_from(b, y_rz.times_from(a, rz));
-    let mut out = Symmetric::zero(simd);
-    out.set(0, 0, one / (2.0 * k[(0, 0)]));
-    out.set(4, 4, one / (c * c * (square * k[(0, 0)] / 2.0)));
-    out.set(5, 5, last);
-    out.set(1, 5, -(a * last));
-    out.set(3, 5, -(b * last));
-    out.set(1, 3, a * b * last);
-    out.set(1, 1, (a * a).times_plus(last, one / yy));
-    out.set(3, 3, (b * b).times_plus(last, one / rx));
-    out
+    apart!(simd, {
+        let k = &law.bar;
+        let square = law.width * law.width;
+        let (s, c) = inclination.sin_cos();
+        let one = Lanes::new(simd, 1.0);
+        // Stiffnesses of the pair: y with rz, rx with rz; the others alone.
+        let yy = one * (2.0 * k[(1, 1)]);
+        let y_rz = one * (2.0 * k[(1, 5)]);
+        let rx = (c * c).times_plus(one * (square * k[(1, 1)] / 2.0), one * (2.0 * k[(3, 3)]));
+        let rx_rz = s * c * (square * k[(1, 1)] / 2.0);
+        let rz = (s * s).times_plus(one * (square * k[(1, 1)] / 2.0), one * (2.0 * k[(5, 5)]));
+        // Inverse of [yy, 0, y_rz; 0, rx, rx_rz; y_rz, rx_rz, rz] by elimination of y and rx.
+        let (a, b) = (y_rz / yy, rx_rz / rx);
+        let last = one / rx_rz.times_from(b, y_rz.times_from(a, rz));
+        let mut out = Symmetric::zero(simd);
+        out.set(0, 0, one / (2.0 * k[(0, 0)]));
+        out.set(4, 4, one / (c * c * (square * k[(0, 0)] / 2.0)));
+        out.set(5, 5, last);
+        out.set(1, 5, -(a * last));
+        out.set(3, 5, -(b * last));
+        out.set(1, 3, a * b * last);
+        out.set(1, 1, (a * a).times_plus(last, one / yy));
+        out.set(3, 3, (b * b).times_plus(last, one / rx));
+        out
+    })
 }
 
 /// Torques of a beam segment of the given length at a deflection (m, rad; translations before
@@ -199,32 +202,34 @@ pub(super) fn bowing_tangent<S: Simd>(
     length: f64,
     at: &[Lanes<S>; 6],
 ) -> Mat6<S> {
-    let along = by_turns(at);
-    let bent = Bent::at(length, &along);
-    let force = bent.force(stiffness);
-    let mut out = symmetric(&bent.torque(&force));
-    // Of the axis' strain by x, y and z.
-    let ([y, z], _) = bent.stretches();
-    let first = [at[0].same(1.0), y.value, z.value];
-    for i in 0..3 {
-        for j in 0..3 {
-            let mut sum = first[i] * first[j] * stiffness[0];
-            if j > 0 {
-                sum = sum + first[i] * stiffness[j];
+    apart!(at[0].simd(), {
+        let along = by_turns(at);
+        let bent = Bent::at(length, &along);
+        let force = bent.force(stiffness);
+        let mut out = symmetric(&bent.torque(&force));
+        // Of the axis' strain by x, y and z.
+        let ([y, z], _) = bent.stretches();
+        let first = [at[0].same(1.0), y.value, z.value];
+        for i in 0..3 {
+            for j in 0..3 {
+                let mut sum = first[i] * first[j] * stiffness[0];
+                if j > 0 {
+                    sum = sum + first[i] * stiffness[j];
+                }
+                if i > 0 {
+                    sum = sum + first[j] * stiffness[6 * i];
+                }
+                if i > 0 && j > 0 {
+                    sum = sum + stiffness[6 * i + j];
+                }
+                if i > 0 && i == j {
+                    sum = sum + force[0].value * (1.2 / length);
+                }
+                out[i][j] = sum;
             }
-            if i > 0 {
-                sum = sum + first[j] * stiffness[6 * i];
-            }
-            if i > 0 && j > 0 {
-                sum = sum + stiffness[6 * i + j];
-            }
-            if i > 0 && i == j {
-                sum = sum + force[0].value * (1.2 / length);
-            }
-            out[i][j] = sum;
         }
-    }
-    out
+        out
+    })
 }
 
 /// Geometric stiffness of a beam segment at a deflection, which its forces add to the tangent, and the
@@ -235,37 +240,39 @@ pub(super) fn bowing_geometric<S: Simd>(
     length: f64,
     at: &[Lanes<S>; 6],
 ) -> (Mat6<S>, Mat6<S>) {
-    let (zero, one) = (at[0].same(0.0), at[0].same(1.0));
-    let along = by_turns(at);
-    let bent = Bent::at(length, &along);
-    let held = bent.force(stiffness).map(|force| Dual {
-        value: force.value,
-        rate: [zero; 3],
-    });
-    let mut geometric = symmetric(&bent.torque(&held));
-    for i in 1..3 {
-        geometric[i][i] = held[0].value * (1.2 / length);
-    }
-    let (across, turning) = bent.stretches();
-    let r: [[Lanes<S>; 3]; 3] = std::array::from_fn(|i| bent.strain[3 + i].rate);
-    let minor = |i: usize, j: usize| {
-        let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-        r[a][c] * r[b][d] - r[a][d] * r[b][c]
-    };
-    let whole = r[0][0] * minor(0, 0) + r[0][1] * minor(0, 1) + r[0][2] * minor(0, 2);
-    let per = one / whole;
-    let mut inverse = [[zero; 6]; 6];
-    for i in 0..3 {
-        inverse[i][i] = one;
-        for j in 0..3 {
-            inverse[3 + i][3 + j] = minor(j, i) * per;
+    apart!(at[0].simd(), {
+        let (zero, one) = (at[0].same(0.0), at[0].same(1.0));
+        let along = by_turns(at);
+        let bent = Bent::at(length, &along);
+        let held = bent.force(stiffness).map(|force| Dual {
+            value: force.value,
+            rate: [zero; 3],
+        });
+        let mut geometric = symmetric(&bent.torque(&held));
+        for i in 1..3 {
+            geometric[i][i] = held[0].value * (1.2 / length);
         }
-    }
-    for k in 0..2 {
-        inverse[0][1 + k] = -across[k].value;
-        inverse[0][4 + k] = -turning[k].value;
-    }
-    (geometric, inverse)
+        let (across, turning) = bent.stretches();
+        let r: [[Lanes<S>; 3]; 3] = std::array::from_fn(|i| bent.strain[3 + i].rate);
+        let minor = |i: usize, j: usize| {
+            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            r[a][c] * r[b][d] - r[a][d] * r[b][c]
+        };
+        let whole = r[0][0] * minor(0, 0) + r[0][1] * minor(0, 1) + r[0][2] * minor(0, 2);
+        let per = one / whole;
+        let mut inverse = [[zero; 6]; 6];
+        for i in 0..3 {
+            inverse[i][i] = one;
+            for j in 0..3 {
+                inverse[3 + i][3 + j] = minor(j, i) * per;
+            }
+        }
+        for k in 0..2 {
+            inverse[0][1 + k] = -across[k].value;
+            inverse[0][4 + k] = -turning[k].value;
+        }
+        (geometric, inverse)
+    })
 }
 
 /// `asin(s) / s` in powers of `s^2`, highest first: `(2k)! / (4^k k!^2 (2k + 1))`.

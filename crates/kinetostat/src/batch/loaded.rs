@@ -11,6 +11,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::eliminate::Eliminated;
 use super::lanes::{
     Lanes, Mat3, Vec3, carried, column, constant, cross, dot, identity, minus, product,
@@ -152,68 +153,70 @@ impl<S: Simd> LoadedLimb<S> {
 
     #[inline(always)]
     fn walk<const PLACES: bool>(&mut self, plan: &Plan, gravity: &[f64; 3]) {
-        let simd = self.simd;
-        let mut r = identity(simd);
-        let mut p = [Lanes::new(simd, 0.0); 3];
-        let mut mass = 0;
-        for step in &plan.steps {
-            match step {
-                Step::Shift(l) => shift(&r, l, &mut p),
-                Step::Rotate(by) => r = product(&r, &matrix(simd, by)),
-                Step::Joint(joint) => {
-                    if PLACES {
-                        self.places[joint.screw] = Place {
-                            axis: column_of(&r, joint.axis),
-                            origin: p,
+        apart!(self.simd, {
+            let simd = self.simd;
+            let mut r = identity(simd);
+            let mut p = [Lanes::new(simd, 0.0); 3];
+            let mut mass = 0;
+            for step in &plan.steps {
+                match step {
+                    Step::Shift(l) => shift(&r, l, &mut p),
+                    Step::Rotate(by) => r = product(&r, &matrix(simd, by)),
+                    Step::Joint(joint) => {
+                        if PLACES {
+                            self.places[joint.screw] = Place {
+                                axis: column_of(&r, joint.axis),
+                                origin: p,
+                            };
+                        }
+                        let coordinate = match joint.amount.coordinate {
+                            Some((own, _)) => Some(self.coordinates[own]),
+                            None => None,
                         };
-                    }
-                    let coordinate = match joint.amount.coordinate {
-                        Some((own, _)) => Some(self.coordinates[own]),
-                        None => None,
-                    };
-                    let amount = amount(simd, &joint.amount, &self.commands, coordinate);
-                    match joint.kind {
-                        MotionKind::Revolute => {
-                            let (s, c) = amount.sin_cos();
-                            self.moved[joint.screw] = [s, c];
-                            match joint.axis {
-                                0 => turn_columns::<S, 0>(&mut r, s, c),
-                                1 => turn_columns::<S, 1>(&mut r, s, c),
-                                _ => turn_columns::<S, 2>(&mut r, s, c),
+                        let amount = amount(simd, &joint.amount, &self.commands, coordinate);
+                        match joint.kind {
+                            MotionKind::Revolute => {
+                                let (s, c) = amount.sin_cos();
+                                self.moved[joint.screw] = [s, c];
+                                match joint.axis {
+                                    0 => turn_columns::<S, 0>(&mut r, s, c),
+                                    1 => turn_columns::<S, 1>(&mut r, s, c),
+                                    _ => turn_columns::<S, 2>(&mut r, s, c),
+                                }
                             }
-                        }
-                        MotionKind::Prismatic => {
-                            self.moved[joint.screw][0] = amount;
-                            let axis = column_of(&r, joint.axis);
-                            for k in 0..3 {
-                                p[k] = axis[k].times_plus(amount, p[k]);
+                            MotionKind::Prismatic => {
+                                self.moved[joint.screw][0] = amount;
+                                let axis = column_of(&r, joint.axis);
+                                for k in 0..3 {
+                                    p[k] = axis[k].times_plus(amount, p[k]);
+                                }
                             }
                         }
                     }
-                }
-                Step::Spring(spring) if self.bent || PLACES => {
-                    self.spring::<PLACES>(spring, &mut r, &mut p);
-                }
-                Step::Spring(_) => {}
-                Step::Mass { at, .. } => {
-                    let mut own = [Lanes::new(simd, 0.0); 3];
-                    for k in 0..3 {
-                        if gravity[k] != 0.0 {
-                            let g = Lanes::new(simd, gravity[k]);
-                            for i in 0..3 {
-                                own[i] = r[3 * k + i].times_plus(g, own[i]);
+                    Step::Spring(spring) if self.bent || PLACES => {
+                        self.spring::<PLACES>(spring, &mut r, &mut p);
+                    }
+                    Step::Spring(_) => {}
+                    Step::Mass { at, .. } => {
+                        let mut own = [Lanes::new(simd, 0.0); 3];
+                        for k in 0..3 {
+                            if gravity[k] != 0.0 {
+                                let g = Lanes::new(simd, gravity[k]);
+                                for i in 0..3 {
+                                    own[i] = r[3 * k + i].times_plus(g, own[i]);
+                                }
                             }
                         }
+                        self.gravity[mass] = own;
+                        if PLACES {
+                            self.masses[mass] = carried(&r, &constant(simd, at), &p);
+                        }
+                        mass += 1;
                     }
-                    self.gravity[mass] = own;
-                    if PLACES {
-                        self.masses[mass] = carried(&r, &constant(simd, at), &p);
-                    }
-                    mass += 1;
                 }
             }
-        }
-        (self.rotation, self.point) = (r, p);
+            (self.rotation, self.point) = (r, p);
+        })
     }
 
     #[inline(always)]
@@ -261,38 +264,40 @@ impl<S: Simd> LoadedLimb<S> {
     /// follow in the lanes where `active` is one.
     #[inline(always)]
     pub fn inwards(&mut self, plan: &Plan, active: Lanes<S>) {
-        let zero = Lanes::new(self.simd, 0.0);
-        let (mut force, mut moment) = self.at_tip();
-        let mut tally = Tally {
-            size: zero,
-            change: zero,
-            largest: zero,
-        };
-        let (mut mass, mut law) = (self.gravity.len(), self.laws.len());
-        for step in plan.steps.iter().rev() {
-            match step {
-                Step::Mass { at, mass: m } => {
-                    mass -= 1;
-                    self.weight(mass, at, *m, &mut force, &mut moment);
-                }
-                Step::Shift(l) => lever(l, &force, &mut moment),
-                Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
-                Step::Joint(joint) => {
-                    let torque = self.joint_bears(joint, &mut force, &mut moment);
-                    self.joint_follows(joint, torque, active, &mut tally);
-                }
-                Step::Spring(spring) => {
-                    if matches!(spring.law, Law::Parallelogram(..)) {
-                        law -= 1;
+        apart!(self.simd, {
+            let zero = Lanes::new(self.simd, 0.0);
+            let (mut force, mut moment) = self.at_tip();
+            let mut tally = Tally {
+                size: zero,
+                change: zero,
+                largest: zero,
+            };
+            let (mut mass, mut law) = (self.gravity.len(), self.laws.len());
+            for step in plan.steps.iter().rev() {
+                match step {
+                    Step::Mass { at, mass: m } => {
+                        mass -= 1;
+                        self.weight(mass, at, *m, &mut force, &mut moment);
                     }
-                    let torque = self.spring_bears(spring, &mut force, &mut moment);
-                    self.spring_follows(spring, law, torque, active, &mut tally);
+                    Step::Shift(l) => lever(l, &force, &mut moment),
+                    Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
+                    Step::Joint(joint) => {
+                        let torque = self.joint_bears(joint, &mut force, &mut moment);
+                        self.joint_follows(joint, torque, active, &mut tally);
+                    }
+                    Step::Spring(spring) => {
+                        if matches!(spring.law, Law::Parallelogram(..)) {
+                            law -= 1;
+                        }
+                        let torque = self.spring_bears(spring, &mut force, &mut moment);
+                        self.spring_follows(spring, law, torque, active, &mut tally);
+                    }
                 }
             }
-        }
-        self.before = self.tally.change;
-        self.tally = tally;
-        self.bent = true;
+            self.before = self.tally.change;
+            self.tally = tally;
+            self.bent = true;
+        })
     }
 
     /// Force and moment of the platform on the tip, in the axes and about the origin of the frame there.
@@ -636,34 +641,36 @@ pub(super) fn serial<S: Simd>(
     wrench: [Lanes<S>; 6],
     gravity: &[f64; 3],
 ) -> Lanes<S> {
-    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-    let (mut active, mut lost) = (one, zero);
-    limb.wrench = wrench;
-    for pass in 0..=MOST_PASSES {
-        limb.outwards(plan, gravity);
-        if pass == MOST_PASSES || active.all_less(0.5) {
-            break;
+    apart!(simd, {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let (mut active, mut lost) = (one, zero);
+        limb.wrench = wrench;
+        for pass in 0..=MOST_PASSES {
+            limb.outwards(plan, gravity);
+            if pass == MOST_PASSES || active.all_less(0.5) {
+                break;
+            }
+            limb.inwards(plan, active);
+            active = active * limb.moving(zero);
+            if pass > 0 {
+                let most = limb.before * (MOST_CONTRACTION * MOST_CONTRACTION);
+                lost = select(active, most.where_less(limb.tally.change, one, zero), lost);
+                active = active * (one - lost);
+            }
         }
-        limb.inwards(plan, active);
-        active = active * limb.moving(zero);
-        if pass > 0 {
-            let most = limb.before * (MOST_CONTRACTION * MOST_CONTRACTION);
-            lost = select(active, most.where_less(limb.tally.change, one, zero), lost);
-            active = active * (one - lost);
+        let done = (one - active) * (one - lost) * limb.sound(plan, MOST_TURN);
+        if (one - done).all_less(0.5) || !plan.has_tangent() {
+            return done;
         }
-    }
-    let done = (one - active) * (one - lost) * limb.sound(plan, MOST_TURN);
-    if (one - done).all_less(0.5) || !plan.has_tangent() {
-        return done;
-    }
-    if newton.is_none() {
-        *newton = Some(Newton::new(simd, plan));
-    }
-    let Some(newton) = newton else {
-        return done;
-    };
-    let found = newton.settle(plan, limb, gravity, one - done);
-    done + found * limb.sound(plan, MOST_TURN_FAR)
+        if newton.is_none() {
+            *newton = Some(Newton::new(simd, plan));
+        }
+        let Some(newton) = newton else {
+            return done;
+        };
+        let found = newton.settle(plan, limb, gravity, one - done);
+        done + found * limb.sound(plan, MOST_TURN_FAR)
+    })
 }
 
 /// Limbs that hold one platform.
@@ -709,75 +716,77 @@ impl<S: Simd> Held6<'_, S> {
 
     #[inline(always)]
     fn pass(&mut self, simd: S, wrench: &[Lanes<S>; 6], active: Lanes<S>) -> Lanes<S> {
-        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-        let mut moving = zero;
-        // What the limbs lack, to first order, with the platform where it is.
-        let mut weight = constant(simd, &self.gravity);
-        for x in &mut weight {
-            *x = *x * self.body.1;
-        }
-        let arm = carried(&self.rotation, &constant(simd, &self.body.0), &[zero; 3]);
-        let lever = cross(&arm, &weight);
-        let mut lacks = *wrench;
-        for k in 0..3 {
-            lacks[k] = lacks[k] + weight[k];
-            lacks[3 + k] = lacks[3 + k] + lever[k];
-        }
-        for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
-            let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
-            limb.clear(plan);
-            limb.inwards(plan, active);
-            limb.outwards(plan, &self.gravity);
-            let gap = gap(limb, plan, &self.rotation, &self.point);
-            for x in gap {
-                // A share of the natural length, or rad.
-                moving = (one * TOLERANCE).where_less(x.abs(), one, moving);
+        apart!(simd, {
+            let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+            let mut moving = zero;
+            // What the limbs lack, to first order, with the platform where it is.
+            let mut weight = constant(simd, &self.gravity);
+            for x in &mut weight {
+                *x = *x * self.body.1;
             }
-            // On every coordinate, N or N m.
-            let torques = noise * noise * (limb.coordinates.len() as f64);
-            let rounding = torques * (1.0 + 1.0 / (plan.length * plan.length));
-            moving = moving.max(limb.moving(rounding));
-            let (step, _) = correction(simd, limb, plan, factors, gap);
-            for k in 0..6 {
-                lacks[k] = lacks[k] - limb.wrench[k] - step[k];
-            }
-        }
-        let motion = self.compliance.times(&lacks);
-        for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
-            let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
-            let mut gap = gap(limb, plan, &self.rotation, &self.point);
+            let arm = carried(&self.rotation, &constant(simd, &self.body.0), &[zero; 3]);
+            let lever = cross(&arm, &weight);
+            let mut lacks = *wrench;
             for k in 0..3 {
-                gap[k] = motion[k].times_plus(one * (1.0 / plan.length), gap[k]);
-                gap[3 + k] = gap[3 + k] + motion[3 + k];
+                lacks[k] = lacks[k] + weight[k];
+                lacks[3 + k] = lacks[3 + k] + lever[k];
             }
-            let (step, joints) = correction(simd, limb, plan, factors, gap);
-            let (mut change, mut size) = (zero, zero);
-            for k in 0..6 {
-                let unit = if k < 3 { plan.length } else { 1.0 };
-                let (x, w) = (step[k] * unit, (limb.wrench[k] + step[k]) * unit);
-                change = x.times_plus(x, change);
-                size = w.times_plus(w, size);
+            for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
+                let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
+                limb.clear(plan);
+                limb.inwards(plan, active);
+                limb.outwards(plan, &self.gravity);
+                let gap = gap(limb, plan, &self.rotation, &self.point);
+                for x in gap {
+                    // A share of the natural length, or rad.
+                    moving = (one * TOLERANCE).where_less(x.abs(), one, moving);
+                }
+                // On every coordinate, N or N m.
+                let torques = noise * noise * (limb.coordinates.len() as f64);
+                let rounding = torques * (1.0 + 1.0 / (plan.length * plan.length));
+                moving = moving.max(limb.moving(rounding));
+                let (step, _) = correction(simd, limb, plan, factors, gap);
+                for k in 0..6 {
+                    lacks[k] = lacks[k] - limb.wrench[k] - step[k];
+                }
             }
-            // What a gap of rounding makes of wrenches is rounding too: limbs that brace each other
-            // know their inner forces no better.
-            let allowed = (size * (TOLERANCE * TOLERANCE)).max(noise * noise);
-            moving = allowed.where_less(change, one, moving);
-            for k in 0..6 {
-                limb.wrench[k] = select(active, limb.wrench[k] + step[k], limb.wrench[k]);
+            let motion = self.compliance.times(&lacks);
+            for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
+                let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
+                let mut gap = gap(limb, plan, &self.rotation, &self.point);
+                for k in 0..3 {
+                    gap[k] = motion[k].times_plus(one * (1.0 / plan.length), gap[k]);
+                    gap[3 + k] = gap[3 + k] + motion[3 + k];
+                }
+                let (step, joints) = correction(simd, limb, plan, factors, gap);
+                let (mut change, mut size) = (zero, zero);
+                for k in 0..6 {
+                    let unit = if k < 3 { plan.length } else { 1.0 };
+                    let (x, w) = (step[k] * unit, (limb.wrench[k] + step[k]) * unit);
+                    change = x.times_plus(x, change);
+                    size = w.times_plus(w, size);
+                }
+                // What a gap of rounding makes of wrenches is rounding too: limbs that brace each other
+                // know their inner forces no better.
+                let allowed = (size * (TOLERANCE * TOLERANCE)).max(noise * noise);
+                moving = allowed.where_less(change, one, moving);
+                for k in 0..6 {
+                    limb.wrench[k] = select(active, limb.wrench[k] + step[k], limb.wrench[k]);
+                }
+                for (own, dq) in plan.passive.iter().zip(joints) {
+                    let x = limb.coordinates[*own];
+                    limb.coordinates[*own] = select(active, x + dq, x);
+                }
             }
-            for (own, dq) in plan.passive.iter().zip(joints) {
-                let x = limb.coordinates[*own];
-                limb.coordinates[*own] = select(active, x + dq, x);
+            let turned = turned(&[motion[3], motion[4], motion[5]], &self.rotation);
+            for k in 0..3 {
+                self.point[k] = select(active, self.point[k] + motion[k], self.point[k]);
             }
-        }
-        let turned = turned(&[motion[3], motion[4], motion[5]], &self.rotation);
-        for k in 0..3 {
-            self.point[k] = select(active, self.point[k] + motion[k], self.point[k]);
-        }
-        for k in 0..9 {
-            self.rotation[k] = select(active, turned[k], self.rotation[k]);
-        }
-        active * moving
+            for k in 0..9 {
+                self.rotation[k] = select(active, turned[k], self.rotation[k]);
+            }
+            active * moving
+        })
     }
 }
 

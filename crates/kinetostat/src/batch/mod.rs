@@ -11,6 +11,7 @@
 //! threads or the width of the vectors.
 
 mod actuators;
+mod apart;
 mod compensate;
 mod dual;
 mod eliminate;

@@ -21,6 +21,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::{Lanes, Vec3, cross, dot};
 use super::loaded::{LoadedLimb, back, component, lever, rotated_back, select, slid, times};
 use super::plan::{Held, Joint, Plan, Spring, Step};
@@ -123,71 +124,73 @@ impl<S: Simd> Newton<S> {
         gravity: &[f64; 3],
         wanted: Lanes<S>,
     ) -> Lanes<S> {
-        let zero = Lanes::new(self.simd, 0.0);
-        let one = Lanes::new(self.simd, 1.0);
-        for k in 0..plan.coordinates {
-            self.at[k] = select(wanted, zero, limb.coordinates[k]);
-            limb.coordinates[k] = self.at[k];
-        }
-        (limb.bent, limb.far) = (true, Some(wanted));
-        limb.outwards(plan, gravity);
-        self.miss(plan, limb);
-        let (mut active, mut done, mut share) = (wanted, zero, one);
-        for _ in 0..MOST_STEPS {
-            self.factor(plan, limb);
-            self.answer(plan, limb);
-            std::mem::swap(&mut self.step, &mut self.next);
-            let whole = self.square(plan, one, zero);
-            // Lanes whose step is good.
-            let mut good = one - active;
-            for _ in 0..MOST_TRIALS {
-                for k in 0..plan.coordinates {
-                    let to = self.step[k].times_plus(share, self.at[k]);
-                    limb.coordinates[k] = select(active, to, self.at[k]);
-                }
-                limb.outwards(plan, gravity);
-                self.miss(plan, limb);
+        apart!(self.simd, {
+            let zero = Lanes::new(self.simd, 0.0);
+            let one = Lanes::new(self.simd, 1.0);
+            for k in 0..plan.coordinates {
+                self.at[k] = select(wanted, zero, limb.coordinates[k]);
+                limb.coordinates[k] = self.at[k];
+            }
+            (limb.bent, limb.far) = (true, Some(wanted));
+            limb.outwards(plan, gravity);
+            self.miss(plan, limb);
+            let (mut active, mut done, mut share) = (wanted, zero, one);
+            for _ in 0..MOST_STEPS {
+                self.factor(plan, limb);
                 self.answer(plan, limb);
+                std::mem::swap(&mut self.step, &mut self.next);
+                let whole = self.square(plan, one, zero);
+                // Lanes whose step is good.
+                let mut good = one - active;
+                for _ in 0..MOST_TRIALS {
+                    for k in 0..plan.coordinates {
+                        let to = self.step[k].times_plus(share, self.at[k]);
+                        limb.coordinates[k] = select(active, to, self.at[k]);
+                    }
+                    limb.outwards(plan, gravity);
+                    self.miss(plan, limb);
+                    self.answer(plan, limb);
+                    let left = self.square(plan, zero, one);
+                    let most = share.times_from(one * 0.25, one);
+                    good = (most * most * whole).where_less(left, good, one);
+                    if (one - good).all_less(0.5) {
+                        break;
+                    }
+                    // Second order: `next = (1 - share) step + share^2 curvature`.
+                    let bent = self.square(plan, share - 1.0, one).sqrt();
+                    let shorter = share * share * whole.sqrt() / (bent * 2.0);
+                    let shorter = shorter.max(share * 0.1);
+                    let most = share * 0.7;
+                    let shorter = shorter.where_less(most, shorter, most);
+                    share = select(good, share, shorter);
+                }
+                active = active * good;
                 let left = self.square(plan, zero, one);
-                let most = share.times_from(one * 0.25, one);
-                good = (most * most * whole).where_less(left, good, one);
-                if (one - good).all_less(0.5) {
+                let mut size = zero;
+                for k in 0..plan.coordinates {
+                    self.at[k] = select(active, limb.coordinates[k], self.at[k]);
+                    let x = self.at[k] * plan.units[k];
+                    size = x.times_plus(x, size);
+                }
+                let near = size * (LAST_STEP * LAST_STEP);
+                let last = active * near.where_less(left, zero, one);
+                for k in 0..plan.coordinates {
+                    let to = self.at[k] + self.next[k];
+                    self.at[k] = select(last, to, self.at[k]);
+                }
+                let stable = zero.where_less(self.stable, one, zero);
+                done = done + last * stable;
+                active = active * (one - last);
+                if active.all_less(0.5) {
                     break;
                 }
-                // Second order: `next = (1 - share) step + share^2 curvature`.
-                let bent = self.square(plan, share - 1.0, one).sqrt();
-                let shorter = share * share * whole.sqrt() / (bent * 2.0);
-                let shorter = shorter.max(share * 0.1);
-                let most = share * 0.7;
-                let shorter = shorter.where_less(most, shorter, most);
-                share = select(good, share, shorter);
+                let longer = share * 2.5;
+                share = longer.where_less(one, longer, one);
             }
-            active = active * good;
-            let left = self.square(plan, zero, one);
-            let mut size = zero;
-            for k in 0..plan.coordinates {
-                self.at[k] = select(active, limb.coordinates[k], self.at[k]);
-                let x = self.at[k] * plan.units[k];
-                size = x.times_plus(x, size);
-            }
-            let near = size * (LAST_STEP * LAST_STEP);
-            let last = active * near.where_less(left, zero, one);
-            for k in 0..plan.coordinates {
-                let to = self.at[k] + self.next[k];
-                self.at[k] = select(last, to, self.at[k]);
-            }
-            let stable = zero.where_less(self.stable, one, zero);
-            done = done + last * stable;
-            active = active * (one - last);
-            if active.all_less(0.5) {
-                break;
-            }
-            let longer = share * 2.5;
-            share = longer.where_less(one, longer, one);
-        }
-        limb.coordinates.copy_from_slice(&self.at);
-        limb.outwards(plan, gravity);
-        done
+            limb.coordinates.copy_from_slice(&self.at);
+            limb.outwards(plan, gravity);
+            done
+        })
     }
 
     /// Square of `a * step + b * next`, translations as shares of the natural length.
@@ -204,93 +207,97 @@ impl<S: Simd> Newton<S> {
     /// What the springs lack where the limb is.
     #[inline(always)]
     fn miss(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
-        let (mut force, mut moment) = limb.at_tip();
-        let mut mass = limb.gravity.len();
-        for step in plan.steps.iter().rev() {
-            match step {
-                Step::Mass { at, mass: m } => {
-                    mass -= 1;
-                    limb.weight(mass, at, *m, &mut force, &mut moment);
-                }
-                Step::Shift(l) => lever(l, &force, &mut moment),
-                Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
-                Step::Joint(joint) => {
-                    let torque = limb.joint_bears(joint, &mut force, &mut moment);
-                    if let (Held::Spring(c), Some((own, ratio))) =
-                        (joint.held, joint.amount.coordinate)
-                    {
-                        let x = limb.coordinates[own];
-                        self.lacks[own] = x.times_from(x.same(1.0 / c), torque * ratio);
+        apart!(self.simd, {
+            let (mut force, mut moment) = limb.at_tip();
+            let mut mass = limb.gravity.len();
+            for step in plan.steps.iter().rev() {
+                match step {
+                    Step::Mass { at, mass: m } => {
+                        mass -= 1;
+                        limb.weight(mass, at, *m, &mut force, &mut moment);
                     }
-                }
-                Step::Spring(spring) => {
-                    let torque = limb.spring_bears(spring, &mut force, &mut moment);
-                    let mut x = [torque[0].same(0.0); 6];
-                    for d in 0..6 {
-                        if let Some(own) = spring.coordinates[d] {
-                            x[d] = limb.coordinates[own];
+                    Step::Shift(l) => lever(l, &force, &mut moment),
+                    Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
+                    Step::Joint(joint) => {
+                        let torque = limb.joint_bears(joint, &mut force, &mut moment);
+                        if let (Held::Spring(c), Some((own, ratio))) =
+                            (joint.held, joint.amount.coordinate)
+                        {
+                            let x = limb.coordinates[own];
+                            self.lacks[own] = x.times_from(x.same(1.0 / c), torque * ratio);
                         }
                     }
-                    let borne = times(&spring.stiffness, &x);
-                    for d in 0..6 {
-                        if let Some(own) = spring.coordinates[d] {
-                            self.lacks[own] = torque[d] - borne[d];
+                    Step::Spring(spring) => {
+                        let torque = limb.spring_bears(spring, &mut force, &mut moment);
+                        let mut x = [torque[0].same(0.0); 6];
+                        for d in 0..6 {
+                            if let Some(own) = spring.coordinates[d] {
+                                x[d] = limb.coordinates[own];
+                            }
+                        }
+                        let borne = times(&spring.stiffness, &x);
+                        for d in 0..6 {
+                            if let Some(own) = spring.coordinates[d] {
+                                self.lacks[own] = torque[d] - borne[d];
+                            }
                         }
                     }
                 }
             }
-        }
+        })
     }
 
     /// Eliminates the springs where the limb is.
     #[inline(always)]
     fn factor(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
-        self.stable = Lanes::new(self.simd, 1.0);
-        let zero = Lanes::new(self.simd, 0.0);
-        let (mut force, mut moment) = limb.at_tip();
-        let mut p = [[zero; 6]; 6];
-        let none = [0.0; 3];
-        weighs(&none, &force, &mut p);
-        turns(&moment, &mut p);
-        let (mut mass, mut stage) = (limb.gravity.len(), self.stages.len());
-        let mut single = self.singles.len();
-        for step in plan.steps.iter().rev() {
-            match step {
-                Step::Mass { at, mass: m } => {
-                    mass -= 1;
-                    let weight = limb.weight(mass, at, *m, &mut force, &mut moment);
-                    weighs(at, &weight, &mut p);
-                }
-                Step::Shift(l) => {
-                    lever(l, &force, &mut moment);
-                    for k in 0..3 {
-                        if l[k] != 0.0 {
-                            shift(k, zero.same(l[k]), &mut p);
+        apart!(self.simd, {
+            self.stable = Lanes::new(self.simd, 1.0);
+            let zero = Lanes::new(self.simd, 0.0);
+            let (mut force, mut moment) = limb.at_tip();
+            let mut p = [[zero; 6]; 6];
+            let none = [0.0; 3];
+            weighs(&none, &force, &mut p);
+            turns(&moment, &mut p);
+            let (mut mass, mut stage) = (limb.gravity.len(), self.stages.len());
+            let mut single = self.singles.len();
+            for step in plan.steps.iter().rev() {
+                match step {
+                    Step::Mass { at, mass: m } => {
+                        mass -= 1;
+                        let weight = limb.weight(mass, at, *m, &mut force, &mut moment);
+                        weighs(at, &weight, &mut p);
+                    }
+                    Step::Shift(l) => {
+                        lever(l, &force, &mut moment);
+                        for k in 0..3 {
+                            if l[k] != 0.0 {
+                                shift(k, zero.same(l[k]), &mut p);
+                            }
                         }
                     }
-                }
-                Step::Rotate(by) => {
-                    rotated_back(self.simd, by, &mut force, &mut moment);
-                    rotate(self.simd, by, &mut p);
-                }
-                Step::Joint(joint) => {
-                    if let Held::Spring(_) = joint.held {
-                        single -= 1;
-                        self.single(single, joint, limb, &force, &moment, &mut p);
+                    Step::Rotate(by) => {
+                        rotated_back(self.simd, by, &mut force, &mut moment);
+                        rotate(self.simd, by, &mut p);
                     }
-                    limb.joint_bears(joint, &mut force, &mut moment);
-                    let [s, c] = limb.moved[joint.screw];
-                    match joint.kind {
-                        MotionKind::Revolute => turn(joint.axis, s, c, &mut p),
-                        MotionKind::Prismatic => shift(joint.axis, s, &mut p),
+                    Step::Joint(joint) => {
+                        if let Held::Spring(_) = joint.held {
+                            single -= 1;
+                            self.single(single, joint, limb, &force, &moment, &mut p);
+                        }
+                        limb.joint_bears(joint, &mut force, &mut moment);
+                        let [s, c] = limb.moved[joint.screw];
+                        match joint.kind {
+                            MotionKind::Revolute => turn(joint.axis, s, c, &mut p),
+                            MotionKind::Prismatic => shift(joint.axis, s, &mut p),
+                        }
                     }
-                }
-                Step::Spring(spring) => {
-                    stage -= 1;
-                    self.stage(stage, spring, limb, &mut force, &mut moment, &mut p);
+                    Step::Spring(spring) => {
+                        stage -= 1;
+                        self.stage(stage, spring, limb, &mut force, &mut moment, &mut p);
+                    }
                 }
             }
-        }
+        })
     }
 
     #[inline(always)]
@@ -467,170 +474,174 @@ impl<S: Simd> Newton<S> {
     /// The step that takes away what the springs lack.
     #[inline(always)]
     fn answer(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
-        let zero = Lanes::new(self.simd, 0.0);
-        let (mut force, mut moment) = ([zero; 3], [zero; 3]);
-        let (mut stage, mut single) = (self.stages.len(), self.singles.len());
-        for step in plan.steps.iter().rev() {
-            match step {
-                Step::Mass { .. } => {}
-                Step::Shift(l) => lever(l, &force, &mut moment),
-                Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
-                Step::Joint(joint) => {
-                    let mut moved = limb.moved[joint.screw];
-                    if let (Held::Spring(_), Some((own, ratio))) =
-                        (joint.held, joint.amount.coordinate)
-                    {
-                        single -= 1;
-                        let lacks = self.lacks[own];
-                        let this = &mut self.singles[single];
-                        moved = this.moved;
-                        let y = match joint.kind {
-                            MotionKind::Prismatic => component(&force, joint.axis),
-                            MotionKind::Revolute => component(&moment, joint.axis),
-                        };
-                        this.free = y.times_plus(y.same(ratio), lacks) * this.reciprocal;
+        apart!(self.simd, {
+            let zero = Lanes::new(self.simd, 0.0);
+            let (mut force, mut moment) = ([zero; 3], [zero; 3]);
+            let (mut stage, mut single) = (self.stages.len(), self.singles.len());
+            for step in plan.steps.iter().rev() {
+                match step {
+                    Step::Mass { .. } => {}
+                    Step::Shift(l) => lever(l, &force, &mut moment),
+                    Step::Rotate(by) => rotated_back(self.simd, by, &mut force, &mut moment),
+                    Step::Joint(joint) => {
+                        let mut moved = limb.moved[joint.screw];
+                        if let (Held::Spring(_), Some((own, ratio))) =
+                            (joint.held, joint.amount.coordinate)
+                        {
+                            single -= 1;
+                            let lacks = self.lacks[own];
+                            let this = &mut self.singles[single];
+                            moved = this.moved;
+                            let y = match joint.kind {
+                                MotionKind::Prismatic => component(&force, joint.axis),
+                                MotionKind::Revolute => component(&moment, joint.axis),
+                            };
+                            this.free = y.times_plus(y.same(ratio), lacks) * this.reciprocal;
+                            for k in 0..3 {
+                                force[k] = this.passed_on[k].times_plus(this.free, force[k]);
+                                moment[k] = this.passed_on[3 + k].times_plus(this.free, moment[k]);
+                            }
+                        }
+                        let [s, c] = moved;
+                        match joint.kind {
+                            MotionKind::Revolute => back(joint.axis, s, c, &mut force, &mut moment),
+                            MotionKind::Prismatic => slid(joint.axis, s, &force, &mut moment),
+                        }
+                    }
+                    Step::Spring(spring) => {
+                        stage -= 1;
+                        let own = &mut self.stages[stage];
+                        for i in 0..3 {
+                            let k = 2 - i;
+                            let [s, c] = own.turned[k];
+                            back(k, s, c, &mut force, &mut moment);
+                        }
+                        let [second, third] = axes(&own.turned);
+                        let mut x = [
+                            force[0],
+                            force[1],
+                            force[2],
+                            moment[0],
+                            dot(&second, &moment),
+                            dot(&third, &moment),
+                        ];
+                        for d in 0..6 {
+                            x[d] = match spring.coordinates[d] {
+                                Some(place) => x[d] + self.lacks[place],
+                                None => zero,
+                            };
+                        }
+                        for i in 1..6 {
+                            for k in 0..i {
+                                x[i] = own.pivots[i][k].times_from(x[k], x[i]);
+                            }
+                        }
+                        for i in (0..6).rev() {
+                            for k in i + 1..6 {
+                                x[i] = own.pivots[i][k].times_from(x[k], x[i]);
+                            }
+                            x[i] = x[i] * own.pivots[i][i];
+                        }
+                        own.free = x;
+                        for i in 0..6 {
+                            for k in 0..3 {
+                                force[k] = own.passed_on[k][i].times_plus(x[i], force[k]);
+                                moment[k] = own.passed_on[3 + k][i].times_plus(x[i], moment[k]);
+                            }
+                        }
                         for k in 0..3 {
-                            force[k] = this.passed_on[k].times_plus(this.free, force[k]);
-                            moment[k] = this.passed_on[3 + k].times_plus(this.free, moment[k]);
+                            slid(k, own.slid[k], &force, &mut moment);
                         }
-                    }
-                    let [s, c] = moved;
-                    match joint.kind {
-                        MotionKind::Revolute => back(joint.axis, s, c, &mut force, &mut moment),
-                        MotionKind::Prismatic => slid(joint.axis, s, &force, &mut moment),
-                    }
-                }
-                Step::Spring(spring) => {
-                    stage -= 1;
-                    let own = &mut self.stages[stage];
-                    for i in 0..3 {
-                        let k = 2 - i;
-                        let [s, c] = own.turned[k];
-                        back(k, s, c, &mut force, &mut moment);
-                    }
-                    let [second, third] = axes(&own.turned);
-                    let mut x = [
-                        force[0],
-                        force[1],
-                        force[2],
-                        moment[0],
-                        dot(&second, &moment),
-                        dot(&third, &moment),
-                    ];
-                    for d in 0..6 {
-                        x[d] = match spring.coordinates[d] {
-                            Some(place) => x[d] + self.lacks[place],
-                            None => zero,
-                        };
-                    }
-                    for i in 1..6 {
-                        for k in 0..i {
-                            x[i] = own.pivots[i][k].times_from(x[k], x[i]);
-                        }
-                    }
-                    for i in (0..6).rev() {
-                        for k in i + 1..6 {
-                            x[i] = own.pivots[i][k].times_from(x[k], x[i]);
-                        }
-                        x[i] = x[i] * own.pivots[i][i];
-                    }
-                    own.free = x;
-                    for i in 0..6 {
-                        for k in 0..3 {
-                            force[k] = own.passed_on[k][i].times_plus(x[i], force[k]);
-                            moment[k] = own.passed_on[3 + k][i].times_plus(x[i], moment[k]);
-                        }
-                    }
-                    for k in 0..3 {
-                        slid(k, own.slid[k], &force, &mut moment);
                     }
                 }
             }
-        }
-        self.motions(plan, limb);
+            self.motions(plan, limb);
+        })
     }
 
     /// The walk out: motions of all springs.
     #[inline(always)]
     fn motions(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
-        let zero = Lanes::new(self.simd, 0.0);
-        let (mut v, mut w) = ([zero; 3], [zero; 3]);
-        let (mut stage, mut single) = (0, 0);
-        for step in &plan.steps {
-            match step {
-                Step::Mass { .. } => {}
-                // `v + w x l`.
-                Step::Shift(l) => lever(&[-l[0], -l[1], -l[2]], &w, &mut v),
-                Step::Rotate(by) => {
-                    let transposed = [
-                        by[0], by[3], by[6], by[1], by[4], by[7], by[2], by[5], by[8],
-                    ];
-                    rotated_back(self.simd, &transposed, &mut v, &mut w);
-                }
-                Step::Joint(joint) => {
-                    let spring = match (joint.held, joint.amount.coordinate) {
-                        (Held::Spring(_), Some(own)) => Some(own),
-                        _ => None,
-                    };
-                    let [s, c] = match spring {
-                        Some(_) => self.singles[single].moved,
-                        None => limb.moved[joint.screw],
-                    };
-                    match joint.kind {
-                        MotionKind::Revolute => back(joint.axis, -s, c, &mut v, &mut w),
-                        MotionKind::Prismatic => slid(joint.axis, -s, &w, &mut v),
+        apart!(self.simd, {
+            let zero = Lanes::new(self.simd, 0.0);
+            let (mut v, mut w) = ([zero; 3], [zero; 3]);
+            let (mut stage, mut single) = (0, 0);
+            for step in &plan.steps {
+                match step {
+                    Step::Mass { .. } => {}
+                    // `v + w x l`.
+                    Step::Shift(l) => lever(&[-l[0], -l[1], -l[2]], &w, &mut v),
+                    Step::Rotate(by) => {
+                        let transposed = [
+                            by[0], by[3], by[6], by[1], by[4], by[7], by[2], by[5], by[8],
+                        ];
+                        rotated_back(self.simd, &transposed, &mut v, &mut w);
                     }
-                    if let Some((own, ratio)) = spring {
-                        let this = &self.singles[single];
-                        single += 1;
-                        let mut x = this.free;
-                        for k in 0..3 {
-                            x = this.follows[k].times_plus(v[k], x);
-                            x = this.follows[3 + k].times_plus(w[k], x);
-                        }
-                        self.next[own] = x;
-                        let along = match joint.kind {
-                            MotionKind::Prismatic => &mut v,
-                            MotionKind::Revolute => &mut w,
+                    Step::Joint(joint) => {
+                        let spring = match (joint.held, joint.amount.coordinate) {
+                            (Held::Spring(_), Some(own)) => Some(own),
+                            _ => None,
                         };
-                        for k in 0..3 {
-                            if k == joint.axis {
-                                along[k] = x.times_plus(x.same(ratio), along[k]);
+                        let [s, c] = match spring {
+                            Some(_) => self.singles[single].moved,
+                            None => limb.moved[joint.screw],
+                        };
+                        match joint.kind {
+                            MotionKind::Revolute => back(joint.axis, -s, c, &mut v, &mut w),
+                            MotionKind::Prismatic => slid(joint.axis, -s, &w, &mut v),
+                        }
+                        if let Some((own, ratio)) = spring {
+                            let this = &self.singles[single];
+                            single += 1;
+                            let mut x = this.free;
+                            for k in 0..3 {
+                                x = this.follows[k].times_plus(v[k], x);
+                                x = this.follows[3 + k].times_plus(w[k], x);
+                            }
+                            self.next[own] = x;
+                            let along = match joint.kind {
+                                MotionKind::Prismatic => &mut v,
+                                MotionKind::Revolute => &mut w,
+                            };
+                            for k in 0..3 {
+                                if k == joint.axis {
+                                    along[k] = x.times_plus(x.same(ratio), along[k]);
+                                }
                             }
                         }
                     }
-                }
-                Step::Spring(spring) => {
-                    let own = &self.stages[stage];
-                    stage += 1;
-                    for k in 0..3 {
-                        slid(k, -own.slid[k], &w, &mut v);
-                    }
-                    let mut x = own.free;
-                    for i in 0..6 {
+                    Step::Spring(spring) => {
+                        let own = &self.stages[stage];
+                        stage += 1;
                         for k in 0..3 {
-                            x[i] = own.follows[i][k].times_plus(v[k], x[i]);
-                            x[i] = own.follows[i][3 + k].times_plus(w[k], x[i]);
+                            slid(k, -own.slid[k], &w, &mut v);
                         }
-                    }
-                    for d in 0..6 {
-                        if let Some(place) = spring.coordinates[d] {
-                            self.next[place] = x[d];
+                        let mut x = own.free;
+                        for i in 0..6 {
+                            for k in 0..3 {
+                                x[i] = own.follows[i][k].times_plus(v[k], x[i]);
+                                x[i] = own.follows[i][3 + k].times_plus(w[k], x[i]);
+                            }
                         }
-                    }
-                    let [second, third] = axes(&own.turned);
-                    w[0] = w[0] + x[3];
-                    for k in 0..3 {
-                        v[k] = v[k] + x[k];
-                        w[k] = third[k].times_plus(x[5], second[k].times_plus(x[4], w[k]));
-                    }
-                    for k in 0..3 {
-                        let [s, c] = own.turned[k];
-                        back(k, -s, c, &mut v, &mut w);
+                        for d in 0..6 {
+                            if let Some(place) = spring.coordinates[d] {
+                                self.next[place] = x[d];
+                            }
+                        }
+                        let [second, third] = axes(&own.turned);
+                        w[0] = w[0] + x[3];
+                        for k in 0..3 {
+                            v[k] = v[k] + x[k];
+                            w[k] = third[k].times_plus(x[5], second[k].times_plus(x[4], w[k]));
+                        }
+                        for k in 0..3 {
+                            let [s, c] = own.turned[k];
+                            back(k, -s, c, &mut v, &mut w);
+                        }
                     }
                 }
             }
-        }
+        })
     }
 }
 

@@ -4,6 +4,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::{
     Lanes, Mat3, Vec3, carried, column, constant, cross, dot, minus, product_transposed,
 };
@@ -128,85 +129,87 @@ impl<S: Simd> Joints<S> {
         walk: &mut Walk<S>,
         target: &Target<S>,
     ) {
-        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-        let joints = search.passive.len();
-        let unknowns = joints + search.commands;
-        if unknowns > 6 {
-            self.reached = zero;
-            return;
-        }
-        let centre = match search.rows {
-            Rows::Position => sphere_centre(simd, plan, target),
-            Rows::Rotation | Rows::Both => target.point,
-        };
-        let length = plan.length;
-        // Lanes that still search.
-        let mut active = one;
-        for pass in 0..=MOST_STEPS {
-            // The last pass only looks where the limb is.
-            let done = pass == MOST_STEPS || active.all_less(0.5);
-            walk.along(plan, done, search.end, &self.commands, &self.passive);
-            if done {
-                break;
+        apart!(simd, {
+            let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+            let joints = search.passive.len();
+            let unknowns = joints + search.commands;
+            if unknowns > 6 {
+                self.reached = zero;
+                return;
             }
-            let mut columns = [[zero; 6]; 6];
-            walk.columns(plan, &search.drives, &mut columns);
-            let miss = minus(&centre, &walk.point);
-            let mut e = [miss[0], miss[1], miss[2], zero, zero, zero];
-            if search.rows != Rows::Position {
-                let turn = turn_between(&target.rotation, &walk.rotation);
-                for k in 0..3 {
-                    e[3 + k] = turn[k] * length;
-                    for column in &mut columns {
-                        column[3 + k] = column[3 + k] * length;
+            let centre = match search.rows {
+                Rows::Position => sphere_centre(simd, plan, target),
+                Rows::Rotation | Rows::Both => target.point,
+            };
+            let length = plan.length;
+            // Lanes that still search.
+            let mut active = one;
+            for pass in 0..=MOST_STEPS {
+                // The last pass only looks where the limb is.
+                let done = pass == MOST_STEPS || active.all_less(0.5);
+                walk.along(plan, done, search.end, &self.commands, &self.passive);
+                if done {
+                    break;
+                }
+                let mut columns = [[zero; 6]; 6];
+                walk.columns(plan, &search.drives, &mut columns);
+                let miss = minus(&centre, &walk.point);
+                let mut e = [miss[0], miss[1], miss[2], zero, zero, zero];
+                if search.rows != Rows::Position {
+                    let turn = turn_between(&target.rotation, &walk.rotation);
+                    for k in 0..3 {
+                        e[3 + k] = turn[k] * length;
+                        for column in &mut columns {
+                            column[3 + k] = column[3 + k] * length;
+                        }
                     }
                 }
-            }
-            let linear = dot(&miss, &miss);
-            let angular = dot(&[e[3], e[4], e[5]], &[e[3], e[4], e[5]]);
-            let (square, mut step) = match search.rows {
-                Rows::Position if unknowns == 3 => (linear, square_step(&columns, &e)),
-                Rows::Position => (
-                    linear,
-                    least_squares_step::<S, 0, 3>(simd, unknowns, &columns, &e),
-                ),
-                Rows::Rotation => (
-                    angular,
-                    least_squares_step::<S, 3, 6>(simd, unknowns, &columns, &e),
-                ),
-                Rows::Both => (
-                    linear + angular,
-                    least_squares_step::<S, 0, 6>(simd, unknowns, &columns, &e),
-                ),
-            };
-            let (mut share, mut largest) = (one, zero);
-            for k in 0..unknowns {
-                let size = step[k].abs().max(one * 1e-300);
-                share = share.least_of(one * search.most[k] / size);
-                let unit = if search.most[k] == length {
-                    1.0 / length
-                } else {
-                    1.0
+                let linear = dot(&miss, &miss);
+                let angular = dot(&[e[3], e[4], e[5]], &[e[3], e[4], e[5]]);
+                let (square, mut step) = match search.rows {
+                    Rows::Position if unknowns == 3 => (linear, square_step(&columns, &e)),
+                    Rows::Position => (
+                        linear,
+                        least_squares_step::<S, 0, 3>(simd, unknowns, &columns, &e),
+                    ),
+                    Rows::Rotation => (
+                        angular,
+                        least_squares_step::<S, 3, 6>(simd, unknowns, &columns, &e),
+                    ),
+                    Rows::Both => (
+                        linear + angular,
+                        least_squares_step::<S, 0, 6>(simd, unknowns, &columns, &e),
+                    ),
                 };
-                largest = largest.max(size * unit);
+                let (mut share, mut largest) = (one, zero);
+                for k in 0..unknowns {
+                    let size = step[k].abs().max(one * 1e-300);
+                    share = share.least_of(one * search.most[k] / size);
+                    let unit = if search.most[k] == length {
+                        1.0 / length
+                    } else {
+                        1.0
+                    };
+                    largest = largest.max(size * unit);
+                }
+                for k in 0..unknowns {
+                    step[k] = active.where_less(one * 0.5, zero, step[k] * share);
+                }
+                for k in 0..joints {
+                    let x = &mut self.passive[search.passive.start + k];
+                    *x = *x + step[k];
+                }
+                for k in 0..search.commands {
+                    self.commands[k] = self.commands[k] + step[joints + k];
+                }
+                // Near a stretched limb joints go far for little: a short way that is left is no proof.
+                let near = NEAR * length;
+                let there = square.where_less(one * (near * near), one, zero);
+                let still = largest.where_less(one * NEAR, there, zero);
+                active = active * (one - still);
             }
-            for k in 0..unknowns {
-                step[k] = active.where_less(one * 0.5, zero, step[k] * share);
-            }
-            for k in 0..joints {
-                let x = &mut self.passive[search.passive.start + k];
-                *x = *x + step[k];
-            }
-            for k in 0..search.commands {
-                self.commands[k] = self.commands[k] + step[joints + k];
-            }
-            // Near a stretched limb joints go far for little: a short way that is left is no proof.
-            let near = NEAR * length;
-            let there = square.where_less(one * (near * near), one, zero);
-            let still = largest.where_less(one * NEAR, there, zero);
-            active = active * (one - still);
-        }
-        self.reached = active.where_less(one * 0.5, self.reached, zero);
+            self.reached = active.where_less(one * 0.5, self.reached, zero);
+        })
     }
 }
 
@@ -262,38 +265,40 @@ fn least_squares_step<S: Simd, const FROM: usize, const TO: usize>(
     columns: &[[Lanes<S>; 6]; 6],
     e: &[Lanes<S>; 6],
 ) -> [Lanes<S>; 6] {
-    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-    let unknowns = unknowns.min(6);
-    let mut l = [[zero; 6]; 6];
-    let mut x = [zero; 6];
-    for j in 0..unknowns {
-        let mut pivot = inner::<S, FROM, TO>(&columns[j], &columns[j]);
-        for k in 0..j {
-            pivot = l[j][k].times_from(l[j][k], pivot);
-        }
-        let r = one / pivot.sqrt();
-        l[j][j] = r;
-        for i in j + 1..unknowns {
-            let mut y = inner::<S, FROM, TO>(&columns[i], &columns[j]);
+    apart!(simd, {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let unknowns = unknowns.min(6);
+        let mut l = [[zero; 6]; 6];
+        let mut x = [zero; 6];
+        for j in 0..unknowns {
+            let mut pivot = inner::<S, FROM, TO>(&columns[j], &columns[j]);
             for k in 0..j {
-                y = l[i][k].times_from(l[j][k], y);
+                pivot = l[j][k].times_from(l[j][k], pivot);
             }
-            l[i][j] = y * r;
+            let r = one / pivot.sqrt();
+            l[j][j] = r;
+            for i in j + 1..unknowns {
+                let mut y = inner::<S, FROM, TO>(&columns[i], &columns[j]);
+                for k in 0..j {
+                    y = l[i][k].times_from(l[j][k], y);
+                }
+                l[i][j] = y * r;
+            }
+            let mut y = inner::<S, FROM, TO>(&columns[j], e);
+            for k in 0..j {
+                y = l[j][k].times_from(x[k], y);
+            }
+            x[j] = y * r;
         }
-        let mut y = inner::<S, FROM, TO>(&columns[j], e);
-        for k in 0..j {
-            y = l[j][k].times_from(x[k], y);
+        for j in (0..unknowns).rev() {
+            let mut y = x[j];
+            for k in j + 1..unknowns {
+                y = l[k][j].times_from(x[k], y);
+            }
+            x[j] = y * l[j][j];
         }
-        x[j] = y * r;
-    }
-    for j in (0..unknowns).rev() {
-        let mut y = x[j];
-        for k in j + 1..unknowns {
-            y = l[k][j].times_from(x[k], y);
-        }
-        x[j] = y * l[j][j];
-    }
-    x
+        x
+    })
 }
 
 #[inline(always)]

@@ -11,6 +11,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::{Lanes, Vec3, cross, dot, minus};
 use super::law;
 use super::loaded::{LoadedLimb, twist};
@@ -88,100 +89,102 @@ impl<S: Simd> Shape<S> {
     /// springs' geometric stiffness.
     #[inline(always)]
     fn hessian(&mut self, plan: &Plan, limb: &LoadedLimb<S>, gravity: &[f64; 3]) {
-        let simd = self.simd;
-        let zero = Lanes::new(simd, 0.0);
-        self.motions.clear();
-        let (mut place, mut law) = (0, 0);
-        for step in &plan.steps {
-            match step {
-                Step::Joint(joint) => {
-                    let Some((_, ratio)) = joint.amount.coordinate else {
-                        continue;
-                    };
-                    let mut s = twist(limb, plan, joint.screw);
-                    let (at, factor) = match joint.held {
-                        Held::Spring(c) => (place, ratio * c.sqrt()),
-                        Held::Passive(slot) => (self.springs + slot, ratio),
-                        Held::Fixed => continue,
-                    };
-                    for x in &mut s {
-                        *x = *x * factor;
+        apart!(self.simd, {
+            let simd = self.simd;
+            let zero = Lanes::new(simd, 0.0);
+            self.motions.clear();
+            let (mut place, mut law) = (0, 0);
+            for step in &plan.steps {
+                match step {
+                    Step::Joint(joint) => {
+                        let Some((_, ratio)) = joint.amount.coordinate else {
+                            continue;
+                        };
+                        let mut s = twist(limb, plan, joint.screw);
+                        let (at, factor) = match joint.held {
+                            Held::Spring(c) => (place, ratio * c.sqrt()),
+                            Held::Passive(slot) => (self.springs + slot, ratio),
+                            Held::Fixed => continue,
+                        };
+                        for x in &mut s {
+                            *x = *x * factor;
+                        }
+                        place += usize::from(at < self.springs);
+                        self.motions.push(Motion {
+                            place: at,
+                            twist: s,
+                        });
                     }
-                    place += usize::from(at < self.springs);
-                    self.motions.push(Motion {
-                        place: at,
-                        twist: s,
-                    });
+                    Step::Spring(spring) => {
+                        let (root, _) = root(simd, limb, spring, law);
+                        law += usize::from(matches!(spring.law, Law::Parallelogram(..)));
+                        let s = twists(simd, plan, limb, spring);
+                        for k in 0..6 {
+                            if spring.coordinates[k].is_none() {
+                                continue;
+                            }
+                            let mut sum = [zero; 6];
+                            for d in first_row(spring, k)..6 {
+                                for r in 0..6 {
+                                    sum[r] = s[d][r].times_plus(root[d][k], sum[r]);
+                                }
+                            }
+                            self.motions.push(Motion { place, twist: sum });
+                            place += 1;
+                        }
+                    }
+                    Step::Mass { .. } | Step::Shift(_) | Step::Rotate(_) => {}
                 }
-                Step::Spring(spring) => {
-                    let (root, _) = root(simd, limb, spring, law);
-                    law += usize::from(matches!(spring.law, Law::Parallelogram(..)));
-                    let s = twists(simd, plan, limb, spring);
-                    for k in 0..6 {
-                        if spring.coordinates[k].is_none() {
+            }
+            self.h.fill(zero);
+            let [fx, fy, fz, mx, my, mz] = limb.wrench;
+            let mut loads = Loads {
+                g: [[zero; 6]; 6],
+                force: [fx, fy, fz],
+                moment: [mx, my, mz],
+            };
+            loads.node(&[fx, fy, fz], &[zero; 3]);
+            let (mut mass, mut last) = (limb.masses.len(), self.motions.len());
+            for step in plan.steps.iter().rev() {
+                match step {
+                    Step::Mass { mass: m, .. } => {
+                        mass -= 1;
+                        let arm = minus(&limb.masses[mass], &limb.point);
+                        let [x, y, z] = *gravity;
+                        let weight = [zero + x * m, zero + y * m, zero + z * m];
+                        let own = cross(&arm, &weight);
+                        for k in 0..3 {
+                            loads.force[k] = loads.force[k] + weight[k];
+                            loads.moment[k] = loads.moment[k] + own[k];
+                        }
+                        loads.node(&weight, &arm);
+                    }
+                    Step::Joint(joint) => {
+                        if joint.amount.coordinate.is_none() || matches!(joint.held, Held::Fixed) {
                             continue;
                         }
-                        let mut sum = [zero; 6];
-                        for d in first_row(spring, k)..6 {
-                            for r in 0..6 {
-                                sum[r] = s[d][r].times_plus(root[d][k], sum[r]);
-                            }
+                        last -= 1;
+                        let own = self.couple(last, last, &loads);
+                        let place = self.motions[last].place;
+                        self.add(place, place, own);
+                    }
+                    Step::Spring(spring) => {
+                        let mut end = last;
+                        last -= spring.coordinates.iter().flatten().count();
+                        while end > last {
+                            end -= 1;
+                            self.couple(end, last, &loads);
                         }
-                        self.motions.push(Motion { place, twist: sum });
-                        place += 1;
+                        law -= usize::from(matches!(spring.law, Law::Parallelogram(..)));
+                        let first = self.motions[last].place;
+                        let root = root(simd, limb, spring, law);
+                        let s = twists(simd, plan, limb, spring);
+                        self.within(spring, first, (&s, &root), &loads);
                     }
+                    Step::Shift(_) | Step::Rotate(_) => {}
                 }
-                Step::Mass { .. } | Step::Shift(_) | Step::Rotate(_) => {}
             }
-        }
-        self.h.fill(zero);
-        let [fx, fy, fz, mx, my, mz] = limb.wrench;
-        let mut loads = Loads {
-            g: [[zero; 6]; 6],
-            force: [fx, fy, fz],
-            moment: [mx, my, mz],
-        };
-        loads.node(&[fx, fy, fz], &[zero; 3]);
-        let (mut mass, mut last) = (limb.masses.len(), self.motions.len());
-        for step in plan.steps.iter().rev() {
-            match step {
-                Step::Mass { mass: m, .. } => {
-                    mass -= 1;
-                    let arm = minus(&limb.masses[mass], &limb.point);
-                    let [x, y, z] = *gravity;
-                    let weight = [zero + x * m, zero + y * m, zero + z * m];
-                    let own = cross(&arm, &weight);
-                    for k in 0..3 {
-                        loads.force[k] = loads.force[k] + weight[k];
-                        loads.moment[k] = loads.moment[k] + own[k];
-                    }
-                    loads.node(&weight, &arm);
-                }
-                Step::Joint(joint) => {
-                    if joint.amount.coordinate.is_none() || matches!(joint.held, Held::Fixed) {
-                        continue;
-                    }
-                    last -= 1;
-                    let own = self.couple(last, last, &loads);
-                    let place = self.motions[last].place;
-                    self.add(place, place, own);
-                }
-                Step::Spring(spring) => {
-                    let mut end = last;
-                    last -= spring.coordinates.iter().flatten().count();
-                    while end > last {
-                        end -= 1;
-                        self.couple(end, last, &loads);
-                    }
-                    law -= usize::from(matches!(spring.law, Law::Parallelogram(..)));
-                    let first = self.motions[last].place;
-                    let root = root(simd, limb, spring, law);
-                    let s = twists(simd, plan, limb, spring);
-                    self.within(spring, first, (&s, &root), &loads);
-                }
-                Step::Shift(_) | Step::Rotate(_) => {}
-            }
-        }
+        })
     }
 
     /// Couples motion `at` with the first `count` ones; returns `s^T G s` of its own.
@@ -224,149 +227,153 @@ impl<S: Simd> Shape<S> {
         (s, (root, geometric)): (&Mat6<S>, &(Mat6<S>, Mat6<S>)),
         loads: &Loads<S>,
     ) {
-        let zero = Lanes::new(self.simd, 0.0);
-        let mut b = [[zero; 6]; 6];
-        for j in 0..6 {
-            let turned = outer(&loads.force, &loads.moment, &s[j]);
-            let mut column = turned;
-            for i in 0..6 {
-                column[i] = inner(&loads.g[i], &s[j]);
-            }
-            b[j][j] = inner(&column, &s[j]);
-            for i in 0..6 {
-                column[i] = column[i] + turned[i] * 0.5;
-            }
-            for i in j + 1..6 {
-                b[i][j] = inner(&column, &s[i]);
-                b[j][i] = b[i][j];
-            }
-        }
-        if matches!(spring.law, Law::Bowing(_)) {
-            for i in 0..6 {
-                for j in 0..6 {
-                    let own = (geometric[i][j] + geometric[j][i]) * 0.5;
-                    b[i][j] = b[i][j] - own;
+        apart!(self.simd, {
+            let zero = Lanes::new(self.simd, 0.0);
+            let mut b = [[zero; 6]; 6];
+            for j in 0..6 {
+                let turned = outer(&loads.force, &loads.moment, &s[j]);
+                let mut column = turned;
+                for i in 0..6 {
+                    column[i] = inner(&loads.g[i], &s[j]);
+                }
+                b[j][j] = inner(&column, &s[j]);
+                for i in 0..6 {
+                    column[i] = column[i] + turned[i] * 0.5;
+                }
+                for i in j + 1..6 {
+                    b[i][j] = inner(&column, &s[i]);
+                    b[j][i] = b[i][j];
                 }
             }
-        }
-        let mut bm = [[zero; 6]; 6];
-        for i in 0..6 {
-            for k in 0..6 {
-                for d in first_row(spring, k)..6 {
-                    bm[i][k] = b[i][d].times_plus(root[d][k], bm[i][k]);
+            if matches!(spring.law, Law::Bowing(_)) {
+                for i in 0..6 {
+                    for j in 0..6 {
+                        let own = (geometric[i][j] + geometric[j][i]) * 0.5;
+                        b[i][j] = b[i][j] - own;
+                    }
                 }
             }
-        }
-        let mut row = first;
-        for i in 0..6 {
-            if spring.coordinates[i].is_none() {
-                continue;
+            let mut bm = [[zero; 6]; 6];
+            for i in 0..6 {
+                for k in 0..6 {
+                    for d in first_row(spring, k)..6 {
+                        bm[i][k] = b[i][d].times_plus(root[d][k], bm[i][k]);
+                    }
+                }
             }
-            let mut column = first;
-            for k in 0..6 {
-                if spring.coordinates[k].is_none() {
+            let mut row = first;
+            for i in 0..6 {
+                if spring.coordinates[i].is_none() {
                     continue;
                 }
-                let mut sum = zero;
-                for d in first_row(spring, i)..6 {
-                    sum = root[d][i].times_plus(bm[d][k], sum);
+                let mut column = first;
+                for k in 0..6 {
+                    if spring.coordinates[k].is_none() {
+                        continue;
+                    }
+                    let mut sum = zero;
+                    for d in first_row(spring, i)..6 {
+                        sum = root[d][i].times_plus(bm[d][k], sum);
+                    }
+                    self.add(row, column, sum);
+                    column += 1;
                 }
-                self.add(row, column, sum);
-                column += 1;
+                row += 1;
             }
-            row += 1;
-        }
+        })
     }
 
     /// Passive joints follow the springs: `x = W y`, `H <- H_yy + Z W + (Z W)^T` with
     /// `Z = H_yx + W^T H_xx / 2`; what remains of the twists are conditions on `y`.
     #[inline(always)]
     fn without_joints(&mut self, plan: &Plan) {
-        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
-        let (springs, joints) = (self.springs, self.joints.min(6));
-        let n = springs + self.joints;
-        let unit = 1.0 / plan.length;
-        let mut p = [[zero; 6]; 6];
-        for motion in &self.motions {
-            for r in 0..6 {
-                let x = motion.twist[r] * if r < 3 { unit } else { 1.0 };
-                if motion.place < springs {
-                    self.t[r * springs + motion.place] = x;
-                } else {
-                    let own = &mut p[motion.place - springs][r];
-                    *own = *own + x;
+        apart!(self.simd, {
+            let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
+            let (springs, joints) = (self.springs, self.joints.min(6));
+            let n = springs + self.joints;
+            let unit = 1.0 / plan.length;
+            let mut p = [[zero; 6]; 6];
+            for motion in &self.motions {
+                for r in 0..6 {
+                    let x = motion.twist[r] * if r < 3 { unit } else { 1.0 };
+                    if motion.place < springs {
+                        self.t[r * springs + motion.place] = x;
+                    } else {
+                        let own = &mut p[motion.place - springs][r];
+                        *own = *own + x;
+                    }
                 }
             }
-        }
-        for k in 0..joints {
-            let column = p[k];
-            let (mut whole, mut rest) = (zero, zero);
-            for i in 0..6 {
-                whole = column[i].times_plus(column[i], whole);
-                if i >= k {
-                    rest = column[i].times_plus(column[i], rest);
+            for k in 0..joints {
+                let column = p[k];
+                let (mut whole, mut rest) = (zero, zero);
+                for i in 0..6 {
+                    whole = column[i].times_plus(column[i], whole);
+                    if i >= k {
+                        rest = column[i].times_plus(column[i], rest);
+                    }
+                }
+                self.regular = self.regular.least_of(rest / whole);
+                let norm = rest.sqrt();
+                let signed = column[k].where_less(zero, -norm, norm);
+                let mut v = column;
+                v[k] = column[k] + signed;
+                let scale = one / (signed * v[k]);
+                for other in k..joints {
+                    let mut along = zero;
+                    for i in k..6 {
+                        along = v[i].times_plus(p[other][i], along);
+                    }
+                    along = along * scale;
+                    for i in k..6 {
+                        p[other][i] = along.times_from(v[i], p[other][i]);
+                    }
+                }
+                for c in 0..springs {
+                    let mut along = zero;
+                    for i in k..6 {
+                        along = v[i].times_plus(self.t[i * springs + c], along);
+                    }
+                    along = along * scale;
+                    for i in k..6 {
+                        let own = &mut self.t[i * springs + c];
+                        *own = along.times_from(v[i], *own);
+                    }
                 }
             }
-            self.regular = self.regular.least_of(rest / whole);
-            let norm = rest.sqrt();
-            let signed = column[k].where_less(zero, -norm, norm);
-            let mut v = column;
-            v[k] = column[k] + signed;
-            let scale = one / (signed * v[k]);
-            for other in k..joints {
-                let mut along = zero;
-                for i in k..6 {
-                    along = v[i].times_plus(p[other][i], along);
-                }
-                along = along * scale;
-                for i in k..6 {
-                    p[other][i] = along.times_from(v[i], p[other][i]);
+            if joints == 0 {
+                return;
+            }
+            // R W = -T_1.
+            for c in 0..springs {
+                for k in (0..joints).rev() {
+                    let mut x = -self.t[k * springs + c];
+                    for j in k + 1..joints {
+                        x = p[j][k].times_from(self.w[j * springs + c], x);
+                    }
+                    self.w[k * springs + c] = x / p[k][k];
                 }
             }
             for c in 0..springs {
-                let mut along = zero;
-                for i in k..6 {
-                    along = v[i].times_plus(self.t[i * springs + c], along);
-                }
-                along = along * scale;
-                for i in k..6 {
-                    let own = &mut self.t[i * springs + c];
-                    *own = along.times_from(v[i], *own);
-                }
-            }
-        }
-        if joints == 0 {
-            return;
-        }
-        // R W = -T_1.
-        for c in 0..springs {
-            for k in (0..joints).rev() {
-                let mut x = -self.t[k * springs + c];
-                for j in k + 1..joints {
-                    x = p[j][k].times_from(self.w[j * springs + c], x);
-                }
-                self.w[k * springs + c] = x / p[k][k];
-            }
-        }
-        for c in 0..springs {
-            let mut z = [zero; 6];
-            for k in 0..joints {
-                let mut sum = zero;
-                for j in 0..joints {
-                    let h = self.h[(springs + j) * n + springs + k];
-                    sum = self.w[j * springs + c].times_plus(h, sum);
-                }
-                z[k] = sum.times_plus(one * 0.5, self.h[c * n + springs + k]);
-            }
-            for j in 0..springs {
-                let mut sum = zero;
+                let mut z = [zero; 6];
                 for k in 0..joints {
-                    sum = z[k].times_plus(self.w[k * springs + j], sum);
+                    let mut sum = zero;
+                    for j in 0..joints {
+                        let h = self.h[(springs + j) * n + springs + k];
+                        sum = self.w[j * springs + c].times_plus(h, sum);
+                    }
+                    z[k] = sum.times_plus(one * 0.5, self.h[c * n + springs + k]);
                 }
-                self.add(c, j, sum);
-                self.add(j, c, sum);
+                for j in 0..springs {
+                    let mut sum = zero;
+                    for k in 0..joints {
+                        sum = z[k].times_plus(self.w[k * springs + j], sum);
+                    }
+                    self.add(c, j, sum);
+                    self.add(j, c, sum);
+                }
             }
-        }
+        })
     }
 
     /// Takes the motion along condition `k` out, which a reflection makes the `k`-th: the conditions
@@ -449,69 +456,71 @@ impl<S: Simd> Shape<S> {
     /// Largest eigenvalue of the Hessian's last block, from row `first` on.
     #[inline(always)]
     fn largest(&mut self, first: usize) -> Lanes<S> {
-        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
-        let (springs, n) = (self.springs, self.springs + self.joints);
-        for k in first..springs.saturating_sub(2) {
-            // Column k below the diagonal onto its first entry.
-            for c in k + 1..springs {
-                self.v[c] = self.h[c * n + k];
+        apart!(self.simd, {
+            let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
+            let (springs, n) = (self.springs, self.springs + self.joints);
+            for k in first..springs.saturating_sub(2) {
+                // Column k below the diagonal onto its first entry.
+                for c in k + 1..springs {
+                    self.v[c] = self.h[c * n + k];
+                }
+                let below = self.v[k + 1];
+                let rest = self.reflection(k + 1);
+                let norm = rest.sqrt();
+                self.h[(k + 1) * n + k] = below.where_less(zero, norm, -norm);
+                self.reflect(k + 1);
             }
-            let below = self.v[k + 1];
-            let rest = self.reflection(k + 1);
-            let norm = rest.sqrt();
-            self.h[(k + 1) * n + k] = below.where_less(zero, norm, -norm);
-            self.reflect(k + 1);
-        }
-        // Squares beside the diagonal, and a bound from above, in units of the largest row.
-        let mut size = one * 1e-280;
-        for i in first..springs {
-            size = size.max(self.row_size(i, first).0);
-        }
-        let scale = one / size;
-        let mut x = -one;
-        for i in first..springs {
-            let (_, beside) = self.row_size(i, first);
-            x = x.max((self.h[i * n + i] + beside) * scale);
-            self.v[i] = self.h[i * n + i] * scale;
-            let b = if i > first {
-                self.h[i * n + i - 1] * scale
-            } else {
-                zero
-            };
-            self.u[i] = b * b;
-        }
-        #[allow(clippy::cast_precision_loss)] // some dozens
-        let order = (springs - first) as f64;
-        x = x + 1e-3;
-        let mut active = one;
-        for _ in 0..MOST_STEPS {
-            // Pivots of x - H and their two derivatives, each over the pivot.
-            let (mut sum, mut squares) = (zero, zero);
-            let (mut q, mut q1, mut q2) = (one, zero, zero);
-            let mut least = one;
+            // Squares beside the diagonal, and a bound from above, in units of the largest row.
+            let mut size = one * 1e-280;
             for i in first..springs {
-                let over = self.u[i] / q;
-                let p = x - self.v[i] - over;
-                least = least.least_of(p);
-                let r = one / p;
-                let p1 = over.times_plus(q1, one) * r;
-                let p2 = over * (q2 - q1 * q1 * 2.0) * r;
-                sum = sum + p1;
-                squares = p1.times_plus(p1, squares) - p2;
-                (q, q1, q2) = (p, p1, p2);
+                size = size.max(self.row_size(i, first).0);
             }
-            let under = (squares * order - sum * sum) * (order - 1.0);
-            let step = one * order / (sum + under.max(zero).sqrt());
-            // From above all pivots are positive: one that is not is rounding at the eigenvalue.
-            let step = least.where_less(one * LEAST, zero, step);
-            x = active.where_less(one * 0.5, x, x - step);
-            active = step.where_less(one * ROUNDING, zero, active);
-            if active.all_less(0.5) {
-                break;
+            let scale = one / size;
+            let mut x = -one;
+            for i in first..springs {
+                let (_, beside) = self.row_size(i, first);
+                x = x.max((self.h[i * n + i] + beside) * scale);
+                self.v[i] = self.h[i * n + i] * scale;
+                let b = if i > first {
+                    self.h[i * n + i - 1] * scale
+                } else {
+                    zero
+                };
+                self.u[i] = b * b;
             }
-        }
-        self.regular = self.regular.least_of(one - active);
-        x * size
+            #[allow(clippy::cast_precision_loss)] // some dozens
+            let order = (springs - first) as f64;
+            x = x + 1e-3;
+            let mut active = one;
+            for _ in 0..MOST_STEPS {
+                // Pivots of x - H and their two derivatives, each over the pivot.
+                let (mut sum, mut squares) = (zero, zero);
+                let (mut q, mut q1, mut q2) = (one, zero, zero);
+                let mut least = one;
+                for i in first..springs {
+                    let over = self.u[i] / q;
+                    let p = x - self.v[i] - over;
+                    least = least.least_of(p);
+                    let r = one / p;
+                    let p1 = over.times_plus(q1, one) * r;
+                    let p2 = over * (q2 - q1 * q1 * 2.0) * r;
+                    sum = sum + p1;
+                    squares = p1.times_plus(p1, squares) - p2;
+                    (q, q1, q2) = (p, p1, p2);
+                }
+                let under = (squares * order - sum * sum) * (order - 1.0);
+                let step = one * order / (sum + under.max(zero).sqrt());
+                // From above all pivots are positive: one that is not is rounding at the eigenvalue.
+                let step = least.where_less(one * LEAST, zero, step);
+                x = active.where_less(one * 0.5, x, x - step);
+                active = step.where_less(one * ROUNDING, zero, active);
+                if active.all_less(0.5) {
+                    break;
+                }
+            }
+            self.regular = self.regular.least_of(one - active);
+            x * size
+        })
     }
 
     /// Sum of the sizes of a row of three entries, and of those beside the diagonal.
@@ -594,44 +603,46 @@ fn inner<S: Simd>(a: &[Lanes<S>; 6], b: &[Lanes<S>; 6]) -> Lanes<S> {
 /// move. Lower triangular unless the spring is a beam that bends.
 #[inline(always)]
 fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> (Mat6<S>, Mat6<S>) {
-    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-    let mut m = [[zero; 6]; 6];
-    for j in 0..6 {
-        if spring.coordinates[j].is_none() {
-            continue;
-        }
-        let mut reciprocal = zero;
-        for i in j..6 {
-            let mut x = match spring.law {
-                Law::Parallelogram(..) => limb.laws[law].get(i, j),
-                Law::Constant | Law::Bowing(_) => one * spring.compliance[6 * i + j],
-            };
-            for k in 0..j {
-                x = m[i][k].times_from(m[j][k], x);
+    apart!(simd, {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let mut m = [[zero; 6]; 6];
+        for j in 0..6 {
+            if spring.coordinates[j].is_none() {
+                continue;
             }
-            if i == j {
-                m[j][j] = x.sqrt();
-                reciprocal = one / m[j][j];
-            } else {
-                m[i][j] = x * reciprocal;
-            }
-        }
-    }
-    let Law::Bowing(length) = spring.law else {
-        return (m, [[zero; 6]; 6]);
-    };
-    // Strains to motions: the compliance of the strains is that of rest.
-    let at = deflection(limb, spring);
-    let (geometric, inverse) = law::bowing_geometric(&spring.stiffness, length, &at);
-    let mut motions = [[zero; 6]; 6];
-    for i in 0..6 {
-        for d in 0..6 {
-            for k in 0..=d {
-                motions[i][k] = inverse[i][d].times_plus(m[d][k], motions[i][k]);
+            let mut reciprocal = zero;
+            for i in j..6 {
+                let mut x = match spring.law {
+                    Law::Parallelogram(..) => limb.laws[law].get(i, j),
+                    Law::Constant | Law::Bowing(_) => one * spring.compliance[6 * i + j],
+                };
+                for k in 0..j {
+                    x = m[i][k].times_from(m[j][k], x);
+                }
+                if i == j {
+                    m[j][j] = x.sqrt();
+                    reciprocal = one / m[j][j];
+                } else {
+                    m[i][j] = x * reciprocal;
+                }
             }
         }
-    }
-    (motions, geometric)
+        let Law::Bowing(length) = spring.law else {
+            return (m, [[zero; 6]; 6]);
+        };
+        // Strains to motions: the compliance of the strains is that of rest.
+        let at = deflection(limb, spring);
+        let (geometric, inverse) = law::bowing_geometric(&spring.stiffness, length, &at);
+        let mut motions = [[zero; 6]; 6];
+        for i in 0..6 {
+            for d in 0..6 {
+                for k in 0..=d {
+                    motions[i][k] = inverse[i][d].times_plus(m[d][k], motions[i][k]);
+                }
+            }
+        }
+        (motions, geometric)
+    })
 }
 
 /// The first row of column `k` of a spring's `M` that is not zero.

@@ -15,6 +15,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::{Lanes, Vec3, cross, dot, minus};
 use super::law;
 use super::loaded::{LoadedLimb, twist};
@@ -42,58 +43,60 @@ pub(super) fn stiffness<S: Simd>(
     limb: &LoadedLimb<S>,
     gravity: &[f64; 3],
 ) -> (Mat6<S>, Lanes<S>) {
-    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-    let [fx, fy, fz, mx, my, mz] = limb.wrench;
-    let mut walk = Walk {
-        z: [[zero; 12]; 12],
-        width: 6 + plan.passive.len(),
-        force: [fx, fy, fz],
-        moment: [mx, my, mz],
-        regular: one,
-        simd,
-    };
-    let mut mass = 0;
-    for step in &plan.steps {
-        if let Step::Mass { mass: m, .. } = step {
-            let arm = minus(&limb.masses[mass], &limb.point);
-            walk.load(&weight(simd, gravity, *m), &arm);
-            mass += 1;
-        }
-    }
-    let (mut mass, mut law) = (0, 0);
-    for step in &plan.steps {
-        match step {
-            Step::Mass { mass: m, .. } => {
-                let weight = weight(simd, gravity, *m);
+    apart!(simd, {
+        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+        let [fx, fy, fz, mx, my, mz] = limb.wrench;
+        let mut walk = Walk {
+            z: [[zero; 12]; 12],
+            width: 6 + plan.passive.len(),
+            force: [fx, fy, fz],
+            moment: [mx, my, mz],
+            regular: one,
+            simd,
+        };
+        let mut mass = 0;
+        for step in &plan.steps {
+            if let Step::Mass { mass: m, .. } = step {
                 let arm = minus(&limb.masses[mass], &limb.point);
-                walk.node(&weight, &arm);
-                let [x, y, z] = weight;
-                walk.load(&[-x, -y, -z], &arm);
+                walk.load(&weight(simd, gravity, *m), &arm);
                 mass += 1;
             }
-            Step::Joint(joint) => {
-                let Some((_, ratio)) = joint.amount.coordinate else {
-                    continue;
-                };
-                let mut s = twist(limb, plan, joint.screw);
-                for x in &mut s {
-                    *x = *x * ratio;
-                }
-                match joint.held {
-                    Held::Spring(c) => walk.stage(&s, c),
-                    Held::Passive(slot) => walk.passive(&s, slot),
-                    Held::Fixed => {}
-                }
-            }
-            Step::Spring(spring) => {
-                let c = compliance(simd, limb, spring, &mut law, &mut walk.regular);
-                walk.spring(plan, limb, spring, &c);
-            }
-            Step::Shift(_) | Step::Rotate(_) => {}
         }
-    }
-    walk.node(&[fx, fy, fz], &[zero; 3]);
-    walk.inverse(plan)
+        let (mut mass, mut law) = (0, 0);
+        for step in &plan.steps {
+            match step {
+                Step::Mass { mass: m, .. } => {
+                    let weight = weight(simd, gravity, *m);
+                    let arm = minus(&limb.masses[mass], &limb.point);
+                    walk.node(&weight, &arm);
+                    let [x, y, z] = weight;
+                    walk.load(&[-x, -y, -z], &arm);
+                    mass += 1;
+                }
+                Step::Joint(joint) => {
+                    let Some((_, ratio)) = joint.amount.coordinate else {
+                        continue;
+                    };
+                    let mut s = twist(limb, plan, joint.screw);
+                    for x in &mut s {
+                        *x = *x * ratio;
+                    }
+                    match joint.held {
+                        Held::Spring(c) => walk.stage(&s, c),
+                        Held::Passive(slot) => walk.passive(&s, slot),
+                        Held::Fixed => {}
+                    }
+                }
+                Step::Spring(spring) => {
+                    let c = compliance(simd, limb, spring, &mut law, &mut walk.regular);
+                    walk.spring(plan, limb, spring, &c);
+                }
+                Step::Shift(_) | Step::Rotate(_) => {}
+            }
+        }
+        walk.node(&[fx, fy, fz], &[zero; 3]);
+        walk.inverse(plan)
+    })
 }
 
 #[inline(always)]
@@ -251,73 +254,75 @@ impl<S: Simd> Walk<S> {
     /// zero, so that three numbers `L q` are found first.
     #[inline(always)]
     fn spring(&mut self, plan: &Plan, limb: &LoadedLimb<S>, spring: &Spring, c: &Mat6<S>) {
-        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
-        let s = twists(self.simd, plan, limb, spring);
-        let mut turned = [[zero; 6]; 6];
-        for d in 0..6 {
-            turned[d] = outer(&self.force, &self.moment, &s[d]);
-        }
-        let mut l = [[zero; 6]; 3];
-        for i in 0..3 {
-            for j in 0..3 + i {
-                let mut sum = s[3 + i][0] * turned[j][0];
-                for k in 1..6 {
-                    sum = s[3 + i][k].times_plus(turned[j][k], sum);
-                }
-                l[i][j] = sum;
-            }
-        }
-        let mut n = [[zero; 3]; 3];
-        for i in 0..3 {
-            for k in 0..3 {
-                let mut sum = if i == k { one } else { zero };
-                for j in 0..3 + i {
-                    sum = l[i][j].times_from(c[j][3 + k], sum);
-                }
-                n[i][k] = sum;
-            }
-        }
-        let n = self.inverse3(&n);
-        for column in 0..self.width {
-            let t = &mut self.z[column];
-            let mut r = [zero; 6];
+        apart!(self.simd, {
+            let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
+            let s = twists(self.simd, plan, limb, spring);
+            let mut turned = [[zero; 6]; 6];
             for d in 0..6 {
-                r[d] = Self::row(&s[d], &turned[d], column, t);
+                turned[d] = outer(&self.force, &self.moment, &s[d]);
             }
-            let mut q = [zero; 6];
-            for d in 0..6 {
-                for k in 0..6 {
-                    q[d] = c[d][k].times_plus(r[k], q[d]);
-                }
-            }
-            let mut lq = [zero; 3];
+            let mut l = [[zero; 6]; 3];
             for i in 0..3 {
                 for j in 0..3 + i {
-                    lq[i] = l[i][j].times_plus(q[j], lq[i]);
+                    let mut sum = s[3 + i][0] * turned[j][0];
+                    for k in 1..6 {
+                        sum = s[3 + i][k].times_plus(turned[j][k], sum);
+                    }
+                    l[i][j] = sum;
                 }
             }
-            let mut found = [zero; 3];
+            let mut n = [[zero; 3]; 3];
             for i in 0..3 {
-                for j in 0..3 {
-                    found[i] = n[i][j].times_plus(lq[j], found[i]);
-                }
-            }
-            for d in 0..6 {
                 for k in 0..3 {
-                    q[d] = c[d][3 + k].times_plus(found[k], q[d]);
+                    let mut sum = if i == k { one } else { zero };
+                    for j in 0..3 + i {
+                        sum = l[i][j].times_from(c[j][3 + k], sum);
+                    }
+                    n[i][k] = sum;
                 }
             }
-            for d in 0..3 {
-                for k in 0..3 {
-                    t[k] = s[d][k].times_plus(q[d], t[k]);
+            let n = self.inverse3(&n);
+            for column in 0..self.width {
+                let t = &mut self.z[column];
+                let mut r = [zero; 6];
+                for d in 0..6 {
+                    r[d] = Self::row(&s[d], &turned[d], column, t);
+                }
+                let mut q = [zero; 6];
+                for d in 0..6 {
+                    for k in 0..6 {
+                        q[d] = c[d][k].times_plus(r[k], q[d]);
+                    }
+                }
+                let mut lq = [zero; 3];
+                for i in 0..3 {
+                    for j in 0..3 + i {
+                        lq[i] = l[i][j].times_plus(q[j], lq[i]);
+                    }
+                }
+                let mut found = [zero; 3];
+                for i in 0..3 {
+                    for j in 0..3 {
+                        found[i] = n[i][j].times_plus(lq[j], found[i]);
+                    }
+                }
+                for d in 0..6 {
+                    for k in 0..3 {
+                        q[d] = c[d][3 + k].times_plus(found[k], q[d]);
+                    }
+                }
+                for d in 0..3 {
+                    for k in 0..3 {
+                        t[k] = s[d][k].times_plus(q[d], t[k]);
+                    }
+                }
+                for d in 3..6 {
+                    for k in 0..6 {
+                        t[k] = s[d][k].times_plus(q[d], t[k]);
+                    }
                 }
             }
-            for d in 3..6 {
-                for k in 0..6 {
-                    t[k] = s[d][k].times_plus(q[d], t[k]);
-                }
-            }
-        }
+        })
     }
 
     /// A dead force at a point, to which `arm` leads from the tip's place: where the point moves by `v`, the
@@ -372,20 +377,22 @@ impl<S: Simd> Walk<S> {
     /// The leading block of the inverse, and the smallest relative pivot.
     #[inline(always)]
     fn inverse(&mut self, plan: &Plan) -> (Mat6<S>, Lanes<S>) {
-        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
-        if self.width > 6 {
-            let found = super::freed::freed(self.simd, plan, &mut self.z);
-            return (found.0, self.regular.least_of(found.1));
-        }
-        let (mut matrix, mut inverse) = ([[zero; 6]; 6], [[zero; 6]; 6]);
-        for i in 0..6 {
-            inverse[i][i] = one;
-            for j in 0..6 {
-                matrix[i][j] = self.z[j][i];
+        apart!(self.simd, {
+            let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
+            if self.width > 6 {
+                let found = super::freed::freed(self.simd, plan, &mut self.z);
+                return (found.0, self.regular.least_of(found.1));
             }
-        }
-        let regular = solve_small::<S, 6, 6>(self.simd, &mut matrix, &mut inverse);
-        (inverse, self.regular.least_of(regular))
+            let (mut matrix, mut inverse) = ([[zero; 6]; 6], [[zero; 6]; 6]);
+            for i in 0..6 {
+                inverse[i][i] = one;
+                for j in 0..6 {
+                    matrix[i][j] = self.z[j][i];
+                }
+            }
+            let regular = solve_small::<S, 6, 6>(self.simd, &mut matrix, &mut inverse);
+            (inverse, self.regular.least_of(regular))
+        })
     }
 }
 

@@ -7,6 +7,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::eliminate::Eliminated;
 use super::lanes::{
     Lanes, Mat3, Vec3, carried, column, constant, cross, dot, identity, minus, product,
@@ -95,64 +96,66 @@ impl<S: Simd> Walk<S> {
         commands: &[Lanes<S>],
         passive: &[Lanes<S>],
     ) {
-        let simd = self.simd;
-        self.rotation = identity(simd);
-        self.point = [Lanes::new(simd, 0.0); 3];
-        self.compliance = Symmetric::zero(simd);
-        self.rigid = true;
-        for (i, step) in plan.steps[..end].iter().enumerate() {
-            match step {
-                Step::Shift(l) => self.shift(&constant(simd, l)),
-                Step::Rotate(r) => {
-                    let r = matrix(simd, r);
-                    self.rotation = product(&self.rotation, &r);
-                    if !self.rigid {
-                        let back = [r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]];
-                        self.compliance = self.compliance.in_base_axes(&back);
-                    }
-                }
-                Step::Joint(joint) => {
-                    let coordinate = match joint.held {
-                        Held::Passive(slot) => Some(passive[slot]),
-                        _ => None,
-                    };
-                    let amount = amount(simd, &joint.amount, commands, coordinate);
-                    let known = match &self.known {
-                        Some((first, known)) if i.wrapping_sub(*first) < 2 => known[i - first],
-                        _ if joint.kind == MotionKind::Revolute => amount.sin_cos(),
-                        _ => (amount, amount),
-                    };
-                    match joint.axis {
-                        0 => self.joint::<0>(joint, amount, known, yields),
-                        1 => self.joint::<1>(joint, amount, known, yields),
-                        _ => self.joint::<2>(joint, amount, known, yields),
-                    }
-                }
-                Step::Spring(spring) if yields => {
-                    match &spring.law {
-                        Law::Constant | Law::Bowing(_) => {
-                            self.compliance.add_constant(&spring.compliance);
-                        }
-                        Law::Parallelogram(bars, slot) => {
-                            let own = law::parallelogram(simd, bars, passive[*slot]);
-                            self.compliance.add(&own);
+        apart!(self.simd, {
+            let simd = self.simd;
+            self.rotation = identity(simd);
+            self.point = [Lanes::new(simd, 0.0); 3];
+            self.compliance = Symmetric::zero(simd);
+            self.rigid = true;
+            for (i, step) in plan.steps[..end].iter().enumerate() {
+                match step {
+                    Step::Shift(l) => self.shift(&constant(simd, l)),
+                    Step::Rotate(r) => {
+                        let r = matrix(simd, r);
+                        self.rotation = product(&self.rotation, &r);
+                        if !self.rigid {
+                            let back = [r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]];
+                            self.compliance = self.compliance.in_base_axes(&back);
                         }
                     }
-                    self.rigid = false;
-                    let mut screw = spring.screw;
-                    for d in 0..6 {
-                        if spring.coordinates[d].is_some() {
-                            self.places[screw] = Place {
-                                axis: column(&self.rotation, d % 3),
-                                origin: self.point,
-                            };
-                            screw += 1;
+                    Step::Joint(joint) => {
+                        let coordinate = match joint.held {
+                            Held::Passive(slot) => Some(passive[slot]),
+                            _ => None,
+                        };
+                        let amount = amount(simd, &joint.amount, commands, coordinate);
+                        let known = match &self.known {
+                            Some((first, known)) if i.wrapping_sub(*first) < 2 => known[i - first],
+                            _ if joint.kind == MotionKind::Revolute => amount.sin_cos(),
+                            _ => (amount, amount),
+                        };
+                        match joint.axis {
+                            0 => self.joint::<0>(joint, amount, known, yields),
+                            1 => self.joint::<1>(joint, amount, known, yields),
+                            _ => self.joint::<2>(joint, amount, known, yields),
                         }
                     }
+                    Step::Spring(spring) if yields => {
+                        match &spring.law {
+                            Law::Constant | Law::Bowing(_) => {
+                                self.compliance.add_constant(&spring.compliance);
+                            }
+                            Law::Parallelogram(bars, slot) => {
+                                let own = law::parallelogram(simd, bars, passive[*slot]);
+                                self.compliance.add(&own);
+                            }
+                        }
+                        self.rigid = false;
+                        let mut screw = spring.screw;
+                        for d in 0..6 {
+                            if spring.coordinates[d].is_some() {
+                                self.places[screw] = Place {
+                                    axis: column(&self.rotation, d % 3),
+                                    origin: self.point,
+                                };
+                                screw += 1;
+                            }
+                        }
+                    }
+                    Step::Spring(_) | Step::Mass { .. } => {}
                 }
-                Step::Spring(_) | Step::Mass { .. } => {}
             }
-        }
+        })
     }
 
     #[inline(always)]
@@ -242,18 +245,20 @@ impl<S: Simd> Walk<S> {
     /// motions at the natural length: linear motions as shares of it.
     #[inline(always)]
     pub fn eliminated(&mut self, plan: &Plan) -> Eliminated<S> {
-        let simd = self.simd;
-        let compliance = self.compliance.in_base_axes(&self.rotation);
-        let mut columns = [[Lanes::new(simd, 0.0); 6]; 6];
-        self.columns(plan, &plan.passive_drives, &mut columns);
-        let length = plan.length;
-        for column in &mut columns {
-            for x in &mut column[..3] {
-                *x = *x * (1.0 / length);
+        apart!(self.simd, {
+            let simd = self.simd;
+            let compliance = self.compliance.in_base_axes(&self.rotation);
+            let mut columns = [[Lanes::new(simd, 0.0); 6]; 6];
+            self.columns(plan, &plan.passive_drives, &mut columns);
+            let length = plan.length;
+            for column in &mut columns {
+                for x in &mut column[..3] {
+                    *x = *x * (1.0 / length);
+                }
             }
-        }
-        let balanced = compliance.scaled(1.0 / (length * length), 1.0 / length);
-        Eliminated::new(simd, 6, plan.passive.len(), &balanced, &columns)
+            let balanced = compliance.scaled(1.0 / (length * length), 1.0 / length);
+            Eliminated::new(simd, 6, plan.passive.len(), &balanced, &columns)
+        })
     }
 
     /// The same where a spherical joint ends the limb and [`Self::along`] has led to its centre: only a

@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::apart::apart;
 use super::lanes::{Lanes, carried, constant, dot};
 use super::run::Machine;
 use super::symmetric::{AT, Symmetric};
@@ -45,35 +46,37 @@ impl<S: Simd> Machine<'_, S> {
     /// relative pivot on the way: a platform that nothing holds, or that runs away, is judged alone.
     #[inline(always)]
     pub fn verdict(&mut self, simd: S, k: &Mat6<S>) -> ([Lanes<S>; 3], Lanes<S>) {
-        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-        let mut own = Symmetric::zero(simd);
-        for i in 0..6 {
-            for j in i..6 {
-                own.set(i, j, (k[i][j] + k[j][i]) * 0.5);
+        apart!(simd, {
+            let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+            let mut own = Symmetric::zero(simd);
+            for i in 0..6 {
+                for j in i..6 {
+                    own.set(i, j, (k[i][j] + k[j][i]) * 0.5);
+                }
             }
-        }
-        let (compliance, mut regular) = own.inverse(simd);
-        let softest = largest(compliance.a);
-        let mut share_to_buckling = None;
-        let limbs = self.shapes.iter_mut().zip(self.actual).zip(&self.limbs);
-        for ((shape, plan), limb) in limbs {
-            if let Some((own, pivot)) = shape.share_to_buckling(plan, limb, &self.gravity) {
-                regular = regular.least_of(pivot);
-                share_to_buckling = Some(match share_to_buckling {
-                    Some(other) => own.max(other),
-                    None => own,
-                });
+            let (compliance, mut regular) = own.inverse(simd);
+            let softest = largest(compliance.a);
+            let mut share_to_buckling = None;
+            let limbs = self.shapes.iter_mut().zip(self.actual).zip(&self.limbs);
+            for ((shape, plan), limb) in limbs {
+                if let Some((own, pivot)) = shape.share_to_buckling(plan, limb, &self.gravity) {
+                    regular = regular.least_of(pivot);
+                    share_to_buckling = Some(match share_to_buckling {
+                        Some(other) => own.max(other),
+                        None => own,
+                    });
+                }
             }
-        }
-        let stable = match share_to_buckling {
-            Some(share_to_buckling) => share_to_buckling.where_less(one, one, zero),
-            None => one,
-        };
-        let share_to_buckling = match share_to_buckling {
-            Some(share_to_buckling) => share_to_buckling,
-            None => zero + f64::NAN,
-        };
-        ([stable, one / softest, share_to_buckling], regular)
+            let stable = match share_to_buckling {
+                Some(share_to_buckling) => share_to_buckling.where_less(one, one, zero),
+                None => one,
+            };
+            let share_to_buckling = match share_to_buckling {
+                Some(share_to_buckling) => share_to_buckling,
+                None => zero + f64::NAN,
+            };
+            ([stable, one / softest, share_to_buckling], regular)
+        })
     }
 }
 

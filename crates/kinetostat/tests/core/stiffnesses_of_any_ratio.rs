@@ -122,3 +122,49 @@ fn in_its_principal_axes_a_spring_of_any_ratio_is_exact() {
         }
     }
 }
+
+/// A hinged column, its end pressed: the force `P` takes `P / L` off what the hinge holds across, whatever it is
+/// along. With the hinge's stiffness `c` at `L` from the end `K = c / L^2 - P / L`.
+#[test]
+fn a_soft_direction_that_a_load_makes_negative_is_not_free() {
+    for decade in [3, 6, 9, 11, 12] {
+        for share in [0.5, 0.9999, 1.0001, 1.22, 3.0] {
+            let (along, hinge, length) = (10_f64.powi(decade), 0.3, 0.7);
+            let push = share * hinge / length;
+            let left = length - push / along;
+            let across = hinge / (left * left) - push / left;
+            let there = Pose::translation(length, 0.0, 0.0);
+            let (slide, turn) = (MotionKind::Prismatic, MotionKind::Revolute);
+            let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+            let chain = Chain::builder("column")
+                .spring("across", turn, y, hinge, 0.0)
+                .spring("aside", turn, z, 2.0 * hinge, 0.0)
+                .rigid(there)
+                .spring("along", slide, x, along, 0.0)
+                .passive("roll", turn, x, 0.0)
+                .passive("pitch", turn, y, 0.0)
+                .passive("yaw", turn, z, 0.0)
+                .build()
+                .unwrap();
+            let machine = Mechanism::serial(chain, there, Vector3::zeros()).unwrap();
+            let end = Wrench::new(Vector3::new(-push, 0.0, 0.0), Vector3::zeros());
+            let found = machine.posture(&there).unwrap().deflected_by(&end).unwrap();
+            let aside = 2.0 * hinge / (left * left) - push / left;
+            let mut asked = [along, across, aside];
+            asked.sort_by(f64::total_cmp);
+            let mut values: Vec<f64> = (found.directions.iter())
+                .filter(|d| d.kind != DirectionKind::Free)
+                .map(|d| d.stiffness_n_per_m)
+                .collect();
+            values.sort_by(f64::total_cmp);
+            assert_eq!(values.len(), 3, "{:?}", found.directions);
+            for (value, asked) in values.iter().zip(asked) {
+                let error = (value - asked).abs() / asked.abs().max(1e-4 * hinge);
+                assert!(error < 1e-6, "1e{decade}, {share}: {value} {asked}");
+            }
+            // The end turns as it likes.
+            assert_eq!(found.platform.free, 3, "1e{decade}, {share}");
+            assert_eq!(found.platform.stable, across > 0.0, "1e{decade}, {share}");
+        }
+    }
+}
