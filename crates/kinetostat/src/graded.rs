@@ -5,7 +5,7 @@
 //! springs are (exactly one without passive joints). Ranks are decided on `G`, values are squares of
 //! singular values, so that stiffnesses of a ratio of 1e14 keep eight digits.
 
-use nalgebra::{DMatrix, DVector, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::{Chain, Scale};
 use crate::directions::{Direction, DirectionKind, scaled_twist};
@@ -347,18 +347,33 @@ pub(crate) fn root_rows(list: &[Direction], length: f64) -> Vec<(f64, Vector6<f6
 }
 
 /// Principal directions of several stiffnesses that add up, from signs and rows as in [`root_rows`] at the
-/// common place, within a balanced range.
+/// common place, and `more` (balanced), which none of them has: the loads' own, whose arms turn. Within a
+/// balanced range.
 pub(crate) fn summed(
     rows: &[(f64, Vector6<f64>)],
+    more: &Matrix6<f64>,
     scale: Scale,
     range: &DMatrix<f64>,
 ) -> Vec<Direction> {
     let unit = |i: usize| scale.stiffness.sqrt() * if i < 3 { 1.0 } else { scale.length };
     let all = DMatrix::from_fn(rows.len(), 6, |i, j| rows[i].1[j] / unit(j)) * range;
-    if rows.iter().any(|(sign, _)| *sign < 0.0) {
-        let signs = DVector::from_iterator(rows.len(), rows.iter().map(|(sign, _)| *sign));
-        return by_levels(scale, &all, &DMatrix::from_diagonal(&signs), range);
+    let more = range.transpose() * (0.5 * (more + more.transpose())) * range;
+    let size = more.amax();
+    if size == 0.0 && rows.iter().all(|(sign, _)| *sign > 0.0) {
+        let rank = SingularValues::of(&all).rank(RANK_TOLERANCE);
+        return by_root(scale, &all, range, rank);
     }
-    let rank = SingularValues::of(&all).rank(RANK_TOLERANCE);
-    by_root(scale, &all, range, rank)
+    let (count, r) = all.shape();
+    let mut back = all.resize_vertically(count + r, 0.0);
+    let mut inner = DMatrix::zeros(count + r, count + r);
+    for (i, (sign, _)) in rows.iter().enumerate() {
+        inner[(i, i)] = *sign;
+    }
+    if size > 0.0 {
+        back.view_mut((count, 0), (r, r)).fill_diagonal(size.sqrt());
+        inner
+            .view_mut((count, count), (r, r))
+            .copy_from(&(more / size));
+    }
+    by_levels(scale, &back, &inner, range)
 }

@@ -17,15 +17,17 @@ use crate::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 const UNEVEN: f64 = 1e6;
 
 /// Principal directions of a platform's stiffness; motions that a limb (its own stiffness and the
-/// arm to its tip) cannot follow are rigid.
+/// arm to its tip) cannot follow are rigid. `turned` is what loads add to the limbs' stiffnesses as their arms
+/// turn; it is in `matrix` already.
 pub(crate) fn balanced_directions<'a>(
     matrix: &Matrix6<f64>,
+    turned: &Matrix6<f64>,
     scale: Scale,
     limbs: impl Iterator<Item = (&'a ChainStiffness, Vector3<f64>, Scale)>,
 ) -> Vec<Direction> {
     let root = scale.stiffness.sqrt();
     let factor = |i: usize| if i < 3 { root } else { root * scale.length };
-    let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (factor(i) * factor(j)));
+    let balance = |k: &Matrix6<f64>| Matrix6::from_fn(|i, j| k[(i, j)] / (factor(i) * factor(j)));
     let mut blocked: Vec<DVector<f64>> = Vec::new();
     let mut rows = Vec::new();
     let mut uneven = false;
@@ -53,8 +55,8 @@ pub(crate) fn balanced_directions<'a>(
         complement(&column_space(&DMatrix::from_columns(&blocked)))
     };
     let mut list = match uneven {
-        true => crate::graded::summed(&rows, scale, &range),
-        false => directions(scale, &balanced, &range),
+        true => crate::graded::summed(&rows, &balance(turned), scale, &range),
+        false => directions(scale, &balance(matrix), &range),
     };
     for kind in [DirectionKind::Rigid, DirectionKind::Free] {
         along_axes(&mut list, kind, scale);

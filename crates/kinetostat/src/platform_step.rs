@@ -114,8 +114,7 @@ impl PlatformSolver<'_> {
             let arm = self.arm(i, at);
             let t = shift_matrix(&arm);
             let k = self.limb_stiffness(i);
-            let f = at.wrenches[i].force();
-            let own = t.transpose() * k * t + rotational(&(hat(&f) * hat(&arm)));
+            let own = t.transpose() * k * t + self.turned_force(i, at);
             add(&mut by_pose, limb.to, limb.to, &own);
             let solution = &self.linear[i].solution;
             let r = limb.actual.actuators().len();
@@ -158,6 +157,26 @@ impl PlatformSolver<'_> {
         }
         self.add_platform_loads(at, |on, by, block| add(&mut by_pose, on, by, block));
         (by_pose, by_target)
+    }
+
+    /// What the force of a limb adds to a platform's stiffness as its arm turns.
+    fn turned_force(&self, limb: usize, at: &MechanismState) -> Matrix6<f64> {
+        let f = at.wrenches[limb].force();
+        rotational(&(hat(&f) * hat(&self.arm(limb, at))))
+    }
+
+    /// What forces of limbs and loads add to the limbs' stiffnesses, at the present state of a machine whose only
+    /// moving platform is the tool.
+    pub fn turned_loads(&self) -> Matrix6<f64> {
+        let (at, tool) = (&self.state, self.mechanism.tool);
+        let limbs = 0..self.mechanism.limbs.len();
+        let mut sum: Matrix6<f64> = limbs.map(|limb| self.turned_force(limb, at)).sum();
+        self.add_platform_loads(at, |on, by, block| {
+            if on == tool && by == tool {
+                sum += block;
+            }
+        });
+        sum
     }
 
     /// Adds the tangents of what acts on the platforms themselves, `-dW / d(motion)`.

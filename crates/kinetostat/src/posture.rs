@@ -477,7 +477,9 @@ impl<'m> Posture<'m> {
             let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
             let own = network.limbs.iter().zip(arms).zip(scales);
             let own = own.map(|((k, arm), scale)| (k, arm, scale));
-            let directions = balanced_directions(&total, scale, own);
+            // Nothing acts.
+            let turned = Matrix6::zeros();
+            let directions = balanced_directions(&total, &turned, scale, own);
             (total, directions)
         };
         let answer = UnloadedStiffness {
@@ -703,7 +705,7 @@ pub(crate) fn conclude(
                 * description.platform_from_tip.translation.vector;
             (&limb.stiffness, arm, description.actual.scale())
         });
-        balanced_directions(&stiffness, scale, own)
+        balanced_directions(&stiffness, &solver.turned_loads(), scale, own)
     };
     let least = directions
         .iter()

@@ -5,7 +5,7 @@
 //! eigenvalues are exactly `9 d`.
 
 use kinetostat::*;
-use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
 fn turn() -> Matrix3<f64> {
     Matrix3::new(-2.0, 2.0, -1.0, -1.0, -2.0, -2.0, -2.0, -1.0, 2.0)
@@ -167,4 +167,135 @@ fn a_soft_direction_that_a_load_makes_negative_is_not_free() {
             assert_eq!(found.platform.stable, across > 0.0, "1e{decade}, {share}");
         }
     }
+}
+
+/// A rod of unit length and bending stiffness that begins at a place of the base.
+fn rod(axial: f64, name: &str, from: Pose) -> Chain {
+    let section = BeamSection {
+        youngs_modulus: 1.0,
+        shear_modulus: 1.0,
+        area: axial,
+        second_moment_y: 1.0,
+        second_moment_z: 1.0,
+        torsion_constant: 0.8,
+    };
+    let link = LinkSpec::beam(section, 1.0).segments(12);
+    let chain = Chain::builder(name).rigid(from).link_with("rod", &link);
+    chain.build().unwrap()
+}
+
+/// A tool on such rods that begin at these places.
+fn tool_on(axial: f64, places: &[Vector3<f64>], home: Pose) -> Mechanism {
+    let mut builder = Mechanism::builder("rods");
+    let tool = builder.platform(Platform::new("tool", home));
+    for (i, place) in places.iter().enumerate() {
+        let from = Pose::from_parts((*place).into(), UnitQuaternion::identity());
+        let tip = from * Pose::translation(1.0, 0.0, 0.0);
+        let name = format!("rod {i}");
+        let chain = rod(axial, &name, from);
+        builder = builder.limb(Limb {
+            name,
+            from: 0,
+            to: tool,
+            platform_from_tip: home.inverse() * tip,
+            nominal: chain.clone(),
+            actual: chain,
+        });
+    }
+    builder.build().unwrap()
+}
+
+/// A clamped rod of length L with a rigid tool of length a ahead, pressed along by a dead force: it goes away at
+/// `k L tan(k L) = L / a`, `P = k^2 EI` (Timoshenko and Gere, Theory of Elastic Stability, 1961, 2.4).
+#[test]
+fn a_pressed_rod_with_a_tool_goes_away_at_its_load() {
+    let home = Pose::translation(1.2, 0.0, 0.0);
+    // kL tan(kL) = 5.
+    let (mut low, mut high) = (1.0_f64, 1.5_f64);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match middle * middle.tan() < 5.0 {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    let critical = low * low;
+    assert!((critical - 1.726).abs() < 1e-3);
+    for axial in [1e4, 1e6, 1e8, 1e10, 1e12] {
+        let machine = tool_on(axial, &[Vector3::zeros()], home);
+        for share in [0.5, 0.97, 1.03, 1.4] {
+            let force = Wrench::new(vector![-share * critical, 0.0, 0.0], Vector3::zeros());
+            let found = machine
+                .posture(&home)
+                .unwrap()
+                .deflected_by(&force)
+                .unwrap();
+            let case = format!("EA {axial:e}, {share} of the load");
+            assert_eq!(found.platform.stable, share < 1.0, "{case}");
+            assert_eq!(found.platform.free, 0, "{case}");
+            // In both planes.
+            let negative = found
+                .directions
+                .iter()
+                .filter(|d| d.stiffness_n_per_m < 0.0);
+            assert_eq!(negative.count(), if share < 1.0 { 0 } else { 2 }, "{case}");
+        }
+    }
+}
+
+/// Principal directions, however they are found, are those of the matrix as far as that holds them.
+#[test]
+fn principal_directions_are_those_of_the_loaded_matrix() {
+    let (mut negative, mut seen) = (0, 0);
+    let aside = [
+        vector![0.0, 0.1, -0.2],
+        vector![0.0, -0.3, 0.05],
+        vector![0.1, 0.2, 0.3],
+    ];
+    let even = [vector![0.0, 0.2, 0.0], vector![0.0, -0.2, 0.0]];
+    let bent = Pose::new(vector![1.3, -0.1, 0.2], vector![0.3, -0.2, 0.1]);
+    let straight = Pose::translation(1.3, 0.0, 0.0);
+    let pushed = vector![-1.3, 0.2, 0.3];
+    for axial in [1e4, 1e7, 1e8] {
+        for (places, home, force, most) in [
+            (&aside[..1], bent, pushed, 4.0),
+            (&aside[..2], bent, pushed, 4.0),
+            (&aside[..], bent, pushed, 4.0),
+            // Straight until long after it does not hold.
+            (&[Vector3::zeros()][..], straight, -Vector3::x(), 60.0),
+            (&even[..], straight, -Vector3::x(), 60.0),
+        ] {
+            let machine = tool_on(axial, places, home);
+            for size in [0.3, 4.0, most] {
+                let moment = vector![0.1, -0.2, 0.15] * size * force.y;
+                let load = Wrench::new(force * size, moment);
+                let Ok(found) = machine.posture(&home).unwrap().deflected_by(&load) else {
+                    continue;
+                };
+                let case = format!("EA {axial:e}, {} rods, load {size}", places.len());
+                let matrix = found.stiffness.symmetric();
+                let length = found.length;
+                let unit = |i: usize| if i < 3 { 1.0 } else { length };
+                let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (unit(i) * unit(j)));
+                let mut asked: Vec<f64> =
+                    balanced.symmetric_eigenvalues().iter().copied().collect();
+                asked.sort_by(f64::total_cmp);
+                let mut values: Vec<f64> = found
+                    .directions
+                    .iter()
+                    .map(|d| d.stiffness_n_per_m)
+                    .collect();
+                values.sort_by(f64::total_cmp);
+                assert_eq!(values.len(), 6, "{case}");
+                for (value, asked) in values.iter().zip(&asked) {
+                    let error = (value - asked).abs();
+                    let held = 1e-13 * balanced.amax() + 1e-9 * asked.abs();
+                    assert!(error <= held, "{case}: {values:?} {asked}");
+                }
+                negative += usize::from(asked[0] < 0.0);
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen >= 35 && negative >= 6, "{seen} {negative}");
 }
