@@ -204,8 +204,8 @@ impl CorrectionField for CorrectionMap {
     }
 }
 
-/// Nodes that are all but at the same place along an axis: they are told apart by rounding, and a field
-/// between them would jump.
+/// Nodes along an axis that are nearer than any measurement: one place written with different digits, between
+/// which the field would jump.
 fn too_near(axes: &[Vec<f64>; 3], rows: &[(u64, [f64; 6])], most: usize) -> Vec<MapError> {
     let mut faults = Vec::new();
     for (axis, nodes) in axes.iter().enumerate() {

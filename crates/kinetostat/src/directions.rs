@@ -157,17 +157,7 @@ pub(crate) fn directions(
     balanced: &Matrix6<f64>,
     range: &DMatrix<f64>,
 ) -> Vec<Direction> {
-    let direction = |kind, stiffness, motion: &Vector6<f64>| Direction {
-        kind,
-        stiffness_n_per_m: stiffness,
-        twist: scaled_twist(scale, motion),
-        behind: Vec::new(),
-    };
-    let mut list = Vec::with_capacity(6);
-    for column in complement(range).column_iter() {
-        let motion = Vector6::from_fn(|i, _| column[i]);
-        list.push(direction(DirectionKind::Rigid, f64::INFINITY, &motion));
-    }
+    let mut list = rigid_directions(scale, range);
     if range.ncols() == 0 {
         return list; // a chain that cannot move at all
     }
@@ -187,10 +177,36 @@ pub(crate) fn directions(
             (DirectionKind::Negative, value * scale.stiffness)
         };
         let motion = range * eigen.eigenvectors.column(i);
+        list.push(direction(scale, kind, stiffness, &motion));
+    }
+    list
+}
+
+/// A direction of a balanced motion; nothing is known yet of what is behind it.
+pub(crate) fn direction(
+    scale: Scale,
+    kind: DirectionKind,
+    stiffness_n_per_m: f64,
+    motion: &DVector<f64>,
+) -> Direction {
+    Direction {
+        kind,
+        stiffness_n_per_m,
+        twist: scaled_twist(scale, &Vector6::from_fn(|i, _| motion[i])),
+        behind: Vec::new(),
+    }
+}
+
+/// Motions outside the balanced `range`, which do not exist; with room for those inside.
+pub(crate) fn rigid_directions(scale: Scale, range: &DMatrix<f64>) -> Vec<Direction> {
+    let mut list = Vec::with_capacity(6);
+    for column in complement(range).column_iter() {
+        let motion = column.into_owned();
         list.push(direction(
-            kind,
-            stiffness,
-            &Vector6::from_fn(|i, _| motion[i]),
+            scale,
+            DirectionKind::Rigid,
+            f64::INFINITY,
+            &motion,
         ));
     }
     list

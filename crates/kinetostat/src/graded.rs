@@ -8,10 +8,10 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::{Chain, Scale};
-use crate::directions::{Direction, DirectionKind, scaled_twist};
+use crate::directions::{Direction, DirectionKind, direction, rigid_directions};
 use crate::mechanism::Mechanism;
 use crate::number::short;
-use crate::saddle::{RANK_TOLERANCE, Saddle, complement};
+use crate::saddle::{RANK_TOLERANCE, Saddle};
 use crate::singular_values::SingularValues;
 use crate::spring::balanced;
 use crate::sweep::{Form, Sweep};
@@ -193,7 +193,7 @@ impl Graded {
 /// Principal stiffnesses below this share of the stiffest are computed again without the stiffer ones.
 const LEVEL: f64 = 1e-4;
 
-/// Principal directions of `back^T inner back` (balanced, in coordinates of the range), some of them
+/// Principal directions of `back^T inner back` (balanced, in coordinates of the range), which may be
 /// negative: the stiffest first, then the others in what is left, where the stiff ones no longer drown them.
 /// Those in which nothing is left but rounding are free.
 fn by_levels(
@@ -223,57 +223,32 @@ fn by_levels(
         rest = motions.select_columns(&later);
     }
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let rigid = complement(range);
-    let rigid = rigid
-        .column_iter()
-        .map(|column| (DirectionKind::Rigid, f64::INFINITY, column.into_owned()));
-    let found = found.into_iter().map(|(value, motion)| {
+    let mut list = rigid_directions(scale, range);
+    list.extend(found.into_iter().map(|(value, motion)| {
         let kind = match value {
             v if v > 0.0 => DirectionKind::Finite,
             v if v < 0.0 => DirectionKind::Negative,
             _ => DirectionKind::Free,
         };
-        (kind, value * scale.stiffness, motion)
-    });
-    rigid
-        .chain(found)
-        .map(|(kind, stiffness, motion)| direction(scale, kind, stiffness, &motion))
-        .collect()
-}
-
-fn direction(
-    scale: Scale,
-    kind: DirectionKind,
-    stiffness_n_per_m: f64,
-    motion: &DVector<f64>,
-) -> Direction {
-    Direction {
-        kind,
-        stiffness_n_per_m,
-        twist: scaled_twist(scale, &Vector6::from_fn(|i, _| motion[i])),
-        behind: Vec::new(),
-    }
+        direction(scale, kind, value * scale.stiffness, &motion)
+    }));
+    list
 }
 
 /// Principal directions of `root^T root` (balanced) within a range; `rank` of them are not free.
 fn by_root(scale: Scale, root: &DMatrix<f64>, range: &DMatrix<f64>, rank: usize) -> Vec<Direction> {
-    let direction =
-        |kind, stiffness, motion: &DVector<f64>| direction(scale, kind, stiffness, motion);
-    let mut list = Vec::with_capacity(6);
-    for column in complement(range).column_iter() {
-        let motion = column.into_owned();
-        list.push(direction(DirectionKind::Rigid, f64::INFINITY, &motion));
-    }
+    let mut list = rigid_directions(scale, range);
     let own = SingularValues::of(root);
     for (i, column) in own.all_right().column_iter().enumerate() {
         let motion = range * column;
         list.push(match own.values.get(i).filter(|_| i < rank) {
             Some(value) => direction(
+                scale,
                 DirectionKind::Finite,
                 value * value * scale.stiffness,
                 &motion,
             ),
-            None => direction(DirectionKind::Free, 0.0, &motion),
+            None => direction(scale, DirectionKind::Free, 0.0, &motion),
         });
     }
     list

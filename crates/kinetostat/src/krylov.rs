@@ -22,8 +22,12 @@ pub(crate) fn largest_eigenvalues(a: &DMatrix<f64>, count: usize) -> (DVector<f6
     {
         return found;
     }
-    let eigen = a.clone().symmetric_eigen();
-    let mut order: Vec<usize> = (0..n).collect();
+    of_the_whole(a.clone(), count)
+}
+
+fn of_the_whole(a: DMatrix<f64>, count: usize) -> (DVector<f64>, DMatrix<f64>) {
+    let eigen = a.symmetric_eigen();
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
     order.truncate(count);
     (
@@ -53,12 +57,7 @@ fn in_krylov_space(a: &DMatrix<f64>, count: usize) -> Option<(DVector<f64>, DMat
         image = joined(image, &moved);
         if space.ncols() >= count + BLOCK {
             let within = space.transpose() * &image;
-            let eigen = (0.5 * (&within + within.transpose())).symmetric_eigen();
-            let mut order: Vec<usize> = (0..space.ncols()).collect();
-            order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
-            order.truncate(count);
-            let values = eigen.eigenvalues.select_rows(&order);
-            let chosen = eigen.eigenvectors.select_columns(&order);
+            let (values, chosen) = of_the_whole(0.5 * (&within + within.transpose()), count);
             let vectors = &space * &chosen;
             let missed = &image * &chosen - &vectors * DMatrix::from_diagonal(&values);
             if missed.amax() <= RESIDUAL * a.amax() {

@@ -6,17 +6,11 @@ use std::f64::consts::TAU;
 use kinetostat::*;
 use nalgebra::{Vector3, vector};
 
+use crate::common::machines::slender;
+
 /// Of unit length and bending stiffness.
 fn rod(segments: usize, axial: f64) -> Chain {
-    let section = BeamSection {
-        youngs_modulus: 1.0,
-        shear_modulus: 1.0,
-        area: axial,
-        second_moment_y: 1.0,
-        second_moment_z: 1.0,
-        torsion_constant: 0.8,
-    };
-    let link = LinkSpec::beam(section, 1.0).segments(segments);
+    let link = LinkSpec::beam(slender(axial), 1.0).segments(segments);
     Chain::builder("rod")
         .link_with("rod", &link)
         .build()
