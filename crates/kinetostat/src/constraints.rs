@@ -108,7 +108,7 @@ impl Constraints {
         for i in 0..m.limbs.len() {
             let motions = limb_motions(posture, i, with_actuators_free, length);
             let own = complement(&independent_columns(&motions));
-            let a = ends(posture, i).matrix(moving);
+            let a = ends(posture.mechanism, &posture.platforms, i).matrix(moving);
             let a = DMatrix::from_fn(6, 6 * moving, |r, c| a[(r, c)] * unit(r) / unit(c));
             blocks.push(own.transpose() * a);
             wrenches.push(own);
@@ -185,7 +185,7 @@ impl Posture<'_> {
             for (i, block) in own.iter().enumerate() {
                 all.view_mut((6 * i, at), block.shape()).copy_from(block);
                 at += block.ncols();
-                let a = ends(self, i).matrix(moving);
+                let a = ends(self.mechanism, &self.platforms, i).matrix(moving);
                 for (r, c) in (0..6).flat_map(|r| (0..6 * moving).map(move |c| (r, c))) {
                     // The tool is held.
                     if c / 6 + 1 != m.tool {

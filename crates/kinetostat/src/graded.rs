@@ -5,7 +5,7 @@
 //! springs are (exactly one without passive joints). Ranks are decided on `G`, values are squares of
 //! singular values, so that stiffnesses of a ratio of 1e14 keep eight digits.
 
-use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::{Chain, Scale};
 use crate::directions::{Direction, DirectionKind, direction, rigid_directions};
@@ -177,7 +177,7 @@ impl Graded {
         if eigen.eigenvalues.min() < -zero {
             let sizes = DVector::from_iterator(self.sizes.len(), self.sizes.iter().copied());
             let back = DMatrix::from_diagonal(&sizes.map(f64::recip));
-            return by_levels(scale, &back, &inner, &self.range);
+            return principal(scale, &back, &inner, &self.range);
         }
         let held: Vec<usize> = (0..self.sizes.len())
             .filter(|&i| eigen.eigenvalues[i] > zero)
@@ -193,24 +193,41 @@ impl Graded {
 /// Principal stiffnesses below this share of the stiffest are computed again without the stiffer ones.
 const LEVEL: f64 = 1e-4;
 
-/// Principal directions of `back^T inner back` (balanced, in coordinates of the range), which may be
-/// negative: the stiffest first, then the others in what is left, where the stiff ones no longer drown them.
-/// Those in which nothing is left but rounding are free.
-fn by_levels(
+/// Principal directions of `back^T inner back` (balanced, in coordinates of the range).
+pub(crate) fn principal(
     scale: Scale,
     back: &DMatrix<f64>,
     inner: &DMatrix<f64>,
     range: &DMatrix<f64>,
 ) -> Vec<Direction> {
+    if *inner == DMatrix::identity(back.nrows(), back.nrows()) {
+        let rank = SingularValues::of(back).rank(RANK_TOLERANCE);
+        return by_root(scale, back, range, rank);
+    }
+    let mut list = rigid_directions(scale, range);
+    list.extend(levels(back, inner).into_iter().map(|(value, motion)| {
+        let kind = match value {
+            v if v > 0.0 => DirectionKind::Finite,
+            v if v < 0.0 => DirectionKind::Negative,
+            _ => DirectionKind::Free,
+        };
+        direction(scale, kind, value * scale.stiffness, &(range * motion))
+    }));
+    list
+}
+
+/// Eigenvalues and eigenvectors of `back^T inner back`, which may be negative: the stiffest first, then the others
+/// in what is left, where the stiff ones no longer drown them. Where nothing is left but rounding, they are zero.
+pub(crate) fn levels(back: &DMatrix<f64>, inner: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
     let mut found: Vec<(f64, DVector<f64>)> = Vec::new();
-    let mut rest = DMatrix::identity(range.ncols(), range.ncols());
+    let mut rest = DMatrix::identity(back.ncols(), back.ncols());
     while rest.ncols() > 0 {
         let moved = back * &rest;
         let eigen = (moved.transpose() * inner * &moved).symmetric_eigen();
         let most = eigen.eigenvalues.amax();
         let parts = inner.amax() * moved.norm_squared();
         if moved.norm() <= RANK_TOLERANCE * back.norm() || most <= 100.0 * RANK_TOLERANCE * parts {
-            found.extend(rest.column_iter().map(|motion| (0.0, range * motion)));
+            found.extend(rest.column_iter().map(|motion| (0.0, motion.into_owned())));
             break;
         }
         let motions = rest * &eigen.eigenvectors;
@@ -218,21 +235,12 @@ fn by_levels(
             (0..motions.ncols()).partition(|&i| eigen.eigenvalues[i].abs() > LEVEL * most);
         found.extend(
             now.iter()
-                .map(|&i| (eigen.eigenvalues[i], range * motions.column(i))),
+                .map(|&i| (eigen.eigenvalues[i], motions.column(i).into_owned())),
         );
         rest = motions.select_columns(&later);
     }
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut list = rigid_directions(scale, range);
-    list.extend(found.into_iter().map(|(value, motion)| {
-        let kind = match value {
-            v if v > 0.0 => DirectionKind::Finite,
-            v if v < 0.0 => DirectionKind::Negative,
-            _ => DirectionKind::Free,
-        };
-        direction(scale, kind, value * scale.stiffness, &motion)
-    }));
-    list
+    found
 }
 
 /// Principal directions of `root^T root` (balanced) within a range; `rank` of them are not free.
@@ -319,36 +327,4 @@ pub(crate) fn root_rows(list: &[Direction], length: f64) -> Vec<(f64, Vector6<f6
             (d.stiffness_n_per_m.signum(), row)
         })
         .collect()
-}
-
-/// Principal directions of several stiffnesses that add up, from signs and rows as in [`root_rows`] at the
-/// common place, and `more` (balanced), which none of them has: the loads' own, whose arms turn. Within a
-/// balanced range.
-pub(crate) fn summed(
-    rows: &[(f64, Vector6<f64>)],
-    more: &Matrix6<f64>,
-    scale: Scale,
-    range: &DMatrix<f64>,
-) -> Vec<Direction> {
-    let unit = |i: usize| scale.stiffness.sqrt() * if i < 3 { 1.0 } else { scale.length };
-    let all = DMatrix::from_fn(rows.len(), 6, |i, j| rows[i].1[j] / unit(j)) * range;
-    let more = range.transpose() * (0.5 * (more + more.transpose())) * range;
-    let size = more.amax();
-    if size == 0.0 && rows.iter().all(|(sign, _)| *sign > 0.0) {
-        let rank = SingularValues::of(&all).rank(RANK_TOLERANCE);
-        return by_root(scale, &all, range, rank);
-    }
-    let (count, r) = all.shape();
-    let mut back = all.resize_vertically(count + r, 0.0);
-    let mut inner = DMatrix::zeros(count + r, count + r);
-    for (i, (sign, _)) in rows.iter().enumerate() {
-        inner[(i, i)] = *sign;
-    }
-    if size > 0.0 {
-        back.view_mut((count, 0), (r, r)).fill_diagonal(size.sqrt());
-        inner
-            .view_mut((count, count), (r, r))
-            .copy_from(&(more / size));
-    }
-    by_levels(scale, &back, &inner, range)
 }

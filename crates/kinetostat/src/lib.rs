@@ -108,6 +108,7 @@ mod follower;
 mod forward;
 mod function_load;
 mod graded;
+mod graded_platforms;
 mod graph;
 mod graph_check;
 mod inverse;
@@ -166,6 +167,7 @@ mod sweep_solve;
 mod sweep_tests;
 mod system;
 mod tracer;
+mod turned_loads;
 mod uniform;
 
 pub use assembly::LinearAssembly;

@@ -145,7 +145,7 @@ impl<'p, 'm> Search<'p, 'm> {
             let own = limb_motions(&self.at, i, true, self.length);
             rows.view_mut((6 * i, self.first[i]), own.shape())
                 .copy_from(&own);
-            let a = ends(&self.at, i).matrix(moving);
+            let a = ends(self.at.mechanism, &self.at.platforms, i).matrix(moving);
             for (r, c) in (0..6).flat_map(|r| (0..6 * moving).map(move |c| (r, c))) {
                 rows[(6 * i + r, c)] = -a[(r, c)] * unit(r) / unit(c);
             }

@@ -7,21 +7,18 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 use crate::block_elimination::Pivots;
 use crate::chain::Scale;
 use crate::directions::scaled_twist;
+use crate::graded_platforms::GradedPlatforms;
 use crate::saddle::{Saddle, column_space, complement};
 use crate::singular_values::range;
 use crate::sparse::{PlatformSystem, RigidRows, Sparse, motion_units};
 use crate::spatial::shift_matrix;
 use crate::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 
-/// Stiffnesses of a limb that differ by more are kept apart when limbs are added.
-const UNEVEN: f64 = 1e6;
-
-/// Principal directions of a platform's stiffness; motions that a limb (its own stiffness and the
-/// arm to its tip) cannot follow are rigid. `turned` is what loads add to the limbs' stiffnesses as their arms
-/// turn; it is in `matrix` already.
+/// Principal directions of the stiffness of a machine's only moving platform; motions that a limb (its own
+/// stiffness and the arm to its tip) cannot follow are rigid.
 pub(crate) fn balanced_directions<'a>(
     matrix: &Matrix6<f64>,
-    turned: &Matrix6<f64>,
+    graded: Option<&GradedPlatforms>,
     scale: Scale,
     limbs: impl Iterator<Item = (&'a ChainStiffness, Vector3<f64>, Scale)>,
 ) -> Vec<Direction> {
@@ -29,13 +26,8 @@ pub(crate) fn balanced_directions<'a>(
     let factor = |i: usize| if i < 3 { root } else { root * scale.length };
     let balance = |k: &Matrix6<f64>| Matrix6::from_fn(|i, j| k[(i, j)] / (factor(i) * factor(j)));
     let mut blocked: Vec<DVector<f64>> = Vec::new();
-    let mut rows = Vec::new();
-    let mut uneven = false;
     for (limb, arm, own) in limbs {
-        uneven |= crate::graded::spread(&limb.directions) > UNEVEN;
         let shift = shift_matrix(&arm).transpose();
-        let own_rows = crate::graded::root_rows(&limb.directions, own.length);
-        rows.extend(own_rows.into_iter().map(|(sign, row)| (sign, shift * row)));
         for direction in limb
             .directions
             .iter()
@@ -54,10 +46,17 @@ pub(crate) fn balanced_directions<'a>(
     } else {
         complement(&column_space(&DMatrix::from_columns(&blocked)))
     };
-    let mut list = match uneven {
-        true => crate::graded::summed(&rows, &balance(turned), scale, &range),
-        false => directions(scale, &balance(matrix), &range),
-    };
+    along_all_axes(
+        match graded {
+            Some(graded) => graded.directions(&range),
+            None => directions(scale, &balance(matrix), &range),
+        },
+        scale,
+    )
+}
+
+/// [`along_axes`] of both kinds that have no basis of their own.
+fn along_all_axes(mut list: Vec<Direction>, scale: Scale) -> Vec<Direction> {
     for kind in [DirectionKind::Rigid, DirectionKind::Free] {
         along_axes(&mut list, kind, scale);
     }
@@ -119,6 +118,7 @@ fn possible_motions(rigid: &DMatrix<f64>, units: &[f64]) -> Option<DMatrix<f64>>
 /// `rigid` forbids; with `held`, while the tool is held.
 pub(crate) fn others_hold(
     tangent: &Sparse,
+    graded: Option<&GradedPlatforms>,
     rigid: &RigidRows,
     platform: usize,
     scale: Scale,
@@ -127,6 +127,13 @@ pub(crate) fn others_hold(
     let size = tangent.rows;
     if size == 6 {
         return true;
+    }
+    if let Some(graded) = graded {
+        let held = held.then_some(platform);
+        let kept: Vec<usize> = (0..size).filter(|i| Some(i / 6) != held).collect();
+        let units = motion_units(kept.len(), scale);
+        let possible = possible_motions(&rigid.matrix.dense().select_columns(&kept), &units);
+        return graded.hold(possible.as_ref(), held);
     }
     if let Some(answer) = others_certainly_hold(tangent, rigid, platform, scale, held) {
         return answer;
@@ -186,34 +193,49 @@ fn others_certainly_hold(
 /// Negative stiffness counts above this share of the largest.
 const ZERO_STIFFNESS: f64 = 1e-9;
 
+/// Differences between entries and their mirror images count above this share of the largest entry.
+const SKEW: f64 = 1e-11;
+
 /// Stiffness of one platform with all others free.
-pub(crate) struct Condensed {
+struct Condensed {
     /// What it cannot move along contributes nothing.
-    pub matrix: Matrix6<f64>,
+    matrix: Matrix6<f64>,
     /// Motions that it can make: orthonormal basis, 6 x r, balanced.
-    pub range: DMatrix<f64>,
+    range: DMatrix<f64>,
 }
 
-/// Principal directions of a platform with others behind it.
-pub(crate) fn condensed_directions(found: &Condensed, scale: Scale) -> Vec<Direction> {
-    let root = scale.stiffness.sqrt();
-    let factor = |i: usize| if i < 3 { root } else { root * scale.length };
-    let balanced = Matrix6::from_fn(|i, j| found.matrix[(i, j)] / (factor(i) * factor(j)));
-    let mut list = directions(scale, &balanced, &found.range);
-    for kind in [DirectionKind::Rigid, DirectionKind::Free] {
-        along_axes(&mut list, kind, scale);
-    }
-    list
+/// Stiffness (SI) and principal directions of a platform with others behind it, all others free; rows of `rigid`
+/// are motions of the platforms that limbs forbid.
+pub(crate) fn condensed_directions(
+    tangent: &Sparse,
+    graded: Option<&GradedPlatforms>,
+    rigid: &RigidRows,
+    platform: usize,
+    scale: Scale,
+) -> (Matrix6<f64>, Vec<Direction>) {
+    let found = condensed(tangent, rigid, platform, scale);
+    let (matrix, list) = if let Some(graded) = graded {
+        let possible = possible_motions(&rigid.matrix.dense(), &motion_units(tangent.rows, scale));
+        let (matrix, list) = graded.condensed(possible.as_ref(), platform);
+        // Loads without a potential make it unsymmetric.
+        let skew = 0.5 * (found.matrix - found.matrix.transpose());
+        let rounding = SKEW * found.matrix.amax();
+        (
+            matrix + skew.map(|x| if x.abs() > rounding { x } else { 0.0 }),
+            list,
+        )
+    } else {
+        let root = scale.stiffness.sqrt();
+        let factor = |i: usize| if i < 3 { root } else { root * scale.length };
+        let balanced = Matrix6::from_fn(|i, j| found.matrix[(i, j)] / (factor(i) * factor(j)));
+        (found.matrix, directions(scale, &balanced, &found.range))
+    };
+    (matrix, along_all_axes(list, scale))
 }
 
 /// Stiffness of one platform with all others free; rows of `rigid` are motions of the platforms
 /// that limbs forbid.
-pub(crate) fn condensed(
-    tangent: &Sparse,
-    rigid: &RigidRows,
-    platform: usize,
-    scale: Scale,
-) -> Condensed {
+fn condensed(tangent: &Sparse, rigid: &RigidRows, platform: usize, scale: Scale) -> Condensed {
     if let Some(matrix) = condensed_sparse(tangent, rigid, platform, scale) {
         return Condensed {
             matrix,

@@ -21,7 +21,7 @@ impl Posture<'_> {
         for (i, (limb, joints)) in m.limbs.iter().zip(&self.limbs).enumerate() {
             let own = limb.nominal.scale().length;
             // From the mechanism's units to SI, to the tip, to the limb's units.
-            let mut to_limb = ends(self, i).matrix(moving);
+            let mut to_limb = ends(self.mechanism, &self.platforms, i).matrix(moving);
             to_limb.rows_mut(3, 3).scale_mut(own);
             for (j, mut column) in to_limb.column_iter_mut().enumerate() {
                 if j % 6 >= 3 {

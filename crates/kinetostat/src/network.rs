@@ -8,9 +8,10 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 use crate::error::Result;
+use crate::mechanism::Mechanism;
 use crate::posture::Posture;
 use crate::sparse::{RigidRows, Sparse};
-use crate::spatial::{Twist, Wrench, shift_matrix};
+use crate::spatial::{Pose, Twist, Wrench, shift_matrix};
 use crate::stiffness::{ChainStiffness, DirectionKind, unloaded_stiffness};
 
 /// All limbs of a posture, linear.
@@ -48,10 +49,10 @@ impl Ends {
     }
 }
 
-/// Where a limb of a posture begins and ends.
-pub(crate) fn ends(posture: &Posture<'_>, limb: usize) -> Ends {
-    let l = &posture.mechanism.limbs[limb];
-    let (base, end) = (&posture.platforms[l.from], &posture.platforms[l.to]);
+/// Where a limb begins and ends while the platforms are in these poses.
+pub(crate) fn ends(mechanism: &Mechanism, platforms: &[Pose], limb: usize) -> Ends {
+    let l = &mechanism.limbs[limb];
+    let (base, end) = (&platforms[l.from], &platforms[l.to]);
     let arm: Vector3<f64> = end.rotation * l.platform_from_tip.translation.vector;
     let tip = end.translation.vector + arm;
     Ends {
@@ -94,7 +95,7 @@ impl Network {
                 false => DMatrix::from_columns(&normals),
             });
             network.limbs.push(k);
-            network.motions.push(ends(posture, i));
+            network.motions.push(ends(m, &posture.platforms, i));
         }
         Ok(network)
     }

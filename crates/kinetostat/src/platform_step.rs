@@ -159,26 +159,6 @@ impl PlatformSolver<'_> {
         (by_pose, by_target)
     }
 
-    /// What the force of a limb adds to a platform's stiffness as its arm turns.
-    fn turned_force(&self, limb: usize, at: &MechanismState) -> Matrix6<f64> {
-        let f = at.wrenches[limb].force();
-        rotational(&(hat(&f) * hat(&self.arm(limb, at))))
-    }
-
-    /// What forces of limbs and loads add to the limbs' stiffnesses, at the present state of a machine whose only
-    /// moving platform is the tool.
-    pub fn turned_loads(&self) -> Matrix6<f64> {
-        let (at, tool) = (&self.state, self.mechanism.tool);
-        let limbs = 0..self.mechanism.limbs.len();
-        let mut sum: Matrix6<f64> = limbs.map(|limb| self.turned_force(limb, at)).sum();
-        self.add_platform_loads(at, |on, by, block| {
-            if on == tool && by == tool {
-                sum += block;
-            }
-        });
-        sum
-    }
-
     /// Adds the tangents of what acts on the platforms themselves, `-dW / d(motion)`.
     pub fn add_platform_loads(
         &self,

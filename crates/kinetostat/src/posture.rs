@@ -10,14 +10,13 @@ use crate::chain::MotionKind;
 use crate::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::equilibrium::{ChainProblem, EndCondition, Residual, unloaded_tip};
 use crate::error::{Error, Result};
+use crate::graded_platforms::GradedPlatforms;
 use crate::graph::{GraphPosture, graph_inverse};
 use crate::graph_check::check_state;
 use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::link_load::{LinkLoad, link_loads};
 use crate::load_energy::load_energy;
-use crate::machine_directions::{
-    balanced_directions, condensed, condensed_directions, others_hold,
-};
+use crate::machine_directions::{balanced_directions, condensed_directions, others_hold};
 use crate::mechanism::Mechanism;
 use crate::network::Network;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
@@ -461,10 +460,14 @@ impl<'m> Posture<'m> {
         let m = self.mechanism;
         let network = Network::new(self)?;
         let scale = m.scale();
+        // Nothing acts: no more than the limbs' own.
+        let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
+        let own = network.limbs.iter().zip(scales.clone());
+        let own = own.zip(&network.motions).map(|((k, s), e)| (k, s, e));
+        let graded = GradedPlatforms::of(scale, network.moving(), own);
         let (matrix, directions) = if m.platforms.len() > 2 {
-            let found = condensed(&network.stiffness(), &network.rows(), m.tool - 1, scale);
-            let directions = condensed_directions(&found, scale);
-            (found.matrix, directions)
+            let (total, rigid) = (network.stiffness(), network.rows());
+            condensed_directions(&total, graded.as_ref(), &rigid, m.tool - 1, scale)
         } else {
             let mut total = Matrix6::zeros();
             for (k, ends) in network.limbs.iter().zip(&network.motions) {
@@ -474,12 +477,9 @@ impl<'m> Posture<'m> {
                 .limbs
                 .iter()
                 .map(|limb| self.target.rotation * limb.platform_from_tip.translation.vector);
-            let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
             let own = network.limbs.iter().zip(arms).zip(scales);
             let own = own.map(|((k, arm), scale)| (k, arm, scale));
-            // Nothing acts.
-            let turned = Matrix6::zeros();
-            let directions = balanced_directions(&total, &turned, scale, own);
+            let directions = balanced_directions(&total, graded.as_ref(), scale, own);
             (total, directions)
         };
         let answer = UnloadedStiffness {
@@ -627,9 +627,7 @@ pub(crate) fn conclude(
         2 => RigidRows::none(1),
         _ => solver.rigid_rows(&solver.state).0,
     };
-    let found = condensed(&tangent, &rigid, tool - 1, scale);
-    let stiffness = found.matrix;
-    if let Some(&value) = stiffness.iter().find(|x| !x.is_finite()) {
+    if let Some(&(.., value)) = tangent.entries.iter().find(|(.., x)| !x.is_finite()) {
         return Err(Error::NotFinite {
             place: format!("mechanism '{}'", m.name),
             what: "its tangent stiffness".into(),
@@ -696,16 +694,22 @@ pub(crate) fn conclude(
         Some(sum? + limb.energy + limb.load_energy?)
     });
     // With platforms in between, what blocks the tool is not one limb's affair.
-    let directions = if m.platforms.len() > 2 {
-        condensed_directions(&found, scale)
+    let own: Vec<&ChainStiffness> = limbs.iter().map(|limb| &limb.stiffness).collect();
+    let graded = solver.graded(&tangent, &own);
+    let (stiffness, directions) = if m.platforms.len() > 2 {
+        condensed_directions(&tangent, graded.as_ref(), &rigid, tool - 1, scale)
     } else {
-        let own = limbs.iter().zip(&m.limbs);
-        let own = own.map(|(limb, description): (&LimbEquilibrium, _)| {
+        let mut stiffness = Matrix6::zeros();
+        for &(i, j, value) in &tangent.entries {
+            stiffness[(i, j)] += value;
+        }
+        let own = own.into_iter().zip(&m.limbs).map(|(limb, description)| {
             let arm = solver.state.platforms[tool].rotation
                 * description.platform_from_tip.translation.vector;
-            (&limb.stiffness, arm, description.actual.scale())
+            (limb, arm, description.actual.scale())
         });
-        balanced_directions(&stiffness, &solver.turned_loads(), scale, own)
+        let directions = balanced_directions(&stiffness, graded.as_ref(), scale, own);
+        (stiffness, directions)
     };
     let least = directions
         .iter()
@@ -729,6 +733,7 @@ pub(crate) fn conclude(
             stable: least >= 0.0
                 && others_hold(
                     &tangent,
+                    graded.as_ref(),
                     &rigid,
                     tool - 1,
                     scale,
@@ -742,7 +747,7 @@ pub(crate) fn conclude(
         limbs,
         residual,
         state: solver.state.clone(),
-        others_hold: others_hold(&tangent, &rigid, tool - 1, scale, true),
+        others_hold: others_hold(&tangent, graded.as_ref(), &rigid, tool - 1, scale, true),
     };
     Ok(answer.named(m))
 }

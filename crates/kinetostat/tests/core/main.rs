@@ -58,6 +58,7 @@ mod screws_turn_with_their_joints;
 mod shapes_and_their_stability;
 mod singular_values;
 mod stewart_gough_3_34_and_3_35;
+mod stiffnesses_behind_platforms;
 mod stiffnesses_of_any_ratio;
 mod stored_stiffness_is_the_derivative_of_the_wrench;
 mod three_ways_to_a_stiffness;
