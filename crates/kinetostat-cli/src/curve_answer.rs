@@ -408,6 +408,15 @@ pub(crate) fn solve(
             }
         }
     }
+    for special in curves.specials.iter().filter(|s| s.lost_branch) {
+        warnings.push(Warning::new(
+            WarningCode::CurveEnds,
+            format!(
+                "a branch that crosses at {} could not be followed: its first step did not converge, and its shapes are missing here",
+                q.shown(special.point.parameter)
+            ),
+        ));
+    }
     if curves.more_branches {
         warnings.push(Warning::new(
             WarningCode::MoreBranches,
@@ -470,10 +479,7 @@ fn not_there(q: &Question, there: &ChainProblem<'_>, error: kinetostat::Error) -
 /// The displacement stands still at the start.
 fn is_locked(curves: &Curves<'_>) -> bool {
     let points = curves.branches.first().map(|b| b.points.as_slice());
-    points.is_some_and(|list| {
-        list.iter()
-            .all(|p| !p.slope.is_finite() || p.slope.abs() > 1e9)
-    })
+    points.is_some_and(|list| list.iter().all(|p| !p.slope.is_finite()))
 }
 
 fn critical_loads(

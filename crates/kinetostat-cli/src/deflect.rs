@@ -434,7 +434,13 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     out.push('\n');
     let row = |name: &str, v: [f64; 3], decimals: usize, unit: &str| {
         let mut cells = vec![format!("{name}, {unit}")];
-        cells.extend(v.iter().map(|x| fixed(*x, decimals)));
+        let most = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        // With fixed places a small load, or what it does, would be shown as nothing.
+        let small = most > 0.0 && most < 10.0_f64.powf(1.0 - decimals as f64);
+        cells.extend(v.iter().map(|x| match small {
+            true => number(*x, 4),
+            false => fixed(*x, decimals),
+        }));
         cells
     };
     out.push_str(&columns(

@@ -407,7 +407,7 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
         .for_each(|p| out.push_str(&what_moves(p)));
     out.push_str("\nLimbs\n");
     for limb in &a.limbs {
-        out.push_str(&item(&limb_in_words(limb)));
+        out.push_str(&item(&limb_in_words(limb, a.limbs.len())));
     }
     out.push_str(&summary::warnings(&a.warnings));
     out
@@ -586,7 +586,8 @@ pub(crate) fn what_moves(p: &Principal) -> String {
     ))
 }
 
-fn limb_in_words(limb: &LimbShare) -> String {
+/// A limb among a number of them.
+fn limb_in_words(limb: &LimbShare, of: usize) -> String {
     let mut parts = vec![format!("stiff in {} of 6", limb.rank - limb.negative)];
     if limb.free > 0 {
         parts.push(format!("free in {} (passive joints)", limb.free));
@@ -595,8 +596,13 @@ fn limb_in_words(limb: &LimbShare) -> String {
         parts.push(format!("rigid in {}", limb.rigid));
     }
     if limb.negative > 0 {
+        let held = if of > 1 {
+            " (unless the others hold it)"
+        } else {
+            ""
+        };
         parts.push(format!(
-            "negative in {}, where its load pulls it away (the others hold it)",
+            "negative in {}, where its load pulls it away{held}",
             limb.negative
         ));
     }

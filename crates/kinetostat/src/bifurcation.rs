@@ -14,9 +14,9 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::branches::CurvePoint;
-use crate::curve_matrix::{CurveMatrix, Tangent};
+use crate::curve_matrix::Tangent;
 use crate::reduced::{Corrected, Reduced, Row};
-use crate::singular_point::{left_null, null_directions, refine, tangents};
+use crate::singular_point::{refine, tangents};
 use crate::tracer::Tracer;
 
 /// What is special about a point of a curve.
@@ -63,6 +63,8 @@ pub struct Special {
     /// True if the curve is stable on one side of it at least (for a limit point: under the kind of
     /// load that it limits).
     pub stable_side: bool,
+    /// A branch crosses here whose first step did not converge: it is not among the branches.
+    pub lost_branch: bool,
     /// Directions of the branches other than the one on which it was found.
     pub(crate) directions: Vec<DVector<f64>>,
 }
@@ -234,6 +236,7 @@ pub(crate) fn between(
                 mode,
                 accuracy: 1e-12,
                 branches: Vec::new(),
+                lost_branch: false,
                 stable_side: stable(here) || stable(there),
                 directions: Vec::new(),
             },
@@ -368,19 +371,16 @@ fn classified(
     let accuracy = if refined.is_some() { 1e-10 } else { 1e-6 };
     let z = refined.unwrap_or_else(|| guess.clone());
     let (_, balance, matrix) = tracer.reduced.linearised_densely(&z);
-    let list = match &family {
-        Some(family) => null_directions(&family.beside(&matrix)),
-        None => null_directions(&matrix),
+    let found = match &family {
+        Some(family) => tracer.reduced.null_directions(&family.beside(&matrix)),
+        None => tracer.reduced.null_directions(&matrix),
     };
-    let most = list.last()?.0;
-    if refined_missing && list.get(1).is_none_or(|l| l.0 > 1e-5 * most) {
+    let whole = tracer.reduced.whole(matrix.clone());
+    if found.values.is_empty() || (refined_missing && found.count(0, 1e-5) < 2) {
         return None;
     }
-    let null: Vec<DVector<f64>> = list
-        .iter()
-        .enumerate()
-        .filter(|(k, l)| *k < 2 || l.0 < 1e-5 * most)
-        .map(|(_, l)| l.1.clone())
+    let null: Vec<DVector<f64>> = (0..found.count(2, 1e-5))
+        .map(|k| found.right.column(k).into_owned())
         .collect();
     let m = tracer.reduced.count();
     let mean = (&segment.here.tangent + &segment.there.tangent).normalize();
@@ -399,9 +399,13 @@ fn classified(
     };
     let (kind, path, directions, mode) = if null.len() == 2 {
         let psi = match &family {
-            Some(family) => left_null(&family.beside_left(&matrix)),
-            None => left_null(&matrix),
+            Some(family) => {
+                let beside = family.beside_left(&matrix);
+                tracer.reduced.null_directions(&beside).left
+            }
+            None => found.left,
         };
+        let psi = psi.column(0).into_owned();
         let (path, other) = tangents(&mut tracer.reduced, &z, &psi, &null, &own(&null));
         let flat = |d: &DVector<f64>| d[m].abs() < 1e-4;
         let kind = if flat(&path) || flat(&other) {
@@ -435,7 +439,7 @@ fn classified(
     };
     let corrected = Corrected {
         z,
-        matrix: CurveMatrix::Dense(matrix),
+        matrix: whole,
         balance,
         iterations: 0,
     };
@@ -448,6 +452,7 @@ fn classified(
         mode,
         accuracy,
         branches: Vec::new(),
+        lost_branch: false,
         stable_side: here.held.stable || there.held.stable,
         directions,
     })

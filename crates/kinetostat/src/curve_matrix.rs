@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::curve_sweep::CurveSweep;
 use crate::family::Family;
 use crate::saddle::Saddle;
+use crate::stability::MaterialUnits;
 
 /// Sign and logarithm of a determinant, and the direction in which equilibrium persists.
 pub(crate) struct Tangent {
@@ -34,10 +35,81 @@ impl Tangent {
     }
 }
 
+/// Units of a state's coordinates, among its other unknowns, in which the springs' own stiffness is one.
+pub(crate) struct StateUnits {
+    /// The first coordinate.
+    pub first: usize,
+    /// How many there are.
+    pub count: usize,
+    pub material: MaterialUnits,
+}
+
+impl StateUnits {
+    /// Of the coordinates' rows.
+    pub fn rows(&self, a: &mut DMatrix<f64>) {
+        let mut own = a.rows(self.first, self.count).into_owned();
+        self.material.gather(&mut own);
+        a.rows_mut(self.first, self.count).copy_from(&own);
+    }
+
+    /// Of the coordinates' rows and columns.
+    pub fn both(&self, a: DMatrix<f64>) -> DMatrix<f64> {
+        let mut turned = a;
+        for _ in 0..2 {
+            self.rows(&mut turned);
+            turned = turned.transpose();
+        }
+        turned
+    }
+
+    /// Directions in these units as those of the state.
+    pub fn directions(&self, vectors: &mut DMatrix<f64>) {
+        let own = vectors.rows(self.first, self.count).into_owned();
+        let own = self.material.motions(own);
+        vectors.rows_mut(self.first, self.count).copy_from(&own);
+    }
+}
+
+/// All of `[dG/du dG/dlambda]`, with units for it where some springs are very much stiffer than others.
+pub(crate) struct Whole {
+    pub matrix: DMatrix<f64>,
+    pub units: Option<StateUnits>,
+}
+
+impl Whole {
+    /// Solution of a square system that begins with the matrix; the shortest one where it is singular.
+    fn solve(&self, a: DMatrix<f64>, mut b: DMatrix<f64>) -> DMatrix<f64> {
+        let ones = vec![1.0; a.nrows()];
+        let Some(units) = &self.units else {
+            Saddle::new(a, &ones, &ones).solve(&mut b);
+            return b;
+        };
+        units.rows(&mut b);
+        Saddle::new(units.both(a), &ones, &ones).solve(&mut b);
+        units.directions(&mut b);
+        b
+    }
+
+    /// Solution of a regular square system that begins with the matrix, for a right-hand side that does not
+    /// concern the coordinates; with sign and logarithm of the size of the determinant.
+    pub fn regular(&self, a: DMatrix<f64>, b: &DMatrix<f64>) -> Option<(DMatrix<f64>, f64, f64)> {
+        let lu = match &self.units {
+            Some(units) => units.both(a).lu(),
+            None => a.lu(),
+        };
+        let (sign, logarithm) = determinant(&lu);
+        let mut solution = lu.solve(b)?;
+        if let Some(units) = &self.units {
+            units.directions(&mut solution);
+        }
+        Some((solution, sign, logarithm))
+    }
+}
+
 /// `[dG/du dG/dlambda]`, m x (m + 1), balanced.
 pub(crate) enum CurveMatrix {
     /// All of it.
-    Dense(DMatrix<f64>),
+    Dense(Whole),
     /// Of a long chain.
     Swept(Box<CurveSweep>),
 }
@@ -46,14 +118,14 @@ impl CurveMatrix {
     /// `dG/dlambda`.
     pub fn gradient(&self) -> DVector<f64> {
         match self {
-            Self::Dense(matrix) => matrix.column(matrix.ncols() - 1).into_owned(),
+            Self::Dense(own) => own.matrix.column(own.matrix.ncols() - 1).into_owned(),
             Self::Swept(sweep) => sweep.gradient.clone(),
         }
     }
 
     pub fn is_finite(&self) -> bool {
         match self {
-            Self::Dense(matrix) => matrix.iter().all(|v| v.is_finite()),
+            Self::Dense(own) => own.matrix.iter().all(|v| v.is_finite()),
             Self::Swept(sweep) => sweep.gradient.iter().all(|v| v.is_finite()),
         }
     }
@@ -67,40 +139,36 @@ impl CurveMatrix {
         miss: f64,
         family: Option<&Family>,
     ) -> Option<DVector<f64>> {
-        let matrix = match self {
-            Self::Dense(matrix) => matrix,
+        let own = match self {
+            Self::Dense(own) => own,
             Self::Swept(sweep) => return sweep.closed_by(normal).solve(&-lack, -miss),
         };
+        let matrix = &own.matrix;
         let m = matrix.nrows();
         let a = family.map_or_else(|| bordered(matrix, normal), |f| f.bordered(matrix, normal));
-        let ones = vec![1.0; a.nrows()];
         let mut b = DMatrix::zeros(a.nrows(), 1);
         for i in 0..m {
             b[(i, 0)] = -lack[i];
         }
         b[(m, 0)] = -miss;
-        Saddle::new(a, &ones, &ones).solve(&mut b);
-        Some(b.view((0, 0), (m + 1, 1)).column(0).into_owned())
+        let step = own.solve(a, b);
+        Some(step.view((0, 0), (m + 1, 1)).column(0).into_owned())
     }
 
     /// Tangent, oriented along `guide`, at rest along the motions of a family.
     pub fn tangent(&self, guide: &DVector<f64>, family: Option<&Family>) -> Option<Tangent> {
-        let matrix = match self {
-            Self::Dense(matrix) => matrix,
+        let own = match self {
+            Self::Dense(own) => own,
             Self::Swept(sweep) => return sweep.closed_by(guide).tangent(),
         };
+        let matrix = &own.matrix;
         let m = matrix.nrows();
-        let lu = family
-            .map_or_else(|| bordered(matrix, guide), |f| f.bordered(matrix, guide))
-            .lu();
-        let (sign, logarithm) = determinant(&lu);
-        let mut unit = DVector::zeros(lu.l().nrows());
-        unit[m] = 1.0;
-        Tangent::new(
-            &lu.solve(&unit)?.rows(0, m + 1).into_owned(),
-            sign,
-            logarithm,
-        )
+        let a = family.map_or_else(|| bordered(matrix, guide), |f| f.bordered(matrix, guide));
+        let mut unit = DMatrix::zeros(a.nrows(), 1);
+        unit[(m, 0)] = 1.0;
+        let (solution, sign, logarithm) = own.regular(a, &unit)?;
+        let solution = solution.view((0, 0), (m + 1, 1)).column(0).into_owned();
+        Tangent::new(&solution, sign, logarithm)
     }
 
     /// The tangent, if a sweep shows that the null direction is the only one: no matrix closed by it

@@ -8,14 +8,16 @@
 //! result says how often each equilibrium was found and how likely another start is to find a new
 //! one. It is deterministic.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::branches::{CurveSettings, follow};
 use crate::chain::{Chain, MotionKind, Role};
-use crate::curve_matrix::CurveMatrix;
 use crate::equilibrium::{ChainProblem, Equilibrium, Prescribed, step_limit};
 use crate::error::{Error, Result};
+use crate::family::family_of;
 use crate::load_energy::load_energy;
 use crate::reduced::{Corrected, LoadPattern, Parameter, Reduced};
 use crate::saddle::{Saddle, pseudo_inverse};
@@ -204,7 +206,9 @@ pub fn equilibria(
     while search.known.len() < settings.most {
         // What every new equilibrium suggests.
         while suggested < search.known.len() {
-            queue.extend(around(&search.known[suggested], chain));
+            let from = search.known[suggested].equilibrium.coordinates.clone();
+            let more = around(&search.known[suggested], chain).into_iter();
+            queue.extend(more.map(|x| search.reduced.strained_coordinates(&from, x)));
             suggested += 1;
         }
         if let Some(x) = queue.pop() {
@@ -212,6 +216,8 @@ pub fn equilibria(
         } else if !search.enough(settings) && search.starts < settings.starts {
             index += 1;
             let x = spread(&search, index);
+            let home = chain.home_coordinates();
+            let x = search.reduced.strained_coordinates(&home, x);
             search.start(&x, true);
         } else if let Some(parameter) = sweep.as_ref().filter(|_| swept < search.known.len()) {
             search.sweep(parameter, swept);
@@ -287,7 +293,8 @@ fn around(known: &Known, chain: &Chain) -> Vec<Vec<f64>> {
 }
 
 /// Point `index` of an additive recurrence that fills the bounds evenly. Springs are spread over
-/// what the natural energy can deflect, a third of it, and a tenth of it in turn.
+/// what the natural energy can deflect, a third of it, and a tenth of it in turn; where some are very much
+/// stiffer than others, what a turn by one radian of the softest one stores.
 fn spread(search: &Search<'_, '_, '_>, index: usize) -> Vec<f64> {
     let chain = search.reduced.problem.chain;
     let n = chain.coordinate_count();
@@ -299,7 +306,16 @@ fn spread(search: &Search<'_, '_, '_>, index: usize) -> Vec<f64> {
     let share = [4.0, 1.5, 0.4][index % 3];
     let mut one = DVector::zeros(search.reduced.count() + 1);
     one.rows_mut(search.reduced.reactions(), n).fill(share);
-    let reach = search.reduced.coordinates(&one);
+    let mut reach = search.reduced.coordinates(&one);
+    if spread_of_springs(chain, &reach) > UNEVEN {
+        let rotations = chain.coordinates().iter().zip(&reach);
+        let softest = rotations
+            .filter(|(c, _)| c.role == Role::Spring && c.kind == MotionKind::Revolute)
+            .fold(0.0_f64, |most, (_, x)| most.max(*x));
+        if softest > share {
+            reach.iter_mut().for_each(|x| *x *= share / softest);
+        }
+    }
     let mut weight = 1.0;
     (0..n)
         .map(|i| {
@@ -319,6 +335,22 @@ fn spread(search: &Search<'_, '_, '_>, index: usize) -> Vec<f64> {
             low + u * (high - low)
         })
         .collect()
+}
+
+/// Springs of which one is this many times as stiff as another are spread by the energy of the softest.
+const UNEVEN: f64 = 1e4;
+
+/// Stiffness of the stiffest spring over that of the softest, from deflections of equal energy.
+fn spread_of_springs(chain: &Chain, reach: &[f64]) -> f64 {
+    let length = chain.scale().length;
+    let springs = chain.coordinates().iter().zip(reach);
+    let springs = springs.filter(|(c, _)| c.role == Role::Spring);
+    let moved = springs.map(|(c, x)| match c.kind {
+        MotionKind::Prismatic => *x,
+        MotionKind::Revolute => x * length,
+    });
+    let (least, most) = moved.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+    (most / least).powi(2)
 }
 
 /// Full turns (rad) of passive joints, 0 elsewhere.
@@ -355,7 +387,15 @@ struct Known {
     hits: usize,
     /// Least singular value of the conditions' derivative, balanced.
     least: f64,
+    /// Share of the loads that is not balanced: of very stiff springs, what rounding allows.
+    residual: f64,
 }
+
+/// Share of the largest singular value below which the least one makes an equilibrium degenerate.
+const SINGULAR: f64 = 1e-7;
+
+/// Relative difference of energies per relative residual: soft motions amplify it.
+const LEFT_OPEN: f64 = 1e3;
 
 struct Search<'p, 'a, 'b> {
     reduced: Reduced<'p, 'a>,
@@ -430,7 +470,7 @@ impl Search<'_, '_, '_> {
             let mut whole = DVector::zeros(m + 1);
             whole.rows_mut(r, m - r).copy_from(&(-step));
             let length = step_limit(chain, self.reduced.motion(&whole).into_iter());
-            z += whole * length;
+            z = self.reduced.strained(&z, &z + whole * length);
         }
         // Reactions by least squares: torques are linear in them.
         let (lack, _) = self.reduced.evaluate(&z);
@@ -457,7 +497,7 @@ impl Search<'_, '_, '_> {
                 matrix.columns_mut(0, m).copy_from(&self.reduced.matrix());
                 return Some(Corrected {
                     z,
-                    matrix: CurveMatrix::Dense(matrix),
+                    matrix: self.reduced.whole(matrix),
                     balance,
                     iterations: iteration,
                 });
@@ -484,7 +524,7 @@ impl Search<'_, '_, '_> {
             let mut best = (f64::INFINITY, length);
             let tries = if deflate { 1 } else { 7 };
             for k in 0..tries {
-                let trial = &z + &whole * length;
+                let trial = self.reduced.strained(&z, &z + &whole * length);
                 let (after, _) = self.reduced.evaluate(&trial);
                 let size = after.norm();
                 if size < best.0 {
@@ -501,7 +541,7 @@ impl Search<'_, '_, '_> {
                 return None;
             }
             // Where no length lowers it, the best one still leads out of a bad place.
-            z += &whole * best.1;
+            z = self.reduced.strained(&z, &z + &whole * best.1);
             (lack, balance) = self.reduced.evaluate(&z);
             small = whole.norm() * best.1 < 1e-7 * (1.0 + z.norm()) || balance.torque < 1e-14;
         }
@@ -600,6 +640,7 @@ impl Search<'_, '_, '_> {
             return false;
         }
         let energy = self.reduced.system.energy;
+        let residual = c.balance.torque / c.balance.loads.max(f64::MIN_POSITIVE);
         let stability = self.reduced.stability(&c, false);
         let unstable = stability.unstable_modes;
         for k in &mut self.known {
@@ -612,7 +653,9 @@ impl Search<'_, '_, '_> {
             };
             let d = wrapped(&c.z, &k.z, &turns, offset);
             let alike = (k.equilibrium.energy - energy).abs()
-                <= 1e-8 * (energy.abs() + k.equilibrium.energy.abs()) + 1e-14;
+                <= (1e-8 + LEFT_OPEN * (k.residual + residual))
+                    * (energy.abs() + k.equilibrium.energy.abs())
+                    + 1e-14;
             // Members of a family that moves for nothing differ in the joints that move.
             let fixed = (0..d.len())
                 .filter(|&i| i < offset || !idle.get(i - offset).is_some_and(|idle| *idle))
@@ -620,7 +663,7 @@ impl Search<'_, '_, '_> {
                 .sum::<f64>()
                 .sqrt();
             let moves = idle.contains(&true) && fixed <= near;
-            let degenerate = k.least < 1e-7
+            let degenerate = k.least < SINGULAR
                 && d.rows(0, offset).norm() <= 1e-6 * (1.0 + k.z.rows(0, offset).norm());
             let member = alike && (moves || degenerate);
             if d.norm() <= near || member {
@@ -635,7 +678,20 @@ impl Search<'_, '_, '_> {
             let singular = SingularValues::of(&square);
             singular.least() / singular.largest().max(f64::MIN_POSITIVE)
         };
-        let equilibrium = self.reduced.equilibrium(&c);
+        // A motion that costs nothing is neither stable nor unstable, whatever rounding says.
+        let (mut stability, mut equilibrium) = (stability, None);
+        if least < SINGULAR {
+            let mut still = DVector::zeros(c.z.len());
+            still[c.z.len() - 1] = 1.0;
+            self.reduced.family = family_of(&mut self.reduced, &c.z, &still).map(Arc::new);
+            if self.reduced.family.is_some() {
+                stability = self.reduced.stability(&c, false);
+                equilibrium = Some(self.reduced.equilibrium(&c));
+                self.reduced.family = None;
+            }
+        }
+        let unstable = stability.unstable_modes;
+        let equilibrium = equilibrium.unwrap_or_else(|| self.reduced.equilibrium(&c));
         self.known.push(Known {
             z: c.z,
             equilibrium,
@@ -644,6 +700,7 @@ impl Search<'_, '_, '_> {
             unstable,
             hits: usize::from(plain),
             least,
+            residual,
         });
         self.since = 0;
         false
@@ -677,7 +734,7 @@ impl Search<'_, '_, '_> {
                 stable: k.stable,
                 may_flutter: k.may_flutter,
                 hits: k.hits,
-                singular: k.least < 1e-7,
+                singular: k.least < SINGULAR,
                 equilibrium: k.equilibrium,
             })
             .collect();

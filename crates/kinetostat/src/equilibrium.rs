@@ -673,6 +673,19 @@ struct Failure {
     iterations: usize,
 }
 
+/// Turns in all, rad, beyond which one step may have passed the shape to which the growing load leads.
+pub(crate) const FAR: f64 = std::f64::consts::PI;
+
+/// Sum of the turns of a chain's coordinates, rad.
+pub(crate) fn turned(chain: &Chain, from: &[f64], to: &[f64]) -> f64 {
+    let kinds = chain.coordinates().iter().map(|c| c.kind);
+    kinds
+        .zip(from.iter().zip(to))
+        .filter(|(kind, _)| *kind == MotionKind::Revolute)
+        .map(|(_, (here, there))| (there - here).abs())
+        .sum()
+}
+
 /// The stable shape to which the growing load leads, where one step found another that is unstable and bent by
 /// more than half a turn in all: it may have passed the former. A straight column, pressed, stays straight.
 fn led_to(
@@ -684,14 +697,7 @@ fn led_to(
     if found.stability.stable {
         return None;
     }
-    let kinds = problem.chain.coordinates().iter().map(|c| c.kind);
-    let ends = found.coordinates.iter().zip(&problem.posture);
-    let turned: f64 = kinds
-        .zip(ends)
-        .filter(|(kind, _)| *kind == MotionKind::Revolute)
-        .map(|(_, (there, here))| (there - here).abs())
-        .sum();
-    if turned <= std::f64::consts::PI {
+    if turned(problem.chain, &problem.posture, &found.coordinates) <= FAR {
         return None;
     }
     let mut attempt = Attempt::new(problem, settings, path);

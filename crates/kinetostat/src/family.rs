@@ -17,14 +17,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::curve_matrix::Whole;
 use crate::reduced::{Reduced, Row};
-use crate::singular_point::null_directions;
 
 /// Singular values below this share of the largest count as zero, if moved equilibria confirm it.
-const NULL: f64 = 1e-8;
+const NULL: f64 = 1e-7;
 
-/// How far an equilibrium is moved along a motion that seems neutral, balanced units.
-const MOVED: f64 = 0.03;
+/// How far an equilibrium is moved along a motion that seems neutral, balanced units: as far as its family
+/// goes, which close to its origin is a small circle.
+const MOVED: [f64; 3] = [0.03, 0.003, 0.0003];
 
 /// Motions that lead from one equilibrium to another at the same value of the parameter.
 #[derive(Clone, Debug)]
@@ -67,15 +68,18 @@ impl Family {
     }
 
     /// The family at a neighbouring state, with the orientation kept; `None` if it is too far away.
-    pub fn carried(&self, matrix: &DMatrix<f64>, t: &DVector<f64>) -> Option<Self> {
+    pub fn carried(&self, whole: &Whole, t: &DVector<f64>) -> Option<Self> {
+        let matrix = &whole.matrix;
         let (m, k) = (matrix.nrows(), self.motions.ncols());
         let a = self.bordered(matrix, t);
         let mut unit = DMatrix::zeros(m + 1 + k, k);
         for i in 0..k {
             unit[(m + 1 + i, i)] = 1.0;
         }
-        let motions = a.clone().lu().solve(&unit)?.rows(0, m + 1).into_owned();
-        let lefts = a.transpose().lu().solve(&unit)?.rows(0, m).into_owned();
+        let (motions, ..) = whole.regular(a.clone(), &unit)?;
+        let (lefts, ..) = whole.regular(a.transpose(), &unit)?;
+        let motions = motions.rows(0, m + 1).into_owned();
+        let lefts = lefts.rows(0, m).into_owned();
         let motions = neutral_part(motions, t)?;
         let near = (self.motions.transpose() * &motions).determinant() > 0.5;
         let lefts = orthonormal(lefts)?;
@@ -130,18 +134,12 @@ pub(crate) fn family_of(
     t: &DVector<f64>,
 ) -> Option<Family> {
     let (_, _, matrix) = reduced.linearised_densely(z);
-    let list = null_directions(&matrix);
-    let most = list.last()?.0;
-    let null: Vec<DVector<f64>> = list
-        .into_iter()
-        .enumerate()
-        .filter(|(i, l)| *i == 0 || l.0 < NULL * most)
-        .map(|(_, l)| l.1)
-        .collect();
-    if null.len() < 2 {
+    let found = reduced.null_directions(&matrix);
+    let count = found.count(1, NULL);
+    if count < 2 {
         return None;
     }
-    let null = DMatrix::from_columns(&null);
+    let null = found.right.columns(0, count).into_owned();
     let k = null.ncols() - 1;
     // The curve's own direction changes the parameter, the family's motions do not.
     let last = t.len() - 1;
@@ -156,18 +154,24 @@ pub(crate) fn family_of(
         return None;
     }
     let motions = &null * crate::saddle::complement(&DMatrix::from_columns(&[own]));
-    let left = crate::singular_values::SingularValues::of(&matrix).left;
-    let least: Vec<usize> = (0..left.ncols()).rev().take(k).collect();
-    let lefts = left.select_columns(&least);
+    let lefts = found.left.columns(0, k).into_owned();
     let family = Family { motions, lefts };
     let before = reduced.family.replace(family.clone().into());
-    let holds = family.motions.column_iter().all(|v| {
-        [-MOVED, MOVED].into_iter().all(|h| {
-            let moved = z + v * h;
-            let row = Row::Plane(t, t.dot(&moved));
-            let there = reduced.correct(&moved, &row, 10);
-            there.is_some_and(|c| (&c.z - &moved).norm() < 0.3 * MOVED)
-        })
+    let sizes = family.motions.column_iter();
+    let sizes: Vec<f64> = sizes
+        .map(|v| reduced.size_of_motion(&v.into_owned()))
+        .collect();
+    let mut at_rest = |v: &DVector<f64>, h: f64| {
+        let moved = reduced.followed(z, z + v * h);
+        let row = Row::Plane(t, t.dot(&moved));
+        let Some(there) = reduced.correct(&moved, &row, 10) else {
+            return false;
+        };
+        reduced.size_of_motion(&(there.z - moved)) < 0.3 * reduced.size_of_motion(&(v * h))
+    };
+    let holds = family.motions.column_iter().zip(sizes).all(|(v, size)| {
+        let v = v / size;
+        MOVED.into_iter().any(|h| at_rest(&v, -h) && at_rest(&v, h))
     });
     reduced.family = before;
     reduced.evaluate(z);

@@ -14,37 +14,13 @@ use crate::number::short;
 use crate::saddle::{RANK_TOLERANCE, Saddle};
 use crate::singular_values::SingularValues;
 use crate::spring::balanced;
+use crate::stability::{MaterialUnits, material_springs};
 use crate::sweep::{Form, Sweep};
 use crate::sweep_solve::{Bordered, EndRows, STEP_SPRINGS};
-use crate::system::System;
+use crate::system::{System, disparate};
 
 /// Roots of compliances that differ by more than this (stiffnesses by its square) are taken apart.
 const UNEVEN: f64 = 1e3;
-
-/// `x = T y`: coordinates in which every block of springs is the unit matrix, as far as they are
-/// positive definite; balanced.
-fn spring_roots(chain: &Chain, system: &System, factors: &[f64]) -> DMatrix<f64> {
-    let n = chain.coordinate_count();
-    let mut roots = DMatrix::identity(n, n);
-    for block in chain.springs() {
-        let (first, size) = (block.first, block.len());
-        let k = DMatrix::from_fn(size, size, |i, j| {
-            let at = (first + i, first + j);
-            system.spring_tangent[at] * factors[6 + at.0] * factors[6 + at.1]
-        });
-        let inverse = k.cholesky().and_then(|c| {
-            let mut inverse = DMatrix::identity(size, size);
-            let solved = c.l_dirty().tr_solve_lower_triangular_mut(&mut inverse);
-            (solved && inverse.iter().all(|x| x.is_finite())).then_some(inverse)
-        });
-        if let Some(inverse) = inverse {
-            roots
-                .view_mut((first, first), (size, size))
-                .copy_from(&inverse);
-        }
-    }
-    roots
-}
 
 /// Motions of a chain's end sorted by how stiff they are.
 pub(crate) struct Graded {
@@ -76,7 +52,7 @@ impl Graded {
         rank > 1 && own.values[0] > UNEVEN * own.values[rank - 1]
     }
 
-    /// `None` where stiffnesses are of similar size: nothing is lost there in any way.
+    /// `None` where stiffnesses of springs and of the end are of similar size: nothing is lost there in any way.
     pub fn of(
         chain: &Chain,
         system: &System,
@@ -84,9 +60,11 @@ impl Graded {
         jacobian: &DMatrix<f64>,
     ) -> Option<Self> {
         let n = jacobian.ncols();
-        let roots = spring_roots(chain, system, factors);
+        // Springs' own stiffness only: with what loads take from it a block may not be positive definite.
+        let units = MaterialUnits::of(chain, &material_springs(system, factors).0);
+        let roots = units.motions(DMatrix::identity(n, n));
         let turned = jacobian * &roots;
-        if !Self::uneven(&turned) {
+        if !disparate(factors, chain) && !Self::uneven(&turned) {
             return None;
         }
         let own = SingularValues::of(&turned);

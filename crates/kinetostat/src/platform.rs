@@ -283,7 +283,7 @@ impl<'m> PlatformSolver<'m> {
     }
 
     /// Evaluates every limb and the balance of every platform at the present state.
-    fn evaluate(&mut self) -> (MechanismBalance, Vec<Wrench>) {
+    pub fn evaluate(&mut self) -> (MechanismBalance, Vec<Wrench>) {
         let m = self.mechanism;
         self.evaluate_limbs();
         let (mut merit, mut closure_m, mut torque, mut loads, mut forces) =
@@ -623,11 +623,17 @@ impl<'m> PlatformSolver<'m> {
         } else {
             self.settings.picard_steps
         };
-        let first = match self.solve(1.0, picard) {
-            Ok((iterations, balance)) => return Ok(self.residual(&balance, iterations)),
-            Err(failed) => failed,
-        };
-        self.state = start;
+        match self.solve(1.0, picard) {
+            Ok((iterations, balance)) => Ok(self.residual(&balance, iterations)),
+            Err((_, balance)) => {
+                self.state = start;
+                self.grow_load(&balance)
+            }
+        }
+    }
+
+    /// Loads and closures grow from the limbs at rest; `first` is what one step lacked.
+    pub fn grow_load(&mut self, first: &MechanismBalance) -> Result<crate::equilibrium::Residual> {
         for (i, limb) in self.mechanism.limbs.iter().enumerate() {
             self.state.coordinates[i] =
                 crate::equilibrium::nudged(&limb.actual, &self.posture[i].coordinates, 1e-3);
@@ -639,7 +645,7 @@ impl<'m> PlatformSolver<'m> {
         self.evaluate();
         self.offsets = self.linear.iter().map(|l| l.closure).collect();
         let (mut share, mut step, mut iterations) = (0.0_f64, 0.125_f64, 0);
-        let mut last = first.1;
+        let mut last = *first;
         while share < 1.0 {
             let kept = self.state.clone();
             let next = (share + step).min(1.0);
@@ -656,7 +662,7 @@ impl<'m> PlatformSolver<'m> {
                     step *= 0.5;
                     if step < self.settings.smallest_load_step.max(1e-9) {
                         self.leads = false;
-                        return Err(self.not_converged(iterations, share, &first.1));
+                        return Err(self.not_converged(iterations, share, first));
                     }
                 }
             }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::MotionKind;
 use crate::compliance::{CartesianCompliance, stiffness_against_force};
-use crate::equilibrium::{ChainProblem, EndCondition, Residual, unloaded_tip};
+use crate::equilibrium::{ChainProblem, EndCondition, FAR, Residual, turned, unloaded_tip};
 use crate::error::{Error, Result};
 use crate::graded_platforms::GradedPlatforms;
 use crate::graph::{GraphPosture, graph_inverse};
@@ -499,7 +499,33 @@ impl<'m> Posture<'m> {
     /// one is on the way; [`Error::FreeDirection`] where the load pushes on along a motion that
     /// nothing holds, as far as it can be followed.
     pub fn deflected_by(&self, wrench: &Wrench) -> Result<MechanismEquilibrium> {
-        self.deflected_from(wrench, self.rest_state())
+        let found = self.deflected_from(wrench, self.rest_state())?;
+        Ok(self.led_to(wrench, &found).unwrap_or(found))
+    }
+
+    /// The stable equilibrium to which the growing load leads, where one step found another that does not stay and
+    /// in which the limbs turned by more than half a turn in all: it may have passed the former.
+    fn led_to(
+        &self,
+        wrench: &Wrench,
+        found: &MechanismEquilibrium,
+    ) -> Option<MechanismEquilibrium> {
+        if found.platform.stable && found.shapes_stable() {
+            return None;
+        }
+        let limbs = self.mechanism.limbs.iter().zip(&self.limbs);
+        let turns = limbs.zip(&found.limbs).map(|((limb, home), there)| {
+            turned(&limb.actual, &home.coordinates, &there.coordinates)
+        });
+        if turns.sum::<f64>() <= FAR {
+            return None;
+        }
+        let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
+        solver.wrench = *wrench;
+        let at_rest = solver.evaluate().0;
+        let residual = solver.grow_load(&at_rest).ok()?;
+        let grown = conclude(&mut solver, residual).ok()?;
+        (grown.platform.stable && grown.shapes_stable()).then_some(grown)
     }
 
     /// As [`Self::deflected_by`], starting from the state of a neighbouring equilibrium.

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::chain::{Role, sensible};
-use crate::curve_matrix::CurveMatrix;
+use crate::curve_matrix::{CurveMatrix, StateUnits, Whole};
 use crate::curve_sweep::CurveSweep;
 use crate::equilibrium::{
     Balance, ChainProblem, Equilibrium, Prescribed, System, balance, check_problem, disparate,
@@ -29,9 +29,12 @@ use crate::load_energy::is_conservative;
 use crate::loading::Load;
 use crate::saddle::{RANK_TOLERANCE, column_space, complement};
 use crate::settings::Settings;
+use crate::singular_point::NullDirections;
 use crate::singular_values::SingularValues;
 use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, turn_matrix};
-use crate::stability::{ShapeStability, stability_within, swept_stability_within};
+use crate::stability::{
+    MaterialUnits, ShapeStability, material_springs, stability_within, swept_stability_within,
+};
 use crate::sweep::{Path, turned_rows};
 use crate::sweep_solve::EndMotions;
 
@@ -386,19 +389,29 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 
     /// The state `to`, a step of an iteration away from `from`, as the springs of a chain with very stiff ones
-    /// take that step: in their own strain, see [`crate::spring::SpringBlock::follow`].
-    pub fn followed(&self, from: &DVector<f64>, mut to: DVector<f64>) -> DVector<f64> {
-        let chain = self.problem.chain;
-        if !disparate(&self.factors, chain) {
-            return to;
+    /// take that step: in their own strain.
+    pub fn followed(&self, from: &DVector<f64>, to: DVector<f64>) -> DVector<f64> {
+        match disparate(&self.factors, self.problem.chain) {
+            true => self.strained(from, to),
+            false => to,
         }
-        let (start, mut x) = (self.coordinates(from), self.coordinates(&to));
-        for block in chain.springs() {
-            block.follow(&start, 1.0, &mut x);
-        }
+    }
+
+    /// The state `to`, a step away from `from` in the springs' own strain, see
+    /// [`crate::spring::SpringBlock::follow`].
+    pub fn strained(&self, from: &DVector<f64>, mut to: DVector<f64>) -> DVector<f64> {
+        let x = self.strained_coordinates(&self.coordinates(from), self.coordinates(&to));
         let r = self.reactions();
         for (i, x) in x.into_iter().enumerate() {
             to[r + i] = x / (self.factors[6 + i] * self.unit);
+        }
+        to
+    }
+
+    /// [`Self::strained`] of coordinates, m or rad.
+    pub fn strained_coordinates(&self, from: &[f64], mut to: Vec<f64>) -> Vec<f64> {
+        for block in self.problem.chain.springs() {
+            block.follow(from, 1.0, &mut to);
         }
         to
     }
@@ -535,6 +548,57 @@ impl<'p, 'a> Reduced<'p, 'a> {
         })
     }
 
+    /// Units in which the springs' own stiffness is one at the state that was evaluated last (densely); none
+    /// where no spring is very much stiffer than another.
+    fn state_units(&self) -> Option<StateUnits> {
+        let chain = self.problem.chain;
+        disparate(&self.factors, chain).then(|| StateUnits {
+            first: self.reactions(),
+            count: self.coordinates_count(),
+            material: MaterialUnits::of(chain, &material_springs(&self.system, &self.factors).0),
+        })
+    }
+
+    /// Size of a motion of the state that was evaluated last: where some springs are very much stiffer than others
+    /// by what the springs store, as stiff coordinates go far without strain.
+    pub fn size_of_motion(&self, motion: &DVector<f64>) -> f64 {
+        let chain = self.problem.chain;
+        if !disparate(&self.factors, chain) {
+            return motion.norm();
+        }
+        let own = motion.rows(self.reactions(), self.coordinates_count());
+        let x: Vec<f64> = own.iter().copied().collect();
+        let stored: f64 = if let Some(sweep) = &self.system.sweep {
+            let mut torques = vec![0.0; x.len()];
+            sweep.spring_product(&x, &mut torques);
+            x.iter().zip(&torques).map(|(x, t)| x * t).sum()
+        } else {
+            let (springs, _) = material_springs(&self.system, &self.factors);
+            own.dot(&(springs * own))
+        };
+        let passive = chain.indices_of(Role::Passive).into_iter();
+        let passive: f64 = passive.map(|i| x[i] * x[i]).sum();
+        let rest = motion.norm_squared() - own.norm_squared();
+        (rest.max(0.0) + passive + stored.max(0.0)).sqrt()
+    }
+
+    /// `[dG/du dG/dlambda]` at the state that was evaluated last (densely), with its units.
+    pub fn whole(&self, matrix: DMatrix<f64>) -> CurveMatrix {
+        let units = self.state_units();
+        CurveMatrix::Dense(Whole { matrix, units })
+    }
+
+    /// Null directions of `[dG/du dG/dlambda]` (more rows or columns may follow) at the state that was evaluated
+    /// last (densely).
+    pub fn null_directions(&self, matrix: &DMatrix<f64>) -> NullDirections {
+        let Some(units) = self.state_units() else {
+            return NullDirections::of(matrix);
+        };
+        let mut found = NullDirections::of(&units.both(matrix.clone()));
+        found.map(|vectors| units.directions(vectors));
+        found
+    }
+
     /// Orthonormal passive motions that change nothing here, n x neutral.
     pub fn neutral_motions(&self) -> Option<DMatrix<f64>> {
         if self.neutral == 0 {
@@ -566,10 +630,12 @@ impl<'p, 'a> Reduced<'p, 'a> {
                 return (lack, balance, CurveMatrix::Swept(Box::new(swept)));
             }
             let (lack, balance, matrix) = self.linearised_densely(z);
-            return (lack, balance, CurveMatrix::Dense(matrix));
+            let matrix = self.whole(matrix);
+            return (lack, balance, matrix);
         }
         let matrix = self.with_gradient(&gradient);
-        (lack, balance, CurveMatrix::Dense(matrix))
+        let matrix = self.whole(matrix);
+        (lack, balance, matrix)
     }
 
     /// `[dG/du dG/dlambda]` where the (dense) system was evaluated.
@@ -694,6 +760,11 @@ impl<'p, 'a> Reduced<'p, 'a> {
         }
     }
 
+    /// A conjugate in natural units.
+    pub fn natural_conjugate(&self, conjugate: f64) -> f64 {
+        conjugate * self.sigma / (self.unit * self.unit)
+    }
+
     /// Change of the conjugate per balanced unknown, by `dG/dlambda`.
     pub fn conjugate_row(&self, gradient: &DVector<f64>) -> DVector<f64> {
         let m = self.count();
@@ -745,12 +816,18 @@ impl<'p, 'a> Reduced<'p, 'a> {
                 Some(step) => step,
                 None => {
                     let (lack, _, dense) = self.linearised_densely(&z);
-                    CurveMatrix::Dense(dense).step(&normal, &lack, miss, None)?
+                    self.whole(dense).step(&normal, &lack, miss, None)?
                 }
             };
             let length = step.norm();
             if !length.is_finite() || (iteration > 1 && length > 2.0 * last && length > 1e-9) {
-                return None;
+                // Beside very stiff springs the last steps are rounding.
+                return fine.then_some(Corrected {
+                    z,
+                    matrix,
+                    balance,
+                    iterations: iteration,
+                });
             }
             last = length;
             z = self.followed(&z, &z + step);

@@ -5,58 +5,72 @@ use nalgebra::{DMatrix, DVector};
 use crate::reduced::Reduced;
 use crate::singular_values::SingularValues;
 
-/// Null directions of an `m x n` matrix, the most certain first, with the singular values of all.
-pub(crate) fn null_directions(matrix: &DMatrix<f64>) -> Vec<(f64, DVector<f64>)> {
-    if !matrix.iter().all(|v| v.is_finite()) {
-        return Vec::new();
+/// Directions that a matrix takes to nothing, or nearly so.
+pub(crate) struct NullDirections {
+    /// Singular values, the least first; zero where there are more columns than rows.
+    pub values: Vec<f64>,
+    /// Unit directions, one column for each value.
+    pub right: DMatrix<f64>,
+    /// Unit directions of the rows, the least first.
+    pub left: DMatrix<f64>,
+}
+
+impl NullDirections {
+    /// Of an `m x n` matrix.
+    pub fn of(matrix: &DMatrix<f64>) -> Self {
+        if !matrix.iter().all(|v| v.is_finite()) {
+            return Self {
+                values: Vec::new(),
+                right: DMatrix::zeros(matrix.ncols(), 0),
+                left: DMatrix::zeros(matrix.nrows(), 0),
+            };
+        }
+        let own = SingularValues::of(matrix);
+        let all = own.all_right();
+        let value = |k: usize| own.values.get(k).copied().unwrap_or(0.0);
+        let falling = |a: &DMatrix<f64>| {
+            let order: Vec<usize> = (0..a.ncols()).rev().collect();
+            a.select_columns(&order)
+        };
+        Self {
+            values: (0..all.ncols()).rev().map(value).collect(),
+            right: falling(&all),
+            left: falling(&own.left),
+        }
     }
-    let own = SingularValues::of(matrix);
-    let all = own.all_right();
-    let value = |k: usize| own.values.get(k).copied().unwrap_or(0.0);
-    let falling = all.column_iter().enumerate();
-    let list = falling.map(|(k, v)| (value(k), v.into_owned()));
-    let mut list: Vec<_> = list.collect();
-    list.reverse();
-    list
+
+    /// In other units: orthonormal again, from the least on.
+    pub fn map(&mut self, change: impl Fn(&mut DMatrix<f64>)) {
+        for vectors in [&mut self.right, &mut self.left] {
+            if vectors.ncols() > 0 {
+                change(vectors);
+                *vectors = vectors.clone().qr().q();
+            }
+        }
+    }
+
+    /// How many there are at least, or below a share of the largest singular value.
+    pub fn count(&self, least: usize, share: f64) -> usize {
+        let most = self.values.last().copied().unwrap_or(0.0);
+        let below = |(i, value): &(usize, &f64)| *i < least || **value < share * most;
+        self.values.iter().enumerate().take_while(below).count()
+    }
 }
 
 /// Direction in which a curve starts: the null direction, and among several the one along which the
 /// parameter changes most.
-pub(crate) fn start_direction(matrix: &DMatrix<f64>) -> DVector<f64> {
+pub(crate) fn start_direction(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>) -> DVector<f64> {
+    let (_, _, matrix) = reduced.linearised_densely(z);
+    let found = reduced.null_directions(&matrix);
     let m = matrix.nrows();
-    let list = null_directions(matrix);
-    let most = list.last().map_or(1.0, |l| l.0);
-    let null: Vec<&DVector<f64>> = list
-        .iter()
-        .enumerate()
-        .filter(|(k, l)| *k == 0 || l.0 < 1e-9 * most)
-        .map(|(_, l)| &l.1)
-        .collect();
-    let mut sum = DVector::zeros(m + 1);
-    for v in &null {
-        sum += *v * v[m];
-    }
+    let null = found.right.columns(0, found.count(1, 1e-9));
+    let sum = null * null.row(m).transpose();
     if sum.norm() > 1e-9 {
         sum.normalize()
+    } else if null.ncols() > 0 {
+        null.column(0).into_owned()
     } else {
-        let mut first = DVector::zeros(m + 1);
-        if let Some(v) = null.first() {
-            first.copy_from(v);
-        }
-        first
-    }
-}
-
-/// Unit left null vector of a wide matrix of rank `m - 1`.
-pub(crate) fn left_null(matrix: &DMatrix<f64>) -> DVector<f64> {
-    let m = matrix.nrows();
-    if !matrix.iter().all(|v| v.is_finite()) {
-        return DVector::zeros(m);
-    }
-    let left = SingularValues::of(matrix).left;
-    match left.ncols() {
-        0 => DVector::zeros(m),
-        k => left.column(k - 1).into_owned(),
+        DVector::zeros(m + 1)
     }
 }
 
@@ -75,7 +89,11 @@ pub(crate) fn refine(reduced: &mut Reduced<'_, '_>, guess: &DVector<f64>) -> Opt
     let m = reduced.count();
     let mut z = guess.clone();
     let (_, _, matrix) = reduced.linearised_densely(&z);
-    let mut psi = left_null(&matrix);
+    let found = reduced.null_directions(&matrix);
+    if found.left.ncols() == 0 {
+        return None;
+    }
+    let mut psi = found.left.column(0).into_owned();
     let mut beta = 0.0;
     let size = 2 * m + 2;
     let mut last = f64::INFINITY;

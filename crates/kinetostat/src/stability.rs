@@ -184,20 +184,9 @@ pub(crate) fn stability_within(
     let mut hessian = DMatrix::from_fn(n, n, |i, j| {
         0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * factors[6 + i] * factors[6 + j]
     });
-    let mut springs = DMatrix::from_fn(n, n, |i, j| {
-        system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
-    });
     // The springs' geometric stiffness is the load's doing; what is left of them is positive definite.
-    for &(first, matrix) in &system.spring_geometric {
-        for i in 0..6 {
-            for j in 0..6 {
-                let (row, column) = (first + i, first + j);
-                let change = matrix[(i, j)] * factors[6 + row] * factors[6 + column];
-                hessian[(row, column)] -= change;
-                springs[(row, column)] -= change;
-            }
-        }
-    }
+    let (springs, geometric) = material_springs(system, factors);
+    hessian -= geometric;
     let rows = if rank == jacobian.nrows() {
         jacobian.clone()
     } else {
@@ -252,6 +241,26 @@ pub(crate) fn stability_within(
         mode,
         neutral: names_in(chain, &neutral),
     }
+}
+
+/// The springs' own stiffness, and what their loads add to it as they move (geometric), balanced, n x n.
+pub(crate) fn material_springs(system: &System, factors: &[f64]) -> (DMatrix<f64>, DMatrix<f64>) {
+    let n = system.spring_torque.len();
+    let mut springs = DMatrix::from_fn(n, n, |i, j| {
+        system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
+    });
+    let mut geometric = DMatrix::zeros(n, n);
+    for &(first, matrix) in &system.spring_geometric {
+        for i in 0..6 {
+            for j in 0..6 {
+                let (row, column) = (first + i, first + j);
+                let change = matrix[(i, j)] * factors[6 + row] * factors[6 + column];
+                geometric[(row, column)] += change;
+                springs[(row, column)] -= change;
+            }
+        }
+    }
+    (springs, geometric)
 }
 
 /// Units in which the material stiffness `K' = L L^T` of every spring is one: an axis that is worlds

@@ -466,15 +466,15 @@ impl Sweep {
         t
     }
 
-    /// `J T`: the (balanced) Jacobian of the tip in coordinates in which every block of springs is the unit
-    /// matrix, as far as they are positive definite.
+    /// `J T`: the (balanced) Jacobian of the tip in coordinates in which every block of the springs' own
+    /// stiffness is the unit matrix, as far as they are positive definite.
     pub fn by_spring_roots(&self, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
         let mut turned = jacobian.clone();
         for stage in &self.stages {
             let own = DMatrix::from_column_slice(
                 stage.len,
                 stage.len,
-                &self.springs[stage.block..stage.block + stage.len * stage.len],
+                &self.material[stage.block..stage.block + stage.len * stage.len],
             );
             let Some(root) = own.cholesky() else {
                 continue; // a passive joint

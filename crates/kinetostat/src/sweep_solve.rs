@@ -431,6 +431,13 @@ impl Trial {
 /// Steps of Lanczos' method before shifts take over.
 const LANCZOS: usize = 16;
 
+/// Share of the quotients below which a further vector adds less than its square to the largest one.
+const EXHAUSTED: f64 = 1e-6;
+
+/// Share of a quotient by which it may exceed the largest eigenvalue; the larger ones where a sweep so near to an
+/// eigenvalue loses a pivot or the sign of one.
+const EXCEEDED: [f64; 3] = [1e-6, 1e-4, 1e-2];
+
 /// Lanczos' method for `K'^-1 H'` with motions of the end held, in the energy of the springs
 /// without geometric stiffness: a vector near the largest eigenvalue, and how near its quotient may be.
 fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
@@ -467,7 +474,8 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
         sweep.spring_product(&next, &mut springs);
         beyond = dot(&next, &springs).max(0.0).sqrt();
         let size = basis.iter().map(|t| t.quotient.abs()).fold(1e-3, f64::max);
-        if basis.len() == LANCZOS || beyond <= 1e-12 * size {
+        // Equal eigenvalues (a round rod) exhaust the space early: what is left is rounding.
+        if basis.len() == LANCZOS || beyond <= EXHAUSTED * size {
             break;
         }
         couplings.push(beyond);
@@ -568,7 +576,13 @@ pub(crate) fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
             low = low.max(best.quotient);
         }
     }
-    Some(Shape {
+    // A vector that leaves what is held, by rounding, has any quotient.
+    let size = best.quotient.abs().max(1e-2);
+    let reached = EXCEEDED.into_iter().any(|share| {
+        let below = Form::Pencil(best.quotient - share * size);
+        Shifted::new(sweep, ends, below).is_some_and(|shifted| shifted.above > 0)
+    });
+    reached.then_some(Shape {
         inertia,
         share_to_buckling: best.quotient,
         mode: best.v,

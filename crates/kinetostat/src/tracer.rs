@@ -46,6 +46,12 @@ impl Budget {
     }
 }
 
+/// Compliance, in natural units, below which a chain is locked along the load.
+const LOCKED: f64 = 1e-12;
+
+/// No first step away from a bifurcation converged.
+struct NotFollowed;
+
 /// Family of a branch close to the special point from which it starts.
 fn beside_origin(branch: &Branch, special: &Special) -> Option<Arc<Family>> {
     let apart = |p: &CurvePoint| (&p.z - &special.point.z).norm();
@@ -113,6 +119,10 @@ impl Tracer<'_, '_, '_> {
                 let mut halves = Vec::new();
                 for sign in [-1.0, 1.0] {
                     let half = self.switch(&special, &(direction * sign), branches, branches.len());
+                    let half = half.unwrap_or_else(|NotFollowed| {
+                        self.specials[next].lost_branch = true;
+                        None
+                    });
                     let closed = half.as_ref().is_some_and(|h| h.1 == BranchEnd::Closed);
                     halves.push(half);
                     if closed {
@@ -150,7 +160,7 @@ impl Tracer<'_, '_, '_> {
             let (_, _, matrix) = self.reduced.linearised(&z);
             let t = match matrix.only_direction() {
                 Some(t) => t,
-                None => start_direction(&self.reduced.linearised_densely(&z).2),
+                None => start_direction(&mut self.reduced, &z),
             };
             let offset = t.dot(&z);
             let Some(c) = self.reduced.correct(&z, &Row::Plane(&t, offset), 12) else {
@@ -200,7 +210,7 @@ impl Tracer<'_, '_, '_> {
     pub fn describe(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
         let before = self.reduced.family.clone();
         if let Some(carried) = before.as_ref().and_then(|f| match &c.matrix {
-            CurveMatrix::Dense(matrix) => f.carried(matrix, &direction),
+            CurveMatrix::Dense(own) => f.carried(own, &direction),
             CurveMatrix::Swept(_) => None,
         }) {
             self.reduced.family = Some(Arc::new(carried));
@@ -225,7 +235,13 @@ impl Tracer<'_, '_, '_> {
         } else {
             (rate, change)
         };
-        let slope = if displacement.abs() > 1e-12 * load.abs() {
+        // Both in natural units.
+        let (own, other) = (direction[m], self.reduced.natural_conjugate(rate));
+        let (pushed, moved) = match self.reduced.is_load() {
+            true => (own, other),
+            false => (other, own),
+        };
+        let slope = if moved.abs() > LOCKED * pushed.abs() {
             load / displacement
         } else {
             f64::INFINITY
@@ -467,21 +483,22 @@ impl Tracer<'_, '_, '_> {
         Some((last, next))
     }
 
-    /// First point of another branch at a bifurcation, and the path from there.
+    /// First point of another branch at a bifurcation, and the path from there; `None` where it is known already.
     fn switch(
         &mut self,
         special: &Special,
         direction: &DVector<f64>,
         branches: &[Branch],
         branch: usize,
-    ) -> Option<(Vec<CurvePoint>, BranchEnd)> {
+    ) -> std::result::Result<Option<(Vec<CurvePoint>, BranchEnd)>, NotFollowed> {
         let mut middle = special.point.clone();
         middle.tangent.clone_from(direction);
         let usual = 0.3 * self.longest(direction);
         for h in [usual, 0.2 * usual, 0.04 * usual, 3.0 * usual] {
             self.reduced.family.clone_from(&special.point.family);
-            let predicted = &middle.z + direction * h;
-            let offset = direction.dot(&predicted);
+            let straight = &middle.z + direction * h;
+            let offset = direction.dot(&straight);
+            let predicted = self.reduced.followed(&middle.z, straight);
             let Some(c) = self
                 .reduced
                 .correct(&predicted, &Row::Plane(direction, offset), 10)
@@ -502,15 +519,15 @@ impl Tracer<'_, '_, '_> {
                     .any(|w| off_segment(chain, &self.reduced, &c.z, &w[0].z, &w[1].z) < 0.15 * h)
             });
             if covered {
-                return None;
+                return Ok(None);
             }
             let second = self.describe(&c, next.direction.clone());
             if self.beyond(&middle, &second).is_some() {
-                return Some((vec![middle], BranchEnd::Range));
+                return Ok(Some((vec![middle], BranchEnd::Range)));
             }
-            return Some(self.run_from(middle, second, branch));
+            return Ok(Some(self.run_from(middle, second, branch)));
         }
-        None
+        Err(NotFollowed)
     }
 
     fn run_from(

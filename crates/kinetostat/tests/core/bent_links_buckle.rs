@@ -39,6 +39,24 @@ fn shares(chain: &Chain, force: [f64; 3], moment: [f64; 3]) -> [f64; 2] {
     .map(|s| s.expect("a share"))
 }
 
+/// Equal planes, few segments: eigenvalues in pairs.
+#[test]
+fn shares_of_a_short_round_column_are_known() {
+    for axial in [1e4, 1e7, 1e8, 1e9, 1e11, 1e13] {
+        for segments in [3, 4, 5, 6, 7, 12] {
+            let chain = rod(segments, axial, LinkConvention::Bowing);
+            for force in [0.5, 1.0, 2.0] {
+                let column = force / (4.0 * PI * PI);
+                let coarse = 0.001 + 0.2 / (segments * segments) as f64;
+                for share in shares(&chain, [-force, 0.0, 0.0], [0.0; 3]) {
+                    let off = (share / column - 1.0).abs();
+                    assert!(off < coarse, "EA {axial:e}, {segments} segments: {share}");
+                }
+            }
+        }
+    }
+}
+
 /// A ring that is just closed turns about its fixed end for nothing: its share is one. A column that is
 /// held at both ends buckles at `4 pi^2`.
 #[test]

@@ -1,11 +1,13 @@
 //! Round columns in space buckle in every direction alike: one family of shapes, one branch.
 
 use crate::common::close;
+use crate::common::machines::slender;
 use crate::curves_and_bifurcations::solved;
 use crate::curves_of_columns::press;
 use kinetostat::{
-    BeamSection, BranchEnd, Chain, ChainProblem, CurveSettings, Curves, EndCondition, LinkSpec,
-    MotionKind, Parameter, Pose, Prescribed, SpecialKind, Twist, follow,
+    BeamSection, Bounds, BranchEnd, Chain, ChainProblem, CurveSettings, Curves, EndCondition,
+    LinkSpec, MotionKind, Parameter, Pose, Prescribed, SearchSettings, SpecialKind, Twist, Wrench,
+    equilibria, follow,
 };
 use nalgebra::{Vector3, vector};
 
@@ -151,6 +153,101 @@ fn a_hinge_that_nothing_holds_does_not_keep_a_curve_from_ending() {
             );
         } else {
             close("Euler", c.specials[0].point.parameter, EULER, 1e-3 * EULER);
+        }
+    }
+}
+
+/// Complete elliptic integrals `K(k)` and `E(k)` by the arithmetic-geometric mean.
+fn elliptic(k: f64) -> (f64, f64) {
+    let (mut a, mut b, mut c) = (1.0_f64, (1.0 - k * k).sqrt(), k);
+    let (mut sum, mut power) = (0.5 * c * c, 1.0);
+    for _ in 0..12 {
+        (a, b, c) = (0.5 * (a + b), (a * b).sqrt(), 0.5 * (a - b));
+        sum += power * c * c;
+        power *= 2.0;
+    }
+    let first = std::f64::consts::FRAC_PI_2 / a;
+    (first, first * (1.0 - sum))
+}
+
+/// How far the tip of a clamped elastica of unit length and stiffness has come down under a dead load.
+fn came_down(load: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 0.999_f64);
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        match elliptic(middle).0 < load.sqrt() {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    let (first, second) = elliptic(low);
+    2.0 * (1.0 - second / first)
+}
+
+/// One family of shapes, however stiff the axis is.
+#[test]
+fn a_round_rod_that_hardly_stretches_buckles_into_one_family() {
+    assert!((came_down(3.0) - 0.3466).abs() < 1e-3);
+    for (segments, coarse) in [(4, 0.03), (8, 0.01)] {
+        for axial in [1e4, 1e7, 1e8, 1e9, 1e10] {
+            let case = format!("{segments} segments, EA {axial:e}");
+            let link = LinkSpec::beam(slender(axial), 1.0).segments(segments);
+            let chain = Chain::builder("rod").link_with("rod", &link);
+            let chain = chain.build().unwrap();
+            let end = EndCondition::wrench(Wrench::zero());
+            let problem = ChainProblem::new(&chain, end);
+            let mut settings = CurveSettings::within(0.0, 3.0);
+            settings.branches = 12;
+            let pushed = Parameter::end_wrench(press());
+            let c = follow(&problem, &pushed, &solved(&problem), 0.0, &settings).unwrap();
+            assert_eq!(c.specials.len(), 1, "{case}: the fork alone");
+            let fork = &c.specials[0];
+            assert_eq!(fork.kind, SpecialKind::Multiple { modes: 2 }, "{case}");
+            assert!(!fork.lost_branch, "{case}");
+            assert_eq!(c.branches.len(), 2, "{case}");
+            assert!(points(&c) < 200, "{case}: {}", points(&c));
+            let buckled = &c.branches[1];
+            assert_eq!(buckled.ends, [BranchEnd::Range; 2], "{case}");
+            for p in buckled.points.iter().filter(|p| p.parameter > 2.5) {
+                assert!(p.in_family(), "{case}");
+                assert!(p.dead.stable && p.held.stable, "{case} at {}", p.parameter);
+                let down = 1.0 - p.equilibrium.tip.translation.x;
+                let asked = came_down(p.parameter);
+                assert!(
+                    (down / asked - 1.0).abs() < 3.0 * coarse,
+                    "{case}: {down} {asked}"
+                );
+            }
+        }
+    }
+}
+
+/// All shapes of the same rod: straight, and bent in any direction.
+#[test]
+fn a_round_rod_that_hardly_stretches_has_two_shapes() {
+    for segments in [3, 4, 6] {
+        for axial in [1e4, 1e7, 1e9, 1e11] {
+            let case = format!("{segments} segments, EA {axial:e}");
+            let link = LinkSpec::beam(slender(axial), 1.0).segments(segments);
+            let chain = Chain::builder("rod").link_with("rod", &link);
+            let chain = chain.build().unwrap();
+            let load = Wrench::new(vector![-3.0, 0.0, 0.0], Vector3::zeros());
+            let problem = ChainProblem::new(&chain, EndCondition::wrench(load));
+            let bounds = Bounds::of(&chain);
+            let all = equilibria(&problem, &bounds, &SearchSettings::default()).unwrap();
+            assert_eq!(all.found.len(), 2, "{case}");
+            assert!(all.settled && all.hits > 20, "{case}");
+            let [bent, straight] = [0, 1].map(|i| &all.found[i]);
+            assert!(bent.stable && bent.singular, "{case}");
+            assert!(!straight.stable && !straight.singular, "{case}");
+            let down = 1.0 - bent.equilibrium.tip.translation.x;
+            assert!((down / came_down(3.0) - 1.0).abs() < 0.06, "{case}: {down}");
+            // The stiffness of the bent shape is known to be finite but for its turn.
+            let free = bent.equilibrium.stiffness.directions.iter();
+            let soft = free
+                .map(|d| d.stiffness_n_per_m)
+                .fold(f64::INFINITY, f64::min);
+            assert!(soft.abs() < 1e-4, "{case}: {soft}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The short form of `cargo xtask fuzz`: the same cases in every run.
 
 #[path = "../fuzz/mod.rs"]
-mod fuzz;
+pub(crate) mod fuzz;
 
 #[test]
 fn random_chains_through_every_question() {

@@ -2,9 +2,11 @@
 
 pub mod cases;
 pub mod checks;
-mod random;
+pub mod platforms;
+pub mod random;
 mod ratios;
 mod reach;
+pub mod round;
 mod struts;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -41,7 +43,8 @@ impl Outcome {
     }
 }
 
-/// Struts, machines on struts, stiffness ratios and stiff links: what comes out is known.
+/// Struts, machines on struts, stiffness ratios, stiff links, rods with platforms between and round rods: what comes
+/// out is known.
 fn known(seed: u64, stage: &std::cell::Cell<&'static str>) {
     // Numbers of their own, so that the random chains of a seed stay what they were.
     let mut random = Random::new(seed ^ 0x5eed_0000_0000);
@@ -54,6 +57,19 @@ fn known(seed: u64, stage: &std::cell::Cell<&'static str>) {
     if seed.is_multiple_of(3) {
         stage.set("machines reach what chains reach");
         reach::case(&mut random);
+    }
+    // Further ones, with numbers of their own again.
+    let mut random = Random::new(seed ^ 0x5eed_0000_0001);
+    match seed % 6 {
+        1 => {
+            stage.set("stiffness behind platforms");
+            platforms::case(&mut random);
+        }
+        4 => {
+            stage.set("round rods");
+            round::case(&mut random);
+        }
+        _ => {}
     }
 }
 
