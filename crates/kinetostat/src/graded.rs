@@ -61,9 +61,10 @@ impl Graded {
     ) -> Option<Self> {
         let n = jacobian.ncols();
         // Springs' own stiffness only: with what loads take from it a block may not be positive definite.
-        let units = MaterialUnits::of(chain, &material_springs(system, factors).0);
-        let roots = units.motions(DMatrix::identity(n, n));
-        let turned = jacobian * &roots;
+        let units = MaterialUnits::of(chain, &material_springs(system, factors));
+        let mut turned = jacobian.transpose();
+        units.gather(&mut turned);
+        let turned = turned.transpose();
         if !disparate(factors, chain) && !Self::uneven(&turned) {
             return None;
         }
@@ -74,7 +75,7 @@ impl Graded {
         let torques = DMatrix::from_fn(n, n, |i, j| {
             bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j]
         });
-        let torques = roots.transpose() * torques * &roots;
+        let torques = units.both(torques);
         let size = match torques.amax() {
             most if most > 0.0 => most,
             _ => 1.0,
@@ -87,7 +88,7 @@ impl Graded {
         let ones = vec![1.0; r + n];
         Saddle::new(a, &ones, &ones).solve(&mut b);
         let inner = b.rows(0, r) * size;
-        let moved = roots * b.rows(r, n);
+        let moved = units.motions(b.rows(r, n).into_owned());
         Some(Self::from_motions(factors, &own, r, inner, &moved))
     }
 

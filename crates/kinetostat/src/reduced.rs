@@ -555,7 +555,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
         disparate(&self.factors, chain).then(|| StateUnits {
             first: self.reactions(),
             count: self.coordinates_count(),
-            material: MaterialUnits::of(chain, &material_springs(&self.system, &self.factors).0),
+            material: MaterialUnits::of(chain, &material_springs(&self.system, &self.factors)),
         })
     }
 
@@ -573,7 +573,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
             sweep.spring_product(&x, &mut torques);
             x.iter().zip(&torques).map(|(x, t)| x * t).sum()
         } else {
-            let (springs, _) = material_springs(&self.system, &self.factors);
+            let springs = material_springs(&self.system, &self.factors);
             own.dot(&(springs * own))
         };
         let passive = chain.indices_of(Role::Passive).into_iter();

@@ -185,8 +185,8 @@ pub(crate) fn stability_within(
         0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * factors[6 + i] * factors[6 + j]
     });
     // The springs' geometric stiffness is the load's doing; what is left of them is positive definite.
-    let (springs, geometric) = material_springs(system, factors);
-    hessian -= geometric;
+    let springs = material_springs(system, factors);
+    without_geometric(system, factors, &mut hessian);
     let rows = if rank == jacobian.nrows() {
         jacobian.clone()
     } else {
@@ -243,24 +243,26 @@ pub(crate) fn stability_within(
     }
 }
 
-/// The springs' own stiffness, and what their loads add to it as they move (geometric), balanced, n x n.
-pub(crate) fn material_springs(system: &System, factors: &[f64]) -> (DMatrix<f64>, DMatrix<f64>) {
+/// The springs' own stiffness, without what their loads add to it as they move (geometric), balanced, n x n.
+pub(crate) fn material_springs(system: &System, factors: &[f64]) -> DMatrix<f64> {
     let n = system.spring_torque.len();
     let mut springs = DMatrix::from_fn(n, n, |i, j| {
         system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
     });
-    let mut geometric = DMatrix::zeros(n, n);
+    without_geometric(system, factors, &mut springs);
+    springs
+}
+
+/// Takes the geometric stiffness of springs out of a balanced matrix, n x n.
+fn without_geometric(system: &System, factors: &[f64], a: &mut DMatrix<f64>) {
     for &(first, matrix) in &system.spring_geometric {
         for i in 0..6 {
             for j in 0..6 {
                 let (row, column) = (first + i, first + j);
-                let change = matrix[(i, j)] * factors[6 + row] * factors[6 + column];
-                geometric[(row, column)] += change;
-                springs[(row, column)] -= change;
+                a[(row, column)] -= matrix[(i, j)] * factors[6 + row] * factors[6 + column];
             }
         }
     }
-    (springs, geometric)
 }
 
 /// Units in which the material stiffness `K' = L L^T` of every spring is one: an axis that is worlds
@@ -284,6 +286,16 @@ impl MaterialUnits {
             // A pivot of a Cholesky factor is positive.
             let _ = l.solve_lower_triangular_mut(&mut forces.rows_mut(*first, l.nrows()));
         }
+    }
+
+    /// A stiffness in these units: `L^-1 K L^-T`.
+    pub fn both(&self, stiffness: DMatrix<f64>) -> DMatrix<f64> {
+        let mut turned = stiffness;
+        for _ in 0..2 {
+            self.gather(&mut turned);
+            turned = turned.transpose();
+        }
+        turned
     }
 
     /// The material stiffness itself: one, but for the blocks that keep their units.
