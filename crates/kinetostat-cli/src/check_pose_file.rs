@@ -358,7 +358,9 @@ fn from_toml(file: &str, text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
                 "write tool = { position_mm = [x, y, z] }",
             ));
         }
-        let pose = orientation::pose(tool).map_err(|(message, help)| refuse(&message, &help))?;
+        let pose = tool
+            .pose()
+            .map_err(|(message, help)| refuse(&message, &help))?;
         let bare = Placement {
             position_mm: None,
             position_m: None,

@@ -273,7 +273,9 @@ fn tool_of(
         )),
         (Some(length), None) => straight(*length.get_ref()),
         (None, Some(table)) => {
-            let pose = orientation::pose(table.get_ref())
+            let pose = table
+                .get_ref()
+                .pose()
                 .map_err(|(message, help)| j.error(table, &message, &help))?;
             let tip = pose.translation.vector * 1e3;
             Ok((
@@ -300,7 +302,9 @@ fn placement(
         let (Some(j), Some(table)) = (job, at) else {
             return Ok(None);
         };
-        let pose = orientation::pose(table.get_ref())
+        let pose = table
+            .get_ref()
+            .pose()
             .map_err(|(message, help)| j.error(table, &message, &help))?;
         if pose.translation.vector.norm() > 0.0 {
             return Err(j.error(

@@ -1,9 +1,7 @@
 //! Poses of job files and options, by the model crate's own conventions: an orientation is taken
 //! only under the name of its convention.
 
-use kinetostat::Pose;
 use kinetostat_machining::{Warning, WarningCode};
-use kinetostat_model::Model;
 use kinetostat_model::schema::Placement;
 use nalgebra::UnitQuaternion;
 
@@ -20,27 +18,6 @@ pub(crate) const CONVENTIONS: [&str; 9] = [
     "quaternion_wxyz",
     "quaternion_xyzw",
 ];
-
-/// The pose that a table of a file means, or what is wrong with it and what to do.
-///
-/// The model crate turns such tables into poses when it reads a platform's home; a small model is
-/// read with this one, so that every convention has a single reader.
-pub(crate) fn pose(placement: &Placement) -> Result<Pose, (String, String)> {
-    let told = |error: kinetostat_model::ModelError| {
-        let first = error.problems().first();
-        first.map_or_else(
-            || (error.to_string(), String::new()),
-            |p| (p.message.clone(), p.help.clone()),
-        )
-    };
-    let mut document = Model::preset("two_link").map_err(told)?.document;
-    let Some(platform) = document.platform.last_mut() else {
-        return Err(("the preset two_link has no platform".into(), String::new()));
-    };
-    platform.home = placement.clone();
-    let model = Model::from_document(&document, "pose").map_err(told)?;
-    Ok(model.mechanism.platforms()[model.mechanism.tool()].home)
-}
 
 /// The word for an orientation that is the machine's affair.
 pub(crate) const FOLLOWS: &str = "follows";
@@ -124,7 +101,7 @@ pub(crate) fn of(name: &str, numbers: &[f64]) -> Result<UnitQuaternion<f64>, Str
         };
         *slot = Some([a, b, c]);
     }
-    pose(&p)
+    p.pose()
         .map(|pose| pose.rotation)
         .map_err(|(message, help)| format!("{message}; {help}"))
 }

@@ -143,6 +143,12 @@ fn each_absurd_input_is_refused_with_its_option_or_warned_about() {
             "--limit shortest_tool_mm=",
         ),
         (
+            "a tool's pose in metres",
+            job("length_mm = 180", "pose = { position_mm = [0, 0, 0.18] }"),
+            arm(),
+            "--limit shortest_tool_mm=",
+        ),
+        (
             "tool forgotten",
             job("[tool]\nlength_mm = 180\n", ""),
             arm(),

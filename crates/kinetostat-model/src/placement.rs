@@ -47,6 +47,16 @@ pub(crate) fn frame_along(x: &Unit<Vector3<f64>>) -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x.into_inner(), y, x.cross(&y)]))
 }
 
+impl Placement {
+    /// The pose that it means, exactly; what is not given is zero.
+    ///
+    /// # Errors
+    /// What is wrong, and what to do: two orientations, a number that is too large, axes without direction.
+    pub fn pose(&self) -> Result<Pose, (String, String)> {
+        pose(&Place::root(), self).map_err(|found| (found.message, found.help))
+    }
+}
+
 /// The pose; what is not given is zero.
 pub(crate) fn pose(place: &Place, p: &Placement) -> Found<Pose> {
     let translation = vector(
@@ -284,6 +294,23 @@ mod tests {
             let found = direction(&Place::root(), &axis);
             let unit = found.unwrap_or_else(|f| panic!("{}", f.message));
             assert!((unit.x - 0.5f64.sqrt()).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_pose_of_a_file_is_taken_as_it_is_however_small_its_parts() {
+        for size in [1e-9, 1e-4, 0.05, 0.18, 3.0, 40.0] {
+            let table = Placement {
+                position_mm: Some([0.3 * size, -0.7 * size, size]),
+                rotation_vector_deg: Some([0.2 * size, size, -0.5 * size]),
+                ..Placement::default()
+            };
+            let pose = table.pose().expect("a pose");
+            let off = pose.translation.vector * 1e3 - Vector3::new(0.3, -0.7, 1.0) * size;
+            assert!(off.norm() <= 1e-15 * size, "{size}: {off}");
+            let turned = pose.rotation.scaled_axis() * (180.0 / std::f64::consts::PI);
+            let off = turned - Vector3::new(0.2, 1.0, -0.5) * size;
+            assert!(off.norm() <= 1e-12 * size, "{size}: {off}");
         }
     }
 }
