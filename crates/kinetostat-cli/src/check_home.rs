@@ -42,6 +42,8 @@ pub(crate) struct HomeFinding {
     pub(crate) platform_stable: bool,
     /// Both.
     pub(crate) stable: bool,
+    /// Under loads without a potential it does not go away, but may swing with growing amplitude.
+    pub(crate) may_flutter: bool,
     /// Joints whose springs the loads beat; empty where it is stable.
     pub(crate) overcome_joints: Vec<Overcome>,
     pub(crate) conservative: bool,
@@ -117,6 +119,7 @@ pub(crate) fn at_home(
         shapes_stable: rest.shapes_stable(),
         platform_stable: rest.platform.stable,
         stable: rest.stable(),
+        may_flutter: rest.may_flutter(),
         overcome_joints: overcome(posture, &rest, load_names),
         conservative: rest.conservative,
         largest_share_to_buckling: rest.share_to_buckling().filter(|m| m.is_finite()),
@@ -277,6 +280,9 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         out.push_str(&item("without load the tool is where it is commanded"));
     }
     out.push_str(&item(&match (h.stable, h.largest_share_to_buckling) {
+        (true, _) if h.may_flutter => {
+            "it does not go away, but may swing with growing amplitude (flutter), which depends on its masses".to_owned()
+        }
         (true, Some(mu)) if mu.abs() > 1e-9 && h.stiffness_rank == 6 => {
             format!(
                 "stable; largest share of the way to buckling {}",
@@ -298,7 +304,7 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
     }
     if !h.conservative {
         out.push_str(&item(
-            "not conservative: a load on a limb has no potential, so that stability is judged by stiffness alone",
+            "not conservative: a load on a limb has no potential, so that nothing is said of flutter, which depends on the masses",
         ));
     }
     if let Some(reach) = &f.reach {

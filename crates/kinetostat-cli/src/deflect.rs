@@ -123,8 +123,10 @@ struct Deflection {
     free_directions: usize,
     /// Motions by which the tool runs away by itself: `turns about z by arm: q`.
     negative_directions: Vec<String>,
-    /// The tool stays where it is.
+    /// The tool stays where it is, or does not go away at least (see `platform_may_flutter`).
     platform_stable: bool,
+    /// Under loads without a potential the tool does not go away, but may swing with growing amplitude.
+    platform_may_flutter: bool,
     /// How near the load brings the machine with its tool free to instability, 1 is there.
     share_to_instability_of_free_machine: Option<f64>,
     /// Every limb keeps its shape while the tool is held.
@@ -363,6 +365,7 @@ fn answer(
             .map(motion_in_words)
             .collect(),
         platform_stable: loaded.platform.stable,
+        platform_may_flutter: loaded.platform.may_flutter,
         share_to_instability_of_free_machine: free_share,
         shapes_stable: loaded.shapes_stable(),
         stable: loaded.stable(),
@@ -477,13 +480,16 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     for limb in &a.limbs {
         out.push_str(&screen::item(&limb_in_words(limb)));
     }
-    let platform = if !a.platform_stable && !a.conservative {
+    let platform = if a.platform_may_flutter {
         let ways = match a.negative_directions.as_slice() {
             [] => String::new(),
-            list => format!(" where it {}", list.join("; it ")),
+            list => format!(
+                ", as its stiffness is not positive where it {}",
+                list.join("; it ")
+            ),
         };
         format!(
-            "the platform's stiffness is not positive{ways}; it may swing with growing amplitude (flutter) or go away, and which depends on the masses too, which are not asked for here"
+            "the platform does not go away, but may swing with growing amplitude (flutter), which depends on its masses{ways}"
         )
     } else if !a.platform_stable {
         match a.negative_directions.as_slice() {
@@ -522,7 +528,7 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     }
     if !a.conservative {
         out.push_str(&screen::item(&format!(
-            "not conservative: {}; the verdicts judge the symmetric part of the stiffness: where it is positive, nothing diverges or flutters, whatever the masses are",
+            "not conservative: {}; where the symmetric part of the stiffness is positive, nothing goes away or flutters, whatever the masses are; beyond, the determinant says whether something goes away",
             a.not_conservative_because.join(", ")
         )));
     }

@@ -142,7 +142,7 @@ fn usual_tolerance(model: &Model) -> (f64, String) {
 
 /// What looks wrong in a model, for the list of a run.
 pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
-    model.warnings.iter().map(|problem| Warning {
+    let own = model.warnings.iter().map(|problem| Warning {
         line: problem.line,
         ..Warning::new(
             WarningCode::Model,
@@ -152,6 +152,25 @@ pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
             },
         )
         .of_file(problem.file.clone())
+    });
+    own.chain(no_potential(&model.mechanism))
+}
+
+/// What is judged, and what is not, under loads on limbs that have no potential.
+fn no_potential(mechanism: &Mechanism) -> Option<Warning> {
+    let limbs = mechanism.limbs().iter().enumerate();
+    let names: Vec<String> = limbs
+        .filter(|(i, _)| !mechanism.loads_conservative(*i))
+        .map(|(_, limb)| format!("'{}'", limb.name))
+        .collect();
+    (!names.is_empty()).then(|| {
+        Warning::new(
+            WarningCode::NoPotential,
+            format!(
+                "loads on limb {} follow the machine and have no potential: 'stable' means that nothing goes away; whether it swings with growing amplitude (flutter) depends on the masses, which are not asked for here",
+                names.join(", ")
+            ),
+        )
     })
 }
 

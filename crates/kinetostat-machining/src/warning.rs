@@ -70,6 +70,8 @@ pub enum WarningCode {
     NearBuckling,
     /// On the way to the load the machine snaps into another shape.
     Snaps,
+    /// A load without a potential: that nothing goes away is judged, whether it swings with growing amplitude is not.
+    NoPotential,
     /// A displacement that is large beside the machine.
     LargeDisplacement,
     /// A curve that ends, or was cut, before its range does.

@@ -618,7 +618,7 @@ pub(crate) fn solve_along(
         let found = attempt.finish(x, wrench, iterations, &balance);
         return Ok(led_to(problem, settings, path, &found.0).unwrap_or(found));
     }
-    let mut failure = match grow_load(&mut attempt, false) {
+    let mut failure = match grow_load(&mut attempt, false, 1.0) {
         Ok((x, wrench, iterations, balance)) => {
             return Ok(attempt.finish(x, wrench, iterations, &balance));
         }
@@ -626,7 +626,7 @@ pub(crate) fn solve_along(
     };
     // On a straight way to a bent shape the chain is pressed and buckles; on a screw it is pulled.
     if problem.end.prescribed == [Prescribed::Pose; 6] {
-        match grow_load(&mut attempt, true) {
+        match grow_load(&mut attempt, true, 1.0) {
             Ok((x, wrench, iterations, balance)) => {
                 return Ok(attempt.finish(x, wrench, iterations, &balance));
             }
@@ -673,21 +673,27 @@ struct Failure {
     iterations: usize,
 }
 
-/// Turns in all, rad, beyond which one step may have passed the shape to which the growing load leads.
-pub(crate) const FAR: f64 = std::f64::consts::PI;
+/// Turns (rad) and slides (natural lengths) in all beyond which one step may have passed the shape to which the
+/// growing load leads.
+pub(crate) const FAR: f64 = 0.2;
 
-/// Sum of the turns of a chain's coordinates, rad.
-pub(crate) fn turned(chain: &Chain, from: &[f64], to: &[f64]) -> f64 {
+/// Share of the load by which it grows on the way that must not be lost.
+pub(crate) const SHORT_STEP: f64 = 0.02;
+
+/// Sum of the turns (rad) and slides (natural lengths) of a chain's coordinates.
+pub(crate) fn gone(chain: &Chain, from: &[f64], to: &[f64]) -> f64 {
+    let length = chain.scale().length;
     let kinds = chain.coordinates().iter().map(|c| c.kind);
-    kinds
-        .zip(from.iter().zip(to))
-        .filter(|(kind, _)| *kind == MotionKind::Revolute)
-        .map(|(_, (here, there))| (there - here).abs())
-        .sum()
+    let moved = kinds.zip(from.iter().zip(to));
+    let moved = moved.map(|(kind, (here, there))| match kind {
+        MotionKind::Revolute => (there - here).abs(),
+        MotionKind::Prismatic => (there - here).abs() / length,
+    });
+    moved.sum()
 }
 
-/// The stable shape to which the growing load leads, where one step found another that is unstable and bent by
-/// more than half a turn in all: it may have passed the former. A straight column, pressed, stays straight.
+/// The stable shape to which the growing load leads, where one step found another that is unstable and
+/// far: it may have passed the former. A straight column, pressed, stays straight.
 fn led_to(
     problem: &ChainProblem<'_>,
     settings: &Settings,
@@ -697,21 +703,22 @@ fn led_to(
     if found.stability.stable {
         return None;
     }
-    if turned(problem.chain, &problem.posture, &found.coordinates) <= FAR {
+    if gone(problem.chain, &problem.posture, &found.coordinates) <= FAR {
         return None;
     }
     let mut attempt = Attempt::new(problem, settings, path);
-    let (x, wrench, iterations, balance) = grow_load(&mut attempt, false).ok()?;
+    let (x, wrench, iterations, balance) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
     let spent = found.residual.iterations + iterations;
     let grown = attempt.finish(x, wrench, spent, &balance);
     grown.0.stability.stable.then_some(grown)
 }
 
 /// Loads, preloads and closure grow together from the unloaded posture; the closure straight, or on
-/// a screw.
+/// a screw; in steps up to the `longest` share.
 fn grow_load(
     attempt: &mut Attempt<'_, '_>,
     on_screw: bool,
+    longest: f64,
 ) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), Failure> {
     let problem = attempt.problem;
     let mut x = nudged(problem.chain, &problem.posture, 1e-3);
@@ -723,7 +730,7 @@ fn grow_load(
     } else {
         Way::Straight(pose_residual(&problem.end.pose, &start))
     };
-    let (mut share, mut step, mut iterations) = (0.0_f64, 0.125_f64, 0);
+    let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
     let mut last = Balance {
         closure: 0.0,
         torque: 0.0,
@@ -737,7 +744,7 @@ fn grow_load(
             Ok((spent, balance)) => {
                 iterations += spent;
                 (x, wrench, share, last) = (trial, trial_wrench, next, balance);
-                step *= 1.5;
+                step = (1.5 * step).min(longest);
             }
             Err((spent, _)) => {
                 iterations += spent;

@@ -42,9 +42,11 @@ impl GradedPlatforms {
         moving: usize,
         limbs: impl Iterator<Item = (&'a ChainStiffness, Scale, &'a Ends)> + Clone,
     ) -> Option<Self> {
+        // Limbs in series become softer with the cube of their number, and no less stiff along their axes.
+        let series = (moving * moving * moving) as f64;
         if !limbs
             .clone()
-            .any(|(limb, ..)| spread(&limb.directions) > UNEVEN)
+            .any(|(limb, ..)| series * spread(&limb.directions) > UNEVEN)
         {
             return None;
         }

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 use crate::block_elimination::Pivots;
 use crate::chain::Scale;
 use crate::directions::scaled_twist;
+use crate::divergence::diverging_motions;
 use crate::graded_platforms::GradedPlatforms;
 use crate::saddle::{Saddle, column_space, complement};
 use crate::singular_values::range;
@@ -138,25 +139,66 @@ pub(crate) fn others_hold(
     if let Some(answer) = others_certainly_hold(tangent, rigid, platform, scale, held) {
         return answer;
     }
-    let (tangent, rigid) = (tangent.dense(), rigid.matrix.dense());
-    let kept: Vec<usize> = (0..size).filter(|i| !held || i / 6 != platform).collect();
-    if kept.is_empty() {
-        return true;
-    }
-    let units = motion_units(size, scale);
-    let units: Vec<f64> = kept.iter().map(|&i| units[i]).collect();
-    let mut balanced = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
-        let (i, j) = (kept[a], kept[b]);
-        0.5 * (tangent[(i, j)] + tangent[(j, i)]) * (units[a] * units[b])
-    });
-    if let Some(possible) = possible_motions(&rigid.select_columns(&kept), &units) {
-        balanced = possible.transpose() * balanced * possible;
-    }
+    let balanced = balanced_tangent(tangent, rigid, platform, scale, held);
     if balanced.is_empty() {
         return true;
     }
-    let eigenvalues = balanced.symmetric_eigenvalues();
+    let eigenvalues = (0.5 * (&balanced + balanced.transpose())).symmetric_eigenvalues();
     eigenvalues.min() >= -ZERO_STIFFNESS * eigenvalues.amax()
+}
+
+/// Whether no platform goes away under loads without a potential (divergence), whatever the tangent's symmetric
+/// part is; with `held`, while the tool is held.
+pub(crate) fn none_diverges(
+    tangent: &Sparse,
+    directions: &[Direction],
+    rigid: &RigidRows,
+    platform: usize,
+    scale: Scale,
+    held: bool,
+) -> bool {
+    let mut balanced = balanced_tangent(tangent, rigid, platform, scale, held);
+    // Of the limbs of a single platform the directions say which motions are impossible.
+    if balanced.nrows() == 6 && tangent.rows == 6 {
+        let forbidden: Vec<DVector<f64>> = directions
+            .iter()
+            .filter(|d| d.kind == DirectionKind::Rigid)
+            .map(|d| {
+                DVector::from_fn(6, |i, _| {
+                    d.twist.0[i] * if i < 3 { 1.0 } else { scale.length }
+                })
+            })
+            .collect();
+        if !forbidden.is_empty() {
+            let possible = complement(&independent_columns(&DMatrix::from_columns(&forbidden)));
+            balanced = possible.transpose() * balanced * possible;
+        }
+    }
+    let zero = ZERO_STIFFNESS * balanced.amax();
+    diverging_motions(&balanced, zero) == 0
+}
+
+/// Tangent of the platforms, balanced, in the motions that no row of `rigid` forbids; with `held`, without those of
+/// the tool.
+fn balanced_tangent(
+    tangent: &Sparse,
+    rigid: &RigidRows,
+    platform: usize,
+    scale: Scale,
+    held: bool,
+) -> DMatrix<f64> {
+    let size = tangent.rows;
+    let (tangent, rigid) = (tangent.dense(), rigid.matrix.dense());
+    let kept: Vec<usize> = (0..size).filter(|i| !held || i / 6 != platform).collect();
+    let units = motion_units(size, scale);
+    let units: Vec<f64> = kept.iter().map(|&i| units[i]).collect();
+    let balanced = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
+        tangent[(kept[a], kept[b])] * (units[a] * units[b])
+    });
+    match possible_motions(&rigid.select_columns(&kept), &units) {
+        Some(possible) => possible.transpose() * balanced * possible,
+        None => balanced,
+    }
 }
 
 /// [`others_hold`] by the inertia of the sparse system, where it leaves no doubt: every

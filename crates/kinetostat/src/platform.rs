@@ -627,13 +627,18 @@ impl<'m> PlatformSolver<'m> {
             Ok((iterations, balance)) => Ok(self.residual(&balance, iterations)),
             Err((_, balance)) => {
                 self.state = start;
-                self.grow_load(&balance)
+                self.grow_load(&balance, 1.0)
             }
         }
     }
 
-    /// Loads and closures grow from the limbs at rest; `first` is what one step lacked.
-    pub fn grow_load(&mut self, first: &MechanismBalance) -> Result<crate::equilibrium::Residual> {
+    /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is what one step
+    /// lacked.
+    pub fn grow_load(
+        &mut self,
+        first: &MechanismBalance,
+        longest: f64,
+    ) -> Result<crate::equilibrium::Residual> {
         for (i, limb) in self.mechanism.limbs.iter().enumerate() {
             self.state.coordinates[i] =
                 crate::equilibrium::nudged(&limb.actual, &self.posture[i].coordinates, 1e-3);
@@ -644,7 +649,7 @@ impl<'m> PlatformSolver<'m> {
         self.leads = self.unknowns == Unknowns::Guided;
         self.evaluate();
         self.offsets = self.linear.iter().map(|l| l.closure).collect();
-        let (mut share, mut step, mut iterations) = (0.0_f64, 0.125_f64, 0);
+        let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
         let mut last = *first;
         while share < 1.0 {
             let kept = self.state.clone();
@@ -654,7 +659,7 @@ impl<'m> PlatformSolver<'m> {
                     iterations += spent;
                     share = next;
                     last = balance;
-                    step *= 1.5;
+                    step = (1.5 * step).min(longest);
                 }
                 Err((spent, _)) => {
                     iterations += spent;

@@ -5,13 +5,14 @@
 //! a curve of motion and load factor whose tangent is the null vector of `[K, -P]`, `K` the tangent
 //! stiffness of the tool in these motions with everything else free, `P` the load that grows.
 
-use nalgebra::{DMatrix, DVector, Vector6};
+use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 
 use crate::branches::{BranchEnd, CurveSettings};
 use crate::directions::DirectionKind;
 use crate::divergence::diverging_motions;
 use crate::equilibrium::{EndCondition, Prescribed};
 use crate::error::{Error, Result};
+use crate::graded::{levels, root_rows};
 use crate::machine_directions::independent_columns;
 use crate::machine_equilibria::MachineFound;
 use crate::platform::{Guide, MechanismState, Unknowns};
@@ -519,14 +520,37 @@ impl<'p, 'm> Path<'p, 'm> {
                 definite: true,
             };
         }
-        let k = possible.transpose() * self.balanced_stiffness(e) * &possible;
-        let eigenvalues = (0.5 * (&k + k.transpose())).symmetric_eigenvalues();
-        let size = e.stiffness.matrix.fixed_view::<3, 3>(0, 0).amax();
-        let zero = 1e-9 * eigenvalues.amax().max(size);
-        Holding {
-            stays: diverging_motions(&k, zero) == 0,
-            definite: eigenvalues.min() >= -zero,
+        // By principal directions: in the matrix stiff motions may have drowned soft ones.
+        let rows = root_rows(&e.directions, self.length);
+        let unit = Vector6::from_fn(|i, _| self.unit(i));
+        let mut back = DMatrix::zeros(rows.len(), possible.ncols());
+        let mut inner = DMatrix::zeros(rows.len(), rows.len());
+        for (i, (sign, row)) in rows.iter().enumerate() {
+            let row = row.component_div(&unit).transpose() * &possible;
+            back.row_mut(i).copy_from(&row);
+            inner[(i, i)] = *sign;
         }
+        let definite = levels(&back, &inner).iter().all(|(value, _)| *value >= 0.0);
+        let stays = definite
+            || (!self.conservative(e, motions) && {
+                let k = possible.transpose() * self.balanced_stiffness(e) * &possible;
+                diverging_motions(&k, 1e-9 * k.amax()) == 0
+            });
+        Holding { stays, definite }
+    }
+
+    /// Whether all loads have a potential, with what is dead of the wrench on the tool in some motions (balanced).
+    fn conservative(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> bool {
+        let unit = Vector6::from_fn(|i, _| self.unit(i));
+        let dead = motions * (motions.transpose() * e.wrench.0.component_div(&unit));
+        let moment = Vector3::from_fn(|i, _| dead[3 + i] * self.length);
+        // What the projection leaves of none.
+        let moment =
+            match moment.norm() > 1e-12 * e.wrench.0.component_div(&unit).norm() * self.length {
+                true => moment,
+                false => Vector3::zeros(),
+            };
+        e.conservative && self.posture.mechanism.tool_moment_has_potential(&moment)
     }
 
     /// Null vector of `[K, -P]` in the motions of the tool that goes on as `before`; its motion has

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::MotionKind;
 use crate::compliance::{CartesianCompliance, stiffness_against_force};
-use crate::equilibrium::{ChainProblem, EndCondition, FAR, Residual, turned, unloaded_tip};
+use crate::equilibrium::{
+    ChainProblem, EndCondition, FAR, Residual, SHORT_STEP, gone, unloaded_tip,
+};
 use crate::error::{Error, Result};
 use crate::graded_platforms::GradedPlatforms;
 use crate::graph::{GraphPosture, graph_inverse};
@@ -16,7 +18,9 @@ use crate::graph_check::check_state;
 use crate::inverse::{LimbPosture, inverse_kinematics};
 use crate::link_load::{LinkLoad, link_loads};
 use crate::load_energy::load_energy;
-use crate::machine_directions::{balanced_directions, condensed_directions, others_hold};
+use crate::machine_directions::{
+    balanced_directions, condensed_directions, none_diverges, others_hold,
+};
 use crate::mechanism::Mechanism;
 use crate::network::Network;
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
@@ -42,8 +46,13 @@ pub struct Posture<'m> {
 /// Whether the platform stays where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlatformStability {
-    /// Every motion of the free platform costs energy, or (see `free`) none.
+    /// Every motion of the free platform costs energy, or (see `free`) none; for loads without a potential: it does
+    /// not go away (divergence), but see `may_flutter`.
     pub stable: bool,
+    /// The loads have no potential, the platform does not go away, but it may swing with growing amplitude
+    /// (flutter); whether it does depends on the masses.
+    #[serde(default)]
+    pub may_flutter: bool,
     /// Smallest principal stiffness, N/m (rotations referred to the natural length).
     pub smallest_stiffness_n_per_m: f64,
     /// Number of directions without stiffness.
@@ -133,6 +142,14 @@ impl MechanismEquilibrium {
     #[must_use]
     pub fn stable(&self) -> bool {
         self.platform.stable && self.shapes_stable()
+    }
+
+    /// Under loads without a potential nothing goes away, but the machine may swing with growing amplitude
+    /// (flutter), which depends on the masses.
+    #[must_use]
+    pub fn may_flutter(&self) -> bool {
+        self.stable()
+            && (self.platform.may_flutter || self.limbs.iter().any(|l| l.stability.may_flutter()))
     }
 
     /// Largest share of the way to buckling `mu` of all limbs; below 1 is stable.
@@ -499,33 +516,33 @@ impl<'m> Posture<'m> {
     /// one is on the way; [`Error::FreeDirection`] where the load pushes on along a motion that
     /// nothing holds, as far as it can be followed.
     pub fn deflected_by(&self, wrench: &Wrench) -> Result<MechanismEquilibrium> {
-        let found = self.deflected_from(wrench, self.rest_state())?;
-        Ok(self.led_to(wrench, &found).unwrap_or(found))
+        self.deflected_from(wrench, self.rest_state())
     }
 
     /// The stable equilibrium to which the growing load leads, where one step found another that does not stay and
-    /// in which the limbs turned by more than half a turn in all: it may have passed the former.
+    /// which lies far: it may have passed the former.
     fn led_to(
         &self,
         wrench: &Wrench,
         found: &MechanismEquilibrium,
     ) -> Option<MechanismEquilibrium> {
-        if found.platform.stable && found.shapes_stable() {
+        if found.stable() {
             return None;
         }
         let limbs = self.mechanism.limbs.iter().zip(&self.limbs);
-        let turns = limbs.zip(&found.limbs).map(|((limb, home), there)| {
-            turned(&limb.actual, &home.coordinates, &there.coordinates)
-        });
-        if turns.sum::<f64>() <= FAR {
+        let ways = limbs
+            .zip(&found.limbs)
+            .map(|((limb, home), there)| gone(&limb.actual, &home.coordinates, &there.coordinates));
+        if ways.sum::<f64>() <= FAR {
             return None;
         }
         let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
         solver.wrench = *wrench;
         let at_rest = solver.evaluate().0;
-        let residual = solver.grow_load(&at_rest).ok()?;
+        let residual = solver.grow_load(&at_rest, SHORT_STEP).ok()?;
         let grown = conclude(&mut solver, residual).ok()?;
-        (grown.platform.stable && grown.shapes_stable()).then_some(grown)
+
+        grown.stable().then_some(grown)
     }
 
     /// As [`Self::deflected_by`], starting from the state of a neighbouring equilibrium.
@@ -538,7 +555,8 @@ impl<'m> Posture<'m> {
         start: MechanismState,
     ) -> Result<MechanismEquilibrium> {
         let (mut solver, residual) = self.settled(wrench, start)?;
-        conclude(&mut solver, residual)
+        let found = conclude(&mut solver, residual)?;
+        Ok(self.led_to(wrench, &found).unwrap_or(found))
     }
 
     /// Only where the platforms and limbs come to rest: [`Self::deflected_from`] without stiffness
@@ -745,35 +763,36 @@ pub(crate) fn conclude(
         .iter()
         .filter(|d| d.kind == DirectionKind::Free)
         .count();
+    let conservative = outside.is_some()
+        && limbs.iter().all(|l| l.conservative)
+        && (solver.unknowns == Unknowns::Held
+            || m.tool_moment_has_potential(&solver.dead_moment(&wrench)));
+    let held = solver.unknowns == Unknowns::Held;
+    let hold = |held| others_hold(&tangent, graded.as_ref(), &rigid, tool - 1, scale, held);
+    let stays =
+        |held| !conservative && none_diverges(&tangent, &directions, &rigid, tool - 1, scale, held);
+    let definite = least >= 0.0 && hold(held);
+    let stable = definite || stays(held);
+    let others_hold = hold(true) || stays(true);
     let answer = MechanismEquilibrium {
         tool: solver.state.platforms[tool],
         displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
-        conservative: outside.is_some()
-            && limbs.iter().all(|l| l.conservative)
-            && (solver.unknowns == Unknowns::Held
-                || m.tool_moment_has_potential(&solver.dead_moment(&wrench))),
+        conservative,
         energy,
         wrench,
         stiffness: CartesianStiffness { matrix: stiffness },
         platform: PlatformStability {
-            stable: least >= 0.0
-                && others_hold(
-                    &tangent,
-                    graded.as_ref(),
-                    &rigid,
-                    tool - 1,
-                    scale,
-                    solver.unknowns == Unknowns::Held,
-                ),
+            stable,
+            may_flutter: stable && !definite,
             smallest_stiffness_n_per_m: least,
             free,
         },
+        others_hold,
         directions,
         length: scale.length,
         limbs,
         residual,
         state: solver.state.clone(),
-        others_hold: others_hold(&tangent, graded.as_ref(), &rigid, tool - 1, scale, true),
     };
     Ok(answer.named(m))
 }
