@@ -313,10 +313,12 @@ fn rounded(value: f64, digits: usize, rounding: Rounding) -> f64 {
     if !scaled.is_finite() || scaled == 0.0 || !scale.is_finite() {
         return value;
     }
-    // A value that is a round number up to the noise of arithmetic stays that round number.
+    // A value that is a round number up to the noise of arithmetic stays that round number: a small length is the
+    // difference of places in a machine, with a few of their last binary digits.
+    let noise = 1e-9 * scaled.abs().max(1.0);
     let size = match rounding {
-        Rounding::Down => (scaled.abs() + 1e-9).floor(),
-        _ => (scaled.abs() - 1e-9).ceil(),
+        Rounding::Down => (scaled.abs() + noise).floor(),
+        _ => (scaled.abs() - noise).ceil(),
     };
     let size = size.copysign(scaled);
     let result = if place >= 0 {
@@ -350,6 +352,21 @@ mod tests {
         assert_eq!(setting(1500.0), "1500");
         assert_eq!(fixed(-0.0004, 3), "0.000");
         assert_eq!(fixed(-1234.56, 1), "-1234.6");
+    }
+
+    /// What is read from a table and added to a place of 100 mm comes back with the rounding of that place.
+    #[test]
+    fn a_round_number_with_the_noise_of_a_place_stays_round() {
+        for (tenths, place) in (1..10).flat_map(|k| [50.0, 99.9999, 777.7].map(|p| (k, p))) {
+            let mm = 1e-4 * f64::from(tenths);
+            for value in [mm, (place + mm) - place, place - (place - mm)] {
+                let up = significant(1e3 * value, 3, Rounding::Up);
+                let down = significant(1e3 * value, 3, Rounding::Down);
+                let um = 0.1 * f64::from(tenths);
+                assert_eq!(up.parse::<f64>().unwrap(), (1e3 * um).round() / 1e3, "{value}");
+                assert_eq!(down, up, "{value}");
+            }
+        }
     }
 
     #[test]
