@@ -1,5 +1,6 @@
 //! Figures that are possible but unlikely: usually a unit or a decimal point is wrong.
 
+use kinetostat::number::short;
 use kinetostat::{Chain, Mechanism, Pose};
 
 use crate::link_matrix;
@@ -63,7 +64,7 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
         if platform.mass > 1e5 {
             warn(
                 &root.key("platform").index(i).key("mass_kg"),
-                format!("the platform weighs {} kg", platform.mass),
+                format!("the platform weighs {} kg", short(platform.mass)),
                 "check the unit",
             );
         }
@@ -75,7 +76,7 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
         if reach > 100.0 || (reach > 0.0 && reach < 1e-3) {
             warn(
                 &place,
-                format!("the limb '{}' reaches over {reach:.6} m", limb.name),
+                format!("the limb '{}' reaches over {} m", limb.name, short(reach)),
                 "machines lie between a millimetre and 100 m; check the units of its chain",
             );
         }
@@ -84,7 +85,8 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
                 &place,
                 format!(
                     "the body '{}' of this limb weighs {} kg",
-                    body.name, body.mass
+                    body.name,
+                    short(body.mass)
                 ),
                 "check the unit",
             );
