@@ -29,6 +29,7 @@ mod check_words;
 mod compare;
 mod compare_fit;
 mod compensate;
+mod compensate_map;
 mod curve;
 mod curve_answer;
 mod curve_args;
