@@ -1,6 +1,6 @@
 //! Figures that are possible but unlikely: usually a unit or a decimal point is wrong.
 
-use kinetostat::number::short;
+use kinetostat::number::{apart, short};
 use kinetostat::{Chain, Mechanism, Pose};
 
 use crate::link_matrix;
@@ -37,7 +37,7 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
     if size > 0.0 && !(9.7..=9.9).contains(&size) {
         warn(
             &place,
-            format!("gravity is {size} m/s^2"),
+            format!("gravity is {} m/s^2", short(size)),
             "on the ground it is 9.81 m/s^2; check the unit",
         );
     }
@@ -103,10 +103,9 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
             warn(
                 &place,
                 format!(
-                    "at home the limb '{}' ends {:.4} mm and {:.3} degrees away from the platform '{}'",
+                    "at home the limb '{}' ends {} away from the platform '{}'",
                     limb.name,
-                    gap * 1e3,
-                    turn.to_degrees(),
+                    apart(gap * 1e3, turn.to_degrees()),
                     mechanism.platforms()[limb.to].name
                 ),
                 "correct the home values of its joints, or the home pose of the platform; the search for joint values starts there",
