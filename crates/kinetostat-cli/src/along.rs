@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::PathBuf;
 
+use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
-    Bounds, LoadAlongPath, Run, RunResult, Task, Tool, Warning, WarningCode, analyse,
-    compensate_program, load_in_words,
+    Bounds, LoadAlongPath, Run, RunResult, Task, ToleranceVerdict, Tool, Warning, WarningCode,
+    analyse, compensate_program, load_in_words,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Path as ToolPath, Program, faults, interpret};
@@ -18,7 +19,6 @@ use crate::points_csv::{self, Listing};
 use crate::progress::Progress;
 use crate::screen::{self, Stream};
 use crate::setting::{Setting, Targets};
-use crate::summary;
 
 /// What a run writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,6 +191,15 @@ pub(crate) fn solve(
         let usual_mm = usual_mm / machine.placement.scale;
         let [path_stated, chord_stated] = setting.stated;
         if !path_stated {
+            // The bounds of a tolerance; of a program without a scale no machine is outside.
+            if !(1e-6..=10.0).contains(&usual_mm) {
+                return Err(Failure::input(format!(
+                    "the scale {}: with it the machine's tolerance of {} is {} of the program, where 0.000001 to 10 mm are allowed; correct the scale (--scale, or scale under [placement] in the job), or state the tolerance (--tolerance-um, or path_um under [tolerances])",
+                    setting_of(machine.placement.scale),
+                    length_setting(machine.usual_tolerance.0),
+                    length_setting(usual_mm)
+                )));
+            }
             writing.tolerance_mm = usual_mm;
             question.tolerance_from.clone_from(from);
         }
@@ -242,11 +251,12 @@ pub(crate) fn solve(
     progress.finish();
     let mut run = result.map_err(|error| Failure::from(error).within(&setting.program_name))?;
     if let Some(limit) = setting.max_blocks_per_second
-        && run.result.summary.blocks_per_second > limit
+        && let Some(most) = run.result.summary.blocks_per_second
+        && most > limit
     {
         run.result.warnings.push(Warning::new(WarningCode::BlocksPerSecond, format!(
-            "the written program asks for up to {:.0} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
-            run.result.summary.blocks_per_second
+            "the written program asks for up to {} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
+            largest(most, "")
         )));
     }
     Ok(run)
@@ -282,12 +292,11 @@ pub(crate) fn json<T: serde::Serialize>(value: &T) -> Answer<String> {
 }
 
 /// A written program that misses its tolerance has an exit code of its own; files are in place.
-pub(crate) fn judged(result: &RunResult) -> Answer<()> {
-    if result.tolerance.held != Some(false) {
-        return Ok(());
+pub(crate) fn judged(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> {
+    match tolerance.missed_in_words() {
+        Some(text) => Err(Failure::tolerance_missed(text).within(program)),
+        None => Ok(()),
     }
-    let text = summary::missed(result);
-    Err(Failure::tolerance_missed(text).within(&result.question.program))
 }
 
 /// Where the text for people goes, and the JSON on the standard output if it is wanted there.

@@ -494,6 +494,29 @@ pub(crate) fn plain_numbers(words: impl Iterator<Item = OsString>) -> Vec<OsStri
         .collect()
 }
 
+/// `-inf` or `-nan` where a number belongs, and the option before it: the reader of the command line would take it
+/// for an option `-i` or `-n`.
+pub(crate) fn no_number(words: &[OsString]) -> Option<String> {
+    let words = words.iter().map(|w| w.to_str().unwrap_or_default());
+    let mut option = "";
+    for word in words.take_while(|w| *w != "--") {
+        if word.starts_with("--") {
+            option = word;
+        }
+        let lower = word.to_lowercase();
+        if matches!(lower.as_str(), "-inf" | "-infinity" | "-nan") {
+            let place = match option {
+                "" => String::new(),
+                option => format!("{option}: "),
+            };
+            return Some(format!(
+                "{place}'{word}' is no finite number; write one as in -12.5"
+            ));
+        }
+    }
+    None
+}
+
 /// A minus and a digit, or a point.
 fn looks_negative(word: &str) -> bool {
     let after = word.strip_prefix('-').and_then(|w| w.chars().next());
@@ -704,6 +727,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_is_no_number_is_no_option() {
+        let said = |line: &str| no_number(&line.split(' ').map(OsString::from).collect::<Vec<_>>());
+        for word in ["-inf", "-Infinity", "-nan", "-NaN"] {
+            let found = said(&format!("kinetostat deflect m --at 1 {word} 0 --json")).unwrap();
+            assert!(
+                found.starts_with(&format!("--at: '{word}' is no finite number")),
+                "{found}"
+            );
+            assert!(said(&format!("kinetostat check -- {word}")).is_none());
+        }
+        assert!(said("kinetostat deflect m --at 1 -5e-12 0 -h").is_none());
     }
 
     #[test]

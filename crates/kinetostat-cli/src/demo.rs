@@ -152,7 +152,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
     tell(&text, args.json.then_some(&run.result))?;
-    along::judged(&run.result)
+    along::judged(&run.result.tolerance, &run.result.question.program)
 }
 
 fn next(out: &Path) -> String {

@@ -47,13 +47,15 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     };
     let mut tree = DeTable::parse(&text).ok()?;
     let mut found = Vec::new();
+    let mut taken = Vec::new();
     // What has the wrong form: unknown keys, words for numbers, numbers that are none.
     for span in source.not_finite(&tree) {
         add(&mut found, source.endless(span.clone()));
-        take_out(tree.get_mut(), &span);
+        let key = take_out(tree.get_mut(), &span);
+        taken.extend(key.map(|key| (key, span)));
     }
     while Job::deserialize(toml::de::Deserializer::from(tree.clone()))
-        .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found))
+        .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found, &mut taken))
     {}
     // What has no meaning: each part of the question as far as it can be read.
     if let Ok(job) = Job::deserialize(toml::de::Deserializer::from(tree.clone()))
@@ -98,7 +100,10 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
             }
             let span = failure.place.clone();
             add(&mut found, failure);
-            if !span.is_some_and(|span| take_out(tree.get_mut(), &span)) {
+            if span
+                .and_then(|span| take_out(tree.get_mut(), &span))
+                .is_none()
+            {
                 break;
             }
         }
@@ -132,14 +137,23 @@ fn put_right(
     tree: &mut Spanned<DeTable<'_>>,
     error: &toml::de::Error,
     found: &mut Vec<Failure>,
+    taken: &mut Vec<(String, Range<usize>)>,
 ) -> bool {
     let span = error.span().unwrap_or(0..0);
-    let before = found.len();
-    add(found, source.content(error));
-    if found.len() == before || before >= MOST {
-        return false;
+    let missing = Source::missing(error);
+    // What was taken out above with a message of its own is not missing.
+    let was_there = missing.as_ref().is_some_and(|missing| {
+        let mut all = taken.iter();
+        all.any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place)))
+    });
+    if !was_there {
+        let before = found.len();
+        add(found, source.content(error));
+        if found.len() == before || before >= MOST {
+            return false;
+        }
     }
-    if let Some(key) = Source::missing(error) {
+    if let Some(key) = missing {
         // Version 1, and any number for a number.
         let Ok(value) = DeValue::parse("1") else {
             return false;
@@ -152,7 +166,10 @@ fn put_right(
         };
         return table.insert(key, value).is_none();
     }
-    take_out(tree.get_mut(), &span)
+    let key = take_out(tree.get_mut(), &span);
+    let found = key.is_some();
+    taken.extend(key.map(|key| (key, span)));
+    found
 }
 
 fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {
@@ -162,8 +179,8 @@ fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {
 /// Reads a part of the question from a job.
 type Part<'a> = &'a dyn Fn(&JobFile) -> Answer<()>;
 
-/// Takes out the innermost entry that a place lies in; false if there is none.
-fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
+/// Takes out the innermost entry that a place lies in, and tells its key; none if there is no such entry.
+fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> Option<String> {
     let mut own = None;
     for (key, value) in table.iter_mut() {
         let mine = holds(&key.span(), span) || holds(&value.span(), span);
@@ -173,8 +190,8 @@ fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
         match value.get_mut() {
             DeValue::Table(inner) => {
                 let taken = take_out(inner, span);
-                if taken {
-                    return true;
+                if taken.is_some() {
+                    return taken;
                 }
             }
             DeValue::Array(list) => {
@@ -182,8 +199,9 @@ fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
                 for (i, entry) in list.iter_mut().enumerate() {
                     let place = entry.span();
                     if let DeValue::Table(inner) = entry.get_mut() {
-                        if take_out(inner, span) {
-                            return true;
+                        let taken = take_out(inner, span);
+                        if taken.is_some() {
+                            return taken;
                         }
                         if holds(&place, span) {
                             whole = Some(i);
@@ -193,13 +211,15 @@ fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
                 if let Some(i) = whole {
                     let others = list.iter().enumerate().filter(|(other, _)| *other != i);
                     *list = others.map(|(_, entry)| entry.clone()).collect();
-                    return true;
+                    // An entry of a list has no key.
+                    return Some(String::new());
                 }
             }
             _ => {}
         }
     }
-    own.is_some_and(|key| table.remove(&key).is_some())
+    let key = own?;
+    table.remove(&key).map(|_| key.get_ref().to_string())
 }
 
 /// The table that is written at a place.

@@ -99,8 +99,44 @@ impl Contents {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Entry {
     /// Its name if it lies beside the journal, else its whole path.
+    #[serde(with = "any_path")]
     path: PathBuf,
     contents: Contents,
+}
+
+/// Paths as text; those that are no UTF-8, which a disk may have and JSON has not, as their bytes.
+mod any_path {
+    use std::path::{Path, PathBuf};
+
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Text(String),
+        Bytes(Vec<u8>),
+    }
+
+    pub(super) fn serialize<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
+        let written = match path.to_str() {
+            Some(text) => Written::Text(text.to_owned()),
+            None => Written::Bytes(path.as_os_str().as_encoded_bytes().to_vec()),
+        };
+        written.serialize(to)
+    }
+
+    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<PathBuf, D::Error> {
+        Ok(match Written::deserialize(from)? {
+            Written::Text(text) => text.into(),
+            #[cfg(unix)]
+            Written::Bytes(bytes) => {
+                use std::os::unix::ffi::OsStringExt;
+                std::ffi::OsString::from_vec(bytes).into()
+            }
+            #[cfg(not(unix))]
+            Written::Bytes(bytes) => String::from_utf8_lossy(&bytes).into_owned().into(),
+        })
+    }
 }
 
 impl Entry {
@@ -372,6 +408,23 @@ mod tests {
         assert!(part.exists() && kept.exists() && journal.exists());
         assert!(tidy(here.path()).is_empty());
         assert_eq!(count(), 1, "only the file called old");
+    }
+
+    /// A disk has names that are no text.
+    #[test]
+    #[cfg(unix)]
+    fn any_name_is_listed_and_read_again() {
+        use std::os::unix::ffi::OsStringExt;
+        for name in [
+            &b"part.ngc"[..],
+            b"geh\xe4use.ngc",
+            "geh\u{e4}use".as_bytes(),
+        ] {
+            let path = PathBuf::from(std::ffi::OsString::from_vec(name.to_vec()));
+            let text = serde_json::to_string(&Entry::new(&path, Contents::default())).unwrap();
+            let read: Entry = serde_json::from_str(&text).unwrap();
+            assert_eq!(read.path, path, "{text}");
+        }
     }
 
     /// Every state that a kill between renames can leave is named until it is settled.

@@ -11,8 +11,16 @@ pub(crate) fn limits(job: Option<&JobFile>, options: &[String]) -> Answer<Limits
     if let Some(job) = job {
         of_job(job, &mut limits)?;
     }
+    let mut given: Vec<Limit> = Vec::new();
     for text in options {
         let (limit, value) = of_option(text)?;
+        if given.contains(&limit) {
+            return Err(Failure::input(format!(
+                "--limit '{text}': {} is given twice; keep one of the two",
+                limit.name
+            )));
+        }
+        given.push(limit);
         limits.set(limit, value);
         if let Some(what) = no_tool(&limits) {
             return Err(Failure::input(format!("--limit '{text}': {what}")));

@@ -29,6 +29,7 @@ mod check_words;
 mod compare;
 mod compare_fit;
 mod compensate;
+mod compensate_map;
 mod curve;
 mod curve_answer;
 mod curve_args;
@@ -84,11 +85,16 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use crate::args::{Cli, Command, plain_numbers};
+use crate::args::{Cli, Command, no_number, plain_numbers};
 use crate::failure::{Answer, Code};
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse_from(plain_numbers(std::env::args_os())) {
+    let words = plain_numbers(std::env::args_os());
+    if let Some(what) = no_number(&words) {
+        screen::complain(&failure::Failure::input(what));
+        return ExitCode::from(Code::WrongInput as u8);
+    }
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(error) => {
             screen::complain_of_line(&error);

@@ -119,8 +119,15 @@ fn diagonal(chain: &Chain, spring: &SpringBlock, matrix: &DMatrix<f64>) -> Strin
     }
 }
 
+/// From 10 000 on by powers in steps of three, so that figures of one list do not change their notation at
+/// 10 million.
 fn shown(value: f64) -> String {
-    significant(value, DIGITS, Rounding::Nearest)
+    let digits = |value: f64| significant(value, DIGITS, Rounding::Nearest);
+    match value.abs() {
+        size if (1e4..999.5e3).contains(&size) => format!("{}e3", digits(1e-3 * value)),
+        size if (999.5e3..1e7).contains(&size) => format!("{}e6", digits(1e-6 * value)),
+        _ => digits(value),
+    }
 }
 
 #[cfg(test)]
@@ -134,6 +141,22 @@ mod tests {
             sha256(b"abc"),
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
         );
+    }
+
+    /// A number of five digits or more is written by powers, or all the digits in the list are of one kind.
+    #[test]
+    fn stiffnesses_have_one_notation() {
+        let said = [9_999.0, 10_000.0, 540_000.0, 999_700.0, 3_811_513.0, 90.8e6].map(shown);
+        assert_eq!(
+            said,
+            ["9999", "10.0e3", "540e3", "1.00e6", "3.81e6", "90.8e6"]
+        );
+        for name in kinetostat_model::preset_names().iter().map(|p| p.name) {
+            for text in stiffnesses(&Model::preset(name).unwrap()) {
+                let long = |word: &str| word.len() > 4 && word.bytes().all(|b| b.is_ascii_digit());
+                assert!(!text.split([' ', ',']).any(long), "{name}: {text}");
+            }
+        }
     }
 
     #[test]

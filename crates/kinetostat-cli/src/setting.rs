@@ -250,11 +250,13 @@ fn targets(
 
 /// `part.ngc` becomes `part-compensated.ngc` in the directory of `near`.
 fn beside(near: &Path, program: &Path) -> PathBuf {
-    let stem = program.file_stem().unwrap_or_default().to_string_lossy();
-    let name = match program.extension() {
-        Some(extension) => format!("{stem}-compensated.{}", extension.to_string_lossy()),
-        None => format!("{stem}-compensated"),
-    };
+    // A disk has names that are no text: they stay what they are.
+    let mut name = program.file_stem().unwrap_or_default().to_owned();
+    name.push("-compensated");
+    if let Some(extension) = program.extension() {
+        name.push(".");
+        name.push(extension);
+    }
     near.with_file_name(name)
 }
 
@@ -301,6 +303,20 @@ pub(crate) fn scale_of_program(value: f64) -> Result<f64, &'static str> {
     }
 }
 
+/// How far the radii at both ends of an arc may differ: controllers allow 0.001 to 0.1 mm as they come, and are
+/// rarely set to more than 1 mm. A centre that is farther off is another arc, and would be cut as it stands.
+fn arc_tolerance(value: f64) -> Result<f64, &'static str> {
+    match (1e-6..=ARC_TOLERANCE_MM).contains(&value) {
+        true => Ok(value),
+        false => Err(
+            "0.000001 to 2 mm are allowed: controllers take arcs whose radii at both ends differ by 0.001 to 0.1 mm, and refuse others",
+        ),
+    }
+}
+
+/// Above what any controller allows, and below what a wrong centre word makes.
+const ARC_TOLERANCE_MM: f64 = 2.0;
+
 fn micrometres(value: f64) -> Result<f64, &'static str> {
     if (1e-3..=1e4).contains(&value) {
         Ok(1e-3 * value)
@@ -340,7 +356,7 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
         job,
         ("--arc-tolerance", flags.arc_tolerance),
         table.arc_tolerance_mm.as_ref(),
-        above_zero,
+        arc_tolerance,
     )? {
         reading.arc_tolerance_mm = mm;
     }
@@ -364,6 +380,7 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
         _ => None,
     };
     if let (Some(j), Some(offsets)) = (job, &table.work_offset_mm) {
+        let mut given: Vec<usize> = Vec::new();
         for (name, value) in offsets.get_ref() {
             let index = work_offset(name).ok_or_else(|| {
                 j.error(
@@ -372,9 +389,15 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
                     "there are G54, G55, G56, G57, G58, G59, \"G59.1\", \"G59.2\", \"G59.3\"",
                 )
             })?;
+            if given.contains(&index) {
+                let what = format!("the origin of {} is given twice", WORK_OFFSETS[index]);
+                return Err(j.error(offsets, &what, "keep one of the two"));
+            }
+            given.push(index);
             reading.work_offsets_mm[index] = Vector3::from(*value);
         }
     }
+    let mut given: Vec<usize> = Vec::new();
     for text in &flags.work_offset {
         let refuse = || {
             Failure::input(format!(
@@ -383,6 +406,13 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
         };
         let (name, values) = text.split_once('=').ok_or_else(refuse)?;
         let index = work_offset(name.trim()).ok_or_else(refuse)?;
+        if given.contains(&index) {
+            return Err(Failure::input(format!(
+                "--work-offset '{text}': the origin of {} is given twice; keep one of the two",
+                WORK_OFFSETS[index]
+            )));
+        }
+        given.push(index);
         let numbers: Vec<f64> = values
             .split(',')
             .map(|v| v.trim().parse().ok().filter(|x: &f64| x.is_finite()))
@@ -396,10 +426,12 @@ fn reading(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<ReadOptions> {
     Ok(reading)
 }
 
+const WORK_OFFSETS: [&str; 9] = [
+    "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
+];
+
 fn work_offset(name: &str) -> Option<usize> {
-    [
-        "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
-    ]
-    .iter()
-    .position(|known| known.eq_ignore_ascii_case(name))
+    WORK_OFFSETS
+        .iter()
+        .position(|known| known.eq_ignore_ascii_case(name))
 }

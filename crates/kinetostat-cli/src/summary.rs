@@ -1,7 +1,7 @@
 //! A run in words: the verdict, then the figures in a table, readable at 80 columns.
 
 use kinetostat_machining::number::{
-    MISSING, Rounding, against, largest, largest_length, length_setting, significant, with_unit,
+    MISSING, Rounding, against, largest, largest_length, significant, with_unit,
 };
 use kinetostat_machining::{Figures, PointResult, RunResult};
 
@@ -36,10 +36,8 @@ pub(crate) fn verdict(result: &RunResult) -> String {
         )
     } else if result.question.compensated {
         let held = result.tolerance.held == Some(true);
-        let first = match held {
-            true => String::new(),
-            false => format!("{} ", missed(result)),
-        };
+        let missed = result.tolerance.missed_in_words();
+        let first = missed.map_or_else(String::new, |missed| format!("{missed} "));
         let (after, allowed) = against(
             result.summary.max_position_error_after_mm,
             result.tolerance.allowed_mm,
@@ -70,24 +68,6 @@ pub(crate) fn verdict(result: &RunResult) -> String {
         text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
     }
     text
-}
-
-/// That the tolerance is missed, where, by how much and why.
-pub(crate) fn missed(result: &RunResult) -> String {
-    let t = &result.tolerance;
-    match &t.missed {
-        Some(m) => {
-            let (error, allowed) = against(m.error_mm, t.allowed_mm);
-            format!(
-                "THE TOLERANCE IS MISSED at line {} (line {} of the written program): the tool is {error} off, more than the {allowed} that are allowed; {}.",
-                m.line, m.output_line, m.reason
-            )
-        }
-        None => format!(
-            "THE TOLERANCE of {} IS MISSED.",
-            length_setting(t.allowed_mm)
-        ),
-    }
 }
 
 /// The figures: a name, and what it is before and after.

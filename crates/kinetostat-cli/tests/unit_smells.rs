@@ -238,6 +238,17 @@ fn figure_wrong_units_smell_and_the_line_is_named() {
         let line: usize = line.parse().expect("a number");
         let shown = text.lines().nth(line - 1).unwrap_or_default();
         assert!(shown.contains(at), "{own}: line {line} is '{shown}'");
+        // Digits that mean something.
+        for word in rest.split([' ', ',', ';', '(', ')']) {
+            let figures: String = word.chars().filter(char::is_ascii_digit).collect();
+            let digits = figures.trim_start_matches('0').len();
+            let number = word.parse::<f64>().is_ok();
+            let whole = !word.contains('.');
+            assert!(
+                !number || digits <= if whole { 7 } else { 5 },
+                "{word}: {own}"
+            );
+        }
         // What is wrong, then what to do.
         assert!(rest.contains("; "), "{own}");
         assert!(flat(&words).contains("warning") || flat(&words).contains("Warning"));

@@ -16,7 +16,7 @@ fn job() -> String {
 }
 
 /// What is written, what goes there instead, a word of the message.
-const FAULTS: [(&str, &str, &str); 14] = [
+const FAULTS: [(&str, &str, &str); 17] = [
     ("schema = 1", "schema = 7", "version 7"),
     ("schema = 1\n", "", "'schema' is missing"),
     ("\"orthoglide\"", "\"orthoglid\"", "orthoglid"),
@@ -47,7 +47,18 @@ const FAULTS: [(&str, &str, &str); 14] = [
     (
         "arc_tolerance_mm = 0.01",
         "arc_tolerance_mm = -1",
-        "above zero",
+        "0.000001 to 2 mm are allowed",
+    ),
+    (
+        "arc_tolerance_mm = 0.01",
+        "arc_tolerance_mm = 50",
+        "controllers take arcs",
+    ),
+    ("schema = 1\n", "schema = 1.0\n", "a whole number is needed"),
+    (
+        "tangential_n = -10",
+        "tangential_n = nan",
+        "no finite number",
     ),
     ("path_um = 0.5", "path_um = 0", "0.001 to 10000"),
     ("decimals = 4", "decimals = 40", "3 to 8 decimals"),
@@ -104,7 +115,7 @@ fn all_faults_of_a_job_are_shown_in_one_run_in_the_order_of_lines() {
         .into_iter()
         .filter(|fault| places.insert(good.find(fault.0)))
         .collect();
-    assert_eq!(many.len(), 11);
+    assert_eq!(many.len(), 12);
     check(&many);
 }
 

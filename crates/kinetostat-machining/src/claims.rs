@@ -4,24 +4,15 @@
 use crate::load::CornerLoad;
 use crate::number::{counted, largest, largest_length};
 use crate::result::RunResult;
+use crate::verdict::unchanged_in_words;
 
 impl RunResult {
-    /// What a program that came back byte for byte means; none for others.
+    /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.
     #[must_use]
     pub fn unchanged_in_words(&self) -> Option<String> {
         let s = &self.summary;
-        if s.unchanged && s.within_tolerance_before {
-            return Some(format!(
-                "Nothing was corrected: as the program is, the tool is at most {} off, which is within the tolerance, \
-                 and it comes back byte for byte. A smaller --tolerance-um corrects that too.",
-                largest_length(s.max_position_error_before_mm)
-            ));
-        }
-        s.unchanged.then(|| {
-            "Nothing was to be corrected: no correction along the program reaches the last digit written, and it \
-             comes back byte for byte."
-                .to_owned()
-        })
+        (s.unchanged && self.tolerance.held != Some(false))
+            .then(|| unchanged_in_words(s.within_tolerance_before, s.max_position_error_before_mm))
     }
 
     /// What is assumed at sharp corners, how many steps that concerns, and what becomes of the claim

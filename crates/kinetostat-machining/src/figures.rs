@@ -73,7 +73,10 @@ impl Figures {
             speed: largest(s.max_speed_deviation_percent, "%"),
             corner_step: (s.corner_steps > 0).then(|| largest_length(s.largest_corner_step_mm)),
             shortest_piece: above_zero(s.smallest_piece_mm).map(least_length),
-            blocks_per_second: above_zero(s.blocks_per_second).map(|b| largest(b, "1/s")),
+            blocks_per_second: s
+                .blocks_per_second
+                .and_then(above_zero)
+                .map(|b| largest(b, "1/s")),
             feed_length: with_unit(&significant(s.feed_length_mm, 5, Rounding::Nearest), "mm"),
             stiffness: least(s.smallest_stiffness_n_per_mm, "N/mm"),
             share_to_buckling: s.largest_share_to_buckling.map(share),

@@ -1,7 +1,7 @@
 //! Does the question make sense, and does the answer? Figures beyond a limit refuse a program; those
 //! that are merely odd become warnings.
 
-use kinetostat::number::short;
+use kinetostat::number::{largest, largest_length, length_setting, short};
 use kinetostat::{Mechanism, MotionKind, Pose, Wrench};
 use kinetostat_program::{Accounting, Corrected};
 use nalgebra::Vector3;
@@ -15,6 +15,7 @@ use crate::result::{
     MissedTolerance, PointKind, PointResult, RunResult, Summary, ToleranceVerdict,
 };
 use crate::run::{Task, kinds};
+use crate::verdict::left_out;
 use crate::warning::{Warning, WarningCode};
 
 /// What the figures of a run are judged by.
@@ -365,17 +366,17 @@ pub fn odd_correction(
         Warning::new(
             WarningCode::LargeCorrection,
             format!(
-                "corrections of up to {} mm are large: check units and signs of load and stiffnesses, or of the table",
-                short(largest_mm)
+                "corrections of up to {} are large: check units and signs of load and stiffnesses, or of the table",
+                largest_length(largest_mm)
             ),
         )
     } else if largest_mm <= tolerance_mm {
         Warning::new(
             WarningCode::SmallCorrection,
             format!(
-                "the largest correction, {} mm, is not more than the tolerance, {} mm: there is nothing to correct; check units, load and placement",
-                short(largest_mm),
-                short(tolerance_mm)
+                "the largest correction, {}, is not more than the tolerance, {}: there is nothing to correct; check units, load and placement",
+                largest_length(largest_mm),
+                length_setting(tolerance_mm)
             ),
         )
     } else {
@@ -471,7 +472,7 @@ pub(crate) fn odd(
                 WarningCode::NearLimit,
                 format!(
                     "{text} {} of the {} that are allowed",
-                    short(value),
+                    largest(value, ""),
                     short(limit)
                 ),
             ));
@@ -666,18 +667,15 @@ pub(crate) fn tolerance(
     let missed = worst.zip(written).map(|(p, written)| {
         let a = &written.accounting;
         let reason = if a.left_out_mm > 0.5 * error(p) {
-            format!(
-                "a correction of {:.4} mm was left out because the program never states its axis; state X, Y and Z before the first cut",
-                a.left_out_mm
-            )
+            left_out(a)
         } else if p.kind == PointKind::Corner {
             "the tool stands at a corner while the load turns, and the correction is written for its ends; round the corner, or reduce the load".to_owned()
         } else if length(&p.correction_mm) == 0.0 {
             "this block is carried over as it was: it comes before all axes are stated, or is of a kind that is not corrected".to_owned()
         } else if a.largest_jump_taken_up_mm > 0.5 * error(p) {
             format!(
-                "a jump of the correction of {:.4} mm got no step of its own; tighten the tolerance",
-                a.largest_jump_taken_up_mm
+                "a jump of the correction of {} got no step of its own; tighten the tolerance",
+                largest_length(a.largest_jump_taken_up_mm)
             )
         } else {
             "the correction bends more between the ends of the written pieces than was expected, also where they were divided again; tighten the tolerance of the path".to_owned()
@@ -694,5 +692,26 @@ pub(crate) fn tolerance(
         allowed_mm,
         held,
         missed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A largest figure is never stated too small, and a length has a smallest figure as everywhere.
+    #[test]
+    fn an_odd_correction_has_the_digits_of_the_table() {
+        let limits = Limits::default();
+        for (mm, said) in [
+            (1.0204, "up to 1.03 mm are large"),
+            (0.000_301, "correction, 0.301 um, is"),
+            (5.31e-8, "correction, 0.001 um, is"),
+        ] {
+            let found = odd_correction(&limits, mm, None, 0.0005).map(|w| w.message);
+            let found = found.unwrap_or_default();
+            assert!(found.contains(said), "{found}");
+            assert!(found.contains(&largest_length(mm)), "{found}");
+        }
     }
 }

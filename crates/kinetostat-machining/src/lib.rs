@@ -24,6 +24,7 @@ mod solve;
 mod thin;
 mod together;
 mod tool;
+mod verdict;
 mod warning;
 
 pub use field::ModelField;
@@ -46,4 +47,5 @@ pub use run::{
 };
 pub use thin::thinned;
 pub use tool::Tool;
+pub use verdict::{keeps_as_it_is, of_table, unchanged_in_words};
 pub use warning::{Warning, WarningCode};

@@ -303,8 +303,9 @@ pub struct Summary {
     pub peak_blocks_per_second_after: Option<f64>,
     /// Shortest piece written, mm.
     pub smallest_piece_mm: f64,
-    /// Most blocks per second at programmed feed.
-    pub blocks_per_second: f64,
+    /// Most blocks per second at programmed feed: `peak_blocks_per_second_after`; none where that is not known.
+    #[serde(default)]
+    pub blocks_per_second: Option<f64>,
     /// Length of the feed path, mm.
     pub feed_length_mm: f64,
     /// Largest distance of the tool from its programmed place without compensation, on cutting moves

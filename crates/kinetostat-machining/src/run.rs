@@ -28,6 +28,7 @@ use crate::solve::{Neighbour, Orientation, in_chunks};
 use crate::thin::thinned;
 use crate::together::Together;
 use crate::tool::{Machines, Tool, tool_on};
+use crate::verdict::keeps_as_it_is;
 use crate::warning::{Warning, WarningCode};
 
 /// Everything that decides a run.
@@ -264,15 +265,14 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
     Ok(conclude(task, &load, points, Some(written), &checked))
 }
 
-/// As it is, the program keeps the tolerance of the path, for it has no chords; or what is allowed, and no less
-/// than the corrected one does.
+/// Whether the program keeps its tolerance as it is.
 fn within_before(points: &[PointResult], tolerance_mm: f64, allowed_mm: f64) -> bool {
     let largest = |error: fn(&PointResult) -> f64| {
         judge::most(points, error).map_or(0.0, |(largest, _)| largest)
     };
     let before = largest(|p| size(&p.error_before_mm));
     let after = largest(|p| size(&p.error_after_mm));
-    before <= tolerance_mm || (before <= allowed_mm && before <= after)
+    keeps_as_it_is(before, after, tolerance_mm, allowed_mm)
 }
 
 /// Arcs at feed.
@@ -897,7 +897,7 @@ fn of_what_was_written(
     summary.corner_steps = a.corner_steps;
     summary.largest_corner_step_mm = a.largest_corner_step_mm;
     summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
-    summary.blocks_per_second = a.peak_blocks_per_second.unwrap_or(0.0);
+    summary.blocks_per_second = a.peak_blocks_per_second;
     summary.max_rounding_error_mm = a.largest_rounding_mm;
     summary.feed_arcs = feed_arcs(task);
     summary.unchanged = written.bytes == task.program.bytes();

@@ -36,6 +36,8 @@ pub enum WarningCode {
     LargeCorrection,
     /// Corrections that are smaller than the tolerance.
     SmallCorrection,
+    /// A table of corrections that is far wider than the program.
+    WideTable,
     /// A tolerance that is unusually wide.
     WideTolerance,
     /// The tool is held unusually softly or stiffly.

@@ -1,5 +1,6 @@
 //! Figures that are possible but unlikely: usually a unit or a decimal point is wrong.
 
+use kinetostat::number::{apart, short};
 use kinetostat::{Chain, Mechanism, Pose};
 
 use crate::link_matrix;
@@ -36,7 +37,7 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
     if size > 0.0 && !(9.7..=9.9).contains(&size) {
         warn(
             &place,
-            format!("gravity is {size} m/s^2"),
+            format!("gravity is {} m/s^2", short(size)),
             "on the ground it is 9.81 m/s^2; check the unit",
         );
     }
@@ -63,7 +64,7 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
         if platform.mass > 1e5 {
             warn(
                 &root.key("platform").index(i).key("mass_kg"),
-                format!("the platform weighs {} kg", platform.mass),
+                format!("the platform weighs {} kg", short(platform.mass)),
                 "check the unit",
             );
         }
@@ -75,7 +76,7 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
         if reach > 100.0 || (reach > 0.0 && reach < 1e-3) {
             warn(
                 &place,
-                format!("the limb '{}' reaches over {reach:.6} m", limb.name),
+                format!("the limb '{}' reaches over {} m", limb.name, short(reach)),
                 "machines lie between a millimetre and 100 m; check the units of its chain",
             );
         }
@@ -84,7 +85,8 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
                 &place,
                 format!(
                     "the body '{}' of this limb weighs {} kg",
-                    body.name, body.mass
+                    body.name,
+                    short(body.mass)
                 ),
                 "check the unit",
             );
@@ -101,10 +103,9 @@ pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut V
             warn(
                 &place,
                 format!(
-                    "at home the limb '{}' ends {:.4} mm and {:.3} degrees away from the platform '{}'",
+                    "at home the limb '{}' ends {} away from the platform '{}'",
                     limb.name,
-                    gap * 1e3,
-                    turn.to_degrees(),
+                    apart(gap * 1e3, turn.to_degrees()),
                     mechanism.platforms()[limb.to].name
                 ),
                 "correct the home values of its joints, or the home pose of the platform; the search for joint values starts there",

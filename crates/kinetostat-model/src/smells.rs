@@ -55,7 +55,7 @@ const SECTION_KEYS: [&str; 8] = [
 fn smell(key: &str, x: f64) -> Option<(String, &'static str)> {
     if key == "repeatability_mm" && !(5e-4..=1.0).contains(&x) {
         return Some((
-            format!("a repeatability of {} mm", tidy(x)),
+            format!("a repeatability of {} mm", short(x)),
             "arms repeat within 0.02 to 0.2 mm, machine tools within 0.001 to 0.01 mm; check the unit",
         ));
     }
@@ -95,7 +95,7 @@ fn smell(key: &str, x: f64) -> Option<(String, &'static str)> {
     // Limits are often written far out where there are none.
     if metres.abs() > 50.0 && name != "limits" {
         return Some((
-            format!("a length of {} m", tidy(metres.abs())),
+            format!("a length of {} m", short(metres.abs())),
             "robots are smaller; check the unit in the key: _mm or _m",
         ));
     }
@@ -109,7 +109,7 @@ fn smell(key: &str, x: f64) -> Option<(String, &'static str)> {
             format!(
                 "the {} is {} mm",
                 name.replace('_', " "),
-                tidy(1e3 * metres)
+                short(1e3 * metres)
             ),
             "parts of robots are larger; check the unit in the key: _mm or _m",
         )
@@ -128,11 +128,6 @@ fn looks_like_radians(x: f64) -> bool {
 fn share_of_pi(x: f64) -> String {
     let degrees = (x.to_degrees() / 15.0).round() * 15.0;
     format!("{degrees} degrees")
-}
-
-fn tidy(x: f64) -> String {
-    let text = format!("{x:.6}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Looks at figures beside the rest of the machine.
@@ -363,8 +358,8 @@ impl Look<'_> {
                     format!(
                         "the translations and rotations of the spring '{}' belong to a part of {} m, in a machine of {} m",
                         spring.name,
-                        tidy(length),
-                        tidy(self.size)
+                        short(length),
+                        short(self.size)
                     ),
                     "check the unit of the matrix: _n_m_rad or _n_mm_rad",
                 ));
@@ -398,7 +393,7 @@ impl Look<'_> {
                 }
                 MotionKind::Prismatic => (
                     0.03 * self.size,
-                    format!("slides by {} mm", tidy((1e3 * gives).round())),
+                    format!("slides by {} mm", short((1e3 * gives).round())),
                 ),
             };
             if gives > most
@@ -443,15 +438,15 @@ impl Look<'_> {
             let odd = beside.is_some_and(|m| body.mass > 200.0 * m) && body.mass > 100.0;
             if alone || odd {
                 let beside = match beside {
-                    Some(m) if odd => format!(", most others about {} kg", tidy(m)),
-                    _ => format!(", in a machine of {} m", tidy(self.size)),
+                    Some(m) if odd => format!(", most others about {} kg", short(m)),
+                    _ => format!(", in a machine of {} m", short(self.size)),
                 };
                 warnings.push(Finding::new(
                     &self.place(&body.name, &["mass_kg"]),
                     format!(
                         "the body '{}' weighs {} kg{beside}",
                         body.name,
-                        tidy(body.mass)
+                        short(body.mass)
                     ),
                     "check the unit, and whether it is a placeholder",
                 ));
@@ -463,7 +458,7 @@ impl Look<'_> {
                     format!(
                         "the inertia of the body '{}' is that of a part of {} m",
                         body.name,
-                        tidy(gyration)
+                        short(gyration)
                     ),
                     "inertias are in kg m^2; statics does not use them",
                 ));
@@ -476,8 +471,8 @@ impl Look<'_> {
                 &self.place(&body, &["centre_of_mass_mm", "centre_of_mass_m"]),
                 format!(
                     "the centre of mass of the body '{body}' is {} m away from any joint of its limb, in a machine of {} m",
-                    tidy(centre),
-                    tidy(self.size)
+                    short(centre),
+                    short(self.size)
                 ),
                 "check the unit in the key: _mm or _m",
             ));
@@ -515,8 +510,8 @@ impl Look<'_> {
                 &self.place(&chain.bodies()[0].name, &["mass_kg"]),
                 format!(
                     "the masses of the limb are {} kg, but links of that stiffness weigh about {} kg in any metal",
-                    tidy(bodies),
-                    tidy(links)
+                    short(bodies),
+                    short(links)
                 ),
                 "check the density behind the masses (steel: 7850 kg/m^3), and the moduli and sizes of the sections",
             ));
@@ -542,7 +537,7 @@ impl Look<'_> {
                     &place.index(i).key("limits_deg"),
                     format!(
                         "the joint turns by only {} degrees in all",
-                        tidy(high - low)
+                        short(high - low)
                     ),
                     "this looks like radians: write limits_rad",
                 ));
@@ -566,9 +561,9 @@ fn workspace(document: &Document, mechanism: &Mechanism, size: f64, warnings: &m
             &Place::root().key("workspace"),
             format!(
                 "the workspace is {} m large and lies up to {} m from the tool's home, in a machine of {} m",
-                tidy(extent),
-                tidy(far),
-                tidy(size)
+                short(extent),
+                short(far),
+                short(size)
             ),
             "check the unit in its keys: _mm or _m",
         ));
@@ -596,8 +591,8 @@ fn deviations(document: &Document, size: f64, warnings: &mut Vec<Finding>) {
                 &place,
                 format!(
                     "an error of assembly of {} mm and {} degrees",
-                    tidy(1e3 * shift),
-                    tidy(turn)
+                    short(1e3 * shift),
+                    short(turn)
                 ),
                 "errors are small motions; check the unit in the key",
             ));

@@ -18,6 +18,13 @@ pub(crate) struct Codes {
     pub tool_length: Option<u32>,
     pub position_offset: Option<u32>,
     pub extruder: Option<u32>,
+    pub path_mode: Option<u32>,
+    pub speed_mode: Option<u32>,
+    pub retract_mode: Option<u32>,
+    pub spindle: Option<u32>,
+    pub coolant: Option<u32>,
+    pub overrides: Option<u32>,
+    pub stop: Option<u32>,
     pub dwell: bool,
     pub ends: bool,
 }
@@ -142,9 +149,19 @@ impl<'p> Block<'p> {
             ('G', 920..=923) => codes.position_offset.replace(tenths).is_some(),
             ('M', 820 | 830) => codes.extruder.replace(tenths).is_some(),
             ('G', 40) => std::mem::replace(&mut codes.dwell, true),
-            ('M', 20 | 300) => {
-                codes.ends = true;
-                false
+            ('G', 610 | 611 | 640) => codes.path_mode.replace(tenths).is_some(),
+            ('G', 960 | 970) => codes.speed_mode.replace(tenths).is_some(),
+            ('G', 980 | 990) => codes.retract_mode.replace(tenths).is_some(),
+            ('M', 30 | 40 | 50 | 130 | 140 | 190) => codes.spindle.replace(tenths).is_some(),
+            // Mist and flood go together; off goes with neither.
+            ('M', 70 | 80 | 90) => {
+                let before = codes.coolant.replace(tenths);
+                before.is_some_and(|before| before == tenths || before == 90 || tenths == 90)
+            }
+            ('M', 480 | 490) => codes.overrides.replace(tenths).is_some(),
+            ('M', 0 | 10 | 20 | 300 | 600) => {
+                codes.ends |= matches!(tenths, 20 | 300);
+                codes.stop.replace(tenths).is_some()
             }
             _ => false,
         };

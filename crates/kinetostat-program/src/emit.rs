@@ -7,6 +7,7 @@ use crate::curve::Curve;
 use crate::divide::{Division, Node, is_corrected_at_end, is_divided};
 use crate::error::WriteError;
 use crate::header::{header, lines_above};
+use crate::number::at_most;
 use crate::path::{
     Change, Feed, Knowledge, Motion, Move, MoveKind, OffsetChange, Path, PositionOffset, Warning,
 };
@@ -84,9 +85,9 @@ impl<'a> Emitter<'a> {
             warnings.push(Warning {
                 line: 1,
                 text: format!(
-                    "the program never states {}: corrections there, up to {:.4} mm, are left out",
+                    "the program never states {}: corrections there, up to {} mm, are left out",
                     axes.join(" and "),
-                    division.left_out_mm
+                    at_most(division.left_out_mm, 4)
                 ),
             });
         }
@@ -196,12 +197,12 @@ impl<'a> Emitter<'a> {
         accounting.warnings.push(Warning {
             line,
             text: format!(
-                "the written program goes {} against the direction of motion by more than {} mm, here by {:.4} mm, to \
+                "the written program goes {} against the direction of motion by more than {} mm, here by {} mm, to \
                  follow a correction that changes at once (a load that turns or begins, a table that folds back): where \
                  the machine does not do so, the tool cuts backwards",
                 counted(accounting.backward_steps, "time"),
                 self.options.backward_step_mm,
-                accounting.largest_backward_mm
+                at_most(accounting.largest_backward_mm, 4)
             ),
         });
     }

@@ -76,7 +76,7 @@ mod verify_text;
 mod write;
 
 pub use accounting::Accounting;
-pub use against::{FieldCheck, verify_against_field};
+pub use against::{Farthest, FieldCheck, verify_against_field};
 pub use curve::{Arc, Curve};
 pub use dialect::{CODES, Code, Treatment};
 pub use error::{MapError, ProgramError, WriteError};

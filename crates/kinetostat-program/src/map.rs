@@ -170,10 +170,18 @@ impl CorrectionMap {
             return Ok((0, 0, 0.0));
         }
         if !(first - BORDER_MM..=last + BORDER_MM).contains(&value) {
+            // As many digits as show on which side of the border it lies.
+            let shown = |decimals: usize| format!("{value:.decimals$}");
+            let outside = |text: &String| {
+                let read = text.parse().unwrap_or(value);
+                !(first..=last).contains(&read)
+            };
+            let shown = (4..=12).map(shown).find(outside);
             return Err(FieldFailure::new(format!(
-                "{} {value:.4} mm is outside the map, which reaches from {first} to {last} mm; extend \
+                "{} {} mm is outside the map, which reaches from {first} to {last} mm; extend \
                  the map or move the part",
-                ["x", "y", "z"][axis]
+                ["x", "y", "z"][axis],
+                shown.unwrap_or_else(|| value.to_string())
             )));
         }
         let above = nodes
@@ -325,17 +333,10 @@ fn columns_of(
                 "keep one of the two".to_owned(),
             ));
         } else if !COLUMNS.contains(&name) {
-            let nearest = COLUMNS
-                .into_iter()
-                .max_by(|a, b| strsim::jaro(name, a).total_cmp(&strsim::jaro(name, b)))
-                .unwrap_or(COLUMNS[0]);
             faults.push(fault(
                 format!("column `{}`", shown(name)),
                 "the column is not known",
-                format!(
-                    "did you mean `{nearest}`? The columns are {}",
-                    COLUMNS.join(",")
-                ),
+                meant(name),
             ));
         }
         if faults.len() == most {
@@ -363,6 +364,31 @@ fn columns_of(
     }
 }
 
+/// What to write for a column that is not known.
+fn meant(name: &str) -> String {
+    let all = COLUMNS.join(",");
+    if name.contains([';', '\t']) {
+        return format!("columns are separated by commas, and decimals by points: write {all}");
+    }
+    let lower = name.to_lowercase();
+    let nearest = COLUMNS
+        .into_iter()
+        .max_by(|a, b| strsim::jaro(&lower, a).total_cmp(&strsim::jaro(&lower, b)))
+        .unwrap_or(COLUMNS[0]);
+    // A name in another unit: renaming alone would make a thousandfold of its numbers.
+    let quantity = lower.split('_').next().unwrap_or_default();
+    let known = COLUMNS
+        .into_iter()
+        .find(|c| c.split('_').next() == Some(quantity));
+    match (known, lower.split_once('_')) {
+        (Some(column), Some((_, unit))) if unit != "mm" => format!(
+            "write it as `{column}` and convert its numbers into millimetres (1 um is 0.001 mm, 1 inch 25.4 mm, 1 m \
+             1000 mm): a new name alone is not enough"
+        ),
+        _ => format!("did you mean `{nearest}`? The columns are {all}"),
+    }
+}
+
 /// Line of the record that is read from a position on: comments and empty lines before it are passed over.
 fn line_of(bytes: &[u8], position: Option<&csv::Position>) -> u64 {
     let Some(position) = position else { return 1 };
@@ -386,7 +412,8 @@ fn csv_error(bytes: &[u8], error: &csv::Error) -> MapError {
             csv::ErrorKind::Utf8 { .. } => "it is no UTF-8 text".to_owned(),
             _ => error.to_string(),
         },
-        remedy: "write six numbers a row, with commas between them".to_owned(),
+        remedy: "write six numbers a row, with commas between them and points for decimals"
+            .to_owned(),
     }
 }
 

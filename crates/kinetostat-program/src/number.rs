@@ -9,6 +9,12 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// A largest value, never stated too small; what is a round number but for its last binary digits stays it.
+pub(crate) fn at_most(value: f64, decimals: usize) -> String {
+    let unit = 10_f64.powi(decimals as i32);
+    fixed((value * unit * (1.0 - 1e-9)).ceil() / unit, decimals)
+}
+
 /// A positive feed with a relative rounding error of at most 0.01 %.
 pub(crate) fn feed(value: f64) -> String {
     // Half a unit of the last decimal against 1e-4 of the value.
@@ -37,6 +43,9 @@ mod tests {
         assert_eq!(fixed(-0.00001, 4), "0.0000");
         assert_eq!(fixed(-12.34567, 4), "-12.3457");
         assert_eq!(fixed(1e9, 1), "1000000000.0");
+        assert_eq!(at_most(0.029_41, 4), "0.0295");
+        assert_eq!(at_most(0.1 + 0.2, 4), "0.3000");
+        assert_eq!(at_most(1e-7, 4), "0.0001");
         assert_eq!(feed(900.0), "900");
         assert_eq!(feed(900.27), "900.3");
     }

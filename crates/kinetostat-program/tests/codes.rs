@@ -5,7 +5,7 @@
 
 mod code_programs;
 
-use code_programs::{AFTER, BEFORE, READ};
+use code_programs::{AFTER, BEFORE, READ, exclude_each_other};
 use kinetostat_program::*;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -121,9 +121,13 @@ proptest! {
         slot in proptest::collection::vec(any::<prop::sample::Index>(), 6),
         zero in any::<bool>(),
     ) {
-        let ends = codes.iter().filter(|code| [0, 1, 2, 30, 60].contains(*code)).count();
-        let extruder = codes.contains(&82) && codes.contains(&83);
-        prop_assume!(ends <= 1 && !extruder);
+        // Codes that exclude each other are refused by a test of their own.
+        let codes: Vec<u32> = codes.iter().fold(Vec::new(), |mut kept, code| {
+            if !kept.iter().any(|other| exclude_each_other(*code, *other)) {
+                kept.push(*code);
+            }
+            kept
+        });
         let mut words = vec!["G1".to_owned(), "X100".to_owned(), "F200".to_owned()];
         let written = |code: u32| if zero && code < 10 { format!("M0{code}") } else { format!("M{code}") };
         for (code, slot) in codes.iter().zip(&slot) {
@@ -270,6 +274,40 @@ fn no_coordinate_changes_in_a_block_with_an_unknown_code() {
     };
     let written = write_corrected(&program, &path, &NoCorrection, &writing, &Unwatched).unwrap();
     assert_eq!(written.bytes, text.as_bytes());
+}
+
+#[test]
+fn codes_that_exclude_each_other_are_refused_in_one_block() {
+    let all: Vec<u32> = [BEFORE.as_slice(), AFTER.as_slice(), &[19]].concat();
+    for a in &all {
+        for b in &all {
+            for motion in ["", "G1 X5 F100 "] {
+                if *a == 19 && !motion.is_empty() || *b == 19 && !motion.is_empty() {
+                    continue;
+                }
+                let text = format!("G21 G90\nG0 X0 Y0 Z0\n{motion}M{a} M{b}\n(end)\n");
+                let result = read(&text);
+                if exclude_each_other(*a, *b) {
+                    let error = result.expect_err(&text);
+                    assert_eq!(error.line, 3, "{error}");
+                    assert!(error.to_string().contains("group"), "{error}");
+                } else if a != b {
+                    assert!(result.is_ok(), "{text}{result:?}");
+                }
+            }
+        }
+    }
+    for (words, allowed) in [
+        ("G61 G64", false),
+        ("G96 G97", false),
+        ("G98 G99", false),
+        ("M3 M8", true),
+        ("M7 M8", true),
+        ("M5 M9", true),
+    ] {
+        let text = format!("G21 G90\nG0 X0 Y0 Z0\n{words}\n");
+        assert_eq!(read(&text).is_ok(), allowed, "{text}");
+    }
 }
 
 /// The table of the book is the table of the code.

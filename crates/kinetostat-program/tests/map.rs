@@ -84,7 +84,7 @@ fn bad_maps_are_refused_with_line_reason_and_remedy() {
             "x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_um\n0,0,0,0,0,0\n".into(),
             1,
             "not known",
-            "did you mean `dz_mm`?",
+            "convert its numbers",
         ),
         (
             "x,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n0,0,0,0,0,0\n".into(),

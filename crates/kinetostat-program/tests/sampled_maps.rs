@@ -85,7 +85,7 @@ fn a_pitch_error_is_followed_under_round_coordinates() {
     assert!(written.pieces.len() >= 120, "{}", written.pieces.len());
     assert!((written.accounting.largest_correction_mm - 0.02).abs() < 1e-12);
     assert!(
-        against.largest_mm < 1e-3 && against.places > 480,
+        against.after.distance_mm < 1e-3 && against.places > 480,
         "{against:?}"
     );
 }

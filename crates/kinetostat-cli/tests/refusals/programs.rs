@@ -5,6 +5,16 @@ use crate::{Case, case, changed};
 
 const CUT: [&str; 4] = ["compensate", "job.toml", "--program", "bad.ngc"];
 
+const MAP: [&str; 7] = [
+    "compensate",
+    "--map",
+    "map.csv",
+    "--program",
+    "part.ngc",
+    "--out",
+    "o.ngc",
+];
+
 pub fn programs() -> Vec<Case> {
     let p = |text: &str| vec![("bad.ngc", text.as_bytes().to_vec())];
     let changed = |from: &str, to: &str| vec![("bad.ngc", changed(PROGRAM, from, to))];
@@ -22,6 +32,13 @@ pub fn programs() -> Vec<Case> {
             &CUT,
             1,
             &["bad.ngc", "line 3", "G41"],
+        ),
+        case(
+            "program: the spindle on and off in one block",
+            changed("G1 Z-1 F300", "M3 M5 S900\nG1 Z-1 F300"),
+            &CUT,
+            1,
+            &["bad.ngc", "line 3", "another code of its group"],
         ),
         case(
             "program: all faults at once",
@@ -206,6 +223,52 @@ pub fn programs() -> Vec<Case> {
             ],
             1,
             &["map.csv", "3 places", "line 2", "line 4", "line 5"],
+        ),
+        case(
+            "map: names in capitals",
+            vec![(
+                "map.csv",
+                b"X_MM,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n0,0,0,0,0,0\n".to_vec(),
+            )],
+            &MAP,
+            1,
+            &["did you mean `x_mm`?"],
+        ),
+        case(
+            "map: a column in micrometres",
+            vec![(
+                "map.csv",
+                b"x_mm,y_mm,z_mm,dx_um,dy_mm,dz_mm\n0,0,0,0,0,0\n".to_vec(),
+            )],
+            &MAP,
+            1,
+            &["dx_mm", "convert its numbers"],
+        ),
+        case(
+            "map: semicolons",
+            vec![(
+                "map.csv",
+                b"x_mm;y_mm;z_mm;dx_mm;dy_mm;dz_mm\n0;0;0;0,5;0;0\n".to_vec(),
+            )],
+            &MAP,
+            1,
+            &["separated by commas"],
+        ),
+        case(
+            "program: 10 nm beyond the map",
+            vec![
+                (
+                    "map.csv",
+                    b"x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n0,0,0,0,0,0\n99.9999,0,0,0,0,0\n".to_vec(),
+                ),
+                (
+                    "part.ngc",
+                    b"G21 G90\nG0 X0 Y0 Z0\nG1 X99.99991 F600\nM2\n".to_vec(),
+                ),
+            ],
+            &MAP,
+            2,
+            &["x 99.99990", "mm is outside the map", "from 0 to 99.9999 mm"],
         ),
         case(
             "map: a column too few",

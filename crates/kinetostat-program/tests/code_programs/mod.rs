@@ -19,6 +19,25 @@ pub const BEFORE: [u32; 21] = [
 /// M codes that act after it, and those that stop something and act after it on some.
 pub const AFTER: [u32; 7] = [0, 1, 2, 5, 9, 30, 60];
 
+/// M codes of one modal group, by the manual of LinuxCNC (chapter G-code overview, modal groups), with the codes
+/// of spindle and coolant together that other controllers have. Mist and flood (M7, M8) go together.
+const GROUPS: [&[u32]; 5] = [
+    &[0, 1, 2, 30, 60],
+    &[3, 4, 5, 13, 14, 19],
+    &[7, 8, 9],
+    &[48, 49],
+    &[82, 83],
+];
+
+/// Whether two M codes must not stand in one block.
+pub fn exclude_each_other(a: u32, b: u32) -> bool {
+    let both_on = [a, b].iter().all(|code| [7, 8].contains(code)) && a != b;
+    !both_on
+        && GROUPS
+            .iter()
+            .any(|group| group.contains(&a) && group.contains(&b))
+}
+
 /// What a case found.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Found {
@@ -60,7 +79,7 @@ impl Random {
 /// One line and what must become of it.
 struct Line {
     text: String,
-    /// Holds a code that must be refused.
+    /// Holds a code that must be refused, or two that must not stand together.
     unknown: bool,
     /// M words as spelled, and whether they belong to the last piece.
     codes: Vec<(String, bool)>,
@@ -104,6 +123,7 @@ fn line(random: &mut Random, wild: bool) -> Line {
     let mut unknown = false;
     let mut codes: Vec<(String, bool)> = Vec::new();
     let mut used = Vec::new();
+    let mut numbers: Vec<u32> = Vec::new();
     for _ in 0..random.below(4) {
         let (letter, tenths) = if wild && random.once_in(2) {
             if random.once_in(2) {
@@ -120,11 +140,18 @@ fn line(random: &mut Random, wild: bool) -> Line {
             };
             ('M', 10 * random.of(list))
         };
-        // Two codes of one group are refused for another reason.
         let code = tenths / 10;
+        // Two codes of one group are refused, too.
+        let excluded = letter == 'M'
+            && tenths % 10 == 0
+            && numbers.iter().any(|other| exclude_each_other(code, *other));
         if used.contains(&tenths) || letter == 'M' && [82, 83].contains(&code) && !used.is_empty() {
             continue;
         }
+        if excluded && !random.once_in(6) {
+            continue;
+        }
+        unknown |= excluded;
         used.push(tenths);
         let text = spelled(random, letter, tenths);
         let known = match letter {
@@ -139,6 +166,9 @@ fn line(random: &mut Random, wild: bool) -> Line {
         };
         unknown |= !known;
         if letter == 'M' {
+            if tenths % 10 == 0 {
+                numbers.push(code);
+            }
             codes.push((text.clone(), AFTER.contains(&code)));
         }
         let at = random.below(words.len() + 1);

@@ -407,7 +407,7 @@ pub fn check(seed: u64) -> Result<Found, String> {
                 return Err(said(&format!(
                     "output line {}: {off} mm off at {share} of move {}, {allowed} allowed; the crate's own check \
                      found {} mm at most",
-                    motion.line, piece.move_index, against.largest_mm
+                    motion.line, piece.move_index, against.after.distance_mm
                 )));
             }
             found.worst = found.worst.max(off / allowed);

@@ -177,7 +177,7 @@ pub fn circle_groove() -> RunResult {
     summary.corner_steps = 2;
     summary.largest_corner_step_mm = 0.31;
     summary.smallest_piece_mm = 0.2134;
-    summary.blocks_per_second = 46.2;
+    summary.blocks_per_second = Some(46.2);
     summary.feed_length_mm = 159.1;
     summary.max_rounding_error_mm = 0.000_087;
     summary.feed_arcs = 1;
@@ -332,7 +332,7 @@ pub fn hostile_numbers() -> RunResult {
         &mut s.max_residual_rotation_deg,
         &mut s.smallest_stiffness_n_per_mm,
         &mut s.smallest_piece_mm,
-        &mut s.blocks_per_second,
+        s.blocks_per_second.get_or_insert_default(),
         &mut s.feed_length_mm,
         &mut s.max_speed_deviation_percent,
         &mut s.largest_corner_step_mm,
