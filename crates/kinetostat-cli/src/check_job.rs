@@ -15,7 +15,7 @@ use crate::args::ProgramArgs;
 use crate::failure::{Answer, Failure};
 use crate::faults::{Asked, with_all_others};
 use crate::input::Files;
-use crate::machine::{machine, of_model, short};
+use crate::machine::{machine, no_potential, of_model, short};
 use crate::screen::{self, Stream, item, listed, triple, wrapped};
 use crate::setting::{JobFile, Targets, WritingFlags, setting};
 use crate::summary;
@@ -104,6 +104,7 @@ fn findings(files: &Files, path: &Path, flags: &ProgramArgs) -> Answer<JobFindin
     let (machine, model) = machine(files, Some(&job), None, flags, &mut setting.inputs)?;
     let (program, motion) = along::read_program(&setting)?;
     let mut warnings: Vec<Warning> = of_model(&model).collect();
+    warnings.extend(no_potential(&model.mechanism));
     warnings.extend(kinetostat_machining::of_program(&motion, None));
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
     let corners = extent(&motion);

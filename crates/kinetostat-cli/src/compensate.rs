@@ -11,7 +11,7 @@ use crate::compensate_map;
 use crate::failure::{Answer, Failure};
 use crate::faults::{Asked, with_all_others};
 use crate::input::Files;
-use crate::machine::{machine, of_model};
+use crate::machine::{machine, no_potential, of_model};
 use crate::output::{Existing, Outputs};
 use crate::screen::{self, Stream, wrapped};
 use crate::setting::{JobFile, Setting, WritingFlags, setting};
@@ -75,6 +75,7 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
         args.run.program.threads,
     )?;
     run.result.warnings.extend(of_model(&model));
+    run.result.warnings.extend(no_potential(&model.mechanism));
     targets.list(args.run.program.all_points, &model);
     targets.fill(&run)?;
     let note = targets.note(&run);

@@ -98,7 +98,7 @@ pub(crate) struct EquilibriaArgs {
     /// Evenly spread starts at most [default: 5000]
     #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) starts: Option<usize>,
-    /// The search ends after this many starts in a row that found nothing new [default: 400]
+    /// The search ends after this many starts in a row that found nothing new [default: 400; 100 for a machine of several limbs]
     #[arg(long, value_name = "N", help_heading = "Search", allow_negative_numbers = true, value_parser = whole)]
     pub(crate) fruitless: Option<usize>,
     #[command(flatten)]

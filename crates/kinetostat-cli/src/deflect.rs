@@ -15,7 +15,7 @@ use crate::faults::{Asked, with_all_others};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
 use crate::joints::{self, JointValue};
-use crate::machine::{machine, of_model};
+use crate::machine::{machine, no_potential, of_model};
 use crate::output::{Existing, Outputs};
 use crate::overcome::{Overcome, overcome};
 use crate::place::{Spot, spot};
@@ -78,6 +78,7 @@ fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     let mut targets = Targets::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let mut run = along::solve(Aim::Analyse, &machine, &setting, args.program.threads)?;
     run.result.warnings.extend(of_model(&model));
+    run.result.warnings.extend(no_potential(&model.mechanism));
     targets.list(args.program.all_points, &model);
     targets.fill(&run)?;
     let note = targets.note(&run);

@@ -1,6 +1,6 @@
 //! All equilibria of a machine of several limbs: from many places of its tool, and along curves.
 
-use kinetostat::{DirectionKind, SpreadSettings};
+use kinetostat::{DirectionKind, SearchSettings, SpreadSettings};
 
 use crate::curve_machine::Machine;
 use crate::curve_work::Stage;
@@ -22,7 +22,11 @@ pub(crate) fn solve(
     stage.is("searching for equilibria");
     let settings = SpreadSettings {
         starts: q.settings.starts,
-        fruitless: q.settings.fruitless.min(100),
+        // A start of a machine costs more than one of a chain.
+        fruitless: match q.settings.fruitless == SearchSettings::default().fruitless {
+            true => SpreadSettings::default().fruitless,
+            false => q.settings.fruitless,
+        },
     };
     let all = posture.equilibria(&q.end, &settings)?;
     let equilibria = all

@@ -142,7 +142,7 @@ fn usual_tolerance(model: &Model) -> (f64, String) {
 
 /// What looks wrong in a model, for the list of a run.
 pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
-    let own = model.warnings.iter().map(|problem| Warning {
+    model.warnings.iter().map(|problem| Warning {
         line: problem.line,
         ..Warning::new(
             WarningCode::Model,
@@ -152,12 +152,12 @@ pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
             },
         )
         .of_file(problem.file.clone())
-    });
-    own.chain(no_potential(&model.mechanism))
+    })
 }
 
-/// What is judged, and what is not, under loads on limbs that have no potential.
-fn no_potential(mechanism: &Mechanism) -> Option<Warning> {
+/// What is judged, and what is not, under loads on limbs that have no potential: for answers that do not say it of
+/// every place.
+pub(crate) fn no_potential(mechanism: &Mechanism) -> Option<Warning> {
     let limbs = mechanism.limbs().iter().enumerate();
     let names: Vec<String> = limbs
         .filter(|(i, _)| !mechanism.loads_conservative(*i))

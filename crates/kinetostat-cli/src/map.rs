@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::along;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
-use crate::machine::{deviations_in_words, of_model, short};
+use crate::machine::{deviations_in_words, no_potential, of_model, short};
 use crate::map_answer::{Figures, MapAnswer};
 use crate::map_args::{MapArgs, Quantity};
 use crate::map_table::{self, Columns};
@@ -82,6 +82,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         )));
     }
     let mut warnings: Vec<Warning> = of_model(&model).collect();
+    warnings.extend(no_potential(&model.mechanism));
     let turned = figures.largest_turn_deg;
     if follows {
         warnings.push(orientation::follows(turned, asked.is_some(), true));

@@ -12,7 +12,7 @@
 //! while the written program steps there is a matter of reading ([`CornerLoad`]).
 
 use kinetostat::{Pose, Wrench};
-use kinetostat_program::{Curve, MoveKind, Path};
+use kinetostat_program::{Curve, Knowledge, Move, MoveKind, Path};
 use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -166,6 +166,8 @@ impl ProgramLoad {
 /// of the load differs there because a corner is gentle.
 #[derive(Clone, Copy, Debug, Default)]
 struct Headings {
+    /// Of a move so short that its own direction says nothing: that of the path around it.
+    around: Option<f64>,
     at_start: Option<f64>,
     at_end: Option<f64>,
     lag_start: f64,
@@ -185,6 +187,44 @@ fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
     let t = tangent?;
     // A move within 0.1 degree of the tool axis has no direction across it.
     (t.xy().norm() > 2e-3).then(|| t.y.atan2(t.x))
+}
+
+/// Moves shorter than this, mm, do not turn the load: a tooth's feed is several times as long, and programs from CAM
+/// systems have moves of tenths of micrometres in any direction.
+const SHORT_MM: f64 = 0.01;
+
+/// Length of the path on either side that says in which direction the tool cuts there, mm: about a tooth's feed.
+const AROUND_MM: f64 = 0.05;
+
+/// Heading of the path around a move that is too short to have one; `None` for others, and where the path turns back.
+fn around(path: &Path, move_index: usize) -> Option<f64> {
+    let motion = &path.moves[move_index];
+    let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
+    if !cuts(motion) || motion.length_mm() >= SHORT_MM {
+        return None;
+    }
+    // From the middle of the move `AROUND_MM` back and on, as far as the cut goes.
+    let reach = |moves: &mut dyn Iterator<Item = &Move>, back: bool| {
+        let mut left = AROUND_MM - 0.5 * motion.length_mm();
+        let mut place = if back { motion.start } else { motion.end };
+        for m in moves.take_while(|m| cuts(m)) {
+            let length = m.length_mm();
+            if length >= left {
+                let share = left / length;
+                return m.point(if back { 1.0 - share } else { share });
+            }
+            left -= length;
+            place = if back { m.start } else { m.end };
+        }
+        place
+    };
+    let from = reach(&mut path.moves[..move_index].iter().rev(), true);
+    let to = reach(&mut path.moves[move_index + 1..].iter(), false);
+    let chord = to - from;
+    match chord.norm() > SHORT_MM {
+        true => heading(chord.try_normalize(0.0)),
+        false => None,
+    }
 }
 
 fn wrap(angle: f64) -> f64 {
@@ -219,8 +259,9 @@ impl<'a> LoadAlongPath<'a> {
         if self.load.turns() || self.tools.iter().any(|tool| tool.load.turns()) {
             for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
                 if m.kind == MoveKind::Feed && self.load_of(i).turns() {
-                    h.at_start = heading(m.tangent(0.0));
-                    h.at_end = heading(m.tangent(1.0));
+                    h.around = around(path, i);
+                    h.at_start = h.around.or_else(|| heading(m.tangent(0.0)));
+                    h.at_end = h.around.or_else(|| heading(m.tangent(1.0)));
                 }
             }
             for i in 1..headings.len() {
@@ -372,8 +413,8 @@ impl<'a> LoadAlongPath<'a> {
 
     fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
         let motion = &self.path.moves[move_index];
-        let own = heading(motion.tangent(share))?;
         let h = &self.headings[move_index];
+        let own = h.around.or_else(|| heading(motion.tangent(share)))?;
         let length = motion.length_mm();
         let load = self.load_of(move_index);
         let zone = load.turning_length_mm;

@@ -101,3 +101,65 @@ fn a_constant_wrench_is_meant_in_the_axes_asked_for() {
     // Feed along the part's y, which is the base's -x.
     close(at(LoadAxes::Feed).force(), vector![-10.0, -20.0, 30.0]);
 }
+
+/// A cut along a straight line, a wave or a circle, written by a CAM system whose numbers have moves of tenths of
+/// micrometres in any direction between them: the load is that of the cut.
+#[test]
+fn moves_far_below_a_tooths_feed_do_not_turn_the_load() {
+    let mut state = 7_u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) as f64 / f64::from(1 << 30) - 1.0
+    };
+    let (mut short, mut worst) = (0, 0.0_f64);
+    for (noise_mm, allowed) in [(0.0002, 0.01), (0.001, 0.04), (0.003, 0.12)] {
+        for direction in [0.0_f64, 0.7, 2.5] {
+            let (c, s) = (direction.cos(), direction.sin());
+            let mut text = "G21 G90\nG0 X0 Y0 Z0\n".to_owned();
+            let mut along = 0.0;
+            for k in 1..120 {
+                along += if k % 3 == 0 {
+                    0.5 + 0.3 * random()
+                } else {
+                    0.0
+                };
+                let (u, v) = (along + noise_mm * random(), noise_mm * random());
+                text += &format!("G1 X{:.6} Y{:.6} F600\n", u * c - v * s, u * s + v * c);
+            }
+            let path = path(&text);
+            let load = LoadAlongPath::new(milling(), &path);
+            // The first and the last cut have no path on both sides.
+            for (i, motion) in path.moves.iter().enumerate().take(115).skip(5) {
+                let f = load.wrench(&plain(), i, 0.5).force();
+                let wanted = vector![215.0 * s - 10.0 * c, -215.0 * c - 10.0 * s, -25.0];
+                let turned = (f - wanted).norm() / 215.0;
+                worst = worst.max(turned / allowed);
+                assert!(turned <= allowed, "{noise_mm} {direction} {i}: {turned}");
+                short += usize::from(motion.length_mm() < 0.01);
+            }
+        }
+    }
+    assert!(short > 500 && worst > 0.1, "{short} {worst}");
+}
+
+/// At a corner that is one the load turns, also where a tiny chamfer lies in it.
+#[test]
+fn a_tiny_chamfer_leaves_a_corner_a_corner() {
+    let path = path("G21 G90\nG0 X0 Y0 Z0\nG1 X50 F100\nG1 X50.0002 Y0.0002\nG1 Y50\n");
+    let load = LoadAlongPath::new(milling(), &path);
+    close(
+        load.wrench(&plain(), 1, 0.9).force(),
+        vector![-10.0, -215.0, -25.0],
+    );
+    close(
+        load.wrench(&plain(), 3, 0.5).force(),
+        vector![215.0, -10.0, -25.0],
+    );
+    let chamfer = load.wrench(&plain(), 2, 0.5).force();
+    assert!(
+        (chamfer.y + 225.0 * 0.5_f64.sqrt()).abs() < 2.0,
+        "{chamfer}"
+    );
+}

@@ -11,6 +11,38 @@ use nalgebra::{Vector3, vector};
 
 const GROOVE: &str = "G21 G90 G17\nG0 X25 Y0 Z5\nG1 Z-2 F300\nG3 X25 Y0 I-25 J0 F600\nG0 Z5\nM2\n";
 
+const GANTRY_WITH_A_ROD: &str = r#"
+schema = 1
+
+[mechanism]
+name = "gantry with a rod"
+
+[[platform]]
+name = "tool"
+home = { position_mm = [0, 0, -500] }
+
+[section.rod]
+round = { diameter_mm = 4 }
+youngs_modulus_gpa = 210
+poissons_ratio = 0.3
+
+[chain.gantry]
+elements = [
+  { actuator = "prismatic", name = "x", axis = "x", stiffness_n_per_mm = 50000 },
+  { actuator = "prismatic", name = "y", axis = "y", stiffness_n_per_mm = 50000 },
+  { actuator = "prismatic", name = "z", axis = "z", stiffness_n_per_mm = 50000 },
+  { rigid = { rotation_vector_deg = [0, 90, 0] } },
+  { link = "rod", name = "rod", length_mm = 500, segments = 8 },
+  { rigid = { rotation_vector_deg = [0, -90, 0] } },
+]
+
+[[limb]]
+name = "gantry"
+from = "base"
+to = "tool"
+chain = "gantry"
+"#;
+
 fn orthoglide() -> Mechanism {
     let mut model = Model::preset("orthoglide").expect("preset");
     for (leg, axis) in [
@@ -227,16 +259,15 @@ fn a_heavy_arm_sags_and_its_program_is_corrected_under_gravity_too() {
 
 #[test]
 fn a_program_on_which_the_machine_would_buckle_is_not_written() {
-    let machine = Model::preset("orthoglide")
-        .expect("preset")
-        .mechanism
-        .with_tool(&straight_tool(0.1));
+    // A slender rod below three slides, pressed upwards at 1.5 times Euler's load (4 mm, 0.5 m: 26 N).
+    let model = Model::from_toml(GANTRY_WITH_A_ROD, "gantry.toml").expect("a model");
+    let machine = model.mechanism;
     let push = CuttingLoad::Constant {
         axes: kinetostat_machining::LoadAxes::Base,
-        wrench: Wrench::new(vector![4000.0, 0.0, 0.0], Vector3::zeros()),
+        wrench: Wrench::new(vector![0.0, 0.0, 39.0], Vector3::zeros()),
     };
     let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X20 F100\n";
-    let origin = vector![0.0, 0.0, 0.1];
+    let origin = vector![0.0, 0.0, -0.5];
     let told = run(&machine, text, origin, ProgramLoad::new(push), false)
         .expect("analysis")
         .result;

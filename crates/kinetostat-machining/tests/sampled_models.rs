@@ -11,7 +11,7 @@ use kinetostat_machining::{
     Run, Task, Unwatched, WarningCode, compensate_program, straight_tool,
 };
 use kinetostat_model::Model;
-use kinetostat_program::{Program, ReadOptions, WriteOptions, interpret, irregular};
+use kinetostat_program::{Piece, Program, ReadOptions, WriteOptions, interpret, irregular};
 use nalgebra::{UnitQuaternion, Vector3, vector};
 use rayon::prelude::*;
 
@@ -237,6 +237,27 @@ fn milling() -> ProgramLoad {
         tangential: -10.0,
         axial: -25.0,
     })
+}
+
+/// A straight cut with a move of 0.2 micrometres across it: no swing of the tool.
+#[test]
+fn the_noise_of_a_cam_system_makes_no_corner() {
+    const NOISY: &str =
+        "G21 G90 G17\nG0 X0 Y0 Z20\nG1 Z-2 F500\nG1 X15 F1200\nG1 Y0.0002\nG1 X30\nG0 Z20\n";
+    let machine = Model::preset("orthoglide").expect("preset").mechanism;
+    let machine = machine.with_tool(&straight_tool(0.1));
+    let place = Placement::at(vector![0.0, 0.0, 0.1]);
+    let (found, _) = run(&machine, NOISY, place, milling());
+    let pieces = &found.written.as_ref().expect("written").pieces;
+    // Where the tool already cuts along x.
+    let cut = |p: &&Piece| (2..=4).contains(&p.move_index) && p.commanded_from.x > 1.0;
+    let across = pieces
+        .iter()
+        .filter(cut)
+        .map(|p| (p.commanded_to.y - p.commanded_from.y).abs())
+        .fold(0.0, f64::max);
+    assert!(pieces.iter().filter(cut).count() >= 2);
+    assert!(across < 0.01, "{across} mm across the cut");
 }
 
 /// The two readings of the load at corners: the same bytes, the claims exchanged.

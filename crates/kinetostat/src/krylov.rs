@@ -25,7 +25,15 @@ pub(crate) fn largest_eigenvalues(a: &DMatrix<f64>, count: usize) -> (DVector<f6
     of_the_whole(a.clone(), count)
 }
 
-fn of_the_whole(a: DMatrix<f64>, count: usize) -> (DVector<f64>, DMatrix<f64>) {
+/// Share of the largest entry below which one is nothing to the largest eigenvalues; products of such numbers
+/// underflow, and the iteration ends in NaN.
+const NOTHING: f64 = 1e-60;
+
+fn of_the_whole(mut a: DMatrix<f64>, count: usize) -> (DVector<f64>, DMatrix<f64>) {
+    let least = NOTHING * a.amax();
+    a.iter_mut()
+        .filter(|x| x.abs() < least)
+        .for_each(|x| *x = 0.0);
     let eigen = a.symmetric_eigen();
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
     order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
@@ -120,5 +128,29 @@ mod tests {
         let (values, vectors) = largest_eigenvalues(&turned(&d), 2);
         assert!((values[0] - d[149]).abs() < 1e-13 && (values[1] - d[148]).abs() < 1e-13);
         assert!((vectors.transpose() * &vectors).is_identity(1e-12));
+    }
+
+    #[test]
+    fn numbers_whose_products_underflow_are_none() {
+        let mut a = DMatrix::zeros(5, 5);
+        for (i, j, value) in [
+            (0, 0, -3.6e-240),
+            (0, 4, -5.2e-240),
+            (1, 1, -2.5e-240),
+            (1, 3, 3.7e-240),
+        ]
+        .into_iter()
+        .chain([
+            (2, 2, 2.7e-271),
+            (2, 3, -3.9e-136),
+            (2, 4, -3.6e-139),
+            (3, 4, -6.0e-274),
+        ]) {
+            a[(i, j)] = value;
+            a[(j, i)] = value;
+        }
+        let (values, vectors) = largest_eigenvalues(&a, 1);
+        assert!((values[0] / 3.9e-136 - 1.0).abs() < 1e-6, "{values}");
+        assert!((vectors.norm() - 1.0).abs() < 1e-12, "{vectors}");
     }
 }

@@ -363,7 +363,11 @@ mod tests {
                 let up = significant(1e3 * value, 3, Rounding::Up);
                 let down = significant(1e3 * value, 3, Rounding::Down);
                 let um = 0.1 * f64::from(tenths);
-                assert_eq!(up.parse::<f64>().unwrap(), (1e3 * um).round() / 1e3, "{value}");
+                assert_eq!(
+                    up.parse::<f64>().unwrap(),
+                    (1e3 * um).round() / 1e3,
+                    "{value}"
+                );
                 assert_eq!(down, up, "{value}");
             }
         }

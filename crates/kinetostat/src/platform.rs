@@ -633,15 +633,16 @@ impl<'m> PlatformSolver<'m> {
     }
 
     /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is what one step
-    /// lacked.
+    /// lacked. In short steps the way itself counts, so that nothing is put aside: a machine that buckles stays on it.
     pub fn grow_load(
         &mut self,
         first: &MechanismBalance,
         longest: f64,
     ) -> Result<crate::equilibrium::Residual> {
+        let aside = if longest < 1.0 { 0.0 } else { 1e-3 };
         for (i, limb) in self.mechanism.limbs.iter().enumerate() {
             self.state.coordinates[i] =
-                crate::equilibrium::nudged(&limb.actual, &self.posture[i].coordinates, 1e-3);
+                crate::equilibrium::nudged(&limb.actual, &self.posture[i].coordinates, aside);
             self.state.wrenches[i] = Wrench::zero();
         }
         self.share = 1.0;

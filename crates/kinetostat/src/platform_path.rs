@@ -526,8 +526,11 @@ impl<'p, 'm> Path<'p, 'm> {
         let mut back = DMatrix::zeros(rows.len(), possible.ncols());
         let mut inner = DMatrix::zeros(rows.len(), rows.len());
         for (i, (sign, row)) in rows.iter().enumerate() {
-            let row = row.component_div(&unit).transpose() * &possible;
-            back.row_mut(i).copy_from(&row);
+            let row = row.component_div(&unit);
+            // What a direction has of another by rounding is none.
+            let least = 1e-13 * row.norm();
+            let part = (row.transpose() * &possible).map(|x| if x.abs() > least { x } else { 0.0 });
+            back.row_mut(i).copy_from(&part);
             inner[(i, i)] = *sign;
         }
         let definite = levels(&back, &inner).iter().all(|(value, _)| *value >= 0.0);

@@ -529,11 +529,7 @@ impl<'m> Posture<'m> {
         if found.stable() {
             return None;
         }
-        let limbs = self.mechanism.limbs.iter().zip(&self.limbs);
-        let ways = limbs
-            .zip(&found.limbs)
-            .map(|((limb, home), there)| gone(&limb.actual, &home.coordinates, &there.coordinates));
-        if ways.sum::<f64>() <= FAR {
+        if !self.is_far(&found.state) {
             return None;
         }
         let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
@@ -543,6 +539,15 @@ impl<'m> Posture<'m> {
         let grown = conclude(&mut solver, residual).ok()?;
 
         grown.stable().then_some(grown)
+    }
+
+    /// Whether one step may have passed the equilibrium to which the growing load leads.
+    fn is_far(&self, state: &MechanismState) -> bool {
+        let limbs = self.mechanism.limbs.iter().zip(&self.limbs);
+        let ways = limbs
+            .zip(&state.coordinates)
+            .map(|((limb, home), there)| gone(&limb.actual, &home.coordinates, there));
+        ways.sum::<f64>() > FAR
     }
 
     /// As [`Self::deflected_by`], starting from the state of a neighbouring equilibrium.
@@ -565,7 +570,12 @@ impl<'m> Posture<'m> {
     /// # Errors
     /// As [`Self::deflected_by`].
     pub fn rest_under(&self, wrench: &Wrench, start: MechanismState) -> Result<MechanismState> {
-        Ok(self.settled(wrench, start)?.0.state)
+        let (mut solver, residual) = self.settled(wrench, start)?;
+        if !self.is_far(&solver.state) {
+            return Ok(solver.state);
+        }
+        let found = conclude(&mut solver, residual)?;
+        Ok(self.led_to(wrench, &found).unwrap_or(found).state)
     }
 
     pub(crate) fn finite<'a>(
