@@ -634,6 +634,27 @@ fn a_column_under_a_force_that_follows_loses_no_stability_by_its_symmetric_part(
         );
         assert_eq!(flat.contains("(flutter)"), follows > 2.0, "{flat}");
         assert_eq!(flat.contains("the platform stays"), follows < 2.0, "{flat}");
+        // No command calls it unstable, for its determinant never vanishes, and those that look at many places
+        // say what they do not judge.
+        for (command, warns) in [
+            ("check ziegler.toml --force 0 0 0", false),
+            ("map ziegler.toml --x 2000 --y 0 --z 0 --force 0 0 0", true),
+            ("assemble ziegler.toml --force 0 0 0", false),
+            (
+                "model draw ziegler.toml --force 0 0.0001 0 --out z.svg --force-overwrite",
+                false,
+            ),
+        ] {
+            let words: Vec<&str> = command.split(' ').collect();
+            let said = run(here.path(), &words).answered();
+            let flat = said.out.split_whitespace().collect::<Vec<_>>().join(" ");
+            let unstable = ["NOT STABLE", "not stable", "does not stay", "would jump"];
+            assert!(
+                unstable.iter().all(|word| !flat.contains(word)),
+                "{follows} {command}: {flat}"
+            );
+            assert!(!warns || flat.contains("flutter"), "{command}: {flat}");
+        }
     }
 }
 
