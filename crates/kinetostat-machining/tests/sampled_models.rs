@@ -255,7 +255,8 @@ fn the_noise_of_a_cam_system_makes_no_corner() {
         .iter()
         .filter(cut)
         .map(|p| (p.commanded_to.y - p.commanded_from.y).abs())
-        .fold(0.0, f64::max);
+        .max_by(f64::total_cmp)
+        .expect("pieces");
     assert!(pieces.iter().filter(cut).count() >= 2);
     assert!(across < 0.01, "{across} mm across the cut");
 }

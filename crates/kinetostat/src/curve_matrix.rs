@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::curve_sweep::CurveSweep;
 use crate::family::Family;
 use crate::saddle::Saddle;
-use crate::stability::MaterialUnits;
+use crate::stability::{MaterialUnits, on_both_sides};
 
 /// Sign and logarithm of a determinant, and the direction in which equilibrium persists.
 pub(crate) struct Tangent {
@@ -54,12 +54,7 @@ impl StateUnits {
 
     /// Of the coordinates' rows and columns.
     pub fn both(&self, a: DMatrix<f64>) -> DMatrix<f64> {
-        let mut turned = a;
-        for _ in 0..2 {
-            self.rows(&mut turned);
-            turned = turned.transpose();
-        }
-        turned
+        on_both_sides(a, |rows| self.rows(rows))
     }
 
     /// Directions in these units as those of the state.

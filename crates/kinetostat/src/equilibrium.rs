@@ -680,6 +680,12 @@ pub(crate) const FAR: f64 = 0.2;
 /// Share of the load by which it grows on the way that must not be lost.
 pub(crate) const SHORT_STEP: f64 = 0.02;
 
+/// How far the joints are put aside where a load begins to grow, rad: in short steps the way itself counts, and what
+/// buckles stays on it.
+pub(crate) fn aside(longest_step: f64) -> f64 {
+    if longest_step < 1.0 { 0.0 } else { 1e-3 }
+}
+
 /// Sum of the turns (rad) and slides (natural lengths) of a chain's coordinates.
 pub(crate) fn gone(chain: &Chain, from: &[f64], to: &[f64]) -> f64 {
     let length = chain.scale().length;
@@ -721,9 +727,7 @@ fn grow_load(
     longest: f64,
 ) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), Failure> {
     let problem = attempt.problem;
-    // In short steps the way itself counts: a column that buckles stays on it.
-    let aside = if longest < 1.0 { 0.0 } else { 1e-3 };
-    let mut x = nudged(problem.chain, &problem.posture, aside);
+    let mut x = nudged(problem.chain, &problem.posture, aside(longest));
     let mut wrench = Wrench::zero();
     let start =
         Kinematics::new(problem.chain, &problem.base, &x, &problem.commands, false).tip_pose();

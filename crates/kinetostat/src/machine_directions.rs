@@ -160,22 +160,35 @@ pub(crate) fn none_diverges(
     let mut balanced = balanced_tangent(tangent, rigid, platform, scale, held);
     // Of the limbs of a single platform the directions say which motions are impossible.
     if balanced.nrows() == 6 && tangent.rows == 6 {
-        let forbidden: Vec<DVector<f64>> = directions
-            .iter()
-            .filter(|d| d.kind == DirectionKind::Rigid)
-            .map(|d| {
-                DVector::from_fn(6, |i, _| {
-                    d.twist.0[i] * if i < 3 { 1.0 } else { scale.length }
-                })
-            })
-            .collect();
-        if !forbidden.is_empty() {
-            let possible = complement(&independent_columns(&DMatrix::from_columns(&forbidden)));
-            balanced = possible.transpose() * balanced * possible;
-        }
+        let all = DMatrix::identity(6, 6);
+        let possible = without(directions, DirectionKind::Rigid, scale.length, &all);
+        balanced = possible.transpose() * balanced * possible;
     }
     let zero = ZERO_STIFFNESS * balanced.amax();
     diverging_motions(&balanced, zero) == 0
+}
+
+/// Those of some motions (balanced, orthonormal, by a natural length) across all directions of a kind.
+pub(crate) fn without(
+    directions: &[Direction],
+    kind: DirectionKind,
+    length: f64,
+    motions: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let taken: Vec<DVector<f64>> = directions
+        .iter()
+        .filter(|d| d.kind == kind)
+        .map(|d| {
+            let balanced =
+                DVector::from_fn(6, |i, _| d.twist.0[i] * if i < 3 { 1.0 } else { length });
+            motions.transpose() * balanced
+        })
+        .filter(|part| part.norm() > 1e-6)
+        .collect();
+    if taken.is_empty() {
+        return motions.clone();
+    }
+    motions * complement(&independent_columns(&DMatrix::from_columns(&taken)))
 }
 
 /// Tangent of the platforms, balanced, in the motions that no row of `rigid` forbids; with `held`, without those of

@@ -633,13 +633,13 @@ impl<'m> PlatformSolver<'m> {
     }
 
     /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is what one step
-    /// lacked. In short steps the way itself counts, so that nothing is put aside: a machine that buckles stays on it.
+    /// lacked.
     pub fn grow_load(
         &mut self,
         first: &MechanismBalance,
         longest: f64,
     ) -> Result<crate::equilibrium::Residual> {
-        let aside = if longest < 1.0 { 0.0 } else { 1e-3 };
+        let aside = crate::equilibrium::aside(longest);
         for (i, limb) in self.mechanism.limbs.iter().enumerate() {
             self.state.coordinates[i] =
                 crate::equilibrium::nudged(&limb.actual, &self.posture[i].coordinates, aside);

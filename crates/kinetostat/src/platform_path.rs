@@ -13,7 +13,7 @@ use crate::divergence::diverging_motions;
 use crate::equilibrium::{EndCondition, Prescribed};
 use crate::error::{Error, Result};
 use crate::graded::{levels, root_rows};
-use crate::machine_directions::independent_columns;
+use crate::machine_directions::{independent_columns, without};
 use crate::machine_equilibria::MachineFound;
 use crate::platform::{Guide, MechanismState, Unknowns};
 use crate::posture::{MechanismEquilibrium, Posture, conclude};
@@ -490,20 +490,7 @@ impl<'p, 'm> Path<'p, 'm> {
         motions: &DMatrix<f64>,
         kind: DirectionKind,
     ) -> DMatrix<f64> {
-        let rigid: Vec<DVector<f64>> = e
-            .directions
-            .iter()
-            .filter(|d| d.kind == kind)
-            .map(|d| {
-                let balanced = DVector::from_fn(6, |i, _| d.twist.0[i] * self.unit(i));
-                motions.transpose() * balanced
-            })
-            .filter(|part| part.norm() > 1e-6)
-            .collect();
-        if rigid.is_empty() {
-            return motions.clone();
-        }
-        motions * complement(&independent_columns(&DMatrix::from_columns(&rigid)))
+        without(&e.directions, kind, self.length, motions)
     }
 
     fn balanced_stiffness(&self, e: &MechanismEquilibrium) -> DMatrix<f64> {

@@ -526,10 +526,7 @@ impl<'m> Posture<'m> {
         wrench: &Wrench,
         found: &MechanismEquilibrium,
     ) -> Option<MechanismEquilibrium> {
-        if found.stable() {
-            return None;
-        }
-        if !self.is_far(&found.state) {
+        if found.stable() || !self.is_far(&found.state) {
             return None;
         }
         let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
@@ -537,7 +534,6 @@ impl<'m> Posture<'m> {
         let at_rest = solver.evaluate().0;
         let residual = solver.grow_load(&at_rest, SHORT_STEP).ok()?;
         let grown = conclude(&mut solver, residual).ok()?;
-
         grown.stable().then_some(grown)
     }
 

@@ -265,6 +265,18 @@ fn without_geometric(system: &System, factors: &[f64], a: &mut DMatrix<f64>) {
     }
 }
 
+/// `C A C^T` of a change of rows `C`.
+pub(crate) fn on_both_sides(
+    mut a: DMatrix<f64>,
+    of_rows: impl Fn(&mut DMatrix<f64>),
+) -> DMatrix<f64> {
+    for _ in 0..2 {
+        of_rows(&mut a);
+        a = a.transpose();
+    }
+    a
+}
+
 /// Units in which the material stiffness `K' = L L^T` of every spring is one: an axis that is worlds
 /// stiffer than bending would otherwise drown it. Passive coordinates keep theirs.
 pub(crate) struct MaterialUnits(Vec<(usize, DMatrix<f64>)>);
@@ -290,12 +302,7 @@ impl MaterialUnits {
 
     /// A stiffness in these units: `L^-1 K L^-T`.
     pub fn both(&self, stiffness: DMatrix<f64>) -> DMatrix<f64> {
-        let mut turned = stiffness;
-        for _ in 0..2 {
-            self.gather(&mut turned);
-            turned = turned.transpose();
-        }
-        turned
+        on_both_sides(stiffness, |rows| self.gather(rows))
     }
 
     /// The material stiffness itself: one, but for the blocks that keep their units.

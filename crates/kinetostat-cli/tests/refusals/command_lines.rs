@@ -330,7 +330,7 @@ pub fn command_lines() -> Vec<Case> {
             &["--arc-tolerance", "0.000001 to 2 mm", "controllers"],
         ),
         c(
-            "line: a number that is none, and looks like an option",
+            "line: an infinite number that looks like an option",
             &["deflect", "orthoglide", "--at", "-inf", "0", "0"],
             1,
             &["--at: '-inf' is no finite number"],

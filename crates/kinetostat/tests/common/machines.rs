@@ -6,18 +6,6 @@ use kinetostat::{
 };
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
-/// Section of a rod that bends with 1 N m2 and stretches with `axial`, N.
-pub fn slender(axial: f64) -> BeamSection {
-    BeamSection {
-        youngs_modulus: 1.0,
-        shear_modulus: 1.0,
-        area: axial,
-        second_moment_y: 1.0,
-        second_moment_z: 1.0,
-        torsion_constant: 0.8,
-    }
-}
-
 /// The identified Orthoglide (reference values, part 2, section 1), SI.
 pub struct Orthoglide {
     pub bar_length: f64,

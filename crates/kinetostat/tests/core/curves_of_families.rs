@@ -1,9 +1,9 @@
 //! Round columns in space buckle in every direction alike: one family of shapes, one branch.
 
 use crate::common::close;
-use crate::common::machines::slender;
 use crate::curves_and_bifurcations::solved;
 use crate::curves_of_columns::press;
+use crate::fuzz_short::fuzz::rod::slender;
 use kinetostat::{
     BeamSection, Bounds, BranchEnd, Chain, ChainProblem, CurveSettings, Curves, EndCondition,
     LinkSpec, MotionKind, Parameter, Pose, Prescribed, SearchSettings, SpecialKind, Twist, Wrench,

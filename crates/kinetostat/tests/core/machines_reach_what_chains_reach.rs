@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use kinetostat::*;
 use nalgebra::{Vector3, vector};
 
-use crate::common::machines::slender;
+use crate::fuzz_short::fuzz::rod::slender;
 
 /// Of unit length and bending stiffness.
 fn rod(segments: usize, axial: f64) -> Chain {

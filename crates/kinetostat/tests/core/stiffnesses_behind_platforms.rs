@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 use kinetostat::*;
 use nalgebra::{Matrix6, Vector3, vector};
 
-use crate::common::machines::slender;
 use crate::fuzz_short::fuzz::platforms::{Series, rows};
 use crate::fuzz_short::fuzz::random::Random;
+use crate::fuzz_short::fuzz::rod::slender;
 
 #[test]
 fn rods_in_series_are_as_stiff_with_platforms_between_as_without() {

@@ -7,7 +7,7 @@
 use kinetostat::*;
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
-use crate::common::machines::slender;
+use crate::fuzz_short::fuzz::rod::slender;
 
 fn turn() -> Matrix3<f64> {
     Matrix3::new(-2.0, 2.0, -1.0, -1.0, -2.0, -2.0, -2.0, -1.0, 2.0)

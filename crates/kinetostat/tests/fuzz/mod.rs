@@ -6,6 +6,7 @@ pub mod platforms;
 pub mod random;
 mod ratios;
 mod reach;
+pub mod rod;
 pub mod round;
 mod struts;
 

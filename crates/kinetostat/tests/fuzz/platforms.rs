@@ -1,12 +1,13 @@
 //! Stiffness with platforms between: rods in series as one chain and with a platform behind every rod.
 
 use kinetostat::{
-    BeamSection, Chain, ChainBuilder, Direction, Limb, LinkSpec, Mechanism, Platform, Pose, Wrench,
+    Chain, ChainBuilder, Direction, Limb, LinkSpec, Mechanism, Platform, Pose, Wrench,
     pose_residual,
 };
 use nalgebra::{Matrix3, Vector3, Vector6, vector};
 
 use super::random::Random;
+use super::rod::slender;
 
 /// Rods in series from the base to the tool, with a platform after each.
 #[derive(Clone, Debug)]
@@ -33,15 +34,7 @@ impl Series {
 
     fn rod(&self, chain: ChainBuilder, i: usize) -> ChainBuilder {
         let (turn, length) = self.rods[i];
-        let section = BeamSection {
-            youngs_modulus: 1.0,
-            shear_modulus: 1.0,
-            area: self.axial,
-            second_moment_y: 1.0,
-            second_moment_z: 1.0,
-            torsion_constant: 0.8,
-        };
-        let half = LinkSpec::beam(section, 0.5 * length).segments(4);
+        let half = LinkSpec::beam(slender(self.axial), 0.5 * length).segments(4);
         let chain = chain.rigid(turn).link_with(&format!("near {i}"), &half);
         let name = format!("body {i}");
         let chain = match self.mass > 0.0 {

@@ -4,12 +4,13 @@
 use std::f64::consts::TAU;
 
 use kinetostat::{
-    BeamSection, Chain, ChainProblem, CurveSettings, EndCondition, Error, LinkSpec, Mechanism,
-    Parameter, Pose, Settings, SpecialKind, Wrench, follow, pose_residual, solve_chain,
+    Chain, ChainProblem, CurveSettings, EndCondition, Error, LinkSpec, Mechanism, Parameter, Pose,
+    Settings, SpecialKind, Wrench, follow, pose_residual, solve_chain,
 };
 use nalgebra::{Vector3, vector};
 
 use super::random::Random;
+use super::rod::slender;
 
 /// A rod of unit length and bending stiffness under a load at its end.
 #[derive(Clone, Copy, Debug)]
@@ -47,15 +48,7 @@ impl Rod {
     }
 
     fn chain(&self) -> Chain {
-        let section = BeamSection {
-            youngs_modulus: 1.0,
-            shear_modulus: 1.0,
-            area: self.axial,
-            second_moment_y: 1.0,
-            second_moment_z: 1.0,
-            torsion_constant: 0.8,
-        };
-        let link = LinkSpec::beam(section, 1.0).segments(self.segments);
+        let link = LinkSpec::beam(slender(self.axial), 1.0).segments(self.segments);
         let chain = Chain::builder("rod").link_with("rod", &link).build();
         chain.expect("a rod")
     }

@@ -2,12 +2,13 @@
 //! they stretch.
 
 use kinetostat::{
-    BeamSection, Chain, ChainProblem, CurveSettings, EndCondition, LinkSpec, Parameter, Pose,
-    Settings, SpecialKind, Wrench, follow, solve_chain,
+    Chain, ChainProblem, CurveSettings, EndCondition, LinkSpec, Parameter, Pose, Settings,
+    SpecialKind, Wrench, follow, solve_chain,
 };
 use nalgebra::{Vector3, vector};
 
 use super::random::Random;
+use super::rod::slender;
 
 /// A clamped rod of unit length and bending stiffness.
 #[derive(Clone, Copy, Debug)]
@@ -21,15 +22,7 @@ pub struct RoundRod {
 
 impl RoundRod {
     pub fn chain(&self) -> Chain {
-        let section = BeamSection {
-            youngs_modulus: 1.0,
-            shear_modulus: 1.0,
-            area: self.axial,
-            second_moment_y: 1.0,
-            second_moment_z: 1.0,
-            torsion_constant: 0.8,
-        };
-        let link = LinkSpec::beam(section, 1.0).segments(self.segments);
+        let link = LinkSpec::beam(slender(self.axial), 1.0).segments(self.segments);
         let chain = Chain::builder("rod").link_with("rod", &link);
         let chain = chain.rigid(Pose::translation(self.tool, 0.0, 0.0));
         chain.build().expect("a rod")
