@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use kinetostat::{Mechanism, MotionKind, Pose, Role, shift_matrix, turn_matrix, unloaded_tip};
-use kinetostat_machining::longest_limb;
 use kinetostat_model::Model;
 use serde::Serialize;
 
@@ -126,7 +125,7 @@ fn compare(one: &Model, other: &Model, a: &str, b: &str) -> Answer<Comparison> {
         )));
     }
     let quick = product(m) && product(n);
-    let length = longest_limb(m).max(1e-3);
+    let length = m.size().max(1e-3);
     let forward = |m: &Mechanism, q: &[f64]| match product(m) {
         true => plain(m, q),
         false => m.posture_at(q).ok().map(|p| *p.target()),

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use kinetostat_machining::{Warning, longest_limb};
+use kinetostat_machining::Warning;
 use serde::Serialize;
 
 use crate::along;
@@ -32,7 +32,7 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
         outputs: &args.outputs,
     };
     let about = |spot: &Spot| -> Answer<Work<CurveAnswer>> {
-        let length = longest_limb(&spot.mechanism);
+        let length = spot.mechanism.size();
         if is_chain(spot) {
             let chain = with_loads(serial_chain(spot)?, &args.end)?;
             let q = question(&chain.moves(), Some(&chain), args)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 use kinetostat::{
     DirectionKind, LoadLimit, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench,
 };
-use kinetostat_machining::{NearSingular, Warning, WarningCode, longest_limb, number as formatter};
+use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
 
 use crate::along::{self, Aim, Files as Targets, tell};
@@ -310,7 +310,7 @@ fn answer(
             way_to(loaded.conservative)
         )));
     }
-    let length = longest_limb(&spot.mechanism);
+    let length = spot.mechanism.size();
     if shift.norm() > LARGE * 1e3 * length {
         warnings.push(Warning::new(WarningCode::LargeDisplacement, format!(
             "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",

@@ -235,14 +235,14 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
             number(100.0 * c.chance_of_more_at_most, 2)
         ));
     }
-    if machine {
+    if machine && !a.tool_held.free.is_empty() {
         list.push(
-            "of a machine of several limbs neither curves nor mirror images are followed from what was found: shapes of single limbs that are bent far are easily missed".to_owned(),
+            "from the commanded place and from every equilibrium found, the tool was driven along each of its free motions to every place where that takes no force; shapes in which only single limbs differ (a leg mirrored or bent far) are easily missed".to_owned(),
         );
     }
     if a.equilibria.iter().any(|e| e.found_by_spread_starts == 0) {
         list.push(
-            "some were reached only from another equilibrium (along its curve, mirrored, or along its mode): such shapes are easily missed"
+            "some were reached only along a curve or from another equilibrium (mirrored, or along its mode): such shapes are easily missed"
                 .to_owned(),
         );
     }

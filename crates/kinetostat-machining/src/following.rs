@@ -2,7 +2,6 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::near::longest_limb;
 use crate::number::largest_angle;
 use crate::result::{PointResult, Summary};
 use crate::run::Task;
@@ -19,7 +18,7 @@ pub(crate) fn turn_deg(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> 
 /// Neighbours on the path between which a tool whose orientation follows turns farther than the way
 /// between them explains: the machine has changed its branch. The line of the second.
 pub(crate) fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
-    let near = NEAR * longest_limb(task.mechanism);
+    let near = NEAR * task.mechanism.size();
     points.windows(2).find_map(|pair| {
         let [a, b] = [pair[0].tool_turn_deg?, pair[1].tool_turn_deg?];
         let way = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);

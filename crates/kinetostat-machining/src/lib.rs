@@ -34,9 +34,7 @@ pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
 pub use load::{CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
 pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
-pub use near::{
-    NEAR_SINGULAR, NearKind, NearSingular, longest_limb, natural_length, near_singular,
-};
+pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
 pub use result::{
     ActuatorColumn, FileRead, MissedTolerance, NearSingularPlace, PointKind, PointResult, Question,

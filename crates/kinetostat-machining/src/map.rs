@@ -6,7 +6,7 @@ use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, pose_residual};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
-use crate::near::{longest_limb, natural_length};
+use crate::near::natural_length;
 use crate::run::{RunError, Watch};
 use crate::solve::{NEAR, Orientation};
 
@@ -208,7 +208,7 @@ fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
         follows: true,
         load_turns: false,
     };
-    let near = NEAR * longest_limb(task.mechanism);
+    let near = NEAR * task.mechanism.size();
     let mut last: Option<Posture<'_>> = None;
     for (place, pose) in out.iter_mut().zip(poses) {
         let close = last.as_ref().filter(|posture| {

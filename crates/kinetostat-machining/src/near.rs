@@ -64,13 +64,6 @@ pub fn natural_length(mechanism: &Mechanism) -> f64 {
     sum / limbs.len() as f64
 }
 
-/// Length of the machine's longest limb, m.
-#[must_use]
-pub fn longest_limb(mechanism: &Mechanism) -> f64 {
-    let limbs = mechanism.limbs().iter();
-    limbs.map(|l| l.nominal.scale().length).fold(0.0, f64::max)
-}
-
 /// The nearest singular posture, if it is closer than [`NEAR_SINGULAR`].
 #[must_use]
 pub fn near_singular(posture: &Posture<'_>) -> Option<NearSingular> {

@@ -9,7 +9,6 @@ use kinetostat::{
 use rayon::prelude::*;
 
 use crate::load::ProgramLoad;
-use crate::near::longest_limb;
 use crate::placement::Placement;
 
 /// Points that share a chain of starting values.
@@ -74,7 +73,7 @@ pub(crate) const NEAR: f64 = 0.05;
 impl<'m> Neighbour<'m> {
     fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {
         self.last.as_ref().filter(|(posture, _)| {
-            let length = longest_limb(posture.mechanism());
+            let length = posture.mechanism().size();
             (posture.target().translation.vector - pose.translation.vector).norm() < NEAR * length
         })
     }

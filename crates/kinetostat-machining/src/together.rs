@@ -13,7 +13,7 @@ use kinetostat::{Mechanism, MotionKind, Pose, Role, Wrench};
 use std::f64::consts::{PI, TAU};
 
 use crate::map::outside_limits;
-use crate::near::{longest_limb, natural_length};
+use crate::near::natural_length;
 use crate::solve::{NEAR, POSITIONS};
 
 /// A joint that moves farther than this between neighbours (rad, or share of the natural length) may
@@ -76,7 +76,7 @@ impl<'m> Together<'m> {
     /// All have an answer within the limits of the actuators, on the branch that a search from
     /// neighbour to neighbour follows.
     fn continued(&self, poses: &[Pose], found: &BatchEquilibrium) -> bool {
-        let near = NEAR * longest_limb(self.mechanism);
+        let near = NEAR * self.mechanism.size();
         (0..poses.len()).all(|i| {
             if found.found[i] == Found::Not || outside_limits(self.mechanism, &found.commands, i) {
                 return false;

@@ -2,14 +2,17 @@
 //! beyond a singular posture first.
 
 use nalgebra::{DMatrix, DVector, Vector6};
+use rayon::prelude::*;
 
+use crate::branches::CurveSettings;
 use crate::chain::{MotionKind, Role};
+use crate::equilibria::Bounds;
 use crate::equilibrium::EndCondition;
 use crate::error::Result;
 use crate::platform::MechanismState;
 use crate::platform_path::Path;
 use crate::posture::{MechanismEquilibrium, Posture};
-use crate::spatial::{Twist, moved, pose_residual};
+use crate::spatial::{Twist, Wrench, moved, pose_residual};
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,7 +48,7 @@ pub struct MachineFound {
     /// Energy of springs and loads less the work of the dead wrench from the nominal target, J; of
     /// the springs alone where a load has no potential.
     pub potential: f64,
-    /// Starts that ended there.
+    /// Spread starts that ended there; 0: found only along a curve.
     pub hits: usize,
 }
 
@@ -58,11 +61,13 @@ pub struct MachineEquilibria {
     pub starts: usize,
     /// See `starts`.
     pub hits: usize,
-    /// Those that ended farther than three natural lengths from the nominal target.
+    /// Those that ended farther than three sizes of the machine from the nominal target, or with
+    /// springs beyond [`Bounds::of`] their limb.
     pub outside: usize,
     /// Starts since the last new equilibrium.
     pub fruitless: usize,
-    /// Share of the successful starts whose equilibrium was found just once (Good and Turing).
+    /// Share of the successful starts whose equilibrium was found just once (Good and Turing); never,
+    /// by spread starts, counts too.
     pub chance_of_more: f64,
     /// Upper end of that chance (95 %).
     pub chance_of_more_at_most: f64,
@@ -70,12 +75,22 @@ pub struct MachineEquilibria {
     pub settled: bool,
 }
 
-/// How far tools are put from the target, as shares of the natural length.
+/// How far tools are put from the target, as shares of the machine's size.
 const AMPLITUDES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
+
+/// Curves are followed through so many equilibria at most.
+const FOLLOWED: usize = 24;
+
+/// How far curves are followed from the target, in sizes of the machine.
+const FOLLOWED_SIZES: f64 = 2.0;
 
 impl Posture<'_> {
     /// Equilibria of the machine as it is commanded: the tool held at `end.pose` in the directions
     /// whose pose is prescribed, under the dead wrench `end.wrench` in the others.
+    ///
+    /// Newton is started from places of the tool spread evenly; from the commanded place and from
+    /// every equilibrium found the tool is driven along each of its free motions, and every place
+    /// where that takes no force is looked at.
     ///
     /// # Errors
     /// Not-a-numbers in the condition. That nothing was found is a result.
@@ -85,63 +100,47 @@ impl Posture<'_> {
         settings: &SpreadSettings,
     ) -> Result<MachineEquilibria> {
         let path = Path::held_at(self, end)?;
-        let mut all = MachineEquilibria {
-            found: Vec::new(),
-            starts: 0,
-            hits: 0,
-            outside: 0,
-            fruitless: 0,
-            chance_of_more: 1.0,
-            chance_of_more_at_most: 1.0,
-            settled: false,
-        };
         // Mirrored at the singular postures nearby, and at rest.
         let mut first = vec![Twist::zero()];
         let near = self.motion_gained(path.length);
         first.extend(near.map(|n| Twist(n.way.0 * (2.0 * n.distance_m))));
         let free = path.free_motions();
-        while all.starts < settings.starts && all.fruitless < settings.fruitless {
-            let k = all.starts;
-            all.starts += 1;
-            all.fruitless += 1;
-            let way = match first.get(k) {
-                Some(way) => path.freely(&way.0),
-                None => spread(&free, k, path.length),
-            };
-            let Some(e) = self.fallen(&path, end, &way, k) else {
-                continue;
-            };
-            let off = pose_residual(&e.tool, &self.target).0;
-            let size = path.balanced(&off).norm();
-            if size > 3.0 * path.length {
-                all.outside += 1;
-                continue;
-            }
-            all.hits += 1;
-            match all.found.iter_mut().find(|f| path.same(&f.equilibrium, &e)) {
-                Some(known) => known.hits += 1,
-                None => {
-                    all.fruitless = 0;
-                    all.found.push(path.judged(e, &end.wrench));
+        let mut search = Search {
+            path,
+            bounds: self
+                .mechanism
+                .limbs
+                .iter()
+                .map(|l| Bounds::of(&l.actual))
+                .collect(),
+            wrench: end.wrench,
+            known: Vec::new(),
+            starts: 0,
+            hits: 0,
+            outside: 0,
+            fruitless: 0,
+        };
+        search.follow(None);
+        let mut followed = 0;
+        loop {
+            if followed < search.known.len().min(FOLLOWED) {
+                search.follow(Some(followed));
+                followed += 1;
+            } else if search.fruitless < settings.fruitless && search.starts < settings.starts {
+                let k = search.starts;
+                search.starts += 1;
+                search.fruitless += 1;
+                let way = match first.get(k) {
+                    Some(way) => search.path.freely(&way.0),
+                    None => spread(&free, k, &search.path),
+                };
+                if let Some(e) = self.fallen(&search.path, end, &way, k) {
+                    search.note(e, true);
                 }
+            } else {
+                return Ok(search.finish(settings));
             }
         }
-        all.settled = all.fruitless >= settings.fruitless;
-        all.found
-            .sort_by(|a, b| a.potential.total_cmp(&b.potential));
-        let once = all.found.iter().filter(|f| f.hits == 1).count() as f64;
-        if all.hits > 0 {
-            let n = all.hits as f64;
-            all.chance_of_more = once / n;
-            // Rule of three where none was found just once.
-            let room = if once == 0.0 {
-                3.0
-            } else {
-                once + 1.96 * once.sqrt() + 2.0
-            };
-            all.chance_of_more_at_most = (room / n).min(1.0);
-        }
-        Ok(all)
     }
 
     /// From the tool put aside by a motion (and, in every second start, joints turned) to where it
@@ -174,12 +173,129 @@ impl Posture<'_> {
     }
 }
 
-/// The k-th of evenly spread motions of some directions (balanced): Kronecker's sequence.
-fn spread(free: &DMatrix<f64>, k: usize, length: f64) -> Vector6<f64> {
+/// One that is known.
+struct Known {
+    found: MachineFound,
+    /// Free motions along which the curve through it was followed.
+    followed: Vec<bool>,
+}
+
+struct Search<'p, 'm> {
+    path: Path<'p, 'm>,
+    bounds: Vec<Bounds>,
+    wrench: Wrench,
+    known: Vec<Known>,
+    starts: usize,
+    hits: usize,
+    outside: usize,
+    fruitless: usize,
+}
+
+impl Search<'_, '_> {
+    fn is_near(&self, e: &MechanismEquilibrium) -> bool {
+        let mechanism = self.path.posture.mechanism;
+        let off = pose_residual(&e.tool, &self.path.posture.target);
+        let limbs = mechanism.limbs.iter().zip(&e.state.coordinates);
+        off.linear().norm() <= 3.0 * mechanism.size()
+            && limbs
+                .zip(&self.bounds)
+                .all(|((limb, x), bounds)| bounds.hold_springs(&limb.actual, x))
+    }
+
+    /// Books an equilibrium: its number among the known ones, if it counts.
+    fn note(&mut self, e: MechanismEquilibrium, counted: bool) -> Option<usize> {
+        if !self.is_near(&e) {
+            self.outside += usize::from(counted);
+            return None;
+        }
+        self.hits += usize::from(counted);
+        let of = |k: &Known| self.path.same(&k.found.equilibrium, &e);
+        let number = self.known.iter().position(of).unwrap_or_else(|| {
+            self.fruitless = 0;
+            self.known.push(Known {
+                found: self.path.judged(e, &self.wrench),
+                followed: vec![false; self.path.free.ncols()],
+            });
+            self.known.len() - 1
+        });
+        self.known[number].found.hits += usize::from(counted);
+        Some(number)
+    }
+
+    /// Drives the tool along each of its free motions, both ways, from an equilibrium or (`None`) from
+    /// the commanded place.
+    fn follow(&mut self, known: Option<usize>) {
+        let from = known.map(|k| self.known[k].found.equilibrium.clone());
+        let reach = FOLLOWED_SIZES * self.path.posture.mechanism.size();
+        let mut settings = CurveSettings::within(-reach, reach);
+        settings.points = 60;
+        settings.largest_change = Some(0.05 * reach);
+        let open = |i: &usize| known.is_none_or(|k| !self.known[k].followed[*i]);
+        let ways: Vec<usize> = (0..self.path.free.ncols()).filter(open).collect();
+        let curve = |&i: &usize| {
+            let way = Vector6::from_fn(|row, _| self.path.free[(row, i)]);
+            self.path
+                .driven(&way, settings.clone())
+                .unloaded(from.as_ref())
+        };
+        let curves: Vec<_> = ways.par_iter().map(curve).collect();
+        for (i, [crossings, ends]) in ways.into_iter().zip(curves) {
+            for state in crossings {
+                let there = state.platforms[self.path.posture.mechanism.tool];
+                let Some(e) = self.path.rest(state, &self.wrench) else {
+                    continue;
+                };
+                let apart = self.path.balanced(&pose_residual(&e.tool, &there).0).norm();
+                if let Some(number) = self.note(e, false) {
+                    // It lies on the same curve.
+                    self.known[number].followed[i] |= apart < 1e-3 * self.path.length;
+                }
+            }
+            for state in ends {
+                if let Some(e) = self.path.rest(state, &self.wrench) {
+                    self.note(e, false);
+                }
+            }
+        }
+    }
+
+    fn finish(self, settings: &SpreadSettings) -> MachineEquilibria {
+        let mut found: Vec<MachineFound> = self.known.into_iter().map(|k| k.found).collect();
+        found.sort_by(|a, b| a.potential.total_cmp(&b.potential));
+        let (mut chance, mut most) = (1.0, 1.0);
+        let once = found.iter().filter(|f| f.hits <= 1).count() as f64;
+        if self.hits > 0 {
+            let n = self.hits as f64;
+            chance = (once / n).min(1.0);
+            // Rule of three where none was found just once.
+            let room = if once == 0.0 {
+                3.0
+            } else {
+                once + 1.96 * once.sqrt() + 2.0
+            };
+            most = (room / n).min(1.0);
+        }
+        MachineEquilibria {
+            settled: self.fruitless >= settings.fruitless,
+            found,
+            starts: self.starts,
+            hits: self.hits,
+            outside: self.outside,
+            fruitless: self.fruitless,
+            chance_of_more: chance,
+            chance_of_more_at_most: most,
+        }
+    }
+}
+
+/// The k-th of evenly spread motions of some directions (balanced): Kronecker's sequence. Distances
+/// are shares of the machine's size, angles of a radian.
+fn spread(free: &DMatrix<f64>, k: usize, path: &Path<'_, '_>) -> Vector6<f64> {
     let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0_f64];
     let parts = DVector::from_fn(free.ncols(), |i, _| {
         2.0 * (k as f64 * roots[i % 6].sqrt()).fract() - 1.0
     });
-    let motion = free * parts * (AMPLITUDES[k / 2 % 4] * length);
-    Vector6::from_fn(|i, _| motion[i] / if i < 3 { 1.0 } else { length })
+    let motion = free * parts * AMPLITUDES[k / 2 % 4];
+    let size = path.posture.mechanism.size();
+    Vector6::from_fn(|i, _| motion[i] * if i < 3 { size } else { 1.0 })
 }

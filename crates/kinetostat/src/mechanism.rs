@@ -259,6 +259,31 @@ impl Mechanism {
         }
     }
 
+    /// Size, m: the length of the way from the base to the tool through the limbs, or of the longest
+    /// limb where that is longer.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let lengths: Vec<f64> = self
+            .limbs
+            .iter()
+            .map(|l| l.nominal.scale().length)
+            .collect();
+        // Lengths of the shortest ways to all platforms.
+        let mut ways = vec![f64::INFINITY; self.platforms.len()];
+        ways[0] = 0.0;
+        for _ in 1..self.platforms.len() {
+            for (limb, length) in self.limbs.iter().zip(&lengths) {
+                ways[limb.to] = ways[limb.to].min(ways[limb.from] + length);
+                ways[limb.from] = ways[limb.from].min(ways[limb.to] + length);
+            }
+        }
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        match ways[self.tool].is_finite() {
+            true => longest.max(ways[self.tool]),
+            false => longest,
+        }
+    }
+
     /// Number of actuators of all limbs.
     #[must_use]
     pub fn actuator_count(&self) -> usize {

@@ -267,6 +267,52 @@ impl<'p, 'm> Path<'p, 'm> {
         Ok(path)
     }
 
+    /// The same question with the tool driven along one of its free motions (balanced, unit length)
+    /// besides: the load along it that this takes is the conjugate.
+    pub(crate) fn driven(&self, way: &Vector6<f64>, settings: CurveSettings) -> Self {
+        let twist = self.unbalanced(way);
+        let inside = self.free.transpose() * way;
+        Self {
+            posture: self.posture,
+            settings,
+            pattern: Wrench(twist / twist.norm_squared()),
+            dead: self.dead,
+            by_motion: true,
+            motions: self.free.clone(),
+            free: &self.free * complement(&DMatrix::from_columns(&[inside])),
+            held: self.held.clone(),
+            held_at: self.held_at,
+            length: self.length,
+        }
+    }
+
+    /// Where the load along a driven motion vanishes on the path both ways from an equilibrium (from
+    /// the machine held where it is commanded, without one), and the ends of that path.
+    pub(crate) fn unloaded(&self, from: Option<&MechanismEquilibrium>) -> [Vec<MechanismState>; 2] {
+        let ahead = (self.pattern.0, 0.0);
+        let start = match from {
+            Some(e) => Ok(self.point(e.clone(), 0.0, &ahead)),
+            None => self.first(0.0),
+        };
+        let (mut crossings, mut ends) = (Vec::new(), Vec::new());
+        let Ok(start) = start else {
+            return [crossings, ends];
+        };
+        for sign in [-1.0, 1.0] {
+            let (points, _) = self.walk(&start, sign);
+            let from_start: Vec<&PathPoint> = [&start].into_iter().chain(&points).collect();
+            for pair in from_start.windows(2) {
+                let (a, b) = (pair[0], pair[1]);
+                if a.factor * b.factor < 0.0 {
+                    let near = self.between(a, self.step_between(a, b), |p| p.factor);
+                    crossings.extend(near.map(|p| p.equilibrium.state));
+                }
+            }
+            ends.extend(points.last().map(|p| p.equilibrium.state.clone()));
+        }
+        [crossings, ends]
+    }
+
     /// Where the tool is held, from the nominal target: m, rad.
     pub(crate) fn held_motion(&self) -> Vector6<f64> {
         self.held_at
@@ -338,7 +384,7 @@ impl<'p, 'm> Path<'p, 'm> {
             may_flutter: holding.may_flutter(),
             singular,
             potential: e.energy.unwrap_or(springs) - dead.0.dot(&motion),
-            hits: 1,
+            hits: 0,
             equilibrium: e,
         }
     }

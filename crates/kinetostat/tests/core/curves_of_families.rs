@@ -171,7 +171,7 @@ fn elliptic(k: f64) -> (f64, f64) {
 }
 
 /// How far the tip of a clamped elastica of unit length and stiffness has come down under a dead load.
-fn came_down(load: f64) -> f64 {
+pub fn came_down(load: f64) -> f64 {
     let (mut low, mut high) = (0.0, 0.999_f64);
     for _ in 0..80 {
         let middle = 0.5 * (low + high);

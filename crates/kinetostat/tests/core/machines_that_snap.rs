@@ -9,8 +9,10 @@ use kinetostat::{
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6, vector};
 
 use crate::common::assert_equilibrium;
+use crate::curves_of_families::came_down;
+use crate::fuzz_short::fuzz::platforms::Series;
 use crate::graphs::limb;
-use crate::parallel_machines::{hexapod, truss};
+use crate::parallel_machines::{hexapod, truss, truss_of};
 
 /// Feet and heads.
 type Ends = Vec<(Vector3<f64>, Vector3<f64>)>;
@@ -400,6 +402,104 @@ fn all_equilibria_of_a_truss_are_found() {
             assert_eq!(f.stable, slope > 0.0, "{z}");
             let energy = k * (b.hypot(z) - b.hypot(h)).powi(2) - force * (z - h);
             assert!((f.potential - energy).abs() < 1e-9 * k * h * h);
+        }
+    }
+}
+
+/// Motions of the tool are bound to each other where it turns with a bar: no place beside the commanded one can be
+/// had with the orientation as it was. The shapes are those of a tool with hinges at both bars, by hand.
+#[test]
+fn all_equilibria_of_a_truss_whose_tool_turns_with_a_bar_are_found() {
+    let k = 1e6;
+    for (b, h, bar) in [
+        (1.0, 0.3, "right"),
+        (0.5, 0.1, "left"),
+        (0.3, 0.25, "right"),
+    ] {
+        let machine = truss_of(b, h, k, [bar]);
+        let posture = machine.posture(&Pose::translation(0.0, 0.0, h)).unwrap();
+        let limit = ((b.hypot(h) * b * b).powf(2.0 / 3.0) - b * b).sqrt();
+        let limit = -truss_force(b, h, k, limit);
+        for share in [-2.5, -1.1, -0.9, -0.5, -0.01, 0.0, 0.3, 0.97, 1.1, 2.5] {
+            let case = format!("b {b}, h {h}, hinge {bar}, {share} of the limit");
+            let force = share * limit;
+            let wrench = Wrench::new(vector![0.0, 0.0, force], Vector3::zeros());
+            let all = posture
+                .equilibria(&EndCondition::wrench(wrench), &SpreadSettings::default())
+                .unwrap();
+            let places = all
+                .found
+                .iter()
+                .map(|f| (f.equilibrium.tool.translation.vector, f));
+            let upright: Vec<_> = places.filter(|(at, _)| at.x.abs() < 1e-6).collect();
+            let expected = if share.abs() < 1.0 { 3 } else { 1 };
+            let heights: Vec<f64> = upright.iter().map(|(at, _)| at.z).collect();
+            assert_eq!(upright.len(), expected, "{case}: {heights:?}");
+            for (at, found) in upright {
+                assert!(
+                    (truss_force(b, h, k, at.z) - force).abs() < 1e-8 * k * h,
+                    "{case}: {}",
+                    at.z
+                );
+                let slope = 1.0 - b.hypot(h) * b * b / b.hypot(at.z).powi(3);
+                // Across, both bars push together.
+                let across = 1.0 - b.hypot(h) * at.z * at.z / b.hypot(at.z).powi(3);
+                assert_eq!(
+                    found.stable,
+                    slope > 0.0 && across > 0.0,
+                    "{case}: {}",
+                    at.z
+                );
+            }
+        }
+    }
+}
+
+/// A column with platforms on its way: straight, and bent to either side, beyond its critical load only.
+#[test]
+fn all_shapes_of_a_column_of_several_limbs_are_found() {
+    let settings = SpreadSettings {
+        fruitless: 10,
+        ..SpreadSettings::default()
+    };
+    let cases: [(u32, [usize; 2], &[(f64, usize)]); 2] = [
+        (2, [0, 1], &[(2.2, 1), (2.7, 3), (4.0, 3)]),
+        (3, [0, 2], &[(3.2, 3)]),
+    ];
+    for (pieces, sides, loads) in cases {
+        let rods = vec![(Pose::identity(), 1.0 / f64::from(pieces)); pieces as usize];
+        let column = Series {
+            rods,
+            axial: 1e4,
+            mass: 0.0,
+        };
+        let machine = column.as_platforms(false);
+        let posture = machine.posture(&column.home()).unwrap();
+        let mut plane = [false; 6];
+        // Translations in the plane, and the turn about what is across it.
+        for k in sides {
+            plane[k] = true;
+        }
+        plane[if sides[1] == 1 { 5 } else { 4 }] = true;
+        for &(load, expected) in loads {
+            let case = format!("{pieces} pieces, {load} N");
+            let force = Wrench::new(vector![-load, 0.0, 0.0], Vector3::zeros());
+            let all = posture.equilibria(&free(plane, force), &settings).unwrap();
+            let place = |f: &kinetostat::MachineFound| f.equilibrium.tool.translation.vector;
+            let places: Vec<_> = all.found.iter().map(|f| (place(f), f.stable)).collect();
+            assert_eq!(places.len(), expected, "{case}: {places:?}");
+            let straight = places.iter().filter(|(at, _)| at[sides[1]].abs() < 1e-6);
+            assert!(
+                straight.map(|(_, stable)| *stable).eq([expected == 1]),
+                "{case}: {places:?}"
+            );
+            for (at, stable) in places.iter().filter(|(at, _)| at[sides[1]].abs() > 1e-6) {
+                assert!(*stable, "{case}");
+                assert!(
+                    ((1.0 - at.x) / came_down(load) - 1.0).abs() < 0.08,
+                    "{case}: {at}"
+                );
+            }
         }
     }
 }

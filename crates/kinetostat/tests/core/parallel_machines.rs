@@ -514,6 +514,11 @@ pub fn tripteron_apart() -> f64 {
 
 /// Two elastic sliding legs from the left and the right in the plane x, z: a truss that snaps.
 pub fn truss(b: f64, h: f64, k: f64) -> Mechanism {
+    truss_of(b, h, k, ["left", "right"])
+}
+
+/// The same with hinges at the heads of these legs only: the tool turns with the other one.
+pub fn truss_of<const N: usize>(b: f64, h: f64, k: f64, heads: [&str; N]) -> Mechanism {
     let mut builder = Mechanism::builder("truss");
     let tool = builder.platform(Platform::new("tool", Pose::translation(0.0, 0.0, h)));
     for (name, side) in [("left", -1.0), ("right", 1.0)] {
@@ -525,10 +530,12 @@ pub fn truss(b: f64, h: f64, k: f64) -> Mechanism {
         let chain = Chain::builder(name)
             .translation(vector![side * b, 0.0, 0.0])
             .passive("foot", MotionKind::Revolute, Vector3::y(), turn)
-            .actuator("slide", drive)
-            .passive("head", MotionKind::Revolute, Vector3::y(), -turn)
-            .build()
-            .unwrap();
+            .actuator("slide", drive);
+        let chain = match heads.contains(&name) {
+            true => chain.passive("head", MotionKind::Revolute, Vector3::y(), -turn),
+            false => chain.rigid(Pose::new(Vector3::zeros(), Vector3::y() * -turn)),
+        };
+        let chain = chain.build().unwrap();
         builder = builder.limb(limb(name, 0, tool, Pose::identity(), chain));
     }
     builder.build().unwrap()
