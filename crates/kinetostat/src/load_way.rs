@@ -11,7 +11,6 @@ use crate::platform::{MechanismState, PlatformSolver, Unknowns};
 use crate::platform_path::Path;
 use crate::posture::{MechanismEquilibrium, Posture};
 use crate::reduced::{LoadPattern, Parameter};
-use crate::saddle::complement;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
 /// How far a tool is led, in natural lengths: more than half a turn about any axis nearby.
@@ -108,6 +107,9 @@ impl<'m> Posture<'m> {
             if let Some(limit) = limit {
                 return Err(error.at_limit(limit));
             }
+            if let Ok(found) = self.grown(wrench) {
+                return Ok(found);
+            }
         }
         Err(match pushed {
             Some(way) => self.free_direction(&way, wrench),
@@ -190,7 +192,13 @@ impl<'m> Posture<'m> {
     /// Leads the tool along a motion while the whole load acts, the way it is pushed, until it needs
     /// no hand.
     fn led(&self, way: &Twist, wrench: &Wrench) -> Led {
-        let path = Path::along(self, way, wrench);
+        let Ok(free) = Path::held_at(self, &EndCondition::wrench(*wrench)) else {
+            return Led::Lost(false);
+        };
+        let path = free.driven(
+            &free.balanced(&way.0).normalize(),
+            CurveSettings::within(0.0, 1.0),
+        );
         let Ok(start) = path.first(0.0) else {
             return Led::Lost(false);
         };
@@ -235,33 +243,6 @@ impl<'m> Posture<'m> {
                 t[0], t[1], t[2], t[3], t[4], t[5]
             ),
             wrench: Box::new(*wrench),
-        }
-    }
-}
-
-impl<'p, 'm> Path<'p, 'm> {
-    /// The tool moved along any twist, translation and rotation together, while a dead wrench acts
-    /// in all directions. The hand is square to all other motions, rotations at the natural length.
-    fn along(posture: &'p Posture<'m>, way: &Twist, dead: &Wrench) -> Self {
-        let length = posture.mechanism.scale().length;
-        let unit = |i: usize| if i < 3 { 1.0 } else { length };
-        let balanced = DVector::from_fn(6, |i, _| way.0[i] * unit(i));
-        let size = balanced.norm_squared();
-        let driven = DMatrix::from_columns(&[balanced.normalize()]);
-        let free = complement(&driven);
-        let mut motions = free.clone().insert_column(5, 0.0);
-        motions.set_column(5, &driven.column(0));
-        Self {
-            posture,
-            settings: CurveSettings::within(0.0, 1.0),
-            pattern: Wrench(Vector6::from_fn(|i, _| way.0[i] * unit(i).powi(2) / size)),
-            dead: *dead,
-            by_motion: true,
-            motions,
-            free,
-            held: DMatrix::zeros(6, 0),
-            held_at: Vector6::zeros(),
-            length,
         }
     }
 }

@@ -268,14 +268,14 @@ impl<'p, 'm> Path<'p, 'm> {
     }
 
     /// The same question with the tool driven along one of its free motions (balanced, unit length)
-    /// besides: the load along it that this takes is the conjugate.
+    /// besides: the load along it that this takes is the conjugate. That load is square to all other
+    /// motions, rotations at the natural length.
     pub(crate) fn driven(&self, way: &Vector6<f64>, settings: CurveSettings) -> Self {
-        let twist = self.unbalanced(way);
         let inside = self.free.transpose() * way;
         Self {
             posture: self.posture,
             settings,
-            pattern: Wrench(twist / twist.norm_squared()),
+            pattern: Wrench(self.balanced(way)),
             dead: self.dead,
             by_motion: true,
             motions: self.free.clone(),

@@ -529,12 +529,18 @@ impl<'m> Posture<'m> {
         if found.stable() || !self.is_far(&found.state) {
             return None;
         }
+        let (mut solver, residual) = self.grown(wrench).ok()?;
+        let grown = conclude(&mut solver, residual).ok()?;
+        grown.stable().then_some(grown)
+    }
+
+    /// The load grown from rest in short steps.
+    pub(crate) fn grown(&self, wrench: &Wrench) -> Result<(PlatformSolver<'m>, Residual)> {
         let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
         solver.wrench = *wrench;
         let at_rest = solver.evaluate().0;
-        let residual = solver.grow_load(&at_rest, SHORT_STEP).ok()?;
-        let grown = conclude(&mut solver, residual).ok()?;
-        grown.stable().then_some(grown)
+        let residual = solver.grow_load(&at_rest, SHORT_STEP)?;
+        Ok((solver, residual))
     }
 
     /// Whether one step may have passed the equilibrium to which the growing load leads.

@@ -462,11 +462,10 @@ fn all_shapes_of_a_column_of_several_limbs_are_found() {
         fruitless: 10,
         ..SpreadSettings::default()
     };
-    let cases: [(u32, [usize; 2], &[(f64, usize)]); 2] = [
-        (2, [0, 1], &[(2.2, 1), (2.7, 3), (4.0, 3)]),
+    for (pieces, sides, loads) in [
+        (2_u32, [0, 1], &[(2.2, 1), (2.7, 3), (4.0, 3)][..]),
         (3, [0, 2], &[(3.2, 3)]),
-    ];
-    for (pieces, sides, loads) in cases {
+    ] {
         let rods = vec![(Pose::identity(), 1.0 / f64::from(pieces)); pieces as usize];
         let column = Series {
             rods,
