@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use kinetostat::{
-    Chain, ChainProblem, CurveSettings, EndCondition, Error, LinkSpec, Mechanism, Parameter, Pose,
-    Settings, SpecialKind, Wrench, follow, pose_residual, solve_chain,
+    Branch, Chain, ChainProblem, CurveSettings, EndCondition, Error, LinkSpec, Mechanism,
+    Parameter, Pose, Settings, SpecialKind, Wrench, follow, pose_residual, solve_chain,
 };
 use nalgebra::{Vector3, vector};
 
@@ -61,9 +61,19 @@ impl Rod {
         let grown = Parameter::end_wrench(self.wrench);
         let settings = CurveSettings::within(0.0, 1.0);
         let curves = follow(&rest, &grown, &start, 0.0, &settings).expect("a path from rest");
+        let near = |limit: f64| (share - 1e-3..share + 1e-2).contains(&limit);
         let limits = curves.specials.iter();
         let mut limits = limits.filter(|s| s.kind == SpecialKind::LoadLimit);
-        limits.any(|s| (share - 1e-3..share + 1e-2).contains(&s.point.parameter))
+        // Beside very stiff springs the path may be lost just behind the fold, which it has no name for then.
+        let most = |branch: &Branch| {
+            let shares = branch.points.iter().map(|p| p.parameter);
+            shares.fold(0.0, f64::max)
+        };
+        let turned = |branch: &Branch| {
+            let last = branch.points.last().map_or(f64::NAN, |p| p.parameter);
+            last < most(branch) && near(most(branch))
+        };
+        limits.any(|s| near(s.point.parameter)) || curves.branches.iter().any(turned)
     }
 
     /// What differs between the chain and the machine, in words.
