@@ -108,11 +108,12 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
             }
         }
     }
-    if found.is_empty() {
-        // The program's own faults are said with the whole job read.
-        let job = JobFile::read(files, path).ok()?;
-        let setting = setting(files, Some(&job), asked.program, &asked.writing).ok()?;
-        add(&mut found, along::read_program(&setting).err()?);
+    // The program's own faults, where everything that says how to read it is right.
+    if let Ok(job) = JobFile::read(files, path)
+        && let Ok(setting) = setting(files, Some(&job), asked.program, &asked.writing)
+        && let Err(failure) = along::read_program(&setting)
+    {
+        add(&mut found, failure);
     }
     add(&mut found, first.clone());
     // In the order of the file; what has no line there comes last.

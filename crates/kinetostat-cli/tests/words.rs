@@ -119,6 +119,28 @@ fn all_faults_of_a_job_are_shown_in_one_run_in_the_order_of_lines() {
     check(&many);
 }
 
+/// A model that is not there hides nothing: neither what else is wrong in the job, nor in the program.
+#[test]
+fn faults_of_a_program_are_shown_beside_those_of_its_job() {
+    let here = workplace();
+    let gone = job().replacen("orthoglide", "gone.toml", 1);
+    std::fs::write(here.path().join("job.toml"), gone).expect("a job");
+    let program = "G21 G90\nG1 X10 F100\nG2.7 X20\nG1 X30 Q\nM2\n";
+    std::fs::write(here.path().join("part.ngc"), program).expect("a program");
+    for command in ["compensate", "check"] {
+        let said = run(here.path(), &[command, "job.toml"]);
+        assert_eq!(said.code, 1, "{command}: {said:?}");
+        let text = flat(&said.err);
+        for word in ["gone.toml", "2 lines are refused", "G2.7", "line 4"] {
+            assert!(
+                text.contains(word),
+                "{command}: {word} is missing\n{}",
+                said.err
+            );
+        }
+    }
+}
+
 #[test]
 fn check_of_a_job_says_what_it_asks() {
     let here = workplace();
