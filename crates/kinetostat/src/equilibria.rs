@@ -270,6 +270,21 @@ fn sweep_parameter(problem: &ChainProblem<'_>) -> Option<Parameter> {
     (pattern.end.0.amax() > 0.0 || !pattern.loads.is_empty()).then_some(Parameter::Load(pattern))
 }
 
+/// Chance that one more successful start finds something new, and its upper end (95 %): by how many
+/// equilibria were found at most once in so many successful starts (Good and Turing; the rule of
+/// three where there is none).
+pub(crate) fn chance_of_more(hits: usize, once: usize) -> (f64, f64) {
+    if hits == 0 {
+        return (1.0, 1.0);
+    }
+    let (n, once) = (hits as f64, once as f64);
+    let room = match once == 0.0 {
+        true => 3.0,
+        false => once + 1.96 * once.sqrt() + 2.0,
+    };
+    ((once / n).min(1.0), (room / n).min(1.0))
+}
+
 /// Starts that a person would try: the posture, home, their mirror images, the stretched chain.
 fn structured(posture: &[f64], chain: &Chain) -> Vec<Vec<f64>> {
     let home = chain.home_coordinates();
@@ -721,18 +736,7 @@ impl Search<'_, '_, '_> {
         let known = self.known.len();
         let hits: usize = self.known.iter().map(|k| k.hits).sum();
         let once = self.known.iter().filter(|k| k.hits <= 1).count();
-        let count = (hits.max(1)) as f64;
-        let (chance, most) = if hits == 0 {
-            (1.0, 1.0)
-        } else if once == 0 {
-            (0.0, (3.0 / count).min(1.0))
-        } else {
-            let f = once as f64;
-            (
-                (f / count).min(1.0),
-                ((f + 1.96 * f.sqrt() + 2.0) / count).min(1.0),
-            )
-        };
+        let (chance, most) = chance_of_more(hits, once);
         let mut found: Vec<FoundEquilibrium> = self
             .known
             .into_iter()

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::branches::CurveSettings;
 use crate::chain::{MotionKind, Role};
-use crate::equilibria::Bounds;
+use crate::equilibria::{Bounds, chance_of_more};
 use crate::equilibrium::EndCondition;
 use crate::error::Result;
 use crate::platform::MechanismState;
@@ -262,19 +262,8 @@ impl Search<'_, '_> {
     fn finish(self, settings: &SpreadSettings) -> MachineEquilibria {
         let mut found: Vec<MachineFound> = self.known.into_iter().map(|k| k.found).collect();
         found.sort_by(|a, b| a.potential.total_cmp(&b.potential));
-        let (mut chance, mut most) = (1.0, 1.0);
-        let once = found.iter().filter(|f| f.hits <= 1).count() as f64;
-        if self.hits > 0 {
-            let n = self.hits as f64;
-            chance = (once / n).min(1.0);
-            // Rule of three where none was found just once.
-            let room = if once == 0.0 {
-                3.0
-            } else {
-                once + 1.96 * once.sqrt() + 2.0
-            };
-            most = (room / n).min(1.0);
-        }
+        let once = found.iter().filter(|f| f.hits <= 1).count();
+        let (chance_of_more, chance_of_more_at_most) = chance_of_more(self.hits, once);
         MachineEquilibria {
             settled: self.fruitless >= settings.fruitless,
             found,
@@ -282,8 +271,8 @@ impl Search<'_, '_> {
             hits: self.hits,
             outside: self.outside,
             fruitless: self.fruitless,
-            chance_of_more: chance,
-            chance_of_more_at_most: most,
+            chance_of_more,
+            chance_of_more_at_most,
         }
     }
 }

@@ -271,10 +271,16 @@ impl Mechanism {
         // Lengths of the shortest ways to all platforms.
         let mut ways = vec![f64::INFINITY; self.platforms.len()];
         ways[0] = 0.0;
-        for _ in 1..self.platforms.len() {
+        let mut shorter = true;
+        while shorter {
+            shorter = false;
             for (limb, length) in self.limbs.iter().zip(&lengths) {
-                ways[limb.to] = ways[limb.to].min(ways[limb.from] + length);
-                ways[limb.from] = ways[limb.from].min(ways[limb.to] + length);
+                for (to, from) in [(limb.to, limb.from), (limb.from, limb.to)] {
+                    if ways[from] + length < ways[to] {
+                        ways[to] = ways[from] + length;
+                        shorter = true;
+                    }
+                }
             }
         }
         let longest = lengths.iter().copied().fold(0.0, f64::max);
