@@ -95,7 +95,7 @@ Examples:
       --y -400 400 21 --z 400 1200 5 --rotation a_b_c_kuka_deg=0,90,0 \\
       --csv map.csv
   kinetostat map my_robot.toml --x 800 1600 --z 400 1200 --force 300 0 -500 \\
-      --plot bent.svg --show displacement
+      --plot displacement.svg --show displacement
 
 Stiffness is force per motion of the tip along it while the tool may turn, as a spring balance
 would show it. Without --force and --moment the machine is unloaded and as drawn; with one of them
