@@ -195,7 +195,7 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
     let machine = a.tool_held.subject == "machine";
     let spread = match machine {
         true => {
-            "from places of the tool spread around the commanded one (and beyond singular postures nearby), every second one with turned joints"
+            "from places and orientations of the tool spread around the commanded one (and beyond singular postures nearby), every second one with turned joints"
         }
         false => "evenly spread over all joint angles within 180 deg",
     };
@@ -205,8 +205,12 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
     );
     if c.ended_outside_bounds > 0 {
         text.push_str(&format!(
-            ", {} at one beyond these bounds",
-            c.ended_outside_bounds
+            ", {} at {}",
+            c.ended_outside_bounds,
+            match machine {
+                true => "one that is not listed: a slide turned inside out, or unstable and far away (more than three times the machine's size, or springs out of all proportion)",
+                false => "one beyond these bounds",
+            }
         ));
     }
     if seldom > 0 {
@@ -230,14 +234,14 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
     });
     if !a.equilibria.is_empty() {
         list.push(format!(
-            "the next start would find a new one with a chance of {} %, and with 95 % confidence of at most {} %",
+            "the next such start would find a new one with a chance of {} %, and with 95 % confidence of at most {} %",
             number(100.0 * c.chance_of_more, 2),
             number(100.0 * c.chance_of_more_at_most, 2)
         ));
     }
     if machine && !a.tool_held.free.is_empty() {
         list.push(
-            "from the commanded place and from every equilibrium found, the tool was driven along each of its free motions to every place where that takes no force; shapes in which only single limbs differ (a leg mirrored or bent far) are easily missed".to_owned(),
+            "the tool was held at these places and let go; from the commanded place and from every equilibrium found it was driven along each of its free motions to every place where that takes no force, and let go beside unstable ones. Loops that can be assembled another way (a leg mirrored or bent far) are easily missed: these chances do not count them".to_owned(),
         );
     }
     if a.equilibria.iter().any(|e| e.found_by_spread_starts == 0) {

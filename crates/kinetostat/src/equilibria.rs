@@ -101,12 +101,9 @@ impl Bounds {
 
     /// Whether the springs among the coordinates stay within them.
     pub(crate) fn hold_springs(&self, chain: &Chain, x: &[f64]) -> bool {
-        let springs = chain
-            .springs()
-            .iter()
-            .flat_map(|s| s.first..s.first + s.len());
-        let mut inside = springs.map(|i| x[i] > self.low[i] && x[i] < self.high[i]);
-        inside.all(|inside| inside)
+        let springs = chain.springs().iter();
+        let mut springs = springs.flat_map(|s| s.first..s.first + s.len());
+        springs.all(|i| x[i] > self.low[i] && x[i] < self.high[i])
     }
 
     fn hold(&self, x: &[f64]) -> bool {

@@ -125,6 +125,7 @@ mod load_way;
 mod loading;
 mod logarithm;
 mod lost_motion;
+mod machine_descent;
 mod machine_directions;
 mod machine_equilibria;
 mod mechanism;

@@ -1,18 +1,20 @@
 //! Equilibria of a machine from many starts: places of its tool and joints spread evenly, those
 //! beyond a singular posture first.
 
+use std::f64::consts::{PI, TAU};
+
 use nalgebra::{DMatrix, DVector, Vector6};
 use rayon::prelude::*;
 
 use crate::branches::CurveSettings;
 use crate::chain::{MotionKind, Role};
 use crate::equilibria::{Bounds, chance_of_more};
-use crate::equilibrium::EndCondition;
+use crate::equilibrium::{EndCondition, unloaded_tip};
 use crate::error::Result;
-use crate::platform::MechanismState;
+use crate::platform::{MechanismState, Unknowns};
 use crate::platform_path::Path;
-use crate::posture::{MechanismEquilibrium, Posture};
-use crate::spatial::{Twist, Wrench, moved, pose_residual};
+use crate::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::spatial::{Pose, Twist, moved, pose_residual};
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,8 +63,8 @@ pub struct MachineEquilibria {
     pub starts: usize,
     /// See `starts`.
     pub hits: usize,
-    /// Those that ended farther than three sizes of the machine from the nominal target, or with
-    /// springs beyond [`Bounds::of`] their limb.
+    /// Those that ended where a slide is turned inside out, or at an unstable shape farther than three
+    /// sizes of the machine from the nominal target or with springs beyond [`Bounds::of`] their limb.
     pub outside: usize,
     /// Starts since the last new equilibrium.
     pub fruitless: usize,
@@ -78,6 +80,9 @@ pub struct MachineEquilibria {
 /// How far tools are put from the target, as shares of the machine's size.
 const AMPLITUDES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
 
+/// Starts that are made side by side.
+const TOGETHER: usize = 16;
+
 /// Curves are followed through so many equilibria at most.
 const FOLLOWED: usize = 24;
 
@@ -88,9 +93,10 @@ impl Posture<'_> {
     /// Equilibria of the machine as it is commanded: the tool held at `end.pose` in the directions
     /// whose pose is prescribed, under the dead wrench `end.wrench` in the others.
     ///
-    /// Newton is started from places of the tool spread evenly; from the commanded place and from
-    /// every equilibrium found the tool is driven along each of its free motions, and every place
-    /// where that takes no force is looked at.
+    /// The tool is held at places spread evenly and let go down the potential, and Newton is started
+    /// with joints turned; from the commanded place and from every equilibrium found the tool is driven
+    /// along each of its free motions, and every place where that takes no force is looked at; from
+    /// unstable ones it is pushed along the motions in which they go away.
     ///
     /// # Errors
     /// Not-a-numbers in the condition. That nothing was found is a result.
@@ -113,29 +119,41 @@ impl Posture<'_> {
                 .iter()
                 .map(|l| Bounds::of(&l.actual))
                 .collect(),
-            wrench: end.wrench,
             known: Vec::new(),
             starts: 0,
             hits: 0,
             outside: 0,
             fruitless: 0,
         };
+        let rest = self.wrench_at(&moved(&self.target, &Twist(search.path.held_motion())));
+        let rest = rest.ok();
         search.follow(None);
         let mut followed = 0;
         loop {
             if followed < search.known.len().min(FOLLOWED) {
                 search.follow(Some(followed));
+                search.push_off(followed);
                 followed += 1;
             } else if search.fruitless < settings.fruitless && search.starts < settings.starts {
-                let k = search.starts;
-                search.starts += 1;
-                search.fruitless += 1;
-                let way = match first.get(k) {
-                    Some(way) => search.path.freely(&way.0),
-                    None => spread(&free, k, &search.path),
+                let most = TOGETHER.min(settings.starts - search.starts);
+                let numbers: Vec<usize> = (search.starts..search.starts + most).collect();
+                let start = |&k: &usize| {
+                    let way = match first.get(k) {
+                        Some(way) => search.path.freely(&way.0),
+                        None => spread(&free, k, &search.path),
+                    };
+                    self.fallen(&search.path, rest.as_ref(), &way, k)
                 };
-                if let Some(e) = self.fallen(&search.path, end, &way, k) {
-                    search.note(e, true);
+                let ended: Vec<_> = numbers.par_iter().map(start).collect();
+                for e in ended {
+                    search.starts += 1;
+                    search.fruitless += 1;
+                    if let Some(e) = e {
+                        search.note(e, true);
+                    }
+                    if search.fruitless >= settings.fruitless {
+                        break;
+                    }
                 }
             } else {
                 return Ok(search.finish(settings));
@@ -143,12 +161,12 @@ impl Posture<'_> {
         }
     }
 
-    /// From the tool put aside by a motion (and, in every second start, joints turned) to where it
-    /// comes to rest.
+    /// From the tool put aside by a motion (in every second start: with joints turned) to where it
+    /// comes to rest; `rest` is the machine held where it is commanded.
     fn fallen(
         &self,
         path: &Path<'_, '_>,
-        end: &EndCondition,
+        rest: Option<&MechanismEquilibrium>,
         way: &Vector6<f64>,
         k: usize,
     ) -> Option<MechanismEquilibrium> {
@@ -157,19 +175,41 @@ impl Posture<'_> {
         pose = moved(&pose, &Twist(*way));
         let mut state: MechanismState = self.rest_state();
         if k.is_multiple_of(2) && way.norm() > 0.0 {
-            state = self.wrench_at(&pose).ok()?.state;
-        } else if k > 0 {
+            let held = match self.wrench_at(&pose) {
+                Ok(held) => held,
+                // Motions of the tool may be bound to each other.
+                Err(_) => path.held_at_the_end(rest?.clone(), way)?,
+            };
+            let there = held.state.clone();
+            return path.descend(held).or_else(|| path.rest(there, &path.dead));
+        }
+        if k > 0 {
             for (limb, joints) in self.mechanism.limbs.iter().zip(&mut state.coordinates) {
                 for (i, c) in limb.actual.coordinates().iter().enumerate() {
                     if c.role == Role::Passive && c.kind == MotionKind::Revolute {
                         let share = ((k * 7 + i) as f64 * 0.618_034).fract() - 0.5;
-                        joints[i] += 2.0 * AMPLITUDES[k / 2 % 4] * share;
+                        joints[i] += TAU * AMPLITUDES[k / 2 % 4] * share;
                     }
                 }
             }
         }
+        let carriers = self.mechanism.limbs.iter().enumerate();
+        let carriers = carriers.filter(|(_, l)| l.from == 0 && l.to == tool);
+        let carriers: Vec<_> = carriers.collect();
+        if k % 4 == 3
+            && let Some((i, limb)) = carriers.get(k / 4 % carriers.len().max(1))
+        {
+            // Held where its turned joints bring it: loops close there another way.
+            let (joints, commands) = (&state.coordinates[*i], &self.limbs[*i].commands);
+            let tip = unloaded_tip(&limb.actual, &Pose::identity(), joints, commands);
+            state.platforms[tool] = tip * limb.platform_from_tip.inverse();
+            let mut solver = self.solver(state, Unknowns::Held);
+            let (iterations, balance) = solver.solve(1.0, 0).ok()?;
+            let held = conclude(&mut solver, balance.residual(iterations)).ok()?;
+            return path.descend(held);
+        }
         state.platforms[tool] = pose;
-        path.rest(state, &end.wrench)
+        path.rest(state, &path.dead)
     }
 }
 
@@ -183,7 +223,6 @@ struct Known {
 struct Search<'p, 'm> {
     path: Path<'p, 'm>,
     bounds: Vec<Bounds>,
-    wrench: Wrench,
     known: Vec<Known>,
     starts: usize,
     hits: usize,
@@ -192,32 +231,51 @@ struct Search<'p, 'm> {
 }
 
 impl Search<'_, '_> {
-    fn is_near(&self, e: &MechanismEquilibrium) -> bool {
-        let mechanism = self.path.posture.mechanism;
-        let off = pose_residual(&e.tool, &self.path.posture.target);
-        let limbs = mechanism.limbs.iter().zip(&e.state.coordinates);
-        off.linear().norm() <= 3.0 * mechanism.size()
-            && limbs
-                .zip(&self.bounds)
-                .all(|((limb, x), bounds)| bounds.hold_springs(&limb.actual, x))
+    /// Shapes with a drive whose slide is turned inside out do not count, nor do unstable ones far away.
+    fn counts(&self, found: &MachineFound) -> bool {
+        let posture = self.path.posture;
+        let (mechanism, e) = (posture.mechanism, &found.equilibrium);
+        let joints = mechanism.limbs.iter().zip(&e.state.coordinates);
+        let drives = joints.clone().zip(&posture.limbs);
+        let mut slides = drives.flat_map(|((limb, x), own)| {
+            let drives = limb.actual.actuators().iter().zip(&own.commands);
+            drives.filter_map(move |(drive, command)| {
+                let slides = drive.kind == MotionKind::Prismatic;
+                let spring = drive.coordinate.filter(|_| slides && *command != 0.0)?;
+                Some((command + x[spring]) / command)
+            })
+        });
+        let off = pose_residual(&e.tool, &posture.target).linear();
+        let near = || {
+            off.norm() <= 3.0 * mechanism.size()
+                && joints
+                    .clone()
+                    .zip(&self.bounds)
+                    .all(|((limb, x), bounds)| bounds.hold_springs(&limb.actual, x))
+        };
+        slides.all(|share| share > 0.0) && (found.stable || near())
     }
 
     /// Books an equilibrium: its number among the known ones, if it counts.
     fn note(&mut self, e: MechanismEquilibrium, counted: bool) -> Option<usize> {
-        if !self.is_near(&e) {
-            self.outside += usize::from(counted);
-            return None;
-        }
-        self.hits += usize::from(counted);
         let of = |k: &Known| self.path.same(&k.found.equilibrium, &e);
-        let number = self.known.iter().position(of).unwrap_or_else(|| {
-            self.fruitless = 0;
-            self.known.push(Known {
-                found: self.path.judged(e, &self.wrench),
-                followed: vec![false; self.path.free.ncols()],
-            });
-            self.known.len() - 1
-        });
+        let number = match self.known.iter().position(of) {
+            Some(number) => number,
+            None => {
+                let found = self.path.judged(e, &self.path.dead);
+                if !self.counts(&found) {
+                    self.outside += usize::from(counted);
+                    return None;
+                }
+                self.fruitless = 0;
+                self.known.push(Known {
+                    found,
+                    followed: vec![false; self.path.free.ncols()],
+                });
+                self.known.len() - 1
+            }
+        };
+        self.hits += usize::from(counted);
         self.known[number].found.hits += usize::from(counted);
         Some(number)
     }
@@ -242,7 +300,7 @@ impl Search<'_, '_> {
         for (i, [crossings, ends]) in ways.into_iter().zip(curves) {
             for state in crossings {
                 let there = state.platforms[self.path.posture.mechanism.tool];
-                let Some(e) = self.path.rest(state, &self.wrench) else {
+                let Some(e) = self.path.rest(state, &self.path.dead) else {
                     continue;
                 };
                 let apart = self.path.balanced(&pose_residual(&e.tool, &there).0).norm();
@@ -252,10 +310,25 @@ impl Search<'_, '_> {
                 }
             }
             for state in ends {
-                if let Some(e) = self.path.rest(state, &self.wrench) {
+                if let Some(e) = self.path.rest(state, &self.path.dead) {
                     self.note(e, false);
                 }
             }
+        }
+    }
+
+    /// Lets the machine go from beside an unstable equilibrium.
+    fn push_off(&mut self, known: usize) {
+        if self.known[known].found.stable {
+            return;
+        }
+        let beside = self.path.pushed_off(&self.known[known].found.equilibrium);
+        let ended: Vec<_> = beside
+            .into_par_iter()
+            .map(|e| self.path.descend(e))
+            .collect();
+        for e in ended.into_iter().flatten() {
+            self.note(e, false);
         }
     }
 
@@ -278,7 +351,7 @@ impl Search<'_, '_> {
 }
 
 /// The k-th of evenly spread motions of some directions (balanced): Kronecker's sequence. Distances
-/// are shares of the machine's size, angles of a radian.
+/// are shares of the machine's size, angles of half a turn.
 fn spread(free: &DMatrix<f64>, k: usize, path: &Path<'_, '_>) -> Vector6<f64> {
     let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0_f64];
     let parts = DVector::from_fn(free.ncols(), |i, _| {
@@ -286,5 +359,5 @@ fn spread(free: &DMatrix<f64>, k: usize, path: &Path<'_, '_>) -> Vector6<f64> {
     });
     let motion = free * parts * AMPLITUDES[k / 2 % 4];
     let size = path.posture.mechanism.size();
-    Vector6::from_fn(|i, _| motion[i] * if i < 3 { size } else { 1.0 })
+    Vector6::from_fn(|i, _| motion[i] * if i < 3 { size } else { PI })
 }

@@ -56,9 +56,11 @@ pub(crate) enum Unknowns {
     Guided,
 }
 
-/// Conditions on the motion of the tool from its nominal target, and as many wrenches on it.
+/// Conditions on the motion of the tool from a pose, and as many wrenches on it.
 #[derive(Clone, Debug)]
 pub(crate) struct Guide {
+    /// Where the motion is counted from.
+    pub from: Pose,
     /// Conditions `rows * motion = goals`, k x 6, base axes.
     pub rows: DMatrix<f64>,
     /// See `rows`, k.
@@ -71,20 +73,21 @@ impl Guide {
     /// No condition.
     pub fn none() -> Self {
         Self {
+            from: Pose::identity(),
             rows: DMatrix::zeros(0, 6),
             goals: DVector::zeros(0),
             hands: DMatrix::zeros(6, 0),
         }
     }
 
-    /// What the motion from `target` to `pose` lacks of the goals.
-    pub fn lack(&self, target: &Pose, pose: &Pose) -> DVector<f64> {
-        &self.goals - &self.rows * pose_residual(pose, target).0
+    /// What the motion to `pose` lacks of the goals.
+    pub fn lack(&self, pose: &Pose) -> DVector<f64> {
+        &self.goals - &self.rows * pose_residual(pose, &self.from).0
     }
 
     /// Rows by the motion of the tool at `pose`: the logarithm is no sum.
-    pub fn rows_at(&self, target: &Pose, pose: &Pose) -> DMatrix<f64> {
-        let turned = pose_residual(pose, target).angular();
+    pub fn rows_at(&self, pose: &Pose) -> DMatrix<f64> {
+        let turned = pose_residual(pose, &self.from).angular();
         let angle = turned.norm();
         let mut rows = self.rows.clone();
         if angle > 1e-9 {
@@ -354,7 +357,7 @@ impl<'m> PlatformSolver<'m> {
         }
         let mut force = 0.0_f64;
         if self.unknowns == Unknowns::Guided {
-            let missing = self.guide.lack(&self.target, &self.state.platforms[m.tool]);
+            let missing = self.guide.lack(&self.state.platforms[m.tool]);
             let missing = missing.amax();
             merit += (missing * root).powi(2);
             closure_m = closure_m.max(missing);

@@ -71,7 +71,7 @@ impl PlatformSolver<'_> {
             column /= unit(i);
         }
         let pose = &self.state.platforms[self.mechanism.tool];
-        let conditions = self.guide.rows_at(&self.target, pose) * back;
+        let conditions = self.guide.rows_at(pose) * back;
         let (of_wrench, of_motion) = (&across * wrench, &across * motion);
         let mut rows = EndRows {
             wrench: Matrix6::zeros(),
@@ -121,7 +121,7 @@ impl PlatformSolver<'_> {
         let balance = self.balance.as_ref()?;
         let missing = match k {
             0 => DVector::zeros(0),
-            _ => self.guide.lack(&self.target, pose),
+            _ => self.guide.lack(pose),
         };
         let own = &balance.across * lack[tool].0;
         let right = Vector6::from_fn(|i, _| {

@@ -200,6 +200,7 @@ impl<'m> Posture<'m> {
         let mut solver = self.solver(start.clone(), Unknowns::Guided);
         let push = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });
         solver.guide = Guide {
+            from: self.target,
             rows: push.transpose(),
             goals: DVector::zeros(1),
             hands: push,

@@ -417,11 +417,16 @@ impl<'p, 'm> Path<'p, 'm> {
             hands = hands.insert_column(k, 0.0);
             hands.set_column(k, &self.pattern.0.normalize());
         }
-        Guide { rows, goals, hands }
+        Guide {
+            from: self.posture.target,
+            rows,
+            goals,
+            hands,
+        }
     }
 
     /// Newton from a state under a wrench; the wrench that is left after it is that of the answer.
-    fn settle(
+    pub(crate) fn settle(
         &self,
         state: MechanismState,
         wrench: Wrench,
@@ -520,17 +525,21 @@ impl<'p, 'm> Path<'p, 'm> {
         }
     }
 
-    fn unbalanced(&self, motion: &Vector6<f64>) -> Vector6<f64> {
+    pub(crate) fn unbalanced(&self, motion: &Vector6<f64>) -> Vector6<f64> {
         Vector6::from_fn(|i, _| motion[i] / self.unit(i))
     }
 
     /// Those of some motions (balanced) that the machine can make.
-    fn possible(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> DMatrix<f64> {
+    pub(crate) fn possible(
+        &self,
+        e: &MechanismEquilibrium,
+        motions: &DMatrix<f64>,
+    ) -> DMatrix<f64> {
         self.without(e, motions, DirectionKind::Rigid)
     }
 
     /// Those of some motions (balanced) across all directions of a kind.
-    fn without(
+    pub(crate) fn without(
         &self,
         e: &MechanismEquilibrium,
         motions: &DMatrix<f64>,
@@ -539,7 +548,7 @@ impl<'p, 'm> Path<'p, 'm> {
         without(&e.directions, kind, self.length, motions)
     }
 
-    fn balanced_stiffness(&self, e: &MechanismEquilibrium) -> DMatrix<f64> {
+    pub(crate) fn balanced_stiffness(&self, e: &MechanismEquilibrium) -> DMatrix<f64> {
         let k = &e.stiffness.matrix;
         DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (self.unit(i) * self.unit(j)))
     }

@@ -292,12 +292,12 @@ impl PlatformSolver<'_> {
         if guided > 0 {
             let (pose, from) = (&self.state.platforms[m.tool], &at.platforms[m.tool]);
             let row = sizes.grow(m.tool - 1, guided);
-            let rows = self.guide.rows_at(&self.target, from) * root;
+            let rows = self.guide.rows_at(from) * root;
             sizes.matrix.add(row, tool, &rows);
             needed = needed.resize_vertically(first + guided, 0.0);
             needed
                 .rows_mut(first, guided)
-                .copy_from(&(self.guide.lack(&self.target, pose) * root));
+                .copy_from(&(self.guide.lack(pose) * root));
         }
         let (mut rigid, mut reactions) = (sizes.clone(), sizes.matrix.clone());
         reactions.entries.retain(|(i, _, _)| *i < first);

@@ -502,3 +502,84 @@ fn all_shapes_of_a_column_of_several_limbs_are_found() {
         }
     }
 }
+
+/// A portal frame of two posts and two crossed diagonals, all hinged, in the plane x, z.
+fn portal(half: f64, h: f64, post: f64, diagonal: f64) -> Mechanism {
+    let mut builder = Mechanism::builder("portal");
+    let tool = builder.platform(Platform::new("tool", Pose::translation(0.0, 0.0, h)));
+    for (name, foot, head, k) in [
+        ("left", -half, -half, post),
+        ("right", half, half, post),
+        ("up", -half, half, diagonal),
+        ("down", half, -half, diagonal),
+    ] {
+        let way = vector![head - foot, 0.0, h];
+        let turn = way.x.atan2(way.z);
+        let mut drive = ActuatorSpec::new(MotionKind::Prismatic, Vector3::z(), k);
+        drive.home = way.norm();
+        let chain = Chain::builder(name)
+            .translation(vector![foot, 0.0, 0.0])
+            .passive("foot", MotionKind::Revolute, Vector3::y(), turn)
+            .actuator("slide", drive)
+            .passive("head", MotionKind::Revolute, Vector3::y(), -turn)
+            .build()
+            .unwrap();
+        let tip = Pose::translation(head, 0.0, 0.0);
+        builder = builder.limb(limb(name, 0, tool, tip, chain));
+    }
+    builder.build().unwrap()
+}
+
+/// Beyond its critical load the frame has no stable shape nearby: the potential, which grows with the square of what the
+/// bars are strained, has its least value elsewhere, and that must be found. Turned over it hangs in its bars, as strained
+/// as by the same force pulling upright.
+#[test]
+fn a_frame_beyond_its_critical_load_has_a_stable_shape_elsewhere() {
+    for (half, h, ratio) in [(0.4, 1.05, 0.02), (0.3, 0.8, 0.05), (0.5, 0.7, 0.1)] {
+        let post = 7e7;
+        let machine = portal(half, h, post, ratio * post);
+        let posture = machine.posture(&Pose::translation(0.0, 0.0, h)).unwrap();
+        let under = |force: f64| Wrench::new(vector![0.0, 0.0, force], Vector3::zeros());
+        let stays = |force: f64| posture.deflected_by(&under(force)).unwrap().stable();
+        // Between a load that it bears and one that it does not.
+        let (mut low, mut high) = (1e3, 1e3);
+        while stays(-high) {
+            low = high;
+            high *= 1.5;
+        }
+        for _ in 0..12 {
+            let middle = 0.5 * (low + high);
+            match stays(-middle) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        for share in [0.9, 1.05] {
+            let case = format!("half {half}, h {h}, diagonals {ratio}, {share} of critical");
+            let force = share * high;
+            let pulled = posture.deflected_by(&under(force)).unwrap();
+            let end = EndCondition::wrench(under(-force));
+            let all = posture
+                .equilibria(&end, &SpreadSettings::default())
+                .unwrap();
+            let stable: Vec<_> = all.found.iter().filter(|f| f.stable).collect();
+            let nearby = |f: &&&kinetostat::MachineFound| {
+                (f.equilibrium.tool.translation.z / h - 1.0).abs() < 0.2
+            };
+            assert_eq!(
+                stable.iter().filter(nearby).count(),
+                usize::from(share < 1.0),
+                "{case}"
+            );
+            let hanging = -pulled.tool.translation.z;
+            let found = stable.iter().any(|f| {
+                (f.equilibrium.tool.translation.vector - vector![0.0, 0.0, hanging]).norm() < 1e-6
+            });
+            let places: Vec<_> = stable
+                .iter()
+                .map(|f| f.equilibrium.tool.translation)
+                .collect();
+            assert!(found, "{case}: {hanging} in {places:?}");
+        }
+    }
+}
