@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use serde::Deserialize;
+use kinetostat_model::exact;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -54,11 +54,11 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
         let key = take_out(tree.get_mut(), &span);
         taken.extend(key.map(|key| (key, span)));
     }
-    while Job::deserialize(toml::de::Deserializer::from(tree.clone()))
+    while read(&tree)
         .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found, &mut taken))
     {}
     // What has no meaning: each part of the question as far as it can be read.
-    if let Ok(job) = Job::deserialize(toml::de::Deserializer::from(tree.clone()))
+    if let Ok(job) = read(&tree)
         && let Err(failure) = Job::version(source, &job)
     {
         add(&mut found, failure);
@@ -86,7 +86,7 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     ];
     for part in parts {
         for _ in 0..MOST {
-            let Ok(job) = Job::deserialize(toml::de::Deserializer::from(tree.clone())) else {
+            let Ok(job) = read(&tree) else {
                 break;
             };
             let job = JobFile {
@@ -98,14 +98,17 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
             if failure.code != Code::WrongInput {
                 break;
             }
-            let span = failure.place.clone();
-            add(&mut found, failure);
-            if span
-                .and_then(|span| take_out(tree.get_mut(), &span))
-                .is_none()
-            {
+            let Some(span) = failure.place.clone() else {
+                add(&mut found, failure);
                 break;
+            };
+            if !follows(&span, &taken) {
+                add(&mut found, failure);
             }
+            let Some(key) = take_out(tree.get_mut(), &span) else {
+                break;
+            };
+            taken.push((key, span));
         }
     }
     // The program's own faults, where everything that says how to read it is right.
@@ -119,6 +122,16 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     // In the order of the file; what has no line there comes last.
     found.sort_by_key(|f| f.place.as_ref().map_or(usize::MAX, |span| span.start));
     Some(Failure::together(found))
+}
+
+fn read(tree: &Spanned<DeTable<'_>>) -> Result<Job, toml::de::Error> {
+    exact(toml::de::Deserializer::from(tree.clone()))
+}
+
+/// Whether a place holds something that was taken out with a message of its own: what is missing there,
+/// or left over, follows from that.
+fn follows(place: &Range<usize>, taken: &[(String, Range<usize>)]) -> bool {
+    taken.iter().any(|(_, span)| holds(place, span))
 }
 
 fn add(found: &mut Vec<Failure>, failure: Failure) {
@@ -143,10 +156,12 @@ fn put_right(
     let span = error.span().unwrap_or(0..0);
     let missing = Source::missing(error);
     // What was taken out above with a message of its own is not missing.
-    let was_there = missing.as_ref().is_some_and(|missing| {
-        let mut all = taken.iter();
-        all.any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place)))
-    });
+    let was_there = match &missing {
+        Some(missing) => taken
+            .iter()
+            .any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place))),
+        None => follows(&span, taken),
+    };
     if !was_there {
         let before = found.len();
         add(found, source.content(error));
