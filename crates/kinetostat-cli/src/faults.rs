@@ -51,8 +51,7 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     // What has the wrong form: unknown keys, words for numbers, numbers that are none.
     for span in source.not_finite(&tree) {
         add(&mut found, source.endless(span.clone()));
-        let key = take_out(tree.get_mut(), &span);
-        taken.extend(key.map(|key| (key, span)));
+        take(tree.get_mut(), span, &mut taken);
     }
     while read(&tree)
         .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found, &mut taken))
@@ -105,10 +104,9 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
             if !follows(&span, &taken) {
                 add(&mut found, failure);
             }
-            let Some(key) = take_out(tree.get_mut(), &span) else {
+            if !take(tree.get_mut(), span, &mut taken) {
                 break;
-            };
-            taken.push((key, span));
+            }
         }
     }
     // The program's own faults, where everything that says how to read it is right.
@@ -182,10 +180,44 @@ fn put_right(
         };
         return table.insert(key, value).is_none();
     }
-    let key = take_out(tree.get_mut(), &span);
-    let found = key.is_some();
-    taken.extend(key.map(|key| (key, span)));
-    found
+    take(tree.get_mut(), span, taken)
+}
+
+/// Takes out what stands at a place and notes it, and the table that lacks it now; false where nothing is there.
+fn take(
+    table: &mut DeTable<'_>,
+    span: Range<usize>,
+    taken: &mut Vec<(String, Range<usize>)>,
+) -> bool {
+    let around = around(table, &span);
+    let Some(key) = take_out(table, &span) else {
+        return false;
+    };
+    // The place of a table under a header is the header: what is taken from it lies elsewhere.
+    taken.extend(around.map(|table| (String::new(), table)));
+    taken.push((key, span));
+    true
+}
+
+/// The place of the innermost table with an entry that a place lies in; none for the whole file.
+fn around(table: &DeTable<'_>, span: &Range<usize>) -> Option<Range<usize>> {
+    let tables = table.values().flat_map(|value| match value.get_ref() {
+        DeValue::Array(list) => list.iter().collect(),
+        _ => vec![value],
+    });
+    for value in tables {
+        let DeValue::Table(inner) = value.get_ref() else {
+            continue;
+        };
+        if let Some(found) = around(inner, span) {
+            return Some(found);
+        }
+        let mut entries = inner.iter();
+        if entries.any(|(key, value)| holds(&key.span(), span) || holds(&value.span(), span)) {
+            return Some(value.span());
+        }
+    }
+    None
 }
 
 fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {

@@ -647,6 +647,9 @@ fn odd_tool(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
 /// Origins of parts that are nearer than this to the origin of a large machine may be metres, mm.
 const NEAR_MM: f64 = 10.0;
 
+/// Nearer ones would be nearer than that in metres too, where no large machine works, mm.
+const LEAST_MM: f64 = 0.05;
+
 /// Machines of this size, working as far from the origin of their base, are large, m.
 const LARGE_M: f64 = 0.3;
 
@@ -662,7 +665,7 @@ pub fn origin_in_metres(
     let home = mechanism.platforms()[mechanism.tool()].home;
     // Machines whose base has its origin where they work have parts there.
     let away = home.translation.vector.norm().min(mechanism.size());
-    if origin.amax() == 0.0 || origin.amax() >= NEAR_MM || away <= LARGE_M {
+    if !(LEAST_MM..NEAR_MM).contains(&origin.amax()) || away <= LARGE_M {
         return None;
     }
     let places = path

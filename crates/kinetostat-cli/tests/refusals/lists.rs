@@ -12,12 +12,12 @@ part_orientation = { x_axis = [1, 0, 0], y_axis = [0, 1, 0] }
 tool_orientation = { rotation_vector_deg = [0, 0, 1] }
 
 [[deviation]]
-limb = "leg 1"
+limb = "leg x"
 at = "start"
 moved_by = { translation_mm = [0.1, 0, 0], rotation_vector_rad = [0, 0, 0.001] }
 
 [[deviation]]
-limb = "leg 1"
+limb = "leg x"
 at = "start"
 tilted_by_deg = 0.1
 about = [0, 0, 1]
