@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
     Bounds, LoadAlongPath, Run, RunResult, Task, ToleranceVerdict, Tool, Warning, WarningCode,
-    analyse, compensate_program, load_in_words,
+    analyse, compensate_program, load_in_words, origin_in_metres,
 };
 use kinetostat_model::Model;
 use kinetostat_program::{Path as ToolPath, Program, faults, interpret};
@@ -249,7 +249,14 @@ pub(crate) fn solve(
     };
     let result = in_threads(threads, work)?;
     progress.finish();
-    let mut run = result.map_err(|error| Failure::from(error).within(&setting.program_name))?;
+    let mut run = result.map_err(|error| {
+        let failure = Failure::from(error).within(&setting.program_name);
+        // What is no warning without an answer may be the reason why there is none.
+        match origin_in_metres(&machine.mechanism, &machine.placement, &path) {
+            Some(smell) => failure.with_reason(&smell.message),
+            None => failure,
+        }
+    })?;
     if let Some(limit) = setting.max_blocks_per_second
         && let Some(most) = run.result.summary.blocks_per_second
         && most > limit

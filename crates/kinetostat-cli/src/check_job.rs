@@ -16,8 +16,9 @@ use crate::failure::{Answer, Failure};
 use crate::faults::{Asked, with_all_others};
 use crate::input::Files;
 use crate::machine::{machine, no_potential, of_model, short};
+use crate::output::may_be_written;
 use crate::screen::{self, Stream, item, listed, triple, wrapped};
-use crate::setting::{JobFile, Targets, WritingFlags, setting};
+use crate::setting::{JobFile, Setting, Targets, WritingFlags, setting};
 use crate::summary;
 
 /// What a job says, stable names with units.
@@ -106,6 +107,12 @@ fn findings(files: &Files, path: &Path, flags: &ProgramArgs) -> Answer<JobFindin
     let mut warnings: Vec<Warning> = of_model(&model).collect();
     warnings.extend(no_potential(&model.mechanism));
     warnings.extend(kinetostat_machining::of_program(&motion, None));
+    warnings.extend(kinetostat_machining::origin_in_metres(
+        &machine.mechanism,
+        &machine.placement,
+        &motion,
+    ));
+    outputs_can_be(&setting)?;
     let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
     let corners = extent(&motion);
     let q = &machine.question;
@@ -183,23 +190,27 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
     found
 }
 
+/// What a compensation would refuse of its outputs, files that exist apart: these are told in the list.
+fn outputs_can_be(setting: &Setting) -> Answer<()> {
+    let mut others: Vec<(&'static str, &Path)> = Vec::new();
+    for (what, path) in setting.targets.named() {
+        may_be_written(what, path, &setting.inputs, &others)?;
+        others.push((what, path));
+    }
+    Ok(())
+}
+
 fn outputs(targets: &Targets) -> Vec<OutputFinding> {
-    [
-        ("compensated program", &targets.program),
-        ("report", &targets.report),
-        ("result", &targets.json),
-        ("table of points", &targets.points),
-    ]
-    .into_iter()
-    .filter_map(|(what, path)| {
-        let path = path.as_ref()?;
-        Some(OutputFinding {
-            what,
-            path: path.display().to_string(),
-            exists: path.exists(),
+    targets
+        .named()
+        .filter_map(|(what, path)| {
+            Some(OutputFinding {
+                what,
+                path: path.display().to_string(),
+                exists: path.exists(),
+            })
         })
-    })
-    .collect()
+        .collect()
 }
 
 fn in_words(f: &JobFindings) -> String {

@@ -308,14 +308,9 @@ struct Entry {
 
 fn from_toml(file: &str, text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
     let source = Source { file, text };
-    let document: Document = toml::from_str(text).map_err(|e| {
-        let span = e.span().unwrap_or(0..0);
-        source.error(
-            span,
-            e.message(),
-            "write schema = 1 and, for each pose, [[pose]] with joints = { ... } and tool = { position_mm = [...], ... }",
-        )
-    })?;
+    let document: Document = source.read_as(
+        "write schema = 1 and, for each pose, [[pose]] with joints = { ... } and tool = { position_mm = [...], ... }",
+    )?;
     if document.schema != 1 {
         return Err(Failure::input(format!(
             "{file}: this is version {} of the format; version 1 is read here",

@@ -2,13 +2,16 @@
 
 use std::ops::Range;
 
-use kinetostat_model::{Problem, Severity};
+use kinetostat_model::{Problem, Severity, exact_toml};
 use serde::de::DeserializeOwned;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::failure::{Failure, safe};
-use crate::orientation::nearest;
+use crate::orientation::{CONVENTIONS, nearest};
+
+/// What is said of a mistake in a job file that is not of the usual kinds.
+const HELP: &str = "correct this value; `kinetostat help compensate` shows a whole job file";
 
 /// A text with its name, for messages.
 #[derive(Clone, Copy, Debug)]
@@ -34,13 +37,18 @@ impl Source<'_> {
         Failure::located(plain, problem.rendered(true).to_owned(), span)
     }
 
-    /// Reads TOML into a type; every mistake is told with its line and what to do.
+    /// Reads a job file's TOML into a type; every mistake is told with its line and what to do.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T, Failure> {
+        self.read_as(HELP)
+    }
+
+    /// Reads TOML into a type; `help` is what is said of a mistake that is not of the usual kinds.
+    pub(crate) fn read_as<T: DeserializeOwned>(&self, help: &str) -> Result<T, Failure> {
         let tree = DeTable::parse(self.text).map_err(|error| self.syntax(&error))?;
         if let Some(span) = self.not_finite(&tree).into_iter().next() {
             return Err(self.endless(span));
         }
-        toml::from_str(self.text).map_err(|error| self.content(&error))
+        exact_toml(self.text).map_err(|error| self.wrong(&error, help))
     }
 
     /// Places of all numbers that are nan or infinite.
@@ -76,6 +84,10 @@ impl Source<'_> {
     }
 
     pub(crate) fn content(&self, error: &toml::de::Error) -> Failure {
+        self.wrong(error, HELP)
+    }
+
+    fn wrong(&self, error: &toml::de::Error, help: &str) -> Failure {
         let message = error.message();
         let span = error.span().unwrap_or(0..0);
         if let Some(found) = quoted(message, "unknown field ") {
@@ -92,7 +104,7 @@ impl Source<'_> {
             return self.error(
                 span,
                 &format!("'{found}' is not known here"),
-                &format!("write one of: {}", known.join(", ")),
+                &words_known(&found, &known),
             );
         }
         if let Some(missing) = quoted(message, "missing field ") {
@@ -106,15 +118,8 @@ impl Source<'_> {
                 &format!("add  {missing} = {example}"),
             );
         }
-        if let Some((given, needed)) = message
-            .strip_prefix("invalid length ")
-            .and_then(|rest| rest.split_once(", expected an array of length "))
-        {
-            return self.error(
-                span,
-                &format!("{needed} values are needed, {given} are given"),
-                "write them as [x, y, z]",
-            );
+        if let Some(help) = help_on_length(message) {
+            return self.error(span, message, &help);
         }
         let words = message
             .replace("invalid type: ", "found ")
@@ -132,11 +137,34 @@ impl Source<'_> {
             Some((before, _)) => format!("{before}a table {{ key = value, ... }} is needed"),
             None => words,
         };
-        self.error(
-            span,
-            &words,
-            "correct this value; `kinetostat help compensate` shows a whole job file",
-        )
+        self.error(span, &words, help)
+    }
+}
+
+/// How a list of the wrong length is written, if that is what the message says.
+fn help_on_length(message: &str) -> Option<String> {
+    let (needed, rest) = message.split_once(" values are needed, ")?;
+    let given = rest.strip_suffix(" are given")?;
+    let [needed, given] = [needed, given].map(|n| n.parse::<usize>().ok());
+    let needed = needed?;
+    let form = match needed {
+        3 => "write them as [x, y, z]".to_owned(),
+        _ => format!("write {needed} values in the brackets"),
+    };
+    Some(match given? > needed {
+        true => format!("{form}; numbers take a decimal point, not a comma: 1.5, not 1,5"),
+        false => form,
+    })
+}
+
+/// What can stand for a word that is not known; orientations have keys of their own.
+fn words_known(found: &str, known: &[String]) -> String {
+    let known = known.join(", ");
+    match CONVENTIONS.contains(&found) {
+        true => format!(
+            "write one of: {known}; an orientation itself stands in  part_orientation = {{ {found} = [...] }}  or  tool_orientation = {{ {found} = [...] }}"
+        ),
+        false => format!("write one of: {known}"),
     }
 }
 

@@ -87,6 +87,15 @@ impl Failure {
         }
     }
 
+    /// The same failure, with what may be its reason.
+    pub(crate) fn with_reason(mut self, reason: &str) -> Self {
+        if self.code != Code::Stopped {
+            self.plain = format!("{}. Perhaps the reason: {}", self.plain, safe(reason));
+            self.styled = None;
+        }
+        self
+    }
+
     /// The same failure, told to be in a file.
     pub(crate) fn within(mut self, place: &str) -> Self {
         self.plain = format!("{}: {}", safe(place), self.plain);

@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use serde::Deserialize;
+use kinetostat_model::exact;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -51,14 +51,13 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     // What has the wrong form: unknown keys, words for numbers, numbers that are none.
     for span in source.not_finite(&tree) {
         add(&mut found, source.endless(span.clone()));
-        let key = take_out(tree.get_mut(), &span);
-        taken.extend(key.map(|key| (key, span)));
+        take(tree.get_mut(), span, &mut taken);
     }
-    while Job::deserialize(toml::de::Deserializer::from(tree.clone()))
+    while read(&tree)
         .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found, &mut taken))
     {}
     // What has no meaning: each part of the question as far as it can be read.
-    if let Ok(job) = Job::deserialize(toml::de::Deserializer::from(tree.clone()))
+    if let Ok(job) = read(&tree)
         && let Err(failure) = Job::version(source, &job)
     {
         add(&mut found, failure);
@@ -86,7 +85,7 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     ];
     for part in parts {
         for _ in 0..MOST {
-            let Ok(job) = Job::deserialize(toml::de::Deserializer::from(tree.clone())) else {
+            let Ok(job) = read(&tree) else {
                 break;
             };
             let job = JobFile {
@@ -98,12 +97,14 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
             if failure.code != Code::WrongInput {
                 break;
             }
-            let span = failure.place.clone();
-            add(&mut found, failure);
-            if span
-                .and_then(|span| take_out(tree.get_mut(), &span))
-                .is_none()
-            {
+            let Some(span) = failure.place.clone() else {
+                add(&mut found, failure);
+                break;
+            };
+            if !follows(&span, &taken) {
+                add(&mut found, failure);
+            }
+            if !take(tree.get_mut(), span, &mut taken) {
                 break;
             }
         }
@@ -119,6 +120,16 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     // In the order of the file; what has no line there comes last.
     found.sort_by_key(|f| f.place.as_ref().map_or(usize::MAX, |span| span.start));
     Some(Failure::together(found))
+}
+
+fn read(tree: &Spanned<DeTable<'_>>) -> Result<Job, toml::de::Error> {
+    exact(toml::de::Deserializer::from(tree.clone()))
+}
+
+/// Whether a place holds something that was taken out with a message of its own: what is missing there,
+/// or left over, follows from that.
+fn follows(place: &Range<usize>, taken: &[(String, Range<usize>)]) -> bool {
+    taken.iter().any(|(_, span)| holds(place, span))
 }
 
 fn add(found: &mut Vec<Failure>, failure: Failure) {
@@ -143,10 +154,12 @@ fn put_right(
     let span = error.span().unwrap_or(0..0);
     let missing = Source::missing(error);
     // What was taken out above with a message of its own is not missing.
-    let was_there = missing.as_ref().is_some_and(|missing| {
-        let mut all = taken.iter();
-        all.any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place)))
-    });
+    let was_there = match &missing {
+        Some(missing) => taken
+            .iter()
+            .any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place))),
+        None => follows(&span, taken),
+    };
     if !was_there {
         let before = found.len();
         add(found, source.content(error));
@@ -167,10 +180,44 @@ fn put_right(
         };
         return table.insert(key, value).is_none();
     }
-    let key = take_out(tree.get_mut(), &span);
-    let found = key.is_some();
-    taken.extend(key.map(|key| (key, span)));
-    found
+    take(tree.get_mut(), span, taken)
+}
+
+/// Takes out what stands at a place and notes it, and the table that lacks it now; false where nothing is there.
+fn take(
+    table: &mut DeTable<'_>,
+    span: Range<usize>,
+    taken: &mut Vec<(String, Range<usize>)>,
+) -> bool {
+    let around = around(table, &span);
+    let Some(key) = take_out(table, &span) else {
+        return false;
+    };
+    // The place of a table under a header is the header: what is taken from it lies elsewhere.
+    taken.extend(around.map(|table| (String::new(), table)));
+    taken.push((key, span));
+    true
+}
+
+/// The place of the innermost table with an entry that a place lies in; none for the whole file.
+fn around(table: &DeTable<'_>, span: &Range<usize>) -> Option<Range<usize>> {
+    let tables = table.values().flat_map(|value| match value.get_ref() {
+        DeValue::Array(list) => list.iter().collect(),
+        _ => vec![value],
+    });
+    for value in tables {
+        let DeValue::Table(inner) = value.get_ref() else {
+            continue;
+        };
+        if let Some(found) = around(inner, span) {
+            return Some(found);
+        }
+        let mut entries = inner.iter();
+        if entries.any(|(key, value)| holds(&key.span(), span) || holds(&value.span(), span)) {
+            return Some(value.span());
+        }
+    }
+    None
 }
 
 fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {

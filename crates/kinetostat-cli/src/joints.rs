@@ -1,6 +1,7 @@
 //! Joint values on the command line and in answers: the model's, and what the pendant shows.
 
 use kinetostat::{Mechanism, MotionKind};
+use kinetostat_machining::number::without_zeros;
 use kinetostat_model::schema::ControllerUnit;
 use kinetostat_model::{Controller, Model};
 use serde::Serialize;
@@ -86,12 +87,7 @@ pub(crate) fn in_words(label: &str, values: &[JointValue]) -> String {
 
 /// At most four decimals.
 pub(crate) fn plain(value: f64) -> String {
-    let text = fixed(value, 4);
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short.is_empty() || short == "-" || short == "-0" {
-        return "0".to_owned();
-    }
-    short.to_owned()
+    without_zeros(&fixed(value, 4)).to_owned()
 }
 
 /// Commands (m, rad) of `--joints` or `--pendant`; `None` if neither is given. What is not named

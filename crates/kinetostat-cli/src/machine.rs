@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat_machining::number::without_zeros;
 use kinetostat_machining::{
     Bounds, CornerLoad, CuttingLoad, LoadAxes, Placement, ProgramLoad, Question, ToolGiven,
     Warning, WarningCode, straight_tool,
@@ -202,8 +203,7 @@ pub(crate) fn deviations_in_words(model: &Model) -> Vec<String> {
 
 /// A number as short as it can be at four decimals.
 pub(crate) fn short(value: f64) -> String {
-    let text = fixed(value, 4);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    without_zeros(&fixed(value, 4)).to_owned()
 }
 
 /// The tools of `[[tools]]`, and all tools in words.

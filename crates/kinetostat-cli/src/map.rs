@@ -1,7 +1,9 @@
 //! `kinetostat map`: stiffness, and deflection under a load, on a grid of places.
 
 use kinetostat::Wrench;
-use kinetostat_machining::{Grid, MapPlace, MapTask, PlaceState, Warning, map, straight_tool};
+use kinetostat_machining::{
+    Grid, MapPlace, MapTask, PlaceState, Warning, large_load, map, straight_tool,
+};
 use kinetostat_report::{Cell, Plot, PlotLine, Section};
 use nalgebra::Vector3;
 
@@ -9,7 +11,7 @@ use crate::along;
 use crate::failure::{Answer, Failure};
 use crate::input::Files;
 use crate::machine::{deviations_in_words, no_potential, of_model, short};
-use crate::map_answer::{Figures, MapAnswer};
+use crate::map_answer::{Figures, MapAnswer, Places};
 use crate::map_args::{MapArgs, Quantity};
 use crate::map_table::{self, Columns};
 use crate::orientation;
@@ -70,6 +72,9 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let (figures, picture) = along::in_threads(args.threads, work)??;
     if figures.places.with_figures() == 0 {
         let p = &figures.places;
+        if p.no_answer > 0 {
+            return Err(no_equilibrium(&task, p));
+        }
         return Err(Failure::unanswered(format!(
             "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
             match p.asked {
@@ -83,6 +88,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     }
     let mut warnings: Vec<Warning> = of_model(&model).collect();
     warnings.extend(no_potential(&model.mechanism));
+    warnings.extend(load.iter().flat_map(large_load));
     let turned = figures.largest_turn_deg;
     if follows {
         warnings.push(orientation::follows(turned, asked.is_some(), true));
@@ -121,6 +127,27 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         return screen::print_bytes(along::json(&answer)?.as_bytes());
     }
     screen::print(Stream::Out, &text)
+}
+
+/// No place has an answer, and places are within reach: the load is the reason.
+fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
+    let wrench = task.load.unwrap_or_else(Wrench::zero);
+    let counts = match places.asked {
+        1 => String::new(),
+        _ => format!(
+            " (no equilibrium: {}; cannot be reached: {}; outside the limits of an actuator: {})",
+            places.no_answer, places.unreachable, places.outside_limits
+        ),
+    };
+    Failure::unanswered(format!(
+        "no equilibrium was found {} under the force {} N and the moment {} N m{counts}: the load may be beyond what the machine can carry; check the load and its unit, or try a part of it",
+        match places.asked {
+            1 => "at the place".to_owned(),
+            n => format!("at any of the {n} places"),
+        },
+        triple(wrench.force().into(), short),
+        triple(wrench.moment().into(), short),
+    ))
 }
 
 /// Goes through the grid: the table is written, figures and picture are gathered.

@@ -46,6 +46,83 @@ impl Claimed {
     }
 }
 
+fn refused(what: &str, target: &Path, reason: &str) -> Failure {
+    Failure::input(format!(
+        "the {what} cannot be written to '{}': {reason}",
+        target.display()
+    ))
+}
+
+/// Whether a target can be an output beside others that were named before: it is no input and no other output,
+/// its directory is there, and it is no link. Whether a file that exists may be replaced is another question.
+pub(crate) fn may_be_written(
+    what: &str,
+    target: &Path,
+    inputs: &[PathBuf],
+    others: &[(&'static str, &Path)],
+) -> Answer<()> {
+    let refuse = |reason: &str| refused(what, target, reason);
+    if target.file_name().is_none() {
+        return Err(refuse("this is no file name; name a file"));
+    }
+    let parent = parent_of(target);
+    match fs::metadata(&parent) {
+        Ok(found) if !found.is_dir() => {
+            return Err(refuse(&format!(
+                "'{}' is a file, not a directory",
+                parent.display()
+            )));
+        }
+        Ok(_) => {}
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            return Err(refuse(&format!(
+                "the directory '{}' does not exist; create it first",
+                parent.display()
+            )));
+        }
+        Err(error) => {
+            return Err(refuse(&format!(
+                "the directory '{}' cannot be looked at: {}",
+                parent.display(),
+                in_words(&error)
+            )));
+        }
+    }
+    for input in inputs {
+        if same_file(input, target) {
+            return Err(refuse(&format!(
+                "it is the same file as the input '{}'; inputs are never overwritten, choose another name",
+                input.display()
+            )));
+        }
+    }
+    if let Some((other, _)) = others
+        .iter()
+        .find(|(_, path)| same_file(path, target) || same_place(path, target))
+    {
+        return Err(refuse(&format!(
+            "the {other} goes there too; choose different names"
+        )));
+    }
+    match fs::symlink_metadata(target) {
+        Ok(found) if found.file_type().is_symlink() => {
+            return Err(refuse(
+                "it is a symbolic link, and outputs do not follow links; name the file itself or remove the link",
+            ));
+        }
+        Ok(found) if found.is_dir() => {
+            return Err(refuse("it is a directory; name a file in it"));
+        }
+        Ok(found) if !found.is_file() => {
+            return Err(refuse("it is a device or a pipe, not a file"));
+        }
+        Ok(_) => {}
+        Err(error) if error.kind() == ErrorKind::NotFound => {}
+        Err(error) => return Err(refuse(&in_words(&error))),
+    }
+    Ok(())
+}
+
 /// The outputs of one command.
 pub(crate) struct Outputs {
     existing: Existing,
@@ -67,77 +144,18 @@ impl Outputs {
 
     /// Checks a target before the long work begins: it may be written, and it is no input.
     pub(crate) fn claim(&mut self, what: &'static str, target: &Path) -> Answer<usize> {
-        let refuse = |reason: &str| {
-            Failure::input(format!(
-                "the {what} cannot be written to '{}': {reason}",
-                target.display()
-            ))
-        };
-        if target.file_name().is_none() {
-            return Err(refuse("this is no file name; name a file"));
-        }
-        let parent = parent_of(target);
-        match fs::metadata(&parent) {
-            Ok(found) if !found.is_dir() => {
-                return Err(refuse(&format!(
-                    "'{}' is a file, not a directory",
-                    parent.display()
-                )));
-            }
-            Ok(_) => {}
-            Err(error) if error.kind() == ErrorKind::NotFound => {
-                return Err(refuse(&format!(
-                    "the directory '{}' does not exist; create it first",
-                    parent.display()
-                )));
-            }
-            Err(error) => {
-                return Err(refuse(&format!(
-                    "the directory '{}' cannot be looked at: {}",
-                    parent.display(),
-                    in_words(&error)
-                )));
-            }
-        }
-        for input in &self.inputs {
-            if same_file(input, target) {
-                return Err(refuse(&format!(
-                    "it is the same file as the input '{}'; inputs are never overwritten, choose another name",
-                    input.display()
-                )));
-            }
-        }
-        if let Some(other) = self
+        let others: Vec<(&'static str, &Path)> = self
             .claimed
             .iter()
-            .find(|c| same_file(&c.target, target) || same_place(&c.target, target))
-        {
-            return Err(refuse(&format!(
-                "the {} goes there too; choose different names",
-                other.what
-            )));
-        }
-        let journal = self.journal(&parent);
-        match fs::symlink_metadata(target) {
-            Ok(found) if found.file_type().is_symlink() => {
-                return Err(refuse(
-                    "it is a symbolic link, and outputs do not follow links; name the file itself or remove the link",
-                ));
-            }
-            Ok(found) if found.is_dir() => {
-                return Err(refuse("it is a directory; name a file in it"));
-            }
-            Ok(found) if !found.is_file() => {
-                return Err(refuse("it is a device or a pipe, not a file"));
-            }
-            Ok(_) if self.existing == Existing::Refuse => {
-                return Err(refuse(
-                    "it exists already; choose another name, or allow it with --force-overwrite",
-                ));
-            }
-            Ok(_) => {}
-            Err(error) if error.kind() == ErrorKind::NotFound => {}
-            Err(error) => return Err(refuse(&in_words(&error))),
+            .map(|c| (c.what, c.target.as_path()))
+            .collect();
+        may_be_written(what, target, &self.inputs, &others)?;
+        let refuse = |reason: &str| refused(what, target, reason);
+        let journal = self.journal(&parent_of(target));
+        if self.existing == Existing::Refuse && fs::symlink_metadata(target).is_ok() {
+            return Err(refuse(
+                "it exists already; choose another name, or allow it with --force-overwrite",
+            ));
         }
         let (journal, file) = journal
             .and_then(|index| Ok((index, self.journals[index].part()?)))

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use kinetostat::{LimbPosture, Mechanism, Pose, Posture, Wrench};
 use kinetostat_machining::number::{apart, mean_length};
 use kinetostat_machining::{
-    NearSingular, Warning, WarningCode, natural_length, near_singular, straight_tool,
+    NearSingular, Warning, WarningCode, large_load, natural_length, near_singular, straight_tool,
 };
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
@@ -117,6 +117,8 @@ pub(crate) fn spot_of(
     let load = |name: &str, values: Option<&[f64]>| {
         values.map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
     };
+    let wrench = Wrench::new(load("--force", force)?, load("--moment", moment)?);
+    warnings.extend(large_load(&wrench));
     Ok(Spot {
         name: read.name().to_owned(),
         source: match &path {
@@ -135,7 +137,7 @@ pub(crate) fn spot_of(
         followed,
         joints,
         controller: read.controller.clone(),
-        wrench: Wrench::new(load("--force", force)?, load("--moment", moment)?),
+        wrench,
         inputs: path.into_iter().collect(),
         deviations: deviations_in_words(read),
         warnings,

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use kinetostat_machining::number::{Rounding, fixed, significant};
+use kinetostat_machining::number::{Rounding, fixed, significant, without_zeros};
 use kinetostat_machining::{PointKind, PointResult, Question, thinned};
 use kinetostat_model::Controller;
 
@@ -159,11 +159,7 @@ pub(crate) fn digits(value: f64, count: usize) -> String {
 }
 
 fn short(text: String) -> String {
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    without_zeros(&text).to_owned()
 }
 
 /// Decimals: 1 nm for errors and corrections (the rounding of a program is 100 nm), 100 nm for places,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use kinetostat_machining::number::counted;
+use kinetostat_machining::number::{counted, without_zeros};
 use kinetostat_machining::{RunError, Watch};
 use kinetostat_reproduce::{Entry, IDS, Item, ReproduceError, Status, all, html, one};
 
@@ -105,11 +105,7 @@ fn computed_text(item: &Item) -> String {
     let Some(value) = item.computed else {
         return String::new();
     };
-    let text = number(value, 10);
-    if text.contains('.') && !text.contains('e') {
-        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
-    }
-    text
+    without_zeros(&number(value, 10)).to_owned()
 }
 
 /// One entry as a table. Numbers without print are many (they are points of figures): with all

@@ -62,6 +62,20 @@ pub(crate) struct Targets {
     pub(crate) points: Option<PathBuf>,
 }
 
+impl Targets {
+    /// Those that are asked for, with what they are.
+    pub(crate) fn named(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        [
+            ("compensated program", &self.program),
+            ("report", &self.report),
+            ("result", &self.json),
+            ("table of points", &self.points),
+        ]
+        .into_iter()
+        .filter_map(|(what, path)| Some((what, path.as_deref()?)))
+    }
+}
+
 /// Everything that decides a run along a program, the model apart.
 pub(crate) struct Setting {
     pub(crate) program: Vec<u8>,

@@ -662,3 +662,152 @@ fn figure_one_figure_in_a_wrong_unit_never_passes_in_silence() {
         "figure {{\"name\":\"absurd units: one figure scaled\",\"measured\":{runs},\"asked\":\"none in silence\",\"unit\":\"runs, {refused} refused, {warned} warned, {silent} usual\",\"holds\":true}}"
     );
 }
+
+/// An analysis answers loads that a program would be refused for, and says so; at a place as on a map.
+#[test]
+fn a_load_beyond_the_limits_is_told_wherever_it_is_asked() {
+    let here = workplace();
+    let place: &[&[&str]] = &[
+        &["deflect", "hexapod"],
+        &["stiffness", "hexapod"],
+        &["map", "orthoglide", "--x", "-10", "10", "3"],
+    ];
+    for command in place {
+        for (load, told) in [
+            (["--force", "0", "0", "-4999"], false),
+            (["--force", "0", "0", "-6000"], true),
+            (["--moment", "0", "0", "199"], false),
+            (["--moment", "0", "0", "250"], true),
+        ] {
+            let words = [command, &load[..], &["--json"]].concat();
+            let said = run(here.path(), &words);
+            let answer: Value = serde_json::from_str(&said.out).expect("JSON");
+            let list = answer["warnings"].as_array().expect("a list");
+            let found = list.iter().find(|w| w["code"] == "over_limit");
+            assert_eq!(found.is_some(), told, "{words:?}: {said:?}");
+            if let Some(warning) = found {
+                let message = warning["message"].as_str().expect("a text");
+                assert!(message.contains("that are allowed. Usual: "), "{message}");
+                assert!(!message.contains("--limit"), "{message}");
+                assert!(said.err.contains("more than the"), "{}", said.err);
+            }
+        }
+    }
+    let said = run(
+        here.path(),
+        &["deflect", "hexapod", "--force", "0", "0", "-1e7"],
+    );
+    let shown = format!("{}{}", said.out, said.err);
+    assert!(shown.contains("more than the 5000 N"), "{said:?}");
+}
+
+/// Where the load is the reason, the place is not blamed.
+#[test]
+fn a_map_without_an_equilibrium_blames_the_load() {
+    let here = workplace();
+    let at = ["map", "orthoglide", "--x", "0", "--y", "0", "--z", "0"];
+    for force in ["1e12", "1e300"] {
+        let words = [&at[..], &["--force", "0", "0", force]].concat();
+        let said = run(here.path(), &words);
+        if said.code == 0 {
+            continue;
+        }
+        assert_eq!(said.code, 2, "{said:?}");
+        assert!(
+            said.err.contains("no equilibrium was found"),
+            "{}",
+            said.err
+        );
+        assert!(!said.err.contains("choose places"), "{}", said.err);
+    }
+    let said = run(
+        here.path(),
+        &["map", "orthoglide", "--x", "5000", "--force", "0", "0", "1"],
+    );
+    assert!(said.err.contains("choose places"), "{}", said.err);
+}
+
+/// An origin of the part in metres puts a large machine's base into the part.
+#[test]
+fn an_origin_in_metres_smells_in_every_command() {
+    let here = workplace();
+    std::fs::write(here.path().join("arm.toml"), arm()).expect("a model");
+    let smell = "check the unit of part_origin_mm";
+    for (origin, smells) in [
+        ("[1.05, 0, 1.0]", true),
+        ("[1.05, -0.03, 0.9]", true),
+        ("[0, 0, 0.5]", true),
+        ("[1050, 0, 1000]", false),
+        ("[0, 0, 0]", false),
+        ("[12, 0, 1000]", false),
+    ] {
+        let job = ARM_JOB.replace("[1050, 0, 1000]", origin);
+        std::fs::write(here.path().join("job.toml"), job).expect("a job");
+        for words in [
+            vec!["check", "job.toml"],
+            vec!["deflect", "job.toml"],
+            vec!["compensate", "job.toml", "--force-overwrite"],
+        ] {
+            let said = run(here.path(), &words);
+            let text = format!("{} {}", said.out, said.err);
+            let flat: Vec<&str> = text.split_whitespace().collect();
+            let told = flat.join(" ").contains(smell);
+            assert_eq!(told, smells, "{origin} {words:?}: {said:?}");
+        }
+    }
+}
+
+/// What a compensation refuses of its outputs, the check of the job refuses too.
+#[test]
+fn a_check_refuses_the_outputs_that_a_compensation_refuses() {
+    let here = workplace();
+    std::fs::write(here.path().join("arm.toml"), arm()).expect("a model");
+    std::fs::create_dir(here.path().join("folder")).expect("a directory");
+    for (outputs, refused) in [
+        ("program = \"part.ngc\"", true),
+        ("program = \"./part.ngc\"", true),
+        ("program = \"arm.toml\"", true),
+        ("program = \"job.toml\"", true),
+        ("program = \"out.ngc\"\nreport = \"out.ngc\"", true),
+        (
+            "program = \"out.ngc\"\nreport = \"folder/../out.ngc\"",
+            true,
+        ),
+        ("program = \"out.ngc\"\njson = \"r\"\npoints = \"r\"", true),
+        ("report = \"part-compensated.ngc\"", true),
+        ("program = \"folder\"", true),
+        ("program = \"gone/out.ngc\"", true),
+        (
+            "program = \"out.ngc\"\nreport = \"r.html\"\njson = \"r.json\"",
+            false,
+        ),
+    ] {
+        let job = ARM_JOB.replace("program = \"out.ngc\"", outputs);
+        std::fs::write(here.path().join("job.toml"), job).expect("a job");
+        let checked = run(here.path(), &["check", "job.toml"]);
+        assert_eq!(checked.code == 1, refused, "{outputs}: {checked:?}");
+        let made = run(here.path(), &["compensate", "job.toml"]);
+        assert_eq!(made.code == 1, refused, "{outputs}: {made:?}");
+        assert!(!refused || checked.err == made.err, "{checked:?} {made:?}");
+    }
+}
+
+/// The limit of blocks per second holds in programs that are shorter than the row that a peak is taken over.
+#[test]
+fn a_limit_of_blocks_per_second_holds_in_short_programs() {
+    let here = workplace();
+    let limit = ["--limit", "blocks_per_second=0.1"];
+    let (said, _) = compensated(here.path(), ARM_JOB, &arm(), &limit);
+    let refused = said.err.contains("--limit blocks_per_second=");
+    let result = compensated(here.path(), ARM_JOB, &arm(), &[]).0;
+    assert_eq!(result.code, 0, "{result:?}");
+    let text = std::fs::read_to_string(here.path().join("r.json")).expect("a result");
+    let summary: Value = serde_json::from_str::<Value>(&text).expect("JSON")["summary"].take();
+    let [before, after] = ["before", "after"].map(|when| {
+        let rate = |kind: &str| summary[format!("{kind}_blocks_per_second_{when}")].as_f64();
+        rate("peak")
+            .or_else(|| rate("mean"))
+            .expect("feeds per minute")
+    });
+    assert_eq!(refused, after > 0.1 && after > 1.05 * before, "{summary}");
+}

@@ -3,7 +3,7 @@
 
 use kinetostat::number::{largest, largest_length, length_setting, short};
 use kinetostat::{Mechanism, MotionKind, Pose, Wrench};
-use kinetostat_program::{Accounting, Corrected};
+use kinetostat_program::{Accounting, Corrected, Knowledge};
 use nalgebra::Vector3;
 
 use crate::limits::{Beyond, Limits};
@@ -177,12 +177,16 @@ pub fn of_accounting(limits: &Limits, accounting: &Accounting) -> Vec<Beyond> {
         accounting.largest_correction_line,
         String::new(),
     );
-    let before = accounting.peak_blocks_per_second_in.unwrap_or(0.0);
-    // A program that was that dense before is not made so.
-    if let Some(rate) = accounting
+    // A program of a few blocks has no row over which a peak is taken: its mean is what is stated of it.
+    let before = accounting
+        .peak_blocks_per_second_in
+        .or(accounting.mean_blocks_per_second_in)
+        .unwrap_or(0.0);
+    let rate = accounting
         .peak_blocks_per_second
-        .filter(|r| *r > 1.05 * before)
-    {
+        .or(accounting.mean_blocks_per_second);
+    // A program that was that dense before is not made so.
+    if let Some(rate) = rate.filter(|r| *r > 1.05 * before) {
         over.above(
             "blocks_per_second",
             rate,
@@ -341,6 +345,24 @@ pub(crate) fn largest_by_own_weight(task: &Task<'_>, points: &[&PointResult]) ->
     sizes.max_by(f64::total_cmp)
 }
 
+/// A load of one place or of a map that is beyond the usual limits: an analysis warns where a program would be
+/// refused.
+#[must_use]
+pub fn large_load(wrench: &Wrench) -> Vec<Warning> {
+    let limits = Limits::default();
+    let mut over = Over {
+        limits: &limits,
+        found: Vec::new(),
+    };
+    over.above("force_n", wrench.force().norm(), None, String::new());
+    over.above("moment_n_m", wrench.moment().norm(), None, String::new());
+    // No limit is moved where no program is written.
+    over.found
+        .iter()
+        .map(|beyond| Warning::new(WarningCode::OverLimit, beyond.in_words()))
+        .collect()
+}
+
 /// What was found beyond a limit, where nothing is refused.
 pub(crate) fn as_warning(beyond: &Beyond) -> Warning {
     // The line is said once, by the warning itself.
@@ -421,6 +443,7 @@ pub(crate) fn odd(
             .iter()
             .filter_map(|tool| odd_tool(task, tool)),
     );
+    list.extend(origin_in_metres(task.mechanism, &task.placement, task.path));
     list.extend(outside_workspace(task, points));
     let limits = &task.bounds.limits;
     if let Some((size, at)) = most(points, |p| length(&p.correction_mm)).filter(|_| compensated) {
@@ -621,6 +644,50 @@ fn odd_tool(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
     })
 }
 
+/// Origins of parts that are nearer than this to the origin of a large machine may be metres, mm.
+const NEAR_MM: f64 = 10.0;
+
+/// Nearer ones would be nearer than that in metres too, where no large machine works, mm.
+const LEAST_MM: f64 = 0.05;
+
+/// Machines of this size, working as far from the origin of their base, are large, m.
+const LARGE_M: f64 = 0.3;
+
+/// A place of the part that was most likely written in metres: some millimetres from the origin of the base,
+/// so that the base of a large machine stands in the part.
+#[must_use]
+pub fn origin_in_metres(
+    mechanism: &Mechanism,
+    placement: &Placement,
+    path: &kinetostat_program::Path,
+) -> Option<Warning> {
+    let origin = 1e3 * placement.base_from_part.translation.vector;
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    // Machines whose base has its origin where they work have parts there.
+    let away = home.translation.vector.norm().min(mechanism.size());
+    if !(LEAST_MM..NEAR_MM).contains(&origin.amax()) || away <= LARGE_M {
+        return None;
+    }
+    let places = path
+        .moves
+        .iter()
+        .filter(|m| m.known != Knowledge::Nothing)
+        .map(|m| 1e3 * placement.tool_pose(&m.end).translation.vector);
+    let (low, high) = places
+        .map(|p| (p, p))
+        .reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))?;
+    let inside = (0..3).all(|k| low[k] <= NEAR_MM && high[k] >= -NEAR_MM);
+    inside.then(|| {
+        let [x, y, z] = [0, 1, 2].map(|k| short(origin[k]));
+        Warning::new(
+            WarningCode::OddPlacement,
+            format!(
+                "the program's zero lies at ({x}, {y}, {z}) mm, so that the machine's base stands in the part: check the unit of part_origin_mm (millimetres, not metres)"
+            ),
+        )
+    })
+}
+
 fn outside_workspace(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
     let (low, high) = task.bounds.workspace?;
     // With several tools the flange is not one.
@@ -698,6 +765,45 @@ pub(crate) fn tolerance(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A program of a few blocks has no row of sixteen; its limit holds all the same.
+    #[test]
+    fn the_rate_of_a_short_program_has_its_limit() {
+        let limits = Limits {
+            blocks_per_second: 0.3,
+            ..Limits::default()
+        };
+        for (peak, mean, before, refused) in [
+            (None, Some(0.5), None, true),
+            (None, Some(0.5), Some(0.1), true),
+            (None, Some(0.5), Some(0.49), false),
+            (None, Some(0.2), None, false),
+            (None, None, None, false),
+            (Some(0.5), Some(0.1), None, true),
+            (Some(0.2), Some(0.1), None, false),
+        ] {
+            let accounting = Accounting {
+                peak_blocks_per_second: peak,
+                mean_blocks_per_second: mean,
+                mean_blocks_per_second_in: before,
+                ..Accounting::default()
+            };
+            let found = of_accounting(&limits, &accounting);
+            assert_eq!(!found.is_empty(), refused, "{peak:?} {mean:?} {before:?}");
+        }
+    }
+
+    #[test]
+    fn a_load_of_a_place_is_large_where_that_of_a_program_is_refused() {
+        let limits = Limits::default();
+        let count = |force: f64, moment: f64| {
+            let wrench = Wrench::new(Vector3::z() * force, Vector3::x() * moment);
+            large_load(&wrench).len()
+        };
+        assert_eq!(count(limits.force_n, limits.moment_n_m), 0);
+        assert_eq!(count(-1.001 * limits.force_n, 0.0), 1);
+        assert_eq!(count(1e300, -1.001 * limits.moment_n_m), 2);
+    }
 
     /// A largest figure is never stated too small, and a length has a smallest figure as everywhere.
     #[test]

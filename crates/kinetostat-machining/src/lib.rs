@@ -29,7 +29,9 @@ mod warning;
 
 pub use field::ModelField;
 pub use figures::Figures;
-pub use judge::{Bounds, ToolGiven, odd_correction, odd_tolerances, of_accounting};
+pub use judge::{
+    Bounds, ToolGiven, large_load, odd_correction, odd_tolerances, of_accounting, origin_in_metres,
+};
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
 pub use load::{CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};

@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use kinetostat::number::{self, short};
+use kinetostat::number::{self, Rounding, short};
 use serde::{Deserialize, Serialize};
 
 /// Limits of a run, by name; units in the names.
@@ -77,6 +77,11 @@ impl Limit {
     #[must_use]
     pub fn takes(&self, value: f64) -> bool {
         (self.range[0]..=self.range[1]).contains(&value)
+    }
+
+    /// Whether it bounds a figure of the question, not one of the answer.
+    fn stated(&self) -> bool {
+        ["force_n", "moment_n_m"].contains(&self.name) || self.name.ends_with("tool_mm")
     }
 
     /// A value with the limit's unit.
@@ -252,22 +257,33 @@ impl Beyond {
     }
 }
 
-/// A figure and the bound that it leaves, with as many digits as tell them apart.
-fn apart(found: f64, allowed: f64) -> (String, String) {
+/// A figure and the bound that it leaves, with as many digits as tell them apart. What was stated stays as it
+/// was stated; what was found is rounded away from its bound, like the largest values beside it.
+fn apart(found: f64, allowed: f64, stated: bool) -> (String, String) {
+    let rounding = match (stated, found < allowed) {
+        (true, _) => Rounding::Nearest,
+        (false, true) => Rounding::Down,
+        (false, false) => Rounding::Up,
+    };
     let shown = |digits: usize| {
-        let of = |value: f64| number::trimmed(value, digits);
-        (of(found), of(allowed))
+        let found = number::significant(found, digits, rounding);
+        (
+            number::without_zeros(&found).to_owned(),
+            number::trimmed(allowed, digits),
+        )
     };
     let mut all = (number::DIGITS..=17).map(shown);
     let told = all.find(|(found, allowed)| found != allowed);
     told.unwrap_or_else(|| shown(number::DIGITS))
 }
 
-impl fmt::Display for Beyond {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(line) = self.line {
-            write!(f, "line {line}: ")?;
-        }
+impl Beyond {
+    /// What was found, what is allowed and what is usual, without the option that would allow it.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let line = self
+            .line
+            .map_or_else(String::new, |line| format!("line {line}: "));
         let unit = match self.limit.unit {
             "" => String::new(),
             unit => format!(" {unit}"),
@@ -281,13 +297,22 @@ impl fmt::Display for Beyond {
         } else {
             "more"
         };
+        let (found, allowed) = apart(self.found, self.allowed, self.limit.stated());
+        format!(
+            "{line}{}{place} is {found}{unit}, {side} than the {allowed}{unit} that are allowed. Usual: {}",
+            self.limit.what, self.limit.usual,
+        )
+    }
+}
+
+impl fmt::Display for Beyond {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = short(self.allowing());
-        let (found, allowed) = apart(self.found, self.allowed);
         let name = self.limit.name;
         write!(
             f,
-            "{}{place} is {found}{unit}, {side} than the {allowed}{unit} that are allowed. Usual: {}. If it is meant, write  --limit {name}={value}  or, in the job file under [limits],  {name} = {value}",
-            self.limit.what, self.limit.usual,
+            "{}. If it is meant, write  --limit {name}={value}  or, in the job file under [limits],  {name} = {value}",
+            self.in_words()
         )
     }
 }
@@ -326,6 +351,23 @@ mod tests {
         let named = |name: &str| Limits::named(name).expect("known").range_in_words();
         assert_eq!(named("tilt_deg"), "0.000001 to 180 deg can be allowed");
         assert_eq!(named("share_of_rating"), "0.001 to 1000 can be allowed");
+    }
+
+    /// The screen and the report round a largest value up; so does the refusal.
+    #[test]
+    fn a_figure_that_was_found_is_rounded_as_elsewhere() {
+        let said = |name: &str, found: f64, allowed: f64| {
+            let limit = Limits::named(name).expect("known");
+            let (found, _) = apart(found, allowed, limit.stated());
+            found
+        };
+        for rate in [560.0001, 560.4, 560.9999, 12.34, 0.31234] {
+            let largest = number::largest(rate, "");
+            let plain = number::without_zeros(&largest);
+            assert_eq!(said("blocks_per_second", rate, 0.3), plain);
+        }
+        assert_eq!(said("force_n", 5001.0, 5000.0), "5001");
+        assert_eq!(said("shortest_tool_mm", 0.18, 1.0), "0.18");
     }
 
     #[test]

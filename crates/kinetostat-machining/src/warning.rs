@@ -56,6 +56,8 @@ pub enum WarningCode {
     NoTool,
     /// A tool that is very short, or long beside the machine.
     OddTool,
+    /// A place of the part that looks like one in another unit.
+    OddPlacement,
     /// The program leaves the workspace that the model states.
     OutsideWorkspace,
     /// A place that the machine cannot take exactly: the nearest one is used.

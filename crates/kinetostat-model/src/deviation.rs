@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat::Pose;
+use kinetostat::{Pose, number};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::assemble::Findings;
@@ -276,12 +276,8 @@ fn words(d: &Deviation) -> String {
     };
     let limb = &d.limb;
     let fixed = |x: f64| {
-        let text = format!("{x:.4}");
-        let text = text.trim_end_matches('0').trim_end_matches('.');
-        match text {
-            "-0" => "0".to_owned(),
-            text => text.to_owned(),
-        }
+        let text = number::fixed(x, 4);
+        number::without_zeros(&text).to_owned()
     };
     if let Some(by) = d.longer_by_mm {
         let word = if by < 0.0 { "shorter" } else { "longer" };

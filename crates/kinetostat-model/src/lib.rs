@@ -72,6 +72,7 @@ mod check;
 mod controller;
 mod deviation;
 mod elastic;
+mod exact;
 mod file;
 mod hints;
 mod joint;
@@ -99,6 +100,7 @@ mod source;
 mod template;
 
 pub use controller::{Controller, ControllerAxis};
+pub use exact::{exact, exact_toml};
 pub use file::read_model;
 pub use link_matrix::doubts_of_link_matrix;
 pub use model::{Model, json_schema};

@@ -5,10 +5,13 @@
 //! the assembly turns them into SI once.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::{Error, IntoDeserializer, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::exact::wrong_length;
 pub use crate::schema_controller::{
     ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit,
 };
@@ -170,13 +173,48 @@ pub struct Placement {
 }
 
 /// A direction: a letter or three numbers (any length but zero).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Axis {
     /// Along a coordinate axis.
     Named(AxisName),
     /// Three components.
     Vector([f64; 3]),
+}
+
+/// By hand, so that what is wrong is said: the reader of alternatives says only that none of them fits.
+impl<'de> Deserialize<'de> for Axis {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(AxisVisitor)
+    }
+}
+
+struct AxisVisitor;
+
+impl<'de> Visitor<'de> for AxisVisitor {
+    type Value = Axis;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a direction such as \"x\", \"-z\" or [0, 0, 1]")
+    }
+
+    fn visit_str<E: Error>(self, word: &str) -> Result<Axis, E> {
+        AxisName::deserialize(word.into_deserializer()).map(Axis::Named)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Axis, A::Error> {
+        let (mut axis, mut given) = ([0.0; 3], 0);
+        while let Some(number) = list.next_element()? {
+            if let Some(entry) = axis.get_mut(given) {
+                *entry = number;
+            }
+            given += 1;
+        }
+        match given {
+            3 => Ok(Axis::Vector(axis)),
+            _ => Err(A::Error::custom(wrong_length(3, given))),
+        }
+    }
 }
 
 /// A coordinate axis and its sense.

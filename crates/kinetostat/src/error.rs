@@ -13,8 +13,8 @@ fn in_words<const N: usize>(kind: MotionKind, values: [f64; N]) -> String {
         MotionKind::Revolute => (1_f64.to_degrees(), "deg"),
     };
     let number = |value: &f64| {
-        let text = format!("{:.4}", value * factor);
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        let text = number::fixed(value * factor, 4);
+        number::without_zeros(&text).to_owned()
     };
     let numbers: Vec<String> = values.iter().map(number).collect();
     format!("{} {unit}", numbers.join(" .. "))

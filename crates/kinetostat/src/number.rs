@@ -98,11 +98,16 @@ pub fn short(value: f64) -> String {
 /// A number to the nearest, without zeros at its end.
 #[must_use]
 pub fn trimmed(value: f64, digits: usize) -> String {
-    let text = significant(value, digits, Rounding::Nearest);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
+    without_zeros(&significant(value, digits, Rounding::Nearest)).to_owned()
+}
+
+/// The text of a number without zeros at the end of its decimals. What has none, or has a power of ten
+/// behind them, stays as it is: zeros of `1e30` are the number's size.
+#[must_use]
+pub fn without_zeros(text: &str) -> &str {
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => text,
     }
 }
 
@@ -264,11 +269,7 @@ pub fn against(value_mm: f64, bound_mm: f64) -> (String, String) {
         if told {
             // The bound is a setting: zeros at its end say nothing.
             let (number, unit) = bound.split_once(' ').unwrap_or((&bound, ""));
-            let short = match number.contains('.') && !number.contains('e') {
-                true => number.trim_end_matches('0').trim_end_matches('.'),
-                false => number,
-            };
-            return (value, with_unit(short, unit));
+            return (value, with_unit(without_zeros(number), unit));
         }
     }
     // Beyond nine digits they are the same length.
@@ -352,6 +353,23 @@ mod tests {
         assert_eq!(setting(1500.0), "1500");
         assert_eq!(fixed(-0.0004, 3), "0.000");
         assert_eq!(fixed(-1234.56, 1), "-1234.6");
+    }
+
+    #[test]
+    fn zeros_of_a_power_of_ten_are_never_cut() {
+        for power in -300..=300 {
+            for lead in ["1", "-1", "2.5", "100"] {
+                let value: f64 = format!("{lead}e{power}").parse().unwrap();
+                for text in [short(value), setting(value), trimmed(value, 12)] {
+                    let read: f64 = text.parse().unwrap();
+                    assert!((read / value - 1.0).abs() < 1e-9, "{value:e}: {text}");
+                }
+                let shown = fixed(value, 4);
+                let read: f64 = without_zeros(&shown).parse().unwrap();
+                let least = 0.5e-4 + 1e-9 * value.abs();
+                assert!((read - value).abs() <= least, "{value:e}: {shown}");
+            }
+        }
     }
 
     /// What is read from a table and added to a place of 100 mm comes back with the rounding of that place.

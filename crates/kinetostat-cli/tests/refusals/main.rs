@@ -5,6 +5,7 @@ mod command_lines;
 #[path = "../common/mod.rs"]
 mod common;
 mod jobs;
+mod lists;
 mod models;
 mod programs;
 

@@ -236,7 +236,7 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
 pub fn read_section(text: &str, file: &str) -> Result<Section, ModelError> {
     let mut log = Log::default();
     let index = log.file(file, text);
-    toml::from_str(text).map_err(|e| {
+    kinetostat_model::exact_toml(text).map_err(|e| {
         let at = At {
             file: index,
             span: e.span().unwrap_or_default(),

@@ -85,7 +85,7 @@ pub(crate) fn read(loops: &LoopFile, robot: &mut Robot, log: &mut Log) -> Loops 
         span,
         element,
     };
-    let written: Written = match toml::from_str(&loops.text) {
+    let written: Written = match kinetostat_model::exact_toml(&loops.text) {
         Ok(written) => written,
         Err(e) => {
             log.error(

@@ -351,11 +351,7 @@ pub(crate) fn with_unit(value: f64, kind: MotionKind) -> String {
 
 /// A number for people: at most four digits after the point.
 fn tidy(x: f64) -> String {
-    let text = number::fixed(x, 4);
-    if !text.contains('.') || text.contains('e') {
-        return text;
-    }
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    number::without_zeros(&number::fixed(x, 4)).to_owned()
 }
 
 /// Closes the loops at home by the passive joints.
