@@ -203,12 +203,10 @@ fn outputs_can_be(setting: &Setting) -> Answer<()> {
 fn outputs(targets: &Targets) -> Vec<OutputFinding> {
     targets
         .named()
-        .filter_map(|(what, path)| {
-            Some(OutputFinding {
-                what,
-                path: path.display().to_string(),
-                exists: path.exists(),
-            })
+        .map(|(what, path)| OutputFinding {
+            what,
+            path: path.display().to_string(),
+            exists: path.exists(),
         })
         .collect()
 }
