@@ -203,6 +203,10 @@ pub(crate) fn deviations_in_words(model: &Model) -> Vec<String> {
 /// A number as short as it can be at four decimals.
 pub(crate) fn short(value: f64) -> String {
     let text = fixed(value, 4);
+    // Zeros at the end of an exponent count.
+    if text.contains('e') {
+        return text;
+    }
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
