@@ -103,13 +103,14 @@ impl<'e> Nearness<'e> {
         if text.is_empty() {
             text = "no limb has anything that could buckle".to_owned();
         }
+        let told = most;
         let most = self.most();
         text.push_str(match self.state.stable() {
             false if self.state.shapes_stable() => ": NOT STABLE, the tool does not stay",
             false => ": NOT STABLE",
             true if most > NEAR => ": NEAR BUCKLING",
             true if most > NOTICEABLE => ": stiffness changes noticeably with the load",
-            true if most > 0.0 => ": far from buckling",
+            true if told > NOTHING => ": far from buckling",
             true => "",
         });
         text
