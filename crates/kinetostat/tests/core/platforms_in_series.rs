@@ -82,7 +82,7 @@ fn stack(stages: &[Stage]) -> Mechanism {
     for (s, stage) in stages.iter().enumerate() {
         let step = planar(stage.at);
         home *= step;
-        let above = builder.platform(Platform::new(&format!("p{s}"), home));
+        let above = builder.platform(Platform::new(format!("p{s}"), home));
         for (k, [foot, head]) in stage.legs.iter().enumerate() {
             let way = point(&step, head) - foot;
             let along = way.y.atan2(way.x);
