@@ -2,13 +2,13 @@
 //! singular posture near.
 
 use kinetostat::{Error, MechanismEquilibrium, Posture, Wrench};
-use kinetostat_machining::number as formatter;
 use kinetostat_machining::{
     NEAR_SINGULAR, NearSingular, Warning, WarningCode, natural_length, near_singular,
 };
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
+use crate::free_machine::Nearness;
 use crate::machine::short;
 use crate::screen::{fixed, item, number, triple};
 
@@ -41,15 +41,19 @@ pub(crate) struct AssumptionsFinding {
     pub(crate) reference_force_n: Option<[f64; 3]>,
     /// What it does to the tool, mm.
     pub(crate) reference_deflection_mm: Option<f64>,
+    /// The machine stays in its shape under it; none where there is no equilibrium.
+    pub(crate) reference_stable: Option<bool>,
     /// By how much the stiffness matrix at rest would tell a wrong deflection, percent.
     pub(crate) linear_error_percent: Option<f64>,
     /// Force in the softest direction that moves the tool by 1 % of the natural length, N.
     pub(crate) small_up_to_n: Option<f64>,
-    /// Largest share of the way to buckling of any limb, with and without the load; 1 is buckling.
+    /// Largest share of the way to buckling of any limb under the reference load; 1 is buckling. None
+    /// where a load of `--force` has no equilibrium; without load where an assumed one is too much.
     pub(crate) largest_share_to_buckling: Option<f64>,
-    /// Largest compression of a link as a share of its Euler load.
+    /// Largest compression of a link as a share of its Euler load, then.
     pub(crate) largest_share_of_euler_load: Option<f64>,
-    /// How near the loads bring the machine with its tool free to instability, 1 is there.
+    /// How near it brings the machine with its tool free to instability, 1 is there; at least 1 or
+    /// none where it is not stable.
     pub(crate) largest_share_to_instability_of_free_machine: Option<f64>,
     /// The nearest singular posture, where one is near.
     pub(crate) near_singularity: Option<NearSingular>,
@@ -76,6 +80,7 @@ pub(crate) fn assumptions(
         share_without_load: shift.max(turn * length) / length,
         reference_force_n: None,
         reference_deflection_mm: None,
+        reference_stable: None,
         linear_error_percent: None,
         small_up_to_n: None,
         largest_share_to_buckling: None,
@@ -88,7 +93,7 @@ pub(crate) fn assumptions(
     found.scale(rest);
     found.without_load();
     let loaded = found.under(posture, rest, force);
-    found.buckling(posture, rest, loaded.as_ref());
+    found.buckling(posture, rest, loaded.as_ref(), force.is_some());
     found.singular(length);
     found
 }
@@ -183,7 +188,8 @@ impl AssumptionsFinding {
         let mut jumps: Option<Vector3<f64>> = None;
         for case in cases {
             let told = linear(&case);
-            if told.norm() > TOO_MUCH * length {
+            // What was asked for is answered by what `deflect` finds, whatever first order says.
+            if force.is_none() && told.norm() > TOO_MUCH * length {
                 self.too_much(&case, told.norm());
                 return None;
             }
@@ -194,10 +200,18 @@ impl AssumptionsFinding {
                     continue;
                 }
                 Err(error) => {
-                    self.in_words.push(format!(
+                    let said = format!(
                         "a load of {} N has no equilibrium that could be found: {error}",
                         triple(case.into(), short)
-                    ));
+                    );
+                    if force.is_some() {
+                        self.reference_force_n = Some(case.into());
+                        let none = Warning::new(WarningCode::NoEquilibrium, said.clone());
+                        self.warnings.insert(0, none);
+                        self.in_words.insert(0, said);
+                    } else {
+                        self.in_words.push(said);
+                    }
                     continue;
                 }
             };
@@ -212,31 +226,46 @@ impl AssumptionsFinding {
                 let error = (moved - told).norm() / moved.norm().max(1e-15);
                 self.reference_force_n = Some(case.into());
                 self.reference_deflection_mm = Some(1e3 * moved.norm());
+                self.reference_stable = Some(loaded.stable());
                 self.linear_error_percent = Some(100.0 * error);
                 worst = Some((moved.norm(), case, loaded));
             }
         }
         if !free.is_empty() {
             let list: Vec<String> = free.iter().map(|f| triple((*f).into(), short)).collect();
-            self.in_words.push(format!(
+            let said = format!(
                 "nothing carries a load of {} N: it pushes in a free direction",
                 list.join(" or ")
-            ));
+            );
+            if force.is_some() {
+                self.warnings
+                    .push(Warning::new(WarningCode::FreeDirection, said.clone()));
+            }
+            self.in_words.push(said);
         }
         if let Some(case) = jumps {
             let said = format!(
-                "under a load of {} N on the tool the machine does not stay in its shape; see `kinetostat deflect`",
+                "under a load of {} N on the tool the machine does NOT stay in its shape: NOT STABLE; see `kinetostat deflect`",
                 triple(case.into(), short)
             );
             // What moves freely is not meant to carry the example load.
-            match free.is_empty() {
-                true => self
-                    .warnings
-                    .push(Warning::new(WarningCode::NotStable, said)),
-                false => self.in_words.push(said),
+            if free.is_empty() {
+                let first = Warning::new(WarningCode::NotStable, said.clone());
+                self.warnings.insert(0, first);
             }
+            self.in_words.insert(0, said);
         }
         let (moved, case, loaded) = worst?;
+        if force.is_some() {
+            let far = loaded.displacement.linear().norm();
+            let folds = crate::deflect::folds(far, posture.mechanism().size());
+            self.warnings.extend(folds);
+            if let Ok(Some(limit)) = posture.snaps_on_the_way(rest, &loaded) {
+                let snaps = crate::deflect::snaps(&limit);
+                self.in_words.push(snaps.message.clone());
+                self.warnings.push(snaps);
+            }
+        }
         self.small(moved / length, &case);
         Some(loaded)
     }
@@ -259,7 +288,9 @@ impl AssumptionsFinding {
                 number(n, 2)
             )
         });
-        let error = self.linear_error_percent.unwrap_or(0.0);
+        // Less is rounding.
+        let error = self.linear_error_percent.filter(|e| *e > 1e-9);
+        let error = error.unwrap_or(0.0);
         let judged = if share <= SMALL {
             "small against the links"
         } else {
@@ -274,87 +305,38 @@ impl AssumptionsFinding {
         ));
     }
 
+    /// How near to buckling: under the load, if there is one and it is carried, and without it where
+    /// there is none or that is worse.
     fn buckling(
         &mut self,
         posture: &Posture<'_>,
         rest: &MechanismEquilibrium,
         loaded: Option<&MechanismEquilibrium>,
+        force_given: bool,
     ) {
-        let states = || std::iter::once(rest).chain(loaded);
-        let limbs = || states().flat_map(|e| &e.limbs);
-        let share_to_buckling = limbs()
-            .filter_map(|l| {
-                Some((
-                    l.stability.share_to_buckling.filter(|m| m.is_finite())?,
-                    &l.name,
-                ))
-            })
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        let link = limbs()
-            .flat_map(|l| {
-                l.link_loads
-                    .iter()
-                    .map(move |k| (k.share, &l.name, &k.link))
-            })
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        self.largest_share_to_buckling = share_to_buckling.map(|(m, _)| m);
-        self.largest_share_of_euler_load = link.map(|(s, _, _)| s);
-        let mut text = String::new();
-        let mut most = 0.0_f64;
-        if let Some((mu, limb)) = share_to_buckling {
-            most = most.max(mu);
-            text = if mu > 1e-9 {
-                format!(
-                    "the load brings limb '{limb}' {} of the way to buckling",
-                    formatter::share(mu)
-                )
-            } else {
-                "no load brings a limb towards buckling".to_owned()
-            };
+        let at_rest = Nearness::of(posture, rest);
+        let under = loaded.map(|e| Nearness::of(posture, e));
+        let judged = under.as_ref().or((!force_given).then_some(&at_rest));
+        if let Some(judged) = judged {
+            self.largest_share_to_buckling = judged.limb.map(|l| l.0);
+            self.largest_share_of_euler_load = judged.of_euler_load();
+            self.largest_share_to_instability_of_free_machine = judged.free;
         }
-        if let Some((share, limb, link)) = link.filter(|l| l.0 > 0.0) {
-            most = most.max(share);
-            let joint = if text.is_empty() { "" } else { "; " };
-            text.push_str(&format!(
-                "{joint}the link nearest to its Euler load is '{link}' of '{limb}', {} of it",
-                formatter::share(share)
-            ));
+        let worse =
+            at_rest.most() > NOTICEABLE && under.as_ref().is_none_or(|u| at_rest.most() > u.most());
+        let states = [
+            (Some(&at_rest).filter(|_| under.is_none() || worse), false),
+            (under.as_ref(), true),
+        ];
+        for (state, under_load) in states {
+            let Some(state) = state else { continue };
+            let said = state.in_words(under_load);
+            if state.near() {
+                self.warnings
+                    .push(Warning::new(WarningCode::NearBuckling, said.clone()));
+            }
+            self.in_words.push(said);
         }
-        let free = states().filter_map(|e| crate::free_machine::share(posture, e));
-        let free = free.max_by(f64::total_cmp);
-        self.largest_share_to_instability_of_free_machine = free;
-        if let Some(share) = free.filter(|s| *s > NOTICEABLE) {
-            let joint = if text.is_empty() { "" } else { "; " };
-            let nearest = if share > most {
-                ", which is nearest to instability,"
-            } else {
-                ""
-            };
-            text.push_str(&format!(
-                "{joint}the machine with its tool free{nearest} goes {} % of the way",
-                number(100.0 * share, 3)
-            ));
-            most = most.max(share);
-        }
-        if text.is_empty() {
-            text = "no limb has anything that could buckle".to_owned();
-        }
-        let judged = if most > 0.5 {
-            ": NEAR BUCKLING"
-        } else if most > NOTICEABLE {
-            ": stiffness changes noticeably with the load"
-        } else {
-            ": far from buckling"
-        };
-        if most > 0.5 {
-            let said = format!("{text}{judged}");
-            self.warnings
-                .push(Warning::new(WarningCode::NearBuckling, said));
-        }
-        if most > 0.0 {
-            text.push_str(judged);
-        }
-        self.in_words.push(text);
     }
 
     fn singular(&mut self, length: f64) {

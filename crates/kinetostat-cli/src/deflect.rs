@@ -12,6 +12,7 @@ use crate::along::{self, Aim, Files as Targets, tell};
 use crate::args::DeflectArgs;
 use crate::failure::{Answer, Failure};
 use crate::faults::{Asked, with_all_others};
+use crate::free_machine::Nearness;
 use crate::input::Files;
 use crate::job::looks_like_a_job;
 use crate::joints::{self, JointValue};
@@ -128,8 +129,16 @@ struct Deflection {
     platform_stable: bool,
     /// Under loads without a potential the tool does not go away, but may swing with growing amplitude.
     platform_may_flutter: bool,
-    /// How near the load brings the machine with its tool free to instability, 1 is there.
+    /// How near the load brings the machine with its tool free to instability, 1 is there: never less
+    /// than the largest share of its limbs. At least 1 or none where it is not stable; behind a snap
+    /// the share of the equilibrium told here.
     share_to_instability_of_free_machine: Option<f64>,
+    /// The same where the limbs do not tell it.
+    #[serde(skip)]
+    free_beyond_limbs: Option<f64>,
+    /// The load cannot be reached from rest without a snap.
+    #[serde(skip)]
+    snapped: bool,
     /// Every limb keeps its shape while the tool is held.
     shapes_stable: bool,
     /// Both.
@@ -214,8 +223,8 @@ fn at_place(args: &DeflectArgs) -> Answer<()> {
     let posture = spot.posture()?;
     let loaded = posture.deflected_by(&spot.wrench)?;
     let rest = posture.deflected_by(&Wrench::zero())?;
-    let mut answer = answer(&spot, &posture, &loaded, &rest);
     let limit = posture.snaps_on_the_way(&rest, &loaded)?;
+    let mut answer = answer(&spot, &posture, &loaded, &rest, limit.is_some());
     answer.warnings.extend(limit.as_ref().map(snaps));
     let text = in_words(&spot, &answer);
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
@@ -239,8 +248,18 @@ const SLOW: f64 = 0.2;
 /// A displacement by this share of the machine's size is no deflection any more.
 const LARGE: f64 = 0.05;
 
+/// The tool moves by `far`, which is no deflection any more of a machine of this size, m.
+pub(crate) fn folds(far: f64, size: f64) -> Option<Warning> {
+    (far > LARGE * size).then(|| {
+        Warning::new(WarningCode::LargeDisplacement, format!(
+            "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",
+            number(100.0 * far / size, 2)
+        ))
+    })
+}
+
 /// The answer lies beyond a limit point of the load.
-fn snaps(limit: &LoadLimit) -> Warning {
+pub(crate) fn snaps(limit: &LoadLimit) -> Warning {
     let d = 1e3 * limit.displacement.linear();
     let said = format!(
         "the machine SNAPS on the way to this load: from rest it carries only {} of it, up to a limit point of the load at {} mm; what is told here is another equilibrium behind it. `kinetostat curve` shows the way, `kinetostat equilibria` all of them",
@@ -287,6 +306,7 @@ fn answer(
     posture: &Posture<'_>,
     loaded: &MechanismEquilibrium,
     rest: &MechanismEquilibrium,
+    snapped: bool,
 ) -> Deflection {
     let shift = loaded.displacement.linear() * 1e3;
     let turn = loaded.displacement.angular().map(f64::to_degrees);
@@ -302,21 +322,17 @@ fn answer(
             ),
         ));
     }
-    let free_share = crate::free_machine::share(posture, loaded);
-    if let Some(share) = free_share.filter(|s| *s > 0.5 && loaded.platform.stable) {
-        warnings.push(Warning::new(WarningCode::NearBuckling, format!(
-            "the machine with its tool free is {} % of the way to {} under this load: NEAR BUCKLING",
-            number(100.0 * share, 3),
-            way_to(loaded.conservative)
-        )));
+    let nearness = Nearness::of(posture, loaded);
+    if !loaded.stable() {
+        warnings.push(Warning::new(
+            WarningCode::NotStable,
+            "the machine does NOT stay in its shape under this load",
+        ));
+    } else if nearness.near() {
+        let said = nearness.in_words(true);
+        warnings.push(Warning::new(WarningCode::NearBuckling, said));
     }
-    let length = spot.mechanism.size();
-    if shift.norm() > LARGE * 1e3 * length {
-        warnings.push(Warning::new(WarningCode::LargeDisplacement, format!(
-            "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",
-            number(100.0 * shift.norm() / (1e3 * length), 2)
-        )));
-    }
+    warnings.extend(folds(1e-3 * shift.norm(), spot.mechanism.size()));
     Deflection {
         schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -367,7 +383,9 @@ fn answer(
             .collect(),
         platform_stable: loaded.platform.stable,
         platform_may_flutter: loaded.platform.may_flutter,
-        share_to_instability_of_free_machine: free_share,
+        share_to_instability_of_free_machine: nearness.free,
+        free_beyond_limbs: nearness.free_beyond_limbs(),
+        snapped,
         shapes_stable: loaded.shapes_stable(),
         stable: loaded.stable(),
         overcome_joints: overcome(posture, loaded, &spot.load_names),
@@ -515,11 +533,13 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         }
     };
     out.push_str(&screen::item(&platform));
-    let noticeable = crate::check_assumptions::NOTICEABLE;
-    let share = a.share_to_instability_of_free_machine;
-    if let Some(share) = share.filter(|s| *s > noticeable && a.platform_stable) {
+    if let Some(share) = a.free_beyond_limbs.filter(|_| a.stable) {
+        let of = match a.snapped {
+            true => "this equilibrium behind the snap, with the tool free,",
+            false => "the machine with its tool free",
+        };
         out.push_str(&screen::item(&format!(
-            "the machine with its tool free is {} % of the way to {}",
+            "{of} is {} % of the way to {}",
             number(100.0 * share, 3),
             way_to(a.conservative)
         )));

@@ -320,16 +320,25 @@ impl Posture<'_> {
     pub(crate) fn lost_motions(&self, within_m: f64) -> Vec<LostMotion> {
         let mut search = Search::new(self);
         let length = search.length;
-        let Some((_, free)) = solve(
-            &search.closure().0,
-            &DVector::zeros(search.closure().1.len()),
-        ) else {
+        let motions = |search: &Search<'_, '_>| {
+            let (closure, gaps) = search.closure();
+            let free = solve(&closure, &DVector::zeros(gaps.len()))?.1;
+            let moves = free.rows(search.tool(), 6).into_owned();
+            Some((free, moves))
+        };
+        let Some((mut free, mut moves)) = motions(&search) else {
             return Vec::new();
         };
-        let moves = free.rows(search.tool(), 6).into_owned();
-        // Joints that move while the tool stays: they could take redundant limbs anywhere.
-        if let Some((_, idle)) = solve(&moves, &DVector::zeros(6)) {
+        // Joints that move while the tool stays: they could take redundant limbs anywhere, and
+        // platforms in series bring each other to a singular posture at no motion of the tool.
+        if let Some((_, idle)) = solve(&moves, &DVector::zeros(6))
+            && idle.ncols() > 0
+        {
             search.idle = (&free * idle).transpose();
+            let Some(others) = motions(&search) else {
+                return Vec::new();
+            };
+            (free, moves) = others;
         }
         let mut found = Vec::new();
         for limb in 0..self.mechanism.limbs.len() {

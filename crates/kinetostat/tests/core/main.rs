@@ -53,6 +53,7 @@ mod orthoglide_reference;
 mod parallel_machines;
 mod parallelograms;
 mod partners_at_a_fold;
+mod platforms_in_series;
 mod report_iteration;
 mod screws_turn_with_their_joints;
 mod shapes_and_their_stability;
