@@ -12,7 +12,7 @@ use crate::along::{self, Aim, Files as Targets, tell};
 use crate::args::DeflectArgs;
 use crate::failure::{Answer, Failure};
 use crate::faults::{Asked, with_all_others};
-use crate::free_machine::Nearness;
+use crate::free_machine::{Nearness, way_to};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
 use crate::joints::{self, JointValue};
@@ -572,13 +572,6 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
 
 /// Where a share of the way leads: without a potential only the bound is known below which all is well
 /// (see [`kinetostat::CriticalLoad::definite_until`]).
-fn way_to(conservative: bool) -> &'static str {
-    match conservative {
-        true => "instability",
-        false => "where its stiffness is no more positive in every motion",
-    }
-}
-
 fn limb_in_words(limb: &LimbAnswer) -> String {
     let share = match limb.share_to_buckling {
         Some(mu) if mu.abs() < 1e-6 => "no load bends or buckles it".to_owned(),

@@ -90,12 +90,13 @@ impl<'e> Nearness<'e> {
         }
         // Where it is lost, nothing is on the way.
         if let Some(share) = self.free_beyond_limbs().filter(|_| self.state.stable()) {
-            let nearest = match share > most {
-                true => ", which is nearest to instability,",
-                false => "",
+            let (nearest, to) = match (share > most, self.state.conservative) {
+                (true, true) => (", which is nearest to instability,", String::new()),
+                (false, true) => ("", String::new()),
+                (_, false) => ("", format!(" to {}", way_to(false))),
             };
             parts.push(format!(
-                "the machine with its tool free{nearest} goes {} % of the way",
+                "the machine with its tool free{nearest} goes {} % of the way{to}",
                 number(100.0 * share, 3)
             ));
         }
@@ -114,6 +115,14 @@ impl<'e> Nearness<'e> {
             true => "",
         });
         text
+    }
+}
+
+/// What a share is the share of the way to.
+pub(crate) fn way_to(conservative: bool) -> &'static str {
+    match conservative {
+        true => "instability",
+        false => "where its stiffness is no more positive in every motion",
     }
 }
 

@@ -215,7 +215,7 @@ fn limits_are_millimetres_of_the_machine() {
         "G21 G90 G17\nG0 X0 Y0 Z0\nG1 X20 F600\nM2\n",
     )
     .expect("a program");
-    for (scale, shown) in [("1", "3.6"), ("10", "4.0")] {
+    for (scale, shown) in [("1", "3.6"), ("10", "4.1")] {
         let line = format!(
             "compensate --model kuka_kr270_like --program s.ngc --force 2500 -1200 150 --tool-length-mm 150 --part-origin-mm 1500 200 1000 --scale {scale} --out o.ngc --force-overwrite"
         );

@@ -28,11 +28,14 @@ impl Path<'_, '_> {
         for _ in 0..STEPS {
             here.energy?;
             let motions = self.movable(&here);
+            if motions.is_empty() {
+                break;
+            }
             let lack = self.lack(&here, &motions);
             let k = motions.transpose() * self.balanced_stiffness(&here) * &motions;
             let own = ((&k + k.transpose()) * 0.5).symmetric_eigen();
             let most = own.eigenvalues.amax();
-            if motions.ncols() == 0 || most == 0.0 || lack.norm() <= 1e-6 * most * size {
+            if most == 0.0 || lack.norm() <= 1e-6 * most * size {
                 break;
             }
             let mut parts = own.eigenvectors.transpose() * &lack;
@@ -61,6 +64,9 @@ impl Path<'_, '_> {
     /// The machine pushed along a direction in which an equilibrium goes away, both ways.
     pub(crate) fn pushed_off(&self, e: &MechanismEquilibrium) -> Vec<MechanismEquilibrium> {
         let motions = self.movable(e);
+        if motions.is_empty() {
+            return Vec::new();
+        }
         let k = motions.transpose() * self.balanced_stiffness(e) * &motions;
         let own = ((&k + k.transpose()) * 0.5).symmetric_eigen();
         let ways = own.eigenvalues.iter().zip(own.eigenvectors.column_iter());
