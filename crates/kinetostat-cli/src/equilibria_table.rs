@@ -213,10 +213,10 @@ fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
             }
         ));
     }
-    if seldom > 0 {
-        text.push_str(&format!(
-            "; each one listed was found at least {seldom} times"
-        ));
+    match seldom {
+        0 => {}
+        1 => text.push_str("; each one listed was found at least once"),
+        n => text.push_str(&format!("; each one listed was found at least {n} times")),
     }
     list.push(text);
     list.push(if !c.settled && a.equilibria.len() >= MOST_KNOWN {

@@ -84,21 +84,6 @@ impl Rod {
             (Ok(chain), Ok(machine)) => {
                 let off = pose_residual(&chain.tip, &machine.tool).0.norm();
                 let exact = 1e-8 + EXACT * f64::EPSILON * self.axial;
-                let machine = match off > 1e-3 {
-                    // Rolled up there is more than one stable shape: the machine must know that of the chain.
-                    true => {
-                        let mut there = machine.state.clone();
-                        there.coordinates[0].clone_from(&chain.coordinates);
-                        there.wrenches[0] = chain.wrench;
-                        there.platforms[posture.mechanism().tool()] = chain.tip;
-                        match posture.deflected_from(&self.wrench, there) {
-                            Ok(same) if machine.stable() => same,
-                            _ => machine,
-                        }
-                    }
-                    false => machine,
-                };
-                let off = pose_residual(&chain.tip, &machine.tool).0.norm();
                 let stable = (chain.stability.stable, machine.shapes_stable());
                 (off.is_nan() || off > exact || stable.0 != stable.1).then(|| {
                     format!("the tips are {off:e} apart, stable as chain and machine: {stable:?}")
