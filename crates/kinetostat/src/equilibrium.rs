@@ -17,12 +17,13 @@ use nalgebra::{DMatrix, Matrix6, Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::{Chain, MotionKind, Role};
+use crate::directions::DirectionKind;
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
 use crate::load_check::check_loads;
 use crate::load_energy::is_conservative;
 use crate::loading::Load;
-use crate::reduced::rotation_rate;
+use crate::reduced::{rotation_rate, stability_as_prescribed};
 use crate::saddle::Saddle;
 use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, on_screw, pose_residual};
@@ -698,7 +699,7 @@ pub(crate) fn gone(chain: &Chain, from: &[f64], to: &[f64]) -> f64 {
     moved.sum()
 }
 
-/// The stable shape to which the growing load leads, where one step found another that is unstable and
+/// The shape that stays and to which the growing load leads, where one step found another that does not and is
 /// far: it may have passed the former. A straight column, pressed, stays straight.
 fn led_to(
     problem: &ChainProblem<'_>,
@@ -706,17 +707,28 @@ fn led_to(
     path: Option<Path>,
     found: &Equilibrium,
 ) -> Option<(Equilibrium, Path)> {
-    if found.stability.stable {
-        return None;
-    }
-    if gone(problem.chain, &problem.posture, &found.coordinates) <= FAR {
+    let near = gone(problem.chain, &problem.posture, &found.coordinates) <= FAR;
+    if near || stays(problem, settings, found) {
         return None;
     }
     let mut attempt = Attempt::new(problem, settings, path);
     let (x, wrench, iterations, balance) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
     let spent = found.residual.iterations + iterations;
     let grown = attempt.finish(x, wrench, spent, &balance);
-    grown.0.stability.stable.then_some(grown)
+    stays(problem, settings, &grown.0).then_some(grown)
+}
+
+/// Whether an equilibrium stays as its end is prescribed: free where a wrench is, held where the pose is.
+fn stays(problem: &ChainProblem<'_>, settings: &Settings, found: &Equilibrium) -> bool {
+    let held = problem.end.prescribed == [Prescribed::Pose; 6];
+    if held || !found.stability.stable {
+        return found.stability.stable;
+    }
+    // What no motion of the end makes go away, goes away by none of those that are free.
+    if found.stiffness.count(DirectionKind::Negative) == 0 {
+        return true;
+    }
+    stability_as_prescribed(problem, settings, found).is_none_or(|stability| stability.stable)
 }
 
 /// Loads, preloads and closure grow together from the unloaded posture; the closure straight, or on

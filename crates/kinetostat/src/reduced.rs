@@ -90,6 +90,26 @@ pub(crate) enum Row<'v> {
     Conjugate(f64),
 }
 
+/// Stability of an equilibrium as its end is prescribed: free where a wrench is, held where the pose is. `None`
+/// where the problem cannot be looked at.
+pub(crate) fn stability_as_prescribed(
+    problem: &ChainProblem<'_>,
+    settings: &Settings,
+    found: &Equilibrium,
+) -> Option<ShapeStability> {
+    let mut reduced = Reduced::new(problem, None, settings).ok()?.by_sweeps();
+    let z = reduced.state(&found.coordinates, &found.wrench, 0.0);
+    let (_, balance, matrix) = reduced.linearised(&z);
+    let iterations = found.residual.iterations;
+    let state = Corrected {
+        z,
+        matrix,
+        balance,
+        iterations,
+    };
+    Some(reduced.stability(&state, false))
+}
+
 /// A state that satisfies equilibrium.
 pub(crate) struct Corrected {
     pub z: DVector<f64>,
