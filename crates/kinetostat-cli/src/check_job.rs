@@ -106,6 +106,7 @@ fn findings(files: &Files, path: &Path, flags: &ProgramArgs) -> Answer<JobFindin
     let (program, motion) = along::read_program(&setting)?;
     let mut warnings: Vec<Warning> = of_model(&model).collect();
     warnings.extend(no_potential(&model.mechanism));
+    warnings.extend(job.odd_angles());
     warnings.extend(kinetostat_machining::of_program(&motion, None));
     warnings.extend(kinetostat_machining::origin_in_metres(
         &machine.mechanism,

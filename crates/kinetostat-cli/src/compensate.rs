@@ -11,7 +11,7 @@ use crate::compensate_map;
 use crate::failure::{Answer, Failure};
 use crate::faults::{Asked, with_all_others};
 use crate::input::Files;
-use crate::machine::{machine, no_potential, of_model};
+use crate::machine::{machine, no_potential, of_model, with_smells};
 use crate::output::{Existing, Outputs};
 use crate::screen::{self, Stream, wrapped};
 use crate::setting::{JobFile, Setting, WritingFlags, setting};
@@ -73,9 +73,12 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
         &machine,
         &setting,
         args.run.program.threads,
-    )?;
+    )
+    .map_err(|failure| with_smells(failure, &model))?;
     run.result.warnings.extend(of_model(&model));
     run.result.warnings.extend(no_potential(&model.mechanism));
+    let odd = job.iter().flat_map(|job| job.odd_angles());
+    run.result.warnings.extend(odd);
     targets.list(args.run.program.all_points, &model);
     targets.fill(&run)?;
     let note = targets.note(&run);

@@ -16,7 +16,7 @@ use crate::free_machine::{Nearness, way_to};
 use crate::input::Files;
 use crate::job::looks_like_a_job;
 use crate::joints::{self, JointValue};
-use crate::machine::{machine, no_potential, of_model};
+use crate::machine::{machine, no_potential, of_model, with_smells};
 use crate::output::{Existing, Outputs};
 use crate::overcome::{Overcome, overcome};
 use crate::place::{Spot, spot};
@@ -77,9 +77,12 @@ fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     )?;
     along::read_program(&setting)?;
     let mut targets = Targets::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
-    let mut run = along::solve(Aim::Analyse, &machine, &setting, args.program.threads)?;
+    let mut run = along::solve(Aim::Analyse, &machine, &setting, args.program.threads)
+        .map_err(|failure| with_smells(failure, &model))?;
     run.result.warnings.extend(of_model(&model));
     run.result.warnings.extend(no_potential(&model.mechanism));
+    let odd = job.iter().flat_map(|job| job.odd_angles());
+    run.result.warnings.extend(odd);
     targets.list(args.program.all_points, &model);
     targets.fill(&run)?;
     let note = targets.note(&run);

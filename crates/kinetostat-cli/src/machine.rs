@@ -141,6 +141,21 @@ fn usual_tolerance(model: &Model) -> (f64, String) {
     }
 }
 
+/// A run that has no answer, with what smells in its model: that is most likely why.
+pub(crate) fn with_smells(failure: Failure, model: &Model) -> Failure {
+    let mut smells = of_model(model);
+    match smells.next() {
+        Some(first) => {
+            let more = match smells.count() {
+                0 => String::new(),
+                _ => "; `kinetostat check` says what else looks wrong".to_owned(),
+            };
+            failure.with_reason(&format!("{first}{more}"))
+        }
+        None => failure,
+    }
+}
+
 /// What looks wrong in a model, for the list of a run.
 pub(crate) fn of_model(model: &Model) -> impl Iterator<Item = Warning> + '_ {
     model.warnings.iter().map(|problem| Warning {

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use kinetostat::{LimbPosture, Mechanism, Pose, Posture, Wrench};
 use kinetostat_machining::number::{apart, mean_length};
 use kinetostat_machining::{
-    NearSingular, Warning, WarningCode, large_load, natural_length, near_singular, straight_tool,
+    NearSingular, Warning, WarningCode, large_load, natural_length, near_singular, odd_tool_length,
+    straight_tool,
 };
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
@@ -102,6 +103,7 @@ pub(crate) fn spot_of(
         }
     };
     let mut warnings: Vec<Warning> = of_model(read).collect();
+    warnings.extend(odd_tool_length(&mechanism, length));
     let (target, followed) = match (&joints, wanted) {
         (Some(_), _) => (target, None),
         (None, Some(None)) => followed(&mechanism, &target, true, &mut warnings)?,

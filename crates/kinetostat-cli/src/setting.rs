@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat_machining::{FileRead, Limits};
+use kinetostat_machining::{FileRead, Limits, Warning, WarningCode};
 use kinetostat_program::{BlockDelete, OtherAxes, ReadOptions, Units, WriteOptions};
 use nalgebra::Vector3;
 use serde_spanned::Spanned;
@@ -36,6 +36,17 @@ impl JobFile {
             path: path.to_owned(),
             text,
             job,
+        })
+    }
+
+    /// Angles in it that were most likely written in the other unit.
+    pub(crate) fn odd_angles(&self) -> impl Iterator<Item = Warning> + '_ {
+        let line = |at: usize| 1 + self.text[..at].matches('\n').count();
+        let found = kinetostat_model::odd_angles(&self.text).into_iter();
+        found.map(move |(span, message)| {
+            let line = line(span.start);
+            Warning::at_line(WarningCode::OddPlacement, line, message)
+                .of_file(self.path.display().to_string())
         })
     }
 

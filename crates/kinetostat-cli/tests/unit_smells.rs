@@ -8,6 +8,8 @@ use common::checks::{ARM, BAR, COLUMN, HEAVY, checked, edited, flat, warnings};
 
 const HEAVY_6R: &str = include_str!("../../kinetostat-model/models/heavy_6r.toml");
 
+const KUKA: &str = include_str!("../../kinetostat-model/models/kuka_kr270_like.toml");
+
 /// What smells: model, edits, what is said, and the line's text to which it points.
 type Smell<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, &'a str);
 
@@ -61,6 +63,48 @@ fn figure_wrong_units_smell_and_the_line_is_named() {
             )],
             "the drive 'joint 2' is 34 times softer than 'joint 3' behind it",
             "joint 2",
+        ),
+        (
+            HEAVY_6R,
+            &[("mass_kg = 35,", "mass_kg = 343.35,")],
+            "the body 'wrist mass' weighs 343 kg",
+            "mass_kg = 343.35",
+        ),
+        (
+            HEAVY_6R,
+            &[("mass_kg = 90,", "mass_kg = 882.9,")],
+            "the body 'forearm mass' weighs 883 kg, and 'elbow mass', which carries it, 190 kg",
+            "mass_kg = 882.9",
+        ),
+        (
+            HEAVY_6R,
+            &[("mass_kg = 190,", "mass_kg = 1863.9,")],
+            "the body 'elbow mass' weighs 1864 kg",
+            "mass_kg = 1863.9",
+        ),
+        (
+            HEAVY_6R,
+            &[("mass_kg = 25,", "mass_kg = 245.25,")],
+            "the body 'flange mass' weighs 245 kg",
+            "mass_kg = 245.25",
+        ),
+        (
+            HEAVY_6R,
+            &[("mass_kg = 35,", "mass_kg = 0.035,")],
+            "the body 'wrist mass' weighs 0.035 kg",
+            "mass_kg = 0.035",
+        ),
+        (
+            KUKA,
+            &[("free_length_mm = 458", "free_length_mm = 0.458")],
+            "a spring with a free length of 0.458 mm, in a machine of 3.33 m",
+            "free_length_mm",
+        ),
+        (
+            KUKA,
+            &[("free_length_mm = 458", "free_length_mm = 11600")],
+            "a spring with a free length of 11600 mm, in a machine of 3.33 m",
+            "free_length_mm",
         ),
         (
             ARM,

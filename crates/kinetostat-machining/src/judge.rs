@@ -134,6 +134,23 @@ impl Over<'_> {
     }
 }
 
+impl Over<'_> {
+    /// Notes the length of a tool, mm; one that is not there has none.
+    fn tool(&mut self, length: f64, place: &str) {
+        self.above("longest_tool_mm", length, None, place.to_owned());
+        if length != 0.0 && length < self.limits.shortest_tool_mm {
+            let limit = Limits::named("shortest_tool_mm");
+            self.found.extend(limit.map(|limit| Beyond {
+                limit,
+                found: length,
+                allowed: self.limits.shortest_tool_mm,
+                line: None,
+                place: place.to_owned(),
+            }));
+        }
+    }
+}
+
 /// Figures of the question that are beyond their limits.
 pub(crate) fn of_question(task: &Task<'_>) -> Vec<Beyond> {
     let limits = &task.bounds.limits;
@@ -147,20 +164,24 @@ pub(crate) fn of_question(task: &Task<'_>) -> Vec<Beyond> {
         over.above("moment_n_m", wrench.moment().norm(), None, whose);
     }
     for tool in &task.bounds.tools {
-        let length = tool.length_mm();
-        over.above("longest_tool_mm", length, None, numbered(tool.number));
-        if length != 0.0 && length < limits.shortest_tool_mm {
-            let limit = Limits::named("shortest_tool_mm");
-            over.found.extend(limit.map(|limit| Beyond {
-                limit,
-                found: length,
-                allowed: limits.shortest_tool_mm,
-                line: None,
-                place: numbered(tool.number),
-            }));
-        }
+        over.tool(tool.length_mm(), &numbered(tool.number));
     }
     over.found
+}
+
+/// What is odd about the length of a tool (mm, along z of the flange) where the machine stands at a place.
+#[must_use]
+pub fn odd_tool_length(mechanism: &Mechanism, length_mm: f64) -> Vec<Warning> {
+    let limits = Limits::default();
+    let mut over = Over {
+        limits: &limits,
+        found: Vec::new(),
+    };
+    over.tool(length_mm, "");
+    let beyond = over.found.iter();
+    let beyond = beyond.map(|b| Warning::new(WarningCode::OverLimit, b.in_words()));
+    let odd = odd_length(mechanism, length_mm, &limits);
+    beyond.chain(odd).collect()
 }
 
 /// The correction of a written program, and its rate of blocks, where they are beyond their limits.
@@ -621,7 +642,11 @@ fn odd_tool(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
             "no tool is given: the load acts on the platform's own point. Write --tool-length-mm or, under [tool], length_mm (0 where the model has the tool in it)",
         ));
     }
-    let limits = &task.bounds.limits;
+    odd_length(task.mechanism, length, &task.bounds.limits)
+}
+
+/// A tool within its limits that is short, or long beside the machine.
+fn odd_length(mechanism: &Mechanism, length: f64, limits: &Limits) -> Option<Warning> {
     if length != 0.0 && length >= limits.shortest_tool_mm && length < SHORT_MM {
         return Some(Warning::new(
             WarningCode::OddTool,
@@ -631,8 +656,8 @@ fn odd_tool(task: &Task<'_>, tool: &ToolGiven) -> Option<Warning> {
             ),
         ));
     }
-    let machine = 1e3 * natural_length(task.mechanism);
-    (length > 0.4 * machine && length <= task.bounds.limits.longest_tool_mm).then(|| {
+    let machine = 1e3 * natural_length(mechanism);
+    (length > 0.4 * machine && length <= limits.longest_tool_mm).then(|| {
         Warning::new(
             WarningCode::OddTool,
             format!(

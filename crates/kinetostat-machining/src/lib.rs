@@ -30,7 +30,8 @@ mod warning;
 pub use field::ModelField;
 pub use figures::Figures;
 pub use judge::{
-    Bounds, ToolGiven, large_load, odd_correction, odd_tolerances, of_accounting, origin_in_metres,
+    Bounds, ToolGiven, large_load, odd_correction, odd_tolerances, odd_tool_length, of_accounting,
+    origin_in_metres,
 };
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};

@@ -210,6 +210,7 @@ pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
 pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
     refuse(judge::of_question(task))?;
     let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
+    refuse(hopeless(task, &load, watch)?)?;
     let field = ModelField::new(task.mechanism, task.placement, &load);
     let mut again = Again::default();
     let arcs = feed_arcs(task);
@@ -263,6 +264,50 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         within_before,
     };
     Ok(conclude(task, &load, points, Some(written), &checked))
+}
+
+/// Places of a program at which it is asked, before anything is divided, whether the question makes sense.
+const FIRST_LOOKS: usize = 8;
+
+/// A correction beyond its limit by this is refused by the first look: what a wrong unit does takes minutes to be
+/// solved everywhere.
+const HOPELESS: f64 = 10.0;
+
+/// What is beyond its limits by far at a few places of the program as it is.
+///
+/// # Errors
+/// Where the first of them has no answer. That a later one has none is told where the program is solved, for there
+/// may be others before it.
+fn hopeless(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    watch: &dyn Watch,
+) -> Result<Vec<Beyond>, RunError> {
+    let sites = || of_path(task.path, load, &task.placement, spacing_mm(task));
+    let every = sites().count().div_ceil(FIRST_LOOKS).max(1);
+    let machines = Machines::new(task);
+    let mut points = Vec::new();
+    for (index, site) in sites().step_by(every).enumerate() {
+        if watch.cancelled() {
+            return Err(RunError::Cancelled);
+        }
+        let (together, orientation) = machines.at(&site);
+        let one = std::slice::from_ref(&site);
+        let mut memory = Default::default();
+        for found in chunk(task, together, &mut memory, one, (orientation, false)) {
+            match found {
+                Ok(point) => points.push(point),
+                Err(error) if index == 0 => return Err(error),
+                Err(_) => {}
+            }
+        }
+    }
+    let mut beyond = judge::of_points(task, &points);
+    beyond.retain(|b| {
+        let of_correction = ["correction_mm", "own_weight_mm"].contains(&b.limit.name);
+        of_correction && b.found > HOPELESS * b.allowed
+    });
+    Ok(beyond)
 }
 
 /// Whether the program keeps its tolerance as it is.

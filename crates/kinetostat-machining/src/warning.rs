@@ -56,7 +56,7 @@ pub enum WarningCode {
     NoTool,
     /// A tool that is very short, or long beside the machine.
     OddTool,
-    /// A place of the part that looks like one in another unit.
+    /// A place of the part, or an angle of the job, that looks like one in another unit.
     OddPlacement,
     /// The program leaves the workspace that the model states.
     OutsideWorkspace,

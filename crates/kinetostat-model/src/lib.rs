@@ -106,3 +106,4 @@ pub use link_matrix::doubts_of_link_matrix;
 pub use model::{Model, json_schema};
 pub use presets::{Preset, PresetKind, preset_names, preset_text};
 pub use problem::{ModelError, Problem, Severity, shortened};
+pub use smells::odd_angles;

@@ -1,11 +1,15 @@
 //! What smells of a wrong unit: each number as it is written, and figures that do not fit the rest
 //! of the machine.
 
-use kinetostat::number::short;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+use kinetostat::number::short;
 
 use kinetostat::{Mechanism, MotionKind, Role, SpringLaw};
 use serde_json::Value;
+use serde_spanned::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use crate::load_path::{farthest, moments, size_of};
 use crate::problem::{Finding, Place};
@@ -17,6 +21,43 @@ pub(crate) fn of_numbers(document: &Document, warnings: &mut Vec<Finding>) {
         return;
     };
     walk(&tree, "", &Place::root(), warnings);
+}
+
+/// Angles of a TOML text that were most likely written in the other unit: what is said, and its place in the text.
+/// Empty for what is no TOML.
+#[must_use]
+pub fn odd_angles(text: &str) -> Vec<(Range<usize>, String)> {
+    let mut found = Vec::new();
+    if let Ok(table) = DeTable::parse(text) {
+        let value = DeValue::Table(table.into_inner());
+        angles(&Spanned::new(0..text.len(), value), "", &mut found);
+    }
+    found
+}
+
+fn angles(value: &Spanned<DeValue<'_>>, key: &str, found: &mut Vec<(Range<usize>, String)>) {
+    let number = match value.get_ref() {
+        DeValue::Table(table) => {
+            for (key, inner) in table {
+                angles(inner, key.get_ref(), found);
+            }
+            return;
+        }
+        DeValue::Array(list) => {
+            for inner in list {
+                angles(inner, key, found);
+            }
+            return;
+        }
+        DeValue::Float(number) => number.as_str(),
+        DeValue::Integer(number) => number.as_str(),
+        _ => return,
+    };
+    let angle = key.ends_with("_deg") || key.ends_with("_rad");
+    let smelt = number.parse().ok().filter(|_| angle);
+    if let Some((message, help)) = smelt.and_then(|x| smell(key, x)) {
+        found.push((value.span(), format!("{key}: {message}; {help}")));
+    }
 }
 
 fn walk(value: &Value, key: &str, place: &Place, warnings: &mut Vec<Finding>) {
@@ -158,10 +199,56 @@ pub(crate) fn of_machine(document: &Document, mechanism: &Mechanism, warnings: &
     }
     workspace(document, mechanism, size, warnings);
     deviations(document, size, warnings);
+    if let Ok(tree) = serde_json::to_value(document) {
+        free_lengths(&tree, &Place::root(), size, warnings);
+    }
+}
+
+/// Springs between points whose free length is nothing beside the machine, but not zero (the ideal compensator),
+/// or several machines long.
+fn free_lengths(value: &Value, place: &Place, size: f64, warnings: &mut Vec<Finding>) {
+    match value {
+        Value::Object(map) => {
+            for (key, inner) in map {
+                let unit = match key.as_str() {
+                    "free_length_mm" => 1e-3,
+                    "free_length_m" => 1.0,
+                    _ => {
+                        free_lengths(inner, &place.key(key), size, warnings);
+                        continue;
+                    }
+                };
+                let metres = inner.as_f64().unwrap_or(0.0) * unit;
+                if metres > 0.0 && !(0.01 * size..=2.0 * size).contains(&metres) {
+                    warnings.push(Finding::new(
+                        &place.key(key),
+                        format!(
+                            "a spring with a free length of {} mm, in a machine of {} m",
+                            short(1e3 * metres),
+                            short(size)
+                        ),
+                        "check the unit in the key: _mm or _m; 0 is the ideal compensator",
+                    ));
+                }
+            }
+        }
+        Value::Array(list) => {
+            for (i, inner) in list.iter().enumerate() {
+                free_lengths(inner, &place.index(i), size, warnings);
+            }
+        }
+        _ => {}
+    }
 }
 
 /// A drive that is softer than the next one by this was given per degree (57.3) or is odd anyhow.
 const PER_DEGREE: f64 = 20.0;
+
+/// A body that is heavier than the one that carries it by this was given in newtons (9.81) or is odd anyhow.
+const CARRIED: f64 = 3.0;
+
+/// A body that is lighter than those next to it by this was given in tonnes (1000) or is odd anyhow.
+const BESIDE: f64 = 50.0;
 
 /// One limb of a machine.
 struct Look<'a> {
@@ -477,7 +564,45 @@ impl Look<'_> {
                 "check the unit in the key: _mm or _m",
             ));
         }
+        self.neighbours(warnings);
         self.density(warnings);
+    }
+
+    /// Bodies beside the next ones of their limb: what is carried weighs less than what carries it, and no
+    /// part weighs next to nothing between others.
+    fn neighbours(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        let mut bodies: Vec<&kinetostat::Body> = chain.bodies().iter().collect();
+        bodies.retain(|b| b.mass > 0.0);
+        bodies.sort_by_key(|b| b.node);
+        for (i, body) in bodies.iter().enumerate() {
+            let before = i.checked_sub(1).map(|k| bodies[k]);
+            let after = bodies.get(i + 1).copied();
+            let lightest = before.into_iter().chain(after);
+            let lightest = lightest.min_by(|a, b| a.mass.total_cmp(&b.mass));
+            let (other, said) = match (before, lightest) {
+                // Beside one that weighs next to nothing it is that one which is told.
+                (Some(before), _) if body.mass > BESIDE * before.mass => continue,
+                (Some(before), _) if body.mass > CARRIED * before.mass => {
+                    (before, "which carries it")
+                }
+                (_, Some(lightest)) if body.mass * BESIDE < lightest.mass => {
+                    (lightest, "which is next to it")
+                }
+                _ => continue,
+            };
+            warnings.push(Finding::new(
+                &self.place(&body.name, &["mass_kg"]),
+                format!(
+                    "the body '{}' weighs {} kg, and '{}', {said}, {} kg",
+                    body.name,
+                    short(body.mass),
+                    other.name,
+                    short(other.mass)
+                ),
+                "check the unit: kg, not N (9.81 times as much), t or g",
+            ));
+        }
     }
 
     /// Bodies beside what the links of their stiffness would weigh: `rho / E` is 3.8e-8 s^2/m^2 for

@@ -35,6 +35,8 @@ pub(crate) struct ToolWords {
     changed: Vec<ToolChange>,
     named: Vec<ToolChange>,
     lengths: Vec<ToolChange>,
+    /// Line of the first M6 that no T has named a tool for.
+    by_hand: Option<usize>,
 }
 
 impl ToolWords {
@@ -61,8 +63,10 @@ impl ToolWords {
             let mut words = block.words.iter();
             words.any(|word| word.letter == b'M' && word.tenths() == tenths)
         };
-        if let (true, Some(number)) = (has(60), self.selected) {
-            push(&mut self.changed, line, number);
+        match (has(60), self.selected) {
+            (true, Some(number)) => push(&mut self.changed, line, number),
+            (true, None) => self.by_hand = self.by_hand.or(Some(line)),
+            _ => {}
         }
         // M61 Q2 says which tool was put in by hand (LinuxCNC).
         if let (true, Some(number)) = (has(610), whole(b'Q')) {
@@ -90,7 +94,10 @@ impl ToolWords {
             .unwrap_or_default();
         warn_of_other_lengths(path, &lengths);
         match &options.tools {
-            None => warn_of_one_tool(path),
+            None => {
+                warn_of_tool_after_cuts(path, self.by_hand);
+                warn_of_one_tool(path);
+            }
             Some(known) => {
                 refuse_unknown_tools(path, program, known)?;
                 before_first_tool(path, program, options)?;
@@ -122,6 +129,21 @@ fn warn_of_other_lengths(path: &mut Path, lengths: &[ToolChange]) {
                 ),
             });
         }
+    }
+}
+
+/// What the program cut before its first change of tools, it cut with the tool that was in the spindle.
+fn warn_of_tool_after_cuts(path: &mut Path, by_hand: Option<usize>) {
+    let named = path.tool_changes.first().map(|change| change.line);
+    let Some(line) = named.into_iter().chain(by_hand).min() else {
+        return;
+    };
+    let mut cuts = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
+    if cuts.any(|m| m.line < line) {
+        path.warnings.push(Warning {
+            line,
+            text: "a tool is taken here after blocks were cut with the one in the spindle, and corrections are made for one tool length and one load: from here on they may be those of another tool. Name each tool with its length (and its load) as [[tools]] in the job file, or correct the part of each tool as a program of its own".to_owned(),
+        });
     }
 }
 

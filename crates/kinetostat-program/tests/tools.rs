@@ -43,6 +43,15 @@ fn a_second_tool_is_warned_of_by_line() {
             "{text}"
         );
     }
+    // What was cut before was cut with the tool in the spindle.
+    for change in ["T2 M6", "M6 T7", "T2", "M6", "G43 H2 G0 Z5"] {
+        let text = format!("G21 G90\nG0 X0 Y0 Z0\nG1 X5 F9\nG0 Z5\n{change}\nG1 X9 F9\n");
+        let path = path_with(&text, &ReadOptions::default()).unwrap();
+        assert_eq!(warned(&path, "one tool length and one load"), [5], "{text}");
+        let first = text.replace("G1 X5 F9", "G0 X5");
+        let path = path_with(&first, &ReadOptions::default()).unwrap();
+        assert!(warned(&path, "one tool length").is_empty(), "{first}");
+    }
     // One tool, whose length is set where it always is, and the next one only made ready.
     let one = "G21 G90 G49\nT1 M6\nT2\nG43 H1 G0 Z5\nG0 X0 Y0\nG1 X5 F9\nG49\nM2\n";
     let path = path_with(one, &ReadOptions::default()).unwrap();

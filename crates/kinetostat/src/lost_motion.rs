@@ -115,6 +115,11 @@ impl<'p, 'm> Search<'p, 'm> {
         }
     }
 
+    /// The same search, from its start.
+    pub(crate) fn again(&self) -> Self {
+        Self::new(self.start)
+    }
+
     fn joints(&self, limb: usize) -> std::ops::Range<usize> {
         self.first[limb]..self.first.get(limb + 1).copied().unwrap_or(self.count)
     }

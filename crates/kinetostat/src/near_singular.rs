@@ -5,14 +5,16 @@
 //! elsewhere (a motion is lost, commands grow without bound). The measure of both is a singular
 //! value of a matrix of joint axes, rotations at the natural length; springs play no part.
 
-use nalgebra::{DVector, Vector6};
+use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::constraints::Constraints;
 use crate::directions::motion_in_words;
 use crate::error::Result;
+use crate::lost_motion::{Search, solve};
 use crate::number;
 use crate::posture::Posture;
-use crate::spatial::{Pose, Twist, moved};
+use crate::singular_values::SingularValues;
+use crate::spatial::{Pose, Twist, moved, pose_residual};
 
 /// What happens at a singular posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,6 +90,53 @@ fn mainly(motion: &Twist) -> Twist {
     Twist::new(cut(v, w.norm()), cut(w, v.norm()))
 }
 
+/// Postures beside one, along motions of its joints: of machines whose tool cannot move straight on.
+struct Beside<'p, 'm> {
+    start: Search<'p, 'm>,
+    /// Free motions of all joints and platforms, and what they do to the tool, balanced.
+    free: DMatrix<f64>,
+    moves: SingularValues,
+}
+
+/// Steps until all limbs close again.
+const CLOSING_STEPS: usize = 30;
+
+impl<'p, 'm> Beside<'p, 'm> {
+    fn of(posture: &'p Posture<'m>) -> Option<Self> {
+        let start = Search::new(posture);
+        let (closure, gaps) = start.closure();
+        let (_, free) = solve(&closure, &DVector::zeros(gaps.len()))?;
+        let moves = free.rows(start.tool(), 6).into_owned();
+        let moves = (!moves.is_empty()).then(|| SingularValues::of(&moves))?;
+        Some(Self { start, free, moves })
+    }
+
+    /// Where the tool has gone along a twist, but for what it turned besides; `None` where it went elsewhere.
+    fn at(&self, twist: &Vector6<f64>) -> Option<Posture<'m>> {
+        let mut search = self.start.again();
+        let length = search.length;
+        let balanced =
+            |t: &Vector6<f64>| DVector::from_fn(6, |i, _| t[i] * if i < 3 { 1.0 } else { length });
+        let wanted = balanced(twist);
+        let small = 1e-6 * self.moves.largest();
+        search.go(&(&self.free * self.moves.shortest(&wanted, small)));
+        for _ in 0..CLOSING_STEPS {
+            let (closure, gaps) = search.closure();
+            if gaps.amax() <= 1e-12 * length {
+                let gone = pose_residual(&search.at.target, &self.start.at.target);
+                let off = (balanced(&gone.0) - &wanted).norm();
+                return (off <= 0.5 * wanted.norm()).then_some(search.at);
+            }
+            let (closing, _) = solve(&closure, &gaps)?;
+            if closing.iter().any(|x| !x.is_finite()) || closing.amax() > length {
+                return None;
+            }
+            search.go(&closing);
+        }
+        None
+    }
+}
+
 /// Singular values of one matrix of a posture, falling, and the motion of the last ones.
 struct Measure {
     values: Vec<f64>,
@@ -136,10 +185,20 @@ impl Posture<'_> {
             .column_iter()
             .map(|c| Vector6::from_fn(|i, _| if i < 3 { c[i] } else { c[i] / length }))
             .collect();
-        let at = |twist: &Vector6<f64>| -> Option<Measure> {
+        let step = 1e-4 * length;
+        let straight = |twist: &Vector6<f64>| -> Option<Measure> {
             let target: Pose = moved(&self.target, &Twist(*twist));
             let there = self.mechanism.posture_near(&target, self).ok()?;
             Some(there.locked())
+        };
+        // A tool that turns as it moves leaves the straight way on both sides.
+        let leaves = |way: &Vector6<f64>| {
+            straight(&(way * step)).is_none() && straight(&(way * -step)).is_none()
+        };
+        let beside = ways.iter().any(leaves).then(|| Beside::of(self)).flatten();
+        let at = |twist: &Vector6<f64>| match &beside {
+            Some(beside) => Some(beside.at(twist)?.locked()),
+            None => straight(twist),
         };
         let here = self.locked();
         // What is never zero elsewhere counts here: ranks of postures around this one.
@@ -153,7 +212,6 @@ impl Posture<'_> {
             rank = rank.max(at(&twist).map_or(0, |other| other.rank()));
         }
         let last = rank.checked_sub(1)?;
-        let step = 1e-4 * length;
         let around: Vec<[Option<Measure>; 2]> = ways
             .iter()
             .map(|way| [at(&(way * step)), at(&(way * -step))])
@@ -221,7 +279,7 @@ impl Posture<'_> {
 
 impl Measure {
     /// By the left singular vectors.
-    fn of(matrix: nalgebra::DMatrix<f64>, motion: impl Fn(&DVector<f64>) -> Vector6<f64>) -> Self {
+    fn of(matrix: DMatrix<f64>, motion: impl Fn(&DVector<f64>) -> Vector6<f64>) -> Self {
         let mut own = Self {
             values: Vec::new(),
             motions: Vec::new(),
@@ -229,7 +287,7 @@ impl Measure {
         if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
             return own;
         }
-        let found = crate::singular_values::SingularValues::of(&matrix);
+        let found = SingularValues::of(&matrix);
         for column in found.left.column_iter() {
             own.motions.push(motion(&column.into_owned()));
         }

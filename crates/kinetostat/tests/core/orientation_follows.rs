@@ -2,7 +2,7 @@
 
 use kinetostat::{
     ActuatorSpec, Chain, ChainBuilder, Error, Mechanism, MotionKind, Platform, Pose, Settings,
-    Wrench, compensate, compensate_following,
+    SingularityKind, Wrench, compensate, compensate_following,
 };
 use nalgebra::{Rotation3, UnitQuaternion, Vector3, vector};
 use proptest::prelude::*;
@@ -107,8 +107,60 @@ fn home(m: &Mechanism) -> Pose {
     m.platforms()[m.tool()].home
 }
 
+/// Where the distal links lie in one line, turned by `phi`: there no locked crank holds the tool across it.
+fn in_line(phi: f64) -> (f64, f64) {
+    // Both cranks are as long as the way from the pivots, moved along the line by a link, to the tool.
+    let (dx, dy) = (DISTAL * phi.cos() - PIVOT, DISTAL * phi.sin());
+    let half = dx.hypot(dy);
+    let height = (CRANK * CRANK - half * half).sqrt();
+    (-dy / half * height, dx / half * height)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn a_five_bar_near_its_links_in_line_says_how_far_it_is(
+        turn in prop::array::uniform3(-1.5..1.5_f64),
+        phi in -0.25..0.25_f64,
+        above in 3e-4..8e-3_f64,
+        offset in prop::array::uniform3(-0.05..0.05_f64),
+    ) {
+        let frame = frame(turn);
+        let offset = Vector3::from(offset);
+        let machine = five_bar(&frame, offset);
+        let line = in_line(phi);
+        let start = (line.0, line.1 + above);
+        let at = |place: (f64, f64)| {
+            let angle = angles(-PIVOT, 1.0, place).1;
+            let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
+            let joint = frame * Pose::from_parts(vector![place.0, place.1, 0.0].into(), turn);
+            joint * Pose::from_parts(offset.into(), UnitQuaternion::identity())
+        };
+        let pose = at(start);
+        let posture = machine.posture_following(&pose.translation.vector, &home(&machine).rotation);
+        let posture = posture.unwrap();
+        prop_assert!((posture.target().translation.vector - pose.translation.vector).norm() < 1e-10);
+        let length = machine.size();
+        let list = posture.near_singularities(0.1 * length).unwrap();
+        let gained = list.iter().find(|s| s.kind == SingularityKind::Gained);
+        let Some(gained) = gained else {
+            return Err(TestCaseError::fail(format!("{above} above the line: {list:?}")));
+        };
+        prop_assert!(gained.followed);
+        // Nearest of all, on a fine grid of the curve, and where the way leads.
+        let curve = (-400..=400).map(|k| at(in_line(phi + f64::from(k) * 1e-4)).translation.vector);
+        let curve: Vec<Vector3<f64>> = curve.collect();
+        let nearest = |from: &Vector3<f64>| {
+            curve.iter().map(|c| (c - from).norm()).fold(f64::INFINITY, f64::min)
+        };
+        let here = pose.translation.vector;
+        let there = here + gained.way.linear() * gained.distance_m;
+        let far = nearest(&here);
+        prop_assert!(nearest(&there) < 0.1 * far + 3e-5, "{} of {far}: {}", nearest(&there), gained.in_words());
+        let way = gained.distance_m * gained.way.linear().norm();
+        prop_assert!((0.9 * far - 3e-5..=3.0 * far).contains(&way), "{way} against {far}");
+    }
 
     #[test]
     fn a_five_bar_turns_as_its_closed_form(
