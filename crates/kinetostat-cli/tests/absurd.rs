@@ -727,6 +727,94 @@ fn a_map_without_an_equilibrium_blames_the_load() {
     assert!(said.err.contains("choose places"), "{}", said.err);
 }
 
+/// Angles of a job that are shares of pi are most likely radians, whatever the key.
+#[test]
+fn angles_in_radians_under_degrees_smell_in_every_command() {
+    let here = workplace();
+    let at = "[placement]\n";
+    for (key, list, odd) in [
+        (
+            "part_orientation = { a_b_c_kuka_deg",
+            "[1.5708, 0, 0]",
+            true,
+        ),
+        ("part_orientation = { a_b_c_kuka_deg", "[90, 0, 0]", false),
+        (
+            "part_orientation = { a_b_c_kuka_deg",
+            "[0.3, 1.2, 7]",
+            false,
+        ),
+        (
+            "tool_orientation = { rotation_vector_deg",
+            "[0, 3.1416, 0]",
+            true,
+        ),
+        (
+            "part_orientation = { rotation_vector_rad",
+            "[0, 0, 90]",
+            true,
+        ),
+        (
+            "part_orientation = { rotation_vector_rad",
+            "[0, 0, 1.5708]",
+            false,
+        ),
+    ] {
+        let job = ARM_JOB.replace(at, &format!("{at}{key} = {list} }}\n"));
+        let line = 1 + job[..job.find(key).expect("the key")].matches('\n').count();
+        compensated(here.path(), &job, &arm(), &[]);
+        for words in [
+            &["check", "job.toml"][..],
+            &["deflect", "job.toml", "--force-overwrite"],
+            &["compensate", "job.toml", "--force-overwrite"],
+        ] {
+            let said = run(here.path(), words);
+            // A place that cannot be reached so is told as that.
+            if matches!(said.code, 1 | 2) {
+                continue;
+            }
+            let shown = common::checks::flat(&format!("{}{}", said.out, said.err));
+            let named = shown.contains(&format!("job.toml, line {line}:"))
+                && shown.contains("this looks like");
+            assert_eq!(named, odd, "{words:?} {key} {list}: {said:?}");
+        }
+    }
+}
+
+/// What is beyond its limits by far is refused before the program is solved everywhere, with what smells in the
+/// model; a place is questioned as a program is.
+#[test]
+fn a_hopeless_program_is_refused_with_what_smells_in_the_model() {
+    let here = workplace();
+    let soft = arm().replace(
+        "stiffness_n_m_per_rad = 4.7e5",
+        "stiffness_n_m_per_rad = 0.47",
+    );
+    assert_ne!(soft, arm());
+    let (said, _) = compensated(here.path(), ARM_JOB, &soft, &[]);
+    assert_eq!(said.code, 1, "{said:?}");
+    for words in [
+        "--limit correction_mm=",
+        "Perhaps the reason",
+        "softer than any machine's",
+    ] {
+        assert!(said.err.contains(words), "{words}: {}", said.err);
+    }
+    for (length, odd) in [("-180", true), ("0.18", true), ("5", true), ("180", false)] {
+        for command in ["stiffness", "deflect"] {
+            let words = [command, "heavy_6r", "--tool-length-mm", length];
+            let place = ["--at", "1500", "0", "1000", "--force", "0", "0", "-100"];
+            let said = run(here.path(), &[&words[..], &place[..]].concat());
+            assert_eq!(said.code, 0, "{said:?}");
+            assert_eq!(
+                said.out.contains("Usual:") || said.out.contains("check the unit"),
+                odd,
+                "{said:?}"
+            );
+        }
+    }
+}
+
 /// An origin of the part in metres puts a large machine's base into the part.
 #[test]
 fn an_origin_in_metres_smells_in_every_command() {
