@@ -14,6 +14,7 @@ use crate::assemble_question::Question;
 use crate::failure::{Answer, Failure};
 use crate::machine::short;
 use crate::orientation;
+use crate::points_csv::digits;
 use crate::screen::{columns, fixed, triple, wrapped};
 use crate::setting::vector;
 use crate::summary;
@@ -256,7 +257,7 @@ pub(crate) fn csv(a: &AlongLine) -> Answer<Vec<u8>> {
     );
     writer.write_record(&header).map_err(failed)?;
     for p in &a.points {
-        let mut row = vec![p.distance_mm.to_string()];
+        let mut row = vec![digits(p.distance_mm, 8)];
         for v in [
             &p.position_mm,
             &p.load_alone_mm,
@@ -266,10 +267,10 @@ pub(crate) fn csv(a: &AlongLine) -> Answer<Vec<u8>> {
             &p.sum_mm,
             &p.rotation_vector_together_deg,
         ] {
-            row.extend(v.iter().map(f64::to_string));
+            row.extend(v.iter().map(|x| digits(*x, 8)));
         }
-        row.push(p.largest_internal_force_n.to_string());
-        row.push(p.largest_internal_moment_n_m.to_string());
+        row.push(digits(p.largest_internal_force_n, 8));
+        row.push(digits(p.largest_internal_moment_n_m, 8));
         row.push(if p.stable { "ok" } else { "unstable" }.to_owned());
         writer.write_record(&row).map_err(failed)?;
     }

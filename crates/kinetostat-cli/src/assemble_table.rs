@@ -3,8 +3,7 @@
 use crate::assemble_answer::{Assembly, Cases};
 use crate::assemble_question::Question;
 use crate::failure::{Answer, Failure};
-use crate::machine::short;
-use crate::screen::{columns, fixed, item, number, triple, wrapped};
+use crate::screen::{columns, fixed, item, load_triple, number, wrapped};
 use crate::summary;
 
 /// Rows of a list that is not asked for as a whole.
@@ -164,7 +163,7 @@ pub(crate) fn csv(a: &Assembly) -> Answer<Vec<u8>> {
         cells.extend(
             row.cases
                 .all()
-                .map(|x| x.map_or_else(String::new, |x| x.to_string())),
+                .map(|x| x.map_or_else(String::new, |x| crate::points_csv::digits(x, 8))),
         );
         writer.write_record(cells).map_err(failed)?;
     }
@@ -185,8 +184,8 @@ pub(crate) fn in_words(question: &Question, a: &Assembly, all: bool) -> String {
         out.push_str(&wrapped(
             &format!(
                 "The load: force {} N and moment {} N m on the tool. 'of errors' is the share of the deviations: as built less as drawn.",
-                triple(question.spot.wrench.force().into(), short),
-                triple(question.spot.wrench.moment().into(), short)
+                load_triple(question.spot.wrench.force().into()),
+                load_triple(question.spot.wrench.moment().into())
             ),
             0,
         ));

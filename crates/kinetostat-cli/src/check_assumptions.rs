@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::free_machine::Nearness;
 use crate::machine::short;
-use crate::screen::{fixed, item, number, triple};
+use crate::screen::{fixed, item, load_triple, number, triple};
 
 /// Size of the load that is assumed if none is given, N.
 const REFERENCE_N: f64 = 1000.0;
@@ -202,7 +202,7 @@ impl AssumptionsFinding {
                 Err(error) => {
                     let said = format!(
                         "a load of {} N has no equilibrium that could be found: {error}",
-                        triple(case.into(), short)
+                        load_triple(case.into())
                     );
                     if force.is_some() {
                         self.reference_force_n = Some(case.into());
@@ -246,7 +246,7 @@ impl AssumptionsFinding {
         if let Some(case) = jumps {
             let said = format!(
                 "under a load of {} N on the tool the machine does NOT stay in its shape: NOT STABLE; see `kinetostat deflect`",
-                triple(case.into(), short)
+                load_triple(case.into())
             );
             // What moves freely is not meant to carry the example load.
             if free.is_empty() {
@@ -275,7 +275,7 @@ impl AssumptionsFinding {
         self.reference_force_n = Some((*case).into());
         self.in_words.push(format!(
             "a load of {} N is far too much for this machine: to first order the tool would move by {} % of the natural length; along it deflections are small (1 %) up to about {} N",
-            triple((*case).into(), short),
+            load_triple((*case).into()),
             number(100.0 * share, 2),
             number(case.norm() * SMALL / share, 2),
         ));
@@ -298,7 +298,7 @@ impl AssumptionsFinding {
         };
         self.in_words.push(format!(
             "a load of {} N moves the tool by {} mm, {} % of the natural length: {judged}; the stiffness matrix alone would be {} % off{limit}",
-            triple((*case).into(), short),
+            load_triple((*case).into()),
             fixed(self.reference_deflection_mm.unwrap_or(0.0), 4),
             number(100.0 * share, 2),
             number(error, 2),

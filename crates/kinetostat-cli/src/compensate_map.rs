@@ -135,10 +135,7 @@ pub(crate) fn from_map(
         |w: &Warning| tolerance.held == Some(true) || w.code != WarningCode::SmallCorrection;
     warnings.extend(odd.filter(nothing_left_out));
     warnings.extend(wide_table(&path, &field));
-    warnings.extend(odd_tolerances(
-        writing.tolerance_mm,
-        writing.chord_tolerance_mm,
-    ));
+    warnings.extend(odd_tolerances(&writing));
     let result = MapResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

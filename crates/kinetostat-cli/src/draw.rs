@@ -13,7 +13,7 @@ use crate::input::Files;
 use crate::machine::short;
 use crate::output::{Existing, Outputs};
 use crate::place::{Spot, spot};
-use crate::screen::{self, Stream, fixed, triple, wrapped};
+use crate::screen::{self, Stream, fixed, load_triple, triple, wrapped};
 use crate::stiffness::motion_in_words;
 
 /// A drawing of a machine (SVG), and of how it moves or bends
@@ -282,10 +282,10 @@ fn deflection(spot: &Spot, posture: &Posture<'_>, scale: Option<f64>) -> Answer<
     let (force, moment) = (spot.wrench.force(), spot.wrench.moment());
     let mut parts = Vec::new();
     if force.norm() > 0.0 || moment.norm() == 0.0 {
-        parts.push(format!("{} N", triple(force.into(), short)));
+        parts.push(format!("{} N", load_triple(force.into())));
     }
     if moment.norm() > 0.0 {
-        parts.push(format!("{} N m", triple(moment.into(), short)));
+        parts.push(format!("{} N m", load_triple(moment.into())));
     }
     let shift = e.displacement.linear() * 1e3;
     let turn = e.displacement.angular().map(f64::to_degrees);

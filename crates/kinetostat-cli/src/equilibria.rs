@@ -15,7 +15,7 @@ use crate::equilibria_table;
 use crate::failure::{Answer, Failure};
 use crate::machine::short;
 use crate::place::Spot;
-use crate::screen::triple;
+use crate::screen::{load_triple, triple};
 use crate::setting::vector;
 
 pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
@@ -109,8 +109,8 @@ fn question(moves: &Moves, args: &EquilibriaArgs) -> Answer<Question> {
         ),
         (false, true) => format!(
             "Which shapes does the {subject} take under the force {} N and the moment {} N m on its tool?",
-            triple(acting.force().into(), short),
-            triple(acting.moment().into(), short)
+            load_triple(acting.force().into()),
+            load_triple(acting.moment().into())
         ),
         (false, false) => {
             format!(

@@ -17,7 +17,7 @@ use crate::map_table::{self, Columns};
 use crate::orientation;
 use crate::output::{Existing, Outputs};
 use crate::progress::Progress;
-use crate::screen::{self, Stream, triple};
+use crate::screen::{self, Stream, load_triple};
 use crate::setting::vector;
 
 /// More places are a slip of the pen: their table would fill a disk.
@@ -145,8 +145,8 @@ fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
             1 => "at the place".to_owned(),
             n => format!("at any of the {n} places"),
         },
-        triple(wrench.force().into(), short),
-        triple(wrench.moment().into(), short),
+        load_triple(wrench.force().into()),
+        load_triple(wrench.moment().into()),
     ))
 }
 
@@ -334,8 +334,8 @@ impl Picture {
         let under = match a.loaded {
             true => format!(
                 "; force {} N, moment {} N m on the tool",
-                triple(a.force_n, short),
-                triple(a.moment_n_m, short)
+                load_triple(a.force_n),
+                load_triple(a.moment_n_m)
             ),
             false => "; no load".to_owned(),
         };

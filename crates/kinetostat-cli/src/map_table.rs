@@ -9,7 +9,7 @@ use crate::machine::short;
 use crate::map_answer::{Extreme, FigureAnswer, MapAnswer};
 use crate::orientation;
 use crate::points_csv::{decimals, digits};
-use crate::screen::{columns, number, triple, wrapped};
+use crate::screen::{columns, load_triple, number, triple, wrapped};
 use crate::summary;
 
 /// Which columns a table has besides stiffness.
@@ -114,8 +114,8 @@ pub(crate) fn in_words(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64>) 
         &if a.loaded {
             format!(
                 "Under the force {} N and the moment {} N m on the tool, with weights, preloads and deviations. Stiffness is what a further small force on the tip would meet while the tool may turn; displacement is from where the tool is commanded.",
-                triple(a.force_n, short),
-                triple(a.moment_n_m, short)
+                load_triple(a.force_n),
+                load_triple(a.moment_n_m)
             )
         } else {
             "Stiffness of the unloaded machine as drawn against a force on the tip, by the motion along it while the tool may turn (weights, preloads and deviations left out; give --force for the loaded one).".to_owned()

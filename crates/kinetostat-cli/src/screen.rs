@@ -178,6 +178,17 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     formatter::fixed(value, decimals)
 }
 
+/// Components of a load in brackets, at four decimals, small ones with three digits; what is rounding beside the
+/// largest is zero.
+pub(crate) fn load_triple(v: [f64; 3]) -> String {
+    let most = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    triple(v, |x| match x.abs() <= 1e-12 * most {
+        true => "0".to_owned(),
+        false if x.abs() < 0.01 => formatter::short(x),
+        false => formatter::without_zeros(&fixed(x, 4)).to_owned(),
+    })
+}
+
 /// Three components in brackets.
 pub(crate) fn triple(v: [f64; 3], shown: impl Fn(f64) -> String) -> String {
     format!("({}, {}, {})", shown(v[0]), shown(v[1]), shown(v[2]))

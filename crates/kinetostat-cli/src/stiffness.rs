@@ -14,9 +14,8 @@ use crate::deflect::PlaceAsked;
 use crate::failure::Answer;
 use crate::input::Files;
 use crate::joints::{self, JointValue};
-use crate::machine::short;
 use crate::place::{Spot, spot};
-use crate::screen::{self, Stream, columns, fixed, item, number, triple, wrapped};
+use crate::screen::{self, Stream, columns, fixed, item, load_triple, number, triple, wrapped};
 use crate::summary;
 
 /// The answer, stable names with units.
@@ -337,8 +336,8 @@ fn in_words(spot: &Spot, a: &Stiffness) -> String {
     let state = if a.loaded {
         format!(
             "Stiffness under the force {} N and the moment {} N m on the tool, with weights, preloads and deviations: what a further small force would meet.",
-            triple(a.force_n, short),
-            triple(a.moment_n_m, short)
+            load_triple(a.force_n),
+            load_triple(a.moment_n_m)
         )
     } else {
         let with = match a.left_out.is_empty() {

@@ -3,7 +3,7 @@
 
 use kinetostat::number::{largest, largest_length, length_setting, short};
 use kinetostat::{Mechanism, MotionKind, Pose, Wrench};
-use kinetostat_program::{Accounting, Corrected, Knowledge};
+use kinetostat_program::{Accounting, Corrected, Knowledge, WriteOptions};
 use nalgebra::Vector3;
 
 use crate::limits::{Beyond, Limits};
@@ -72,6 +72,9 @@ const SHORT_MM: f64 = 15.0;
 
 /// Wider tolerances than this are not those of cutting, mm.
 const WIDE_MM: f64 = 0.1;
+
+/// Backward steps up to this are as long as corrections are, mm.
+const LONG_STEP_MM: f64 = 1.0;
 
 /// The largest wrench that the load law gives, in part axes (of a law that turns: at one heading).
 fn of_law(cutting: CuttingLoad, placement: &Placement) -> Wrench {
@@ -430,19 +433,27 @@ pub fn odd_correction(
 
 /// Tolerances that are allowed and odd.
 #[must_use]
-pub fn odd_tolerances(path_mm: f64, chord_mm: f64) -> Vec<Warning> {
-    [("path", path_mm), ("chord", chord_mm)]
-        .into_iter()
-        .filter(|(_, mm)| *mm > WIDE_MM)
-        .map(|(name, mm)| {
-            Warning::new(
-                WarningCode::WideTolerance,
-                format!(
-                    "the {name} tolerance is {} mm: machines that cut are judged by hundredths; {name}_um is in micrometres",
-                    short(mm)
-                ),
-            )
-        })
+pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
+    let wide = [
+        ("path", writing.tolerance_mm),
+        ("chord", writing.chord_tolerance_mm),
+    ];
+    let wide = wide.into_iter().filter(|(_, mm)| *mm > WIDE_MM);
+    let wide = wide.map(|(name, mm)| {
+        format!(
+            "the {name} tolerance is {} mm: machines that cut are judged by hundredths; {name}_um is in micrometres",
+            short(mm)
+        )
+    });
+    let backward = writing.backward_step_mm;
+    let long = (backward > LONG_STEP_MM).then(|| {
+        format!(
+            "steps that cut backwards are not warned of up to {} mm: at corners they are as long as the corrections; backward_step_um is in micrometres",
+            short(backward)
+        )
+    });
+    wide.chain(long)
+        .map(|said| Warning::new(WarningCode::WideTolerance, said))
         .collect()
 }
 
@@ -489,10 +500,7 @@ pub(crate) fn odd(
         ));
     }
     if compensated {
-        list.extend(odd_tolerances(
-            task.writing.tolerance_mm,
-            task.writing.chord_tolerance_mm,
-        ));
+        list.extend(odd_tolerances(&task.writing));
     }
     let stiffness = summary.smallest_stiffness_n_per_mm;
     if summary.stable && !(SOFT..=STIFF).contains(&stiffness) {

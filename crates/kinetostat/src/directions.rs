@@ -88,14 +88,14 @@ pub(crate) fn motion_in_words(twist: &Twist) -> String {
     // Point of the axis nearest the reference point.
     let through = axis.cross(&linear) / turning;
     let mut words = format!("turns about {}", axis_in_words(&axis));
-    if through.norm() > 1e-6 {
-        let p = through.map(|x| if x.abs() < 5e-5 { 0.0 } else { x });
+    let p = through.map(|x| if x.abs() < 5e-5 { 0.0 } else { x });
+    if p.norm() > 0.0 {
         words += &format!(
             " on an axis [{:.4}, {:.4}, {:.4}] m from the end",
             p.x, p.y, p.z
         );
     }
-    if advance.abs() > 1e-6 {
+    if advance.abs() >= 5e-5 {
         words += &format!(" and advances {advance:.4} m per rad");
     }
     words

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::branches::CurveSettings;
-use crate::directions::{Direction, DirectionKind};
+use crate::directions::{Direction, DirectionKind, motion_in_words};
 use crate::equilibrium::{EndCondition, Residual};
 use crate::error::{Error, Result};
 use crate::platform::{MechanismState, PlatformSolver, Unknowns};
@@ -235,12 +235,11 @@ impl<'m> Posture<'m> {
     }
 
     fn free_direction(&self, way: &Twist, wrench: &Wrench) -> Error {
-        let t = way.0;
         Error::FreeDirection {
             place: format!("mechanism '{}'", self.mechanism.name),
             reason: format!(
-                "the motion [{:.3} {:.3} {:.3}] m with rotation [{:.3} {:.3} {:.3}] rad costs no force, and the load pushes on as far as it could be followed",
-                t[0], t[1], t[2], t[3], t[4], t[5]
+                "no force is needed where the tool {}, and the load pushes on as far as it could be followed",
+                motion_in_words(way)
             ),
             wrench: Box::new(*wrench),
         }

@@ -336,7 +336,7 @@ fn a_wrench_along_a_free_direction_is_named() {
     assert!(error.is_unanswered());
     says(
         &error,
-        &["mechanism 'door'", "free direction", "costs no force"],
+        &["mechanism 'door'", "free direction", "no force is needed"],
     );
 }
 
