@@ -162,6 +162,18 @@ fn a_limit_on_the_way_is_told() {
     .answered();
     let told = words(&said.out);
     assert!(told.contains("SNAPS on the way to this load"), "{told}");
+    // The limit lies a little beyond this load.
+    let push = ["--force", "0", "0", "-150.9"];
+    let said = ask(
+        &truss(100.0, 0.0, ""),
+        &[&["deflect", "M"][..], &push].concat(),
+    )
+    .answered();
+    let told = words(&said.out);
+    assert!(
+        !told.contains("SNAPS") && !told.contains("NOT stay"),
+        "{told}"
+    );
     let push = ["--force", "0", "0", "-100"];
     let said = ask(
         &truss(100.0, 0.0, ""),
