@@ -579,7 +579,7 @@ impl<'p, 'm> Path<'p, 'm> {
         let stays = definite
             || (!self.conservative(e, motions) && {
                 let k = possible.transpose() * self.balanced_stiffness(e) * &possible;
-                diverging_motions(&k, 1e-9 * k.amax()) == 0
+                diverging_motions(&k, 1e-9 * k.amax(), e.moves_with_its_tool()) == 0
             });
         Holding { stays, definite }
     }

@@ -89,6 +89,13 @@ pub struct LimbEquilibrium {
     pub stability: ShapeStability,
 }
 
+impl LimbEquilibrium {
+    /// It has no motion while its end is held, so that its end's motions are all that it has.
+    fn follows_its_end(&self) -> bool {
+        self.stability.stable && self.stability.share_to_buckling.is_none()
+    }
+}
+
 /// A mechanism in equilibrium.
 #[derive(Clone, Debug)]
 pub struct MechanismEquilibrium {
@@ -136,6 +143,11 @@ impl MechanismEquilibrium {
     #[must_use]
     pub fn shapes_stable(&self) -> bool {
         self.limbs.iter().all(|l| l.stability.stable)
+    }
+
+    /// The motions of the tool are all that the machine has.
+    pub(crate) fn moves_with_its_tool(&self) -> bool {
+        self.state.platforms.len() == 2 && self.limbs.iter().all(LimbEquilibrium::follows_its_end)
     }
 
     /// Every limb keeps its shape and the platform its place.
@@ -781,8 +793,10 @@ pub(crate) fn conclude(
             || m.tool_moment_has_potential(&solver.dead_moment(&wrench)));
     let held = solver.unknowns == Unknowns::Held;
     let hold = |held| others_hold(&tangent, graded.as_ref(), &rigid, tool - 1, scale, held);
-    let stays =
-        |held| !conservative && none_diverges(&tangent, &directions, &rigid, tool - 1, scale, held);
+    let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
+    let stays = |held| {
+        !conservative && none_diverges(&tangent, &directions, &rigid, tool - 1, scale, held, whole)
+    };
     let definite = least >= 0.0 && hold(held);
     let stable = definite || stays(held);
     let others_hold = hold(true) || stays(true);
