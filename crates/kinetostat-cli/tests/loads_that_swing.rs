@@ -236,6 +236,35 @@ axes = "node"
     )
 }
 
+/// A moment turns the tip by `2 - P` rad/(N m), a force across moves it by `5 - 2 P` m/N: beyond, against
+/// itself, which is no stiffness. Nothing buckles under a jet alone.
+#[test]
+fn what_a_jet_takes_from_the_stiffness_is_told_and_called_no_buckling() {
+    for jet in [0.0, 0.5, 1.0, 1.7, 1.9, 2.1, 2.4, 2.6, 3.0, 7.0] {
+        let said = ask(&column(jet), &["check", "M", "--json"]).answered();
+        let found: serde_json::Value = serde_json::from_str(&said.out).expect("JSON");
+        let a = &found["assumptions"];
+        for (name, kind, yields) in [
+            ("against_moment_n_m_per_rad", "moment", 2.0 - jet),
+            ("against_force_n_per_mm", "force", 1e3 * (5.0 - 2.0 * jet)),
+        ] {
+            let none = format!("no stiffness against a {kind} is told");
+            let words = words(&ask(&column(jet), &["check", "M"]).answered().out);
+            assert_eq!(words.contains(&none), yields < 0.0, "{jet}: {words}");
+            match yields > 0.0 {
+                true => {
+                    let told = a[name][0].as_f64().expect(name);
+                    assert!((told * yields - 1.0).abs() < 1e-6, "{jet}: {name} {told}");
+                }
+                false => assert!(a[name].is_null(), "{jet}: {name} {}", a[name]),
+            }
+            assert!(!words.contains("NEAR BUCKLING"), "{jet}: {words}");
+            let swings = words.contains("Warning") && words.contains("may swing");
+            assert_eq!(swings, jet > 2.0, "{jet}: {words}");
+        }
+    }
+}
+
 /// The same question, asked in three ways: what `deflect` calls lost, `equilibria` and `curve` call lost.
 #[test]
 fn deflect_equilibria_and_curve_agree_on_a_column_under_a_jet() {

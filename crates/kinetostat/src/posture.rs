@@ -175,7 +175,9 @@ impl MechanismEquilibrium {
 
     /// Force (N) that moves the tool's origin by 1 m in its softest direction while the tool may
     /// turn as it likes: what a person who pushes the tool feels. Zero if a direction is free,
-    /// negative if the tool runs away by itself, infinite if no force moves it.
+    /// negative if the symmetric part of the stiffness lets some force move the tool against itself, infinite
+    /// if no force moves it. It is no verdict: a tool that runs away may yet be moved along every force,
+    /// see [`Self::stable`].
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
         stiffness_against_force(&self.stiffness.symmetric(), &self.directions, self.length)
