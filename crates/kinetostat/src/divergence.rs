@@ -152,7 +152,7 @@ mod tests {
             let best = eigen.eigenvectors.column(eigen.eigenvalues.imax());
             let mut real_somewhere = false;
             for heavy in [1.0, 1e2, 1e4, 1e6, 1e8] {
-                let light = &best * best.transpose();
+                let light = best * best.transpose();
                 let inverse = &light + (DMatrix::identity(2, 2) - &light) / heavy;
                 let a = inverse * &t;
                 let (trace, det) = (a.trace(), a.determinant());
