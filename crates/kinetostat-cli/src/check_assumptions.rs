@@ -31,7 +31,7 @@ pub(crate) struct AssumptionsFinding {
     /// Mean over the limbs, mm: deflections are compared with it.
     pub(crate) natural_length_mm: f64,
     /// Smallest and largest stiffness of the tool against a force, free to turn, N/mm; directions
-    /// that are free or rigid left out.
+    /// that are free or rigid left out. None where some force moves the tool against itself.
     pub(crate) against_force_n_per_mm: Option<[f64; 2]>,
     /// The same against a moment, free to move, N m/rad.
     pub(crate) against_moment_n_m_per_rad: Option<[f64; 2]>,
@@ -101,13 +101,27 @@ pub(crate) fn assumptions(
 /// Compliances below this share of the largest, rotations at the natural length, are rounding.
 const NO_MOTION: f64 = 1e-12;
 
-/// Stiffnesses behind a block of a compliance, the softest and the stiffest, N/m or N m/rad.
-fn range(block: &Matrix3<f64>) -> Option<[f64; 2]> {
-    let values = block.symmetric_eigenvalues();
-    let most = values.max();
-    let least = values.iter().copied().filter(|x| *x > 1e-9 * most);
-    let least = least.fold(f64::INFINITY, f64::min);
-    (most > 0.0 && least.is_finite()).then(|| [1.0 / most, 1.0 / least])
+/// What a push of one kind does to the tool.
+enum Yields {
+    /// Stiffnesses, the softest and the stiffest, N/m or N m/rad.
+    Along([f64; 2]),
+    /// Some push moves it the other way, so that no stiffness says how far it yields.
+    Against,
+}
+
+/// What a block of a compliance says of the motion along a push; parts up to `nothing` are rounding.
+fn yields(block: &Matrix3<f64>, nothing: f64) -> Option<Yields> {
+    // Along the push acts the symmetric part alone; loads without a potential leave another.
+    let values = (0.5 * (block + block.transpose())).symmetric_eigenvalues();
+    let nothing = nothing.max(1e-9 * values.amax());
+    if values.min() < -nothing {
+        return Some(Yields::Against);
+    }
+    let moving = values.iter().copied().filter(|x| *x > nothing);
+    let least = moving.fold(f64::INFINITY, f64::min);
+    least
+        .is_finite()
+        .then(|| Yields::Along([1.0 / values.max(), 1.0 / least]))
 }
 
 impl AssumptionsFinding {
@@ -118,14 +132,26 @@ impl AssumptionsFinding {
             let force: Matrix3<f64> = c.fixed_view::<3, 3>(0, 0).into_owned();
             let moment: Matrix3<f64> = c.fixed_view::<3, 3>(3, 3).into_owned();
             // One block beside which the other is rounding has no motion at all.
-            let (moves, turns) = (force.amax(), moment.amax() * rest.length.powi(2));
-            let nothing = NO_MOTION * moves.max(turns);
-            if moves > nothing {
-                self.against_force_n_per_mm = range(&force).map(|r| r.map(|k| 1e-3 * k));
+            let arm = rest.length.powi(2);
+            let nothing = NO_MOTION * force.amax().max(moment.amax() * arm);
+            let mut against = Vec::new();
+            match yields(&force, nothing) {
+                Some(Yields::Along(range)) => {
+                    self.against_force_n_per_mm = Some(range.map(|k| 1e-3 * k));
+                }
+                Some(Yields::Against) => against.push("force"),
+                None => {}
             }
-            if turns > nothing {
-                self.against_moment_n_m_per_rad = range(&moment);
+            match yields(&moment, nothing / arm) {
+                Some(Yields::Along(range)) => self.against_moment_n_m_per_rad = Some(range),
+                Some(Yields::Against) => against.push("moment"),
+                None => {}
             }
+            self.in_words.extend(against.iter().map(|push| {
+                format!(
+                    "with the loads of the model, a {push} on the tool may move it against that {push}: no stiffness against a {push} is told"
+                )
+            }));
         }
         self.small_up_to_n = self
             .against_force_n_per_mm
@@ -334,6 +360,9 @@ impl AssumptionsFinding {
             if state.near() {
                 self.warnings
                     .push(Warning::new(WarningCode::NearBuckling, said.clone()));
+            } else if state.may_flutter() {
+                self.warnings
+                    .push(Warning::new(WarningCode::NoPotential, said.clone()));
             }
             self.in_words.push(said);
         }

@@ -53,7 +53,32 @@ impl<'e> Nearness<'e> {
 
     /// Stable, but not far from where it is not.
     pub(crate) fn near(&self) -> bool {
-        self.state.stable() && self.most() > NEAR
+        self.state.stable() && self.most_to_buckling() > NEAR
+    }
+
+    /// Under loads without a potential it does not go away, but may swing with growing amplitude.
+    pub(crate) fn may_flutter(&self) -> bool {
+        self.state.may_flutter()
+    }
+
+    /// The largest of the shares that lead to buckling: those of loads without a potential lead to where the
+    /// symmetric part of the stiffness is no more positive, and nothing need buckle there or beyond.
+    fn most_to_buckling(&self) -> f64 {
+        let limbs = self.state.limbs.iter().filter(|l| l.conservative);
+        let limbs = limbs.filter_map(|l| finite(l.stability.share_to_buckling));
+        let free = self.free.filter(|_| self.state.conservative);
+        let shares = limbs.chain(free).chain(self.of_euler_load());
+        shares.fold(0.0, f64::max)
+    }
+
+    /// What the share of the limb that is farthest on its way leads to.
+    fn limb_leads_to(&self) -> &'static str {
+        let named = |name: &str| self.state.limbs.iter().find(|l| l.name == name);
+        let limb = self.limb.and_then(|(_, name)| named(name));
+        match limb.is_none_or(|l| l.conservative) {
+            true => "buckling",
+            false => way_to(false),
+        }
     }
 
     /// The share of the machine with its tool free, where its limbs do not tell it.
@@ -67,12 +92,14 @@ impl<'e> Nearness<'e> {
         let mut parts = Vec::new();
         match (self.limb, under_load) {
             (Some((share, limb)), true) if share > NOTHING => parts.push(format!(
-                "the load brings limb '{limb}' {} of the way to buckling",
-                formatter::share(share)
+                "the load brings limb '{limb}' {} of the way to {}",
+                formatter::share(share),
+                self.limb_leads_to()
             )),
             (Some((share, limb)), false) if share > NOTHING => parts.push(format!(
-                "without load on the tool limb '{limb}' is {} of the way to buckling",
-                formatter::share(share)
+                "without load on the tool limb '{limb}' is {} of the way to {}",
+                formatter::share(share),
+                self.limb_leads_to()
             )),
             (Some(_), true) => parts.push("no load brings a limb towards buckling".to_owned()),
             (Some(_), false) => {
@@ -109,7 +136,10 @@ impl<'e> Nearness<'e> {
         text.push_str(match self.state.stable() {
             false if self.state.shapes_stable() => ": NOT STABLE, the tool does not stay",
             false => ": NOT STABLE",
-            true if most > NEAR => ": NEAR BUCKLING",
+            true if self.near() => ": NEAR BUCKLING",
+            true if self.may_flutter() => {
+                ": it does not go away, but may swing with growing amplitude (flutter), which depends on its masses"
+            }
             true if most > NOTICEABLE => ": stiffness changes noticeably with the load",
             true if told > NOTHING => ": far from buckling",
             true => "",

@@ -162,6 +162,18 @@ fn a_limit_on_the_way_is_told() {
     .answered();
     let told = words(&said.out);
     assert!(told.contains("SNAPS on the way to this load"), "{told}");
+    // The limit lies a little beyond this load.
+    let push = ["--force", "0", "0", "-150.9"];
+    let said = ask(
+        &truss(100.0, 0.0, ""),
+        &[&["deflect", "M"][..], &push].concat(),
+    )
+    .answered();
+    let told = words(&said.out);
+    assert!(
+        !told.contains("SNAPS") && !told.contains("NOT stay"),
+        "{told}"
+    );
     let push = ["--force", "0", "0", "-100"];
     let said = ask(
         &truss(100.0, 0.0, ""),
@@ -186,4 +198,101 @@ fn no_force_moves_a_joint_in_its_middle() {
         "{}",
         said.out
     );
+}
+
+/// Two links of 1 m on springs of 1 N m/rad, along x, pressed by a jet that turns with the tip.
+fn column(jet: f64) -> String {
+    format!(
+        r#"schema = 1
+
+[mechanism]
+name = "column"
+
+[[platform]]
+name = "tool"
+home = {{ position_m = [2, 0, 0] }}
+
+[chain.c]
+elements = [
+  {{ spring = "revolute", name = "a", axis = "z", stiffness_n_m_per_rad = 1.0 }},
+  {{ rigid = {{ translation_m = [1, 0, 0] }} }},
+  {{ spring = "revolute", name = "b", axis = "z", stiffness_n_m_per_rad = 1.0 }},
+  {{ rigid = {{ translation_m = [1, 0, 0] }} }},
+]
+
+[[limb]]
+name = "l"
+from = "base"
+to = "tool"
+chain = "c"
+
+[[limb.load]]
+wrench = "jet"
+node = "tip"
+force_n = [{:?}, 0, 0]
+axes = "node"
+"#,
+        -jet
+    )
+}
+
+/// A moment turns the tip by `2 - P` rad/(N m), a force across moves it by `5 - 2 P` m/N: beyond, against
+/// itself, which is no stiffness. Nothing buckles under a jet alone.
+#[test]
+fn what_a_jet_takes_from_the_stiffness_is_told_and_called_no_buckling() {
+    for jet in [0.0, 0.5, 1.0, 1.7, 1.9, 2.1, 2.4, 2.6, 3.0, 7.0] {
+        let said = ask(&column(jet), &["check", "M", "--json"]).answered();
+        let found: serde_json::Value = serde_json::from_str(&said.out).expect("JSON");
+        let a = &found["assumptions"];
+        for (name, kind, yields) in [
+            ("against_moment_n_m_per_rad", "moment", 2.0 - jet),
+            ("against_force_n_per_mm", "force", 1e3 * (5.0 - 2.0 * jet)),
+        ] {
+            let none = format!("no stiffness against a {kind} is told");
+            let words = words(&ask(&column(jet), &["check", "M"]).answered().out);
+            assert_eq!(words.contains(&none), yields < 0.0, "{jet}: {words}");
+            match yields > 0.0 {
+                true => {
+                    let told = a[name][0].as_f64().expect(name);
+                    assert!((told * yields - 1.0).abs() < 1e-6, "{jet}: {name} {told}");
+                }
+                false => assert!(a[name].is_null(), "{jet}: {name} {}", a[name]),
+            }
+            assert!(!words.contains("NEAR BUCKLING"), "{jet}: {words}");
+            let swings = words.contains("Warning") && words.contains("may swing");
+            assert_eq!(swings, jet > 2.0, "{jet}: {words}");
+        }
+    }
+}
+
+/// The same question, asked in three ways: what `deflect` calls lost, `equilibria` and `curve` call lost.
+#[test]
+fn deflect_equilibria_and_curve_agree_on_a_column_under_a_jet() {
+    let model = column(2.6);
+    // The symmetric part is negative in every motion from here on.
+    let lost = 0.2 + 0.73_f64.sqrt();
+    for force in [0.5, 1.0, 1.04, 1.07, 1.5, 2.0] {
+        let push = format!("{:?}", -force);
+        let push = ["--force", &push, "0", "0"];
+        let deflect = ask(&model, &[&["deflect", "M"][..], &push].concat()).answered();
+        let told = words(&format!("{}{}", deflect.out, deflect.err));
+        assert_eq!(told.contains("does NOT stay"), force > lost, "{told}");
+        let said = ask(&model, &[&["equilibria", "M"][..], &push].concat()).answered();
+        let told = words(&said.out);
+        assert_eq!(told.contains("may swing"), force < lost, "{told}");
+        assert_eq!(told.contains("it is NOT stable"), force > lost, "{told}");
+    }
+    let line = [
+        "curve", "M", "--force", "-1", "0", "0", "--factor", "0", "3", "--json",
+    ];
+    let said = ask(&model, &line).answered();
+    let found: serde_json::Value = serde_json::from_str(&said.out).expect("JSON");
+    let points = found["branches"][0]["points"].as_array().expect("points");
+    assert!(points.len() > 10);
+    for p in points {
+        let factor = p["factor"].as_f64().expect("a factor");
+        let stays = p["stable_under_dead_load"] == true;
+        assert_eq!(stays, factor < lost, "{factor}");
+        assert_eq!(p["may_flutter"] == true, factor < lost, "{factor}");
+    }
 }

@@ -12,8 +12,8 @@ const NO_MOTION: f64 = 1e-12;
 
 /// Smallest stiffness against a force: the force (N) that moves the tool's origin by 1 m in its softest
 /// direction while the tool may turn as it likes. The inverse of the largest eigenvalue of the
-/// translational block of the compliance [R 3.13]. Zero if a direction is free, negative if the tool
-/// runs away by itself, infinite if no force moves it.
+/// translational block of the compliance [R 3.13]. Zero if a direction is free, negative if some force
+/// moves the tool against itself, infinite if no force moves it.
 pub(crate) fn stiffness_against_force(
     symmetric: &Matrix6<f64>,
     directions: &[Direction],

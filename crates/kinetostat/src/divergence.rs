@@ -4,7 +4,8 @@
 //! frees energy. Forces that follow the chain and moments about fixed axes make `T` unsymmetric: then a
 //! neighbouring equilibrium exists where `det T = 0`, not where its symmetric part is indefinite
 //! (Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963). Below the latter
-//! neither divergence nor flutter can happen, whatever the masses are; above it the count here tells.
+//! neither divergence nor flutter can happen, whatever the masses are; above it the count here tells what
+//! the masses cannot change.
 //!
 //! Let `U` span the eigenvectors of the symmetric part with negative eigenvalues and `P` the others. Among `P`
 //! alone the symmetric part is positive, so that `T_PP` is regular, and
@@ -14,8 +15,13 @@
 //! ```
 //!
 //! `R`, static condensation onto the few motions in question, is singular exactly where `T` is, and its inverse is
-//! `U^T T^-1 U`. Its real negative eigenvalues are counted; conjugate ones may be a flutter, which depends on
-//! the masses.
+//! `U^T T^-1 U`. Its real negative eigenvalues are counted: their number is odd exactly where `det T < 0`, and
+//! then something goes away whatever the masses are. Conjugate ones may be a flutter, which depends on the masses.
+//!
+//! Where `U` is all there is, the symmetric part being negative in every motion, nothing depends on the masses:
+//! with masses `M` and `T x = w^2 M x` the real part of `w^2 = x* T x / x* M x` is negative for every `x`, so that
+//! all motions grow, whether they go straight or swing. The determinant does not tell it: of two motions
+//! it is positive there. Sure it is only if no motion was condensed out of `T` before.
 
 use nalgebra::{DMatrix, linalg::Schur};
 
@@ -23,8 +29,9 @@ use crate::krylov::largest_eigenvalues;
 use crate::saddle::inertia;
 
 /// Number of motions in which a shape of tangent stiffness `tangent` (n x n, in units in which motions
-/// count alike) goes away. Eigenvalues of the symmetric part down to `-zero` count as none.
-pub(crate) fn diverging_motions(tangent: &DMatrix<f64>, zero: f64) -> usize {
+/// count alike) goes away. Eigenvalues of the symmetric part down to `-zero` count as none. `whole`: no
+/// motion of the shape was condensed out of it.
+pub(crate) fn diverging_motions(tangent: &DMatrix<f64>, zero: f64, whole: bool) -> usize {
     let n = tangent.nrows();
     if n == 0 {
         return 0;
@@ -36,7 +43,7 @@ pub(crate) fn diverging_motions(tangent: &DMatrix<f64>, zero: f64) -> usize {
         -symmetric[(i, j)] - if i == j { zero } else { 0.0 }
     });
     let unstable = inertia(shifted).positive;
-    if unstable == 0 || !turns {
+    if unstable == 0 || !turns || (whole && unstable == n) {
         return unstable;
     }
     let (_, u) = largest_eigenvalues(&-symmetric, unstable);
@@ -81,30 +88,88 @@ mod tests {
             let (first, second) = ((3.0 * b - root) / (2.0 * b), (3.0 * b + root) / (2.0 * b));
             for (force, count) in [(0.0, 0), (first - 1e-6, 0), (first + 1e-6, 1)] {
                 assert_eq!(
-                    diverging_motions(&column(force, a), 0.0),
+                    diverging_motions(&column(force, a), 0.0, true),
                     count,
                     "{a} {force}"
                 );
             }
-            assert_eq!(diverging_motions(&column(second - 1e-6, a), 0.0), 1, "{a}");
+            assert_eq!(
+                diverging_motions(&column(second - 1e-6, a), 0.0, true),
+                1,
+                "{a}"
+            );
         }
         // Beyond a = 5/9 no force makes it diverge, though the symmetric part turns indefinite.
         for a in [0.56, 0.8, 1.0] {
             for force in [0.3, 1.0, 1.5, 1.9] {
-                assert_eq!(diverging_motions(&column(force, a), 0.0), 0, "{a} {force}");
+                assert_eq!(
+                    diverging_motions(&column(force, a), 0.0, true),
+                    0,
+                    "{a} {force}"
+                );
             }
         }
     }
 
+    fn random(state: &mut u64) -> f64 {
+        *state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (*state >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
+    }
+
+    /// Two motions are surely lost where the symmetric part is negative definite or the determinant
+    /// negative; else there are masses with which both frequencies are real. The same in all units.
+    #[test]
+    fn of_two_motions_the_verdict_is_that_of_all_masses_in_all_units() {
+        let mut state = 7;
+        let mut seen = [0; 3];
+        for case in 0..400 {
+            let t = DMatrix::from_fn(2, 2, |_, _| random(&mut state));
+            let skew = 3.0 * random(&mut state);
+            let t = &t + DMatrix::from_row_slice(2, 2, &[-0.5, skew, -skew, -0.5]);
+            let count = diverging_motions(&t, 0.0, true);
+            let symmetric = 0.5 * (&t + t.transpose());
+            let own = symmetric.symmetric_eigenvalues();
+            let awaited = match (t.determinant() < 0.0, own.max() < 0.0) {
+                (true, _) => 1,
+                (false, true) => 2,
+                (false, false) => 0,
+            };
+            assert_eq!(count, awaited, "case {case}: {t}");
+            seen[count] += 1;
+            let other = DMatrix::from_fn(2, 2, |_, _| random(&mut state));
+            if other.determinant().abs() > 0.05 {
+                let moved = other.transpose() * &t * &other;
+                assert_eq!(
+                    diverging_motions(&moved, 0.0, true),
+                    awaited,
+                    "case {case}: {t}"
+                );
+            }
+            // Masses without end across the motion that the springs hold leave real frequencies.
+            let eigen = symmetric.symmetric_eigen();
+            let best = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+            let mut real_somewhere = false;
+            for heavy in [1.0, 1e2, 1e4, 1e6, 1e8] {
+                let light = best * best.transpose();
+                let inverse = &light + (DMatrix::identity(2, 2) - &light) / heavy;
+                let a = inverse * &t;
+                let (trace, det) = (a.trace(), a.determinant());
+                real_somewhere |= trace > 0.0 && det > 0.0 && trace * trace > 4.0 * det;
+            }
+            assert!(count == 0 || !real_somewhere, "case {case}: {t}");
+            if count == 0 && own.max() > 1e-3 {
+                assert!(real_somewhere, "case {case}: {t}");
+            }
+        }
+        assert!(seen.iter().all(|n| *n > 30), "{seen:?}");
+    }
+
     #[test]
     fn its_parity_is_the_sign_of_the_determinant() {
-        let mut state = 1_u64;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
-        };
+        let mut state = 1;
+        let mut next = || random(&mut state);
         let mut counts = [0; 8];
         for case in 0..400 {
             let n = 2 + case % 6;
@@ -112,7 +177,7 @@ mod tests {
             let t = DMatrix::from_fn(n, n, |_, _| next());
             let shift = DMatrix::identity(n, n) * 0.5;
             let t = 0.5 * (&t + t.transpose()) + skew * 0.5 * (&t - t.transpose()) + shift;
-            let count = diverging_motions(&t, 0.0);
+            let count = diverging_motions(&t, 0.0, true);
             counts[count] += 1;
             assert_eq!(count % 2 == 1, t.determinant() < 0.0, "case {case}: {t}");
             if skew == 0.0 {

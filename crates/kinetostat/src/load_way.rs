@@ -147,12 +147,11 @@ impl<'m> Posture<'m> {
         let end = EndCondition::wrench(Wrench::zero());
         let path = Path::new(self, &load, &end, &settings)?;
         // Motions that cost nothing have no limit but rounding.
-        let (last, limit) = path.growing(|p| p.parameter <= LEAST_SHARE)?;
+        let (whole, limit) = path.growing(|p| p.parameter <= LEAST_SHARE)?;
         let limit = limit.map(|p| LoadLimit {
             share: p.parameter,
             displacement: p.equilibrium.displacement,
         });
-        let whole = last.filter(|p| limit.is_none() && p.parameter == 1.0);
         Ok((whole.map(|p| p.equilibrium.state), limit))
     }
 

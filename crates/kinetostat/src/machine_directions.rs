@@ -148,7 +148,7 @@ pub(crate) fn others_hold(
 }
 
 /// Whether no platform goes away under loads without a potential (divergence), whatever the tangent's symmetric
-/// part is; with `held`, while the tool is held.
+/// part is; with `held`, while the tool is held. `whole`: the limbs have no motions of their own besides.
 pub(crate) fn none_diverges(
     tangent: &Sparse,
     directions: &[Direction],
@@ -156,6 +156,7 @@ pub(crate) fn none_diverges(
     platform: usize,
     scale: Scale,
     held: bool,
+    whole: bool,
 ) -> bool {
     let mut balanced = balanced_tangent(tangent, rigid, platform, scale, held);
     // Of the limbs of a single platform the directions say which motions are impossible.
@@ -165,7 +166,7 @@ pub(crate) fn none_diverges(
         balanced = possible.transpose() * balanced * possible;
     }
     let zero = ZERO_STIFFNESS * balanced.amax();
-    diverging_motions(&balanced, zero) == 0
+    diverging_motions(&balanced, zero, whole) == 0
 }
 
 /// Those of some motions (balanced, orthonormal, by a natural length) across all directions of a kind.

@@ -579,7 +579,7 @@ impl<'p, 'm> Path<'p, 'm> {
         let stays = definite
             || (!self.conservative(e, motions) && {
                 let k = possible.transpose() * self.balanced_stiffness(e) * &possible;
-                diverging_motions(&k, 1e-9 * k.amax()) == 0
+                diverging_motions(&k, 1e-9 * k.amax(), e.moves_with_its_tool()) == 0
             });
         Holding { stays, definite }
     }
@@ -906,9 +906,9 @@ impl<'p, 'm> Path<'p, 'm> {
             .flatten()
     }
 
-    /// The path from no load to the whole, as far as it is followed in a bounded number of steps, and
-    /// the first point at which the machine stops being stable under the load because that has its
-    /// extreme; `none` tells which of them are rounding.
+    /// Where the path from no load reaches the whole, if it does before a limit; else the first point at
+    /// which the machine stops being stable under the load because that has its extreme. `none` tells
+    /// which of them are rounding.
     pub(crate) fn growing(
         &self,
         none: impl Fn(&PathPoint) -> bool,
@@ -917,15 +917,30 @@ impl<'p, 'm> Path<'p, 'm> {
         let (ahead, end) = self.walk(&start, 1.0);
         let last = ahead.last().cloned();
         let points: Vec<PathPoint> = [start].into_iter().chain(ahead).collect();
-        let limit = points
+        let first = points
             .windows(2)
             .filter(|w| w[0].dead != w[1].dead)
             .find_map(|w| {
                 let step = self.step_between(&w[0], &w[1]);
                 let limit = (step >= 0.0).then(|| self.load_limit(&w[0], &w[1], step));
-                limit.flatten().filter(|p| !none(p))
+                let limit = limit.flatten().filter(|p| !none(p))?;
+                Some((&w[0], limit))
             });
-        Ok((last.filter(|_| end == BranchEnd::Range), limit))
+        let whole = self.settings.range.1;
+        Ok(match first {
+            // A step may lead over a limit that lies beyond the whole load, and end below it: the
+            // whole was carried before.
+            Some((before, limit)) if limit.parameter >= whole => {
+                let step = self.step_between(before, &limit);
+                let there = self.between(before, step, |p| p.parameter - whole);
+                (there, None)
+            }
+            Some((_, limit)) => (None, Some(limit)),
+            None => {
+                let reached = |p: &PathPoint| end == BranchEnd::Range && p.parameter == whole;
+                (last.filter(reached), None)
+            }
+        })
     }
 
     fn jumps(&self, points: &[PathPoint], specials: &[PathSpecial]) -> Vec<PathJump> {

@@ -89,6 +89,13 @@ pub struct LimbEquilibrium {
     pub stability: ShapeStability,
 }
 
+impl LimbEquilibrium {
+    /// It has no motion while its end is held, so that its end's motions are all that it has.
+    fn follows_its_end(&self) -> bool {
+        self.stability.stable && self.stability.share_to_buckling.is_none()
+    }
+}
+
 /// A mechanism in equilibrium.
 #[derive(Clone, Debug)]
 pub struct MechanismEquilibrium {
@@ -138,6 +145,11 @@ impl MechanismEquilibrium {
         self.limbs.iter().all(|l| l.stability.stable)
     }
 
+    /// The motions of the tool are all that the machine has.
+    pub(crate) fn moves_with_its_tool(&self) -> bool {
+        self.state.platforms.len() == 2 && self.limbs.iter().all(LimbEquilibrium::follows_its_end)
+    }
+
     /// Every limb keeps its shape and the platform its place.
     #[must_use]
     pub fn stable(&self) -> bool {
@@ -163,7 +175,9 @@ impl MechanismEquilibrium {
 
     /// Force (N) that moves the tool's origin by 1 m in its softest direction while the tool may
     /// turn as it likes: what a person who pushes the tool feels. Zero if a direction is free,
-    /// negative if the tool runs away by itself, infinite if no force moves it.
+    /// negative if the symmetric part of the stiffness lets some force move the tool against itself, infinite
+    /// if no force moves it. It is no verdict: a tool that runs away may yet be moved along every force,
+    /// see [`Self::stable`].
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
         stiffness_against_force(&self.stiffness.symmetric(), &self.directions, self.length)
@@ -781,8 +795,10 @@ pub(crate) fn conclude(
             || m.tool_moment_has_potential(&solver.dead_moment(&wrench)));
     let held = solver.unknowns == Unknowns::Held;
     let hold = |held| others_hold(&tangent, graded.as_ref(), &rigid, tool - 1, scale, held);
-    let stays =
-        |held| !conservative && none_diverges(&tangent, &directions, &rigid, tool - 1, scale, held);
+    let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
+    let stays = |held| {
+        !conservative && none_diverges(&tangent, &directions, &rigid, tool - 1, scale, held, whole)
+    };
     let definite = least >= 0.0 && hold(held);
     let stable = definite || stays(held);
     let others_hold = hold(true) || stays(true);

@@ -226,7 +226,7 @@ pub(crate) fn stability_within(
                 * (factors[6 + i] * factors[6 + j])
         });
         let turning = motions.transpose() * turning * &motions;
-        unstable_modes = diverging_motions(&(b - a - turning), 0.0);
+        unstable_modes = diverging_motions(&(b - a - turning), 0.0, true);
         stable = unstable_modes == 0;
     }
     let mode = mode.map_or_else(Vec::new, |v| {

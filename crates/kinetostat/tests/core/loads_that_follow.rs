@@ -2,10 +2,11 @@
 //! where its symmetric part is indefinite, and what is left open.
 
 use kinetostat::{
-    Chain, ChainProblem, CurveSettings, EndCondition, Judged, Load, LoadPattern, MotionKind,
-    Wrench, critical_load_factor,
+    Bounds, Chain, ChainProblem, CurveSettings, EndCondition, Judged, Limb, Load, LoadPattern,
+    Mechanism, MotionKind, Parameter, Platform, Pose, SearchSettings, Settings, SpreadSettings,
+    Wrench, critical_load_factor, equilibria, follow, solve_chain,
 };
-use nalgebra::{Vector3, vector};
+use nalgebra::{Matrix2, Vector2, Vector3, vector};
 
 /// Two links of length one on springs of stiffness `first` and `second` (N m/rad), along x, pressed at
 /// the end by a force that turns with the last link by a share (1: a follower, 0: dead).
@@ -122,4 +123,114 @@ fn a_dead_load_beside_a_follower_diverges_by_the_determinant() {
         }
         assert!(!found.conservative);
     }
+}
+
+/// A machine of that chain alone, pressed by a follower at its tip.
+fn machine_of(chain: &Chain, follower: f64) -> Mechanism {
+    let home = Pose::translation(2.0, 0.0, 0.0);
+    let mut builder = Mechanism::builder("column");
+    let tool = builder.platform(Platform::new("tool", home));
+    let press = Wrench::new(vector![-follower, 0.0, 0.0], Vector3::zeros());
+    builder
+        .limb(Limb {
+            name: "column".into(),
+            from: 0,
+            to: tool,
+            platform_from_tip: Pose::identity(),
+            nominal: chain.clone(),
+            actual: chain.clone(),
+        })
+        .load("column", Load::follower(chain.tip(), press))
+        .build()
+        .unwrap()
+}
+
+/// Stiffness of the straight column in the angles of its joints, under a follower and a dead force.
+fn straight_stiffness(springs: [f64; 2], follower: f64, dead: f64) -> Matrix2<f64> {
+    Matrix2::from_diagonal(&Vector2::from(springs)) + Matrix2::new(0.0, follower, 0.0, 0.0)
+        - Matrix2::new(2.0, 1.0, 1.0, 1.0) * dead
+}
+
+/// Stays, and may swing; `None` at a boundary.
+fn by_hand(t: &Matrix2<f64>) -> Option<(bool, bool)> {
+    let own = (0.5 * (t + t.transpose())).symmetric_eigenvalues();
+    let lost = t.determinant() < 0.0 || own.max() < 0.0;
+    let clear = t.determinant().abs() > 1e-3 && own.iter().all(|x| x.abs() > 1e-3);
+    clear.then_some((!lost, !lost && own.min() < 0.0))
+}
+
+/// A column that is lost whatever its masses are (the determinant negative, or the symmetric part of the
+/// stiffness negative in every motion) is told so by every way of asking, and as swinging by none.
+#[test]
+fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
+    let (mut seen, mut asked) = ([0; 4], [0; 2]);
+    let (mut few, mut some) = (SpreadSettings::default(), SearchSettings::default());
+    (few.starts, few.fruitless) = (10, 5);
+    (some.starts, some.fruitless) = (20, 10);
+    for springs in [[1.0, 1.0], [1.0, 0.4], [0.5, 2.0]] {
+        let chain = ziegler(springs[0], springs[1]);
+        for follower in [0.3, 1.0, 1.7, 2.6, 3.5] {
+            let machine = machine_of(&chain, follower);
+            let home = machine.platforms()[machine.tool()].home;
+            let posture = machine.posture(&home).unwrap();
+            let press = Wrench::new(vector![-1.0, 0.0, 0.0], Vector3::zeros());
+            let mut problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+            problem
+                .loads
+                .push(Load::follower(chain.tip(), Wrench(press.0 * follower)));
+            let start = solve_chain(&problem, &Settings::default()).unwrap();
+            let grows = Parameter::end_wrench(press);
+            let mut along = settings(4.0);
+            along.branches = 1;
+            let curves = follow(&problem, &grows, &start, 0.0, &along).unwrap();
+            let straight = |x: &[f64]| x.iter().all(|x| x.abs() < 1e-7);
+            for p in &curves.branches[0].points {
+                if !straight(&p.equilibrium.coordinates) {
+                    continue;
+                }
+                let t = straight_stiffness(springs, follower, p.parameter);
+                let Some(awaited) = by_hand(&t) else { continue };
+                let case = format!("{springs:?}, {follower}, {}", p.parameter);
+                let told = (p.dead.stable, p.dead.may_flutter());
+                assert_eq!(told, awaited, "curve, {case}");
+                let both = t.determinant() > 0.0;
+                seen[match awaited {
+                    (true, swings) => usize::from(swings),
+                    (false, _) => 2 + usize::from(both),
+                }] += 1;
+            }
+            for dead in [0.0, 0.3, 0.7, 1.1, 1.5, 2.5] {
+                let t = straight_stiffness(springs, follower, dead);
+                let Some(awaited) = by_hand(&t) else { continue };
+                let case = format!("{springs:?}, {follower}, {dead}");
+                let push = Wrench(press.0 * dead);
+                let loaded = posture.deflected_by(&push).unwrap();
+                if straight(&loaded.limbs[0].coordinates) {
+                    let told = (loaded.stable(), loaded.may_flutter());
+                    assert_eq!(told, awaited, "deflected, {case}");
+                }
+                let free = EndCondition::wrench(push);
+                let all = posture.equilibria(&free, &few).unwrap();
+                let all = all.found.iter();
+                let own = |limbs: &[kinetostat::LimbEquilibrium]| straight(&limbs[0].coordinates);
+                for f in all.filter(|f| own(&f.equilibrium.limbs)) {
+                    asked[0] += 1;
+                    let told = (f.stable, f.may_flutter);
+                    assert_eq!(told, awaited, "equilibria of the machine, {case}");
+                }
+                let mut one = problem.clone();
+                one.end = free;
+                let bounds = Bounds::of(&chain);
+                let all = equilibria(&one, &bounds, &some).unwrap();
+                let all = all.found.iter();
+                for f in all.filter(|f| straight(&f.equilibrium.coordinates)) {
+                    asked[1] += 1;
+                    let told = (f.stable, f.may_flutter);
+                    assert_eq!(told, awaited, "equilibria of the chain, {case}");
+                }
+            }
+        }
+    }
+    assert!(seen.iter().all(|n| *n > 20), "{seen:?}");
+    assert!(asked.iter().all(|n| *n > 40), "{asked:?}");
 }

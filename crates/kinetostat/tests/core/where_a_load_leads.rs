@@ -214,6 +214,49 @@ fn an_answer_behind_a_limit_point_is_recognised() {
     }
 }
 
+/// Whatever the share of the limit: below it the state told is the one in front of it, which the
+/// machine reaches without a snap; beyond it, if any state is told, the limit is on the way.
+#[test]
+fn a_limit_beyond_the_load_is_not_on_the_way() {
+    let mut told_behind = 0;
+    for (b, slope, k) in [
+        (1.0, 0.25, 1e6),
+        (0.5, 0.2, 1e5),
+        (0.5, 0.002, 1e5),
+        (2.0, 0.05, 3e7),
+        (1.0, 0.01, 1e4),
+        (1.0, 0.5, 1e6),
+    ] {
+        let h = slope * b;
+        let machine = truss(b, h, k);
+        let posture = machine.posture(&Pose::translation(0.0, 0.0, h)).unwrap();
+        let rest = posture.deflected_by(&Wrench::zero()).unwrap();
+        let (whole, down) = limit_by_hand(b, h, k, 1.0);
+        for share in [
+            0.3, 0.7, 0.9, 0.95, 0.99, 0.995, 0.999, 0.9995, 0.9999, 0.99999, 0.999999, 1.001,
+            1.01, 1.2, 30.0, 100.0,
+        ] {
+            let case = format!("b {b}, h {h}, k {k}, share {share}");
+            let push = share * whole;
+            let loaded = posture.deflected_by(&force(0.0, 0.0, -push));
+            if share < 1.0 {
+                let loaded = loaded.unwrap();
+                assert!(loaded.stable(), "{case}");
+                assert!(loaded.displacement.linear().z > down, "{case}");
+                let snap = posture.snaps_on_the_way(&rest, &loaded).unwrap();
+                assert_eq!(snap, None, "{case}");
+            } else if let Ok(loaded) = loaded {
+                assert!(loaded.displacement.linear().z < -h, "{case}");
+                let snap = posture.snaps_on_the_way(&rest, &loaded).unwrap();
+                let snap = snap.unwrap_or_else(|| panic!("{case}: no snap is told"));
+                assert_limit(&snap, b, h, k, push);
+                told_behind += 1;
+            }
+        }
+    }
+    assert!(told_behind > 0, "no load led behind a limit");
+}
+
 #[test]
 fn no_force_moves_a_tool_in_the_middle_of_its_joint() {
     let drive = ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), 5.0);
