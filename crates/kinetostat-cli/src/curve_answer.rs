@@ -207,7 +207,7 @@ pub(crate) struct CriticalAnswer {
     pub(crate) followed_to_factor: f64,
     /// All loads have a potential; if not, the factor is that of divergence, flutter is left open.
     pub(crate) conservative: bool,
-    /// Without a potential: below this factor there is neither divergence nor flutter; null with one, or
+    /// Without a potential: below this factor nothing goes away, whatever the masses are; null with one, or
     /// if none was met.
     pub(crate) safe_below_factor: Option<f64>,
     /// What is left open, in words; empty if nothing is.

@@ -552,7 +552,7 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
     }
     if !a.conservative {
         out.push_str(&screen::item(&format!(
-            "not conservative: {}; where the symmetric part of the stiffness is positive, nothing goes away or flutters, whatever the masses are; beyond, something goes away for all masses where the determinant is negative or that part is negative in every motion",
+            "not conservative: {}; where the symmetric part of the stiffness is positive, nothing goes away, whatever the masses are; beyond, something goes away for all masses where the determinant is negative or that part is negative in every motion; flutter depends on masses and damping",
             a.not_conservative_because.join(", ")
         )));
     }

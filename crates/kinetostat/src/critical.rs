@@ -64,8 +64,8 @@ pub struct CriticalLoad {
     /// determinant), and flutter, for which masses are needed, may come before.
     pub conservative: bool,
     /// Without a potential: the factor at which the symmetric part of the tangent turns indefinite. Below
-    /// it there is neither divergence nor flutter, whatever the masses are (real work is needed for every small
-    /// motion). `None` with a potential (then `exact` says it), or if it stays definite up to `reached`.
+    /// it nothing goes away, whatever the masses are (every small motion takes work on the straight way
+    /// there). `None` with a potential (then `exact` says it), or if it stays definite up to `reached`.
     pub definite_until: Option<f64>,
 }
 
@@ -77,11 +77,13 @@ impl CriticalLoad {
             return None;
         }
         let safe = match self.definite_until {
-            Some(factor) => format!("up to the factor {factor:.6} neither can happen"),
+            Some(factor) => {
+                format!("up to the factor {factor:.6} nothing goes away, whatever the masses are")
+            }
             None => format!("up to the factor {:.6} neither can happen", self.reached),
         };
         Some(format!(
-            "the loads follow the chain and have no potential: the critical factor is that of divergence (the tangent's determinant is zero); flutter, a swing that grows, may come before it and depends on the masses, which are not asked for here; {safe}"
+            "the loads follow the chain and have no potential: the critical factor is that of divergence (the tangent's determinant is zero); flutter, a swing that grows, may come before it and depends on masses and damping, which are not asked for here; {safe}"
         ))
     }
 }

@@ -4,8 +4,8 @@
 //! frees energy. Forces that follow the chain and moments about fixed axes make `T` unsymmetric: then a
 //! neighbouring equilibrium exists where `det T = 0`, not where its symmetric part is indefinite
 //! (Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963). Below the latter
-//! neither divergence nor flutter can happen, whatever the masses are; above it the count here tells what
-//! the masses cannot change.
+//! nothing goes away, whatever the masses are; above it the count here tells what the masses cannot change. A
+//! flutter is not judged: with masses that favour it and no damping every unsymmetric `T` has one.
 //!
 //! Let `U` span the eigenvectors of the symmetric part with negative eigenvalues and `P` the others. Among `P`
 //! alone the symmetric part is positive, so that `T_PP` is regular, and

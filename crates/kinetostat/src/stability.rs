@@ -8,7 +8,7 @@
 //!
 //! `S_c` is symmetric even where `H` of a moment on the end is not, because null motions do not turn the
 //! end. With the end free, or with moments and followers elsewhere, it need not be: `mu` is then that of
-//! the symmetric part, below 1 of which neither divergence nor flutter can happen, and beyond it
+//! the symmetric part, below 1 of which nothing goes away, whatever the masses are, and beyond it
 //! [`crate::divergence`] decides.
 
 use nalgebra::{DMatrix, DVector};
