@@ -84,8 +84,9 @@ Examples:
   kinetostat assemble my_machine.toml --along -70 -70 -70  -70 120 -70 \\
       --force 215 -10 -25 --plot line.svg --component x
 
-Deviations are the [[deviation]] tables of the model and those of --deviation. They belong to the
-machine as built; the controller commands the machine as drawn.
+Deviations are the [[deviation]] tables of the model and those of --deviation.
+They belong to the machine as built; the controller commands the machine as
+drawn.
 
 Exit codes:
   0    answered

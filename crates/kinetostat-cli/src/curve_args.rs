@@ -167,8 +167,9 @@ Examples:
       --displacement-mm -20 40 --plot flat.svg
       a parallel machine pushed through its flat posture
 
-Solid lines are stable, dashed ones are not. Unless --hold or --free say otherwise, a tool that is
-pushed is held in all other directions, and a tool under a growing load is free in all directions.
+Solid lines are stable, dashed ones are not. Unless --hold or --free say
+otherwise, a tool that is pushed is held in all other directions, and a tool
+under a growing load is free in all directions.
 
 Exit codes:
   0    answered
@@ -186,8 +187,8 @@ Examples:
   kinetostat equilibria orthoglide --at -120 -120 -120 --force 0 0 0
       a parallel machine near its flat posture: it may also rest behind it
 
-Without a force the tool is held at its commanded place (or displaced from it), with one it is free;
---hold and --free say otherwise, direction by direction.
+Without a force the tool is held at its commanded place (or displaced from it),
+with one it is free; --hold and --free say otherwise, direction by direction.
 
 Exit codes:
   0    answered

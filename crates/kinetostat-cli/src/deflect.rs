@@ -212,6 +212,22 @@ struct LinkAnswer {
     share_of_euler_load: f64,
 }
 
+/// Why nothing is told of a place where the machine's own loads find no equilibrium.
+fn without_load(error: kinetostat::Error) -> Failure {
+    match &error {
+        kinetostat::Error::NotConverged {
+            place,
+            load_factor,
+            limit: None,
+            ..
+        } => Failure::unanswered(format!(
+            "{place}: without any load on the tool, weights, preloads and deviations of the model lead from the commanded place to no equilibrium (only {} of them could be followed); check them, or let `kinetostat equilibria` search for the shapes that the machine can take",
+            kinetostat_machining::number::share(*load_factor)
+        )),
+        _ => error.into(),
+    }
+}
+
 fn at_place(args: &DeflectArgs) -> Answer<()> {
     refuse_program_flags(args)?;
     let files = Files::default();
@@ -224,8 +240,9 @@ fn at_place(args: &DeflectArgs) -> Answer<()> {
         args.program.moment.as_deref(),
     )?;
     let posture = spot.posture()?;
+    let rest = posture.deflected_by(&Wrench::zero());
+    let rest = rest.map_err(without_load)?;
     let loaded = posture.deflected_by(&spot.wrench)?;
-    let rest = posture.deflected_by(&Wrench::zero())?;
     let limit = posture.snaps_on_the_way(&rest, &loaded)?;
     let mut answer = answer(&spot, &posture, &loaded, &rest, limit.is_some());
     answer.warnings.extend(limit.as_ref().map(snaps));

@@ -97,9 +97,10 @@ Examples:
   kinetostat map my_robot.toml --x 800 1600 --z 400 1200 --force 300 0 -500 \\
       --plot displacement.svg --show displacement
 
-Stiffness is force per motion of the tip along it while the tool may turn, as a spring balance
-would show it. Without --force and --moment the machine is unloaded and as drawn; with one of them
-(zeros too) it bears that load and its own weight, with preloads and deviations.
+Stiffness is force per motion of the tip along it while the tool may turn, as a
+spring balance would show it. Without --force and --moment the machine is
+unloaded and as drawn; with one of them (zeros too) it bears that load and its
+own weight, with preloads and deviations.
 
 Exit codes:
   0    answered

@@ -815,6 +815,27 @@ fn a_hopeless_program_is_refused_with_what_smells_in_the_model() {
     }
 }
 
+/// Where the machine's own loads have no equilibrium, the load on the tool is not blamed.
+#[test]
+fn a_machine_that_its_own_weight_folds_is_told_as_that() {
+    let here = workplace();
+    let heavy = HEAVY.replace("[0, 0, -9.81]", "[0, 0, -9.81e6]");
+    assert_ne!(heavy, HEAVY);
+    std::fs::write(here.path().join("heavy.toml"), heavy).expect("a model");
+    for force in ["0", "-100"] {
+        let said = run(
+            here.path(),
+            &["deflect", "heavy.toml", "--force", "0", "0", force],
+        );
+        assert_eq!(said.code, 2, "{said:?}");
+        assert!(
+            said.err.contains("without any load on the tool"),
+            "{said:?}"
+        );
+        assert!(!said.err.contains("try a part of it"), "{said:?}");
+    }
+}
+
 /// An origin of the part in metres puts a large machine's base into the part.
 #[test]
 fn an_origin_in_metres_smells_in_every_command() {

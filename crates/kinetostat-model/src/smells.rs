@@ -571,7 +571,10 @@ impl Look<'_> {
     /// Bodies beside the next ones of their limb: what is carried weighs less than what carries it, and no
     /// part weighs next to nothing between others.
     fn neighbours(&self, warnings: &mut Vec<Finding>) {
-        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        let limbs = self.mechanism.limbs();
+        let chain = &limbs[self.limb].nominal;
+        // Where other limbs carry too, a light bar may lead to a heavy arm.
+        let alone = limbs.iter().filter(|l| l.to == limbs[self.limb].to).count() == 1;
         let mut bodies: Vec<&kinetostat::Body> = chain.bodies().iter().collect();
         bodies.retain(|b| b.mass > 0.0);
         bodies.sort_by_key(|b| b.node);
@@ -583,7 +586,7 @@ impl Look<'_> {
             let (other, said) = match (before, lightest) {
                 // Beside one that weighs next to nothing it is that one which is told.
                 (Some(before), _) if body.mass > BESIDE * before.mass => continue,
-                (Some(before), _) if body.mass > CARRIED * before.mass => {
+                (Some(before), _) if alone && body.mass > CARRIED * before.mass => {
                     (before, "which carries it")
                 }
                 (_, Some(lightest)) if body.mass * BESIDE < lightest.mass => {

@@ -87,7 +87,7 @@ impl<'a> Emitter<'a> {
                 text: format!(
                     "the program never states {}: corrections there, up to {} mm, are left out",
                     axes.join(" and "),
-                    at_most(division.left_out_mm, 4)
+                    at_most(division.left_out_mm)
                 ),
             });
         }
@@ -202,7 +202,7 @@ impl<'a> Emitter<'a> {
                  the machine does not do so, the tool cuts backwards",
                 counted(accounting.backward_steps, "time"),
                 self.options.backward_step_mm,
-                at_most(accounting.largest_backward_mm, 4)
+                at_most(accounting.largest_backward_mm)
             ),
         });
     }

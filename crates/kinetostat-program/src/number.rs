@@ -9,8 +9,10 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// A largest value, never stated too small; what is a round number but for its last binary digits stays it.
-pub(crate) fn at_most(value: f64, decimals: usize) -> String {
+/// A largest value with three digits, as results show it, never stated too small; what is a round number but for its
+/// last binary digits stays it.
+pub(crate) fn at_most(value: f64) -> String {
+    let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 12.0) as usize;
     let unit = 10_f64.powi(decimals as i32);
     fixed((value * unit * (1.0 - 1e-9)).ceil() / unit, decimals)
 }
@@ -43,9 +45,9 @@ mod tests {
         assert_eq!(fixed(-0.00001, 4), "0.0000");
         assert_eq!(fixed(-12.34567, 4), "-12.3457");
         assert_eq!(fixed(1e9, 1), "1000000000.0");
-        assert_eq!(at_most(0.029_41, 4), "0.0295");
-        assert_eq!(at_most(0.1 + 0.2, 4), "0.3000");
-        assert_eq!(at_most(1e-7, 4), "0.0001");
+        assert_eq!(at_most(0.029_41), "0.0295");
+        assert_eq!(at_most(0.1 + 0.2), "0.300");
+        assert_eq!(at_most(123.41), "124");
         assert_eq!(feed(900.0), "900");
         assert_eq!(feed(900.27), "900.3");
     }
