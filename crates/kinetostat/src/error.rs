@@ -1,8 +1,8 @@
 //! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
 //! finding (singular, unstable, redundant) is a field of a result.
 
-use crate::chain::MotionKind;
-use crate::load_way::LoadLimit;
+use crate::continuation::growing_load::LoadLimit;
+use crate::model::chain::MotionKind;
 use crate::number;
 use crate::spatial::{Pose, Wrench};
 

@@ -80,163 +80,89 @@
 //! near_singular, overcome, platform_curve, platform_path with machine_equilibria, compensation`; and `equilibrium, stability <- reduced, singular_point <-
 //! branches with tracer and bifurcation <- jumps, equilibria, critical`.
 
-mod assembly;
 pub mod batch;
-mod beam;
-mod behind;
-mod bifurcation;
-mod block_elimination;
-mod bowing;
-mod branches;
-mod builder;
 mod chain;
-mod chain_blocks;
 mod compensation;
-mod compliance;
-mod constraints;
-mod critical;
-mod curve_matrix;
-mod curve_sweep;
-mod directions;
-mod divergence;
-mod elimination;
-mod equilibria;
-mod equilibrium;
+mod continuation;
 mod error;
-mod family;
-mod follower;
-mod forward;
-mod function_load;
-mod graded;
-mod graded_platforms;
-mod graph;
-mod graph_check;
-mod inverse;
-mod jet;
-mod jumps;
-mod kinematics;
-mod krylov;
-mod length_law;
-mod link;
-mod link_load;
-mod load_check;
-mod load_energy;
-mod load_way;
-mod loading;
-mod logarithm;
-mod lost_motion;
-mod machine_descent;
-mod machine_directions;
-mod machine_equilibria;
-mod mechanism;
-mod mobility;
-mod near_singular;
-mod nearest;
-mod network;
-mod no_equilibrium;
+mod linalg;
+mod machine;
+mod model;
 pub mod number;
-mod orientation_follows;
-mod overcome;
-mod parallelogram;
-mod passive_rules;
-mod platform;
-mod platform_chain;
-mod platform_curve;
-mod platform_limb;
-mod platform_load;
-mod platform_path;
-mod platform_step;
-mod posture;
-mod reduced;
-mod report_iteration;
-mod saddle;
+mod reference;
 mod settings;
-mod shape_criterion;
-mod singular_point;
-mod singular_values;
-mod sparse;
 mod spatial;
-mod spring;
-mod stability;
-mod state_distance;
-mod stiffness;
-mod strut;
-mod sweep;
-mod sweep_factor;
-mod sweep_solve;
-#[cfg(test)]
-mod sweep_tests;
-mod system;
-mod tracer;
-mod turned_loads;
-mod uniform;
 
-pub use assembly::LinearAssembly;
-pub use beam::BeamSection;
-pub use bifurcation::{Special, SpecialKind};
-pub use bowing::BowingLaw;
-pub use branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Curves, follow};
-pub use builder::{ActuatorSpec, ChainBuilder};
-pub use chain::{
-    Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
-};
-pub use chain_blocks::ChainBlocks;
-pub use compensation::{Compensation, compensate, compensate_from, target_under_load};
-pub use compliance::CartesianCompliance;
-pub use constraints::{Overconstraint, SelfStress};
-pub use critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
-pub use directions::{Direction, DirectionKind, Share};
-pub use elimination::{Applied, Inapplicable, LoadedClosedForm, Recursion};
-pub use equilibria::{Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria};
-pub use equilibrium::{
+pub use chain::compliance::CartesianCompliance;
+pub use chain::directions::{Direction, DirectionKind, Share};
+pub use chain::equilibrium::{
     ChainProblem, EndCondition, Equilibrium, Prescribed, Residual, solve_chain, unloaded_tip,
 };
+pub use chain::graded::{uneven_in_words, uneven_springs_in_words};
+pub use chain::link_load::{LinkLoad, link_loads};
+pub use chain::stability::{ShapeStability, ShapeVerdict};
+pub use chain::stiffness::{ChainStiffness, unloaded_stiffness};
+pub use compensation::following::{compensate_following, target_under_load_following};
+pub use compensation::target::{Compensation, compensate, compensate_from, target_under_load};
+pub use continuation::bifurcation::{Special, SpecialKind};
+pub use continuation::branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Curves, follow};
+pub use continuation::critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
+pub use continuation::equilibria::{
+    Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria,
+};
+pub use continuation::growing_load::LoadLimit;
+pub use continuation::held_curve::{HeldCurve, HeldPoint};
+pub use continuation::jumps::Jump;
+pub use continuation::machine_equilibria::{MachineEquilibria, MachineFound, SpreadSettings};
+pub use continuation::machine_path::{
+    MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind,
+};
+pub use continuation::reduced::{LoadPattern, Parameter};
 pub use error::{Error, Result};
-pub use follower::{Follower, PointForce};
-pub use function_load::FunctionLoad;
-pub use graded::{uneven_in_words, uneven_springs_in_words};
-pub use inverse::{LimbPosture, inverse_kinematics};
-pub use jumps::Jump;
-pub use kinematics::Kinematics;
-pub use length_law::{LengthFunction, LengthLaw, LengthResponse};
-pub use link::{LinkConvention, LinkElasticity, LinkSpec};
-pub use link_load::{LinkLoad, link_loads};
-pub use load_check::{TangentCheck, check_tangents};
-pub use load_energy::{is_conservative, load_energy};
-pub use load_way::LoadLimit;
-pub use loading::{Load, NodeLoad, NodeTangent};
-pub use logarithm::LogarithmLaw;
-pub use machine_equilibria::{MachineEquilibria, MachineFound, SpreadSettings};
-pub use mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
-pub use near_singular::{NearSingularity, SingularityKind};
-pub use orientation_follows::{compensate_following, target_under_load_following};
-pub use overcome::OvercomeSpring;
-pub use parallelogram::ParallelogramLaw;
-pub use passive_rules::{
+pub use linalg::saddle::Inertia;
+pub use linalg::singular_values::SingularValues;
+pub use machine::assembly::LinearAssembly;
+pub use machine::constraints::{Overconstraint, SelfStress};
+pub use machine::explain::negative_stiffness::OvercomeSpring;
+pub use machine::inverse::limb::{LimbPosture, inverse_kinematics};
+pub use machine::platforms::solver::MechanismState;
+pub use machine::posture::{
+    LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
+};
+pub use machine::singular::near::{NearSingularity, SingularityKind};
+pub use model::beam::BeamSection;
+pub use model::builder::{ActuatorSpec, ChainBuilder};
+pub use model::chain::{
+    Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
+};
+pub use model::kinematics::Kinematics;
+pub use model::link::{LinkConvention, LinkElasticity, LinkSpec};
+pub use model::loads::check::{TangentCheck, check_tangents};
+pub use model::loads::follower::{Follower, PointForce};
+pub use model::loads::function::FunctionLoad;
+pub use model::loads::length_law::{LengthFunction, LengthLaw, LengthResponse};
+pub use model::loads::load::{Load, NodeLoad, NodeTangent};
+pub use model::loads::platform::PlatformLoad;
+pub use model::loads::potential::{is_conservative, load_energy};
+pub use model::loads::strut::{Anchor, Strut};
+pub use model::mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
+pub use model::springs::block::{Segment, SpringBlock, SpringLaw};
+pub use model::springs::bowing::BowingLaw;
+pub use model::springs::logarithm::LogarithmLaw;
+pub use model::springs::parallelogram::ParallelogramLaw;
+pub use reference::chain_blocks::ChainBlocks;
+pub use reference::elimination::{Applied, Inapplicable, LoadedClosedForm, Recursion};
+pub use reference::passive_rules::{
     Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,
     planar_with_slide_along_x, planar_with_slide_along_y, with_hinge_at, with_hinge_at_end,
     with_hinge_at_root, with_slide, with_spherical_joint_at_end, with_universal_joint_at_end,
 };
-pub use platform::MechanismState;
-pub use platform_curve::{HeldCurve, HeldPoint};
-pub use platform_load::PlatformLoad;
-pub use platform_path::{MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind};
-pub use posture::{
-    LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
-};
-pub use reduced::{LoadPattern, Parameter};
-pub use report_iteration::{
+pub use reference::report_iteration::{
     ChainState, IterationOutcome, IterationSettings, ReportIteration, newton_iteration,
     report_iteration,
 };
-pub use saddle::Inertia;
+pub use reference::shape_criterion::{ShapeCriterion, shape_criterion};
 pub use settings::Settings;
-pub use shape_criterion::{ShapeCriterion, shape_criterion};
-pub use singular_values::SingularValues;
 pub use spatial::{
     CartesianStiffness, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix, turn_matrix,
 };
-pub use spring::{Segment, SpringBlock, SpringLaw};
-pub use stability::{ShapeStability, ShapeVerdict};
-pub use stiffness::{ChainStiffness, unloaded_stiffness};
-pub use strut::{Anchor, Strut};

@@ -5,12 +5,12 @@ use super::run::{Answers, Places, Work};
 use super::shape::springs;
 use super::table::BLOCK;
 use super::{BLOCKS, Batch, Found, Table, in_parallel, left};
-use crate::compensation::target_under_load;
+use crate::chain::system::System;
+use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};
-use crate::platform::MechanismState;
-use crate::posture::{MechanismEquilibrium, Posture};
+use crate::machine::platforms::solver::MechanismState;
+use crate::machine::posture::{MechanismEquilibrium, Posture};
 use crate::spatial::{Pose, Wrench};
-use crate::system::System;
 
 /// Loaded equilibrium of many postures.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,7 @@ use super::dual::{Dual, Number, inner, outer};
 use super::lanes::Lanes;
 use super::symmetric::Symmetric;
 use super::tangent::Mat6;
-use crate::parallelogram::ParallelogramLaw;
+use crate::model::springs::parallelogram::ParallelogramLaw;
 
 /// Rotations beyond this (squared, rad^2) leave the range of the series.
 pub(super) const MOST_SQUARE: f64 = 0.27;

@@ -38,13 +38,13 @@ mod verdict;
 
 use rayon::prelude::*;
 
-use crate::chain::Chain;
-use crate::equilibrium::unloaded_tip;
+use crate::chain::equilibrium::unloaded_tip;
 use crate::error::{Error, Result};
-use crate::inverse::LimbPosture;
-use crate::kinematics::Kinematics;
-use crate::mechanism::{Limb, Mechanism};
-use crate::posture::Posture;
+use crate::machine::inverse::limb::LimbPosture;
+use crate::machine::posture::Posture;
+use crate::model::chain::Chain;
+use crate::model::kinematics::Kinematics;
+use crate::model::mechanism::{Limb, Mechanism};
 use crate::spatial::Pose;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};
 pub use models::over_machines;
@@ -161,7 +161,7 @@ impl<'m> Batch<'m> {
         let serial = limbs.len() == 1
             && limbs[0]
                 .nominal
-                .indices_of(crate::chain::Role::Passive)
+                .indices_of(crate::model::chain::Role::Passive)
                 .is_empty();
         if !serial {
             return Err(Error::model(

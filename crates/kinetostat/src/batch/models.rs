@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::Batch;
 use crate::error::Result;
-use crate::mechanism::Mechanism;
+use crate::model::mechanism::Mechanism;
 
 /// Asks `count` machines the same thing: `machine(i)` makes the i-th, which is compiled, asked and
 /// dropped, so that memory does not grow with their number. Machines are spread over the threads,

@@ -17,7 +17,7 @@
 //! ones have turned, which takes away the part of `S^T U` below the diagonal.
 //!
 //! Steps are judged by motion (Deuflhard's restricted natural monotonicity, as in
-//! [`crate::equilibrium`]): the step that the same matrices want where a step has led must be shorter.
+//! [`crate::chain::equilibrium`]): the step that the same matrices want where a step has led must be shorter.
 
 use pulp::Simd;
 
@@ -26,7 +26,7 @@ use super::lanes::{Lanes, Vec3, cross, dot};
 use super::loaded::{LoadedLimb, back, component, lever, rotated_back, select, slid, times};
 use super::plan::{Held, Joint, Plan, Spring, Step};
 use super::unloaded::matrix;
-use crate::chain::MotionKind;
+use crate::model::chain::MotionKind;
 
 /// Steps, and shortenings of one, after which a lane is given up.
 const MOST_STEPS: usize = 25;

@@ -3,7 +3,7 @@
 //!
 //! Springs are counted in units in which their material stiffness is one, `C = M M^T`, so that the share
 //! is the largest eigenvalue of the loads' Hessian among motions that leave the end where it is. A link
-//! that is bent takes its geometric stiffness from that Hessian, as [`crate::stability`] does. With
+//! that is bent takes its geometric stiffness from that Hessian, as [`crate::chain::stability`] does. With
 //! twists `T` of the springs and `P` of the passive joints, `T y + P x = 0`: reflections of `P` give `x = W y`
 //! and conditions on `y` alone, reflections of these leave the motions `y` that are free. What is left
 //! is made tridiagonal, and Laguerre's iteration goes down to the largest eigenvalue from above: it
@@ -85,7 +85,7 @@ impl<S: Simd> Shape<S> {
     }
 
     /// Motions from the base outwards, then the Hessian from the end inwards:
-    /// `H_ij = s_i^T (G + A / 2) s_j` for `i` beyond `j`, `G` symmetric ([`crate::sweep`]), less the
+    /// `H_ij = s_i^T (G + A / 2) s_j` for `i` beyond `j`, `G` symmetric ([`crate::chain::sweep::stages`]), less the
     /// springs' geometric stiffness.
     #[inline(always)]
     fn hessian(&mut self, plan: &Plan, limb: &LoadedLimb<S>, gravity: &[f64; 3]) {

@@ -1,7 +1,7 @@
 //! Tangent stiffness of a loaded limb, by one walk from its base to its end.
 //!
 //! With `t` the motion of the place reached and `y` the change of the wrench passed on there (both at the
-//! tip's place), `x` the motions of the passive joints so far and rows as in [`crate::sweep`], the walk
+//! tip's place), `x` the motions of the passive joints so far and rows as in [`crate::chain::sweep::stages`], the walk
 //! carries
 //!
 //! ```text

@@ -1,0 +1,934 @@
+//! Equilibrium of one chain: for a prescribed end pose, a prescribed end wrench, or per direction
+//! a mixture of both [R 4.12-4.16].
+//!
+//! ```text
+//! J_q^T F + sum J_q,j^T G_j = 0,   J_theta^T F + sum J_theta,j^T G_j = K_theta (theta - theta0),
+//! pose(x) = (p*, R*)
+//! ```
+//!
+//! The iteration starts with the report's own step (loads lagged, `H = 0`), goes on with exact
+//! Newton on the bordered system under step control, and falls back on growing the load from an
+//! unloaded posture. A failure says up to which share of the load it came.
+//!
+//! Long chains are solved by sweeps along them (`sweep.rs`), with cost and memory that grow with the
+//! number of coordinates; what a sweep cannot do falls back on dense matrices.
+
+use nalgebra::{DMatrix, Matrix6, Rotation3, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::chain::directions::DirectionKind;
+use crate::chain::stability::{ShapeStability, shape_stability, swept_stability};
+use crate::chain::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
+use crate::chain::sweep::solve::{Bordered, EndRows, STEP_SPRINGS};
+use crate::chain::sweep::stages::{Form, Path, Sweep, turned_rows};
+pub(crate) use crate::chain::system::{System, balance, beyond, disparate, rounding};
+use crate::continuation::reduced::{rotation_rate, stability_as_prescribed};
+use crate::error::{Error, Result};
+use crate::linalg::saddle::Saddle;
+use crate::model::chain::{Chain, MotionKind, Role};
+use crate::model::kinematics::Kinematics;
+use crate::model::loads::check::check_loads;
+use crate::model::loads::load::Load;
+use crate::model::loads::potential::is_conservative;
+use crate::settings::Settings;
+use crate::spatial::{Pose, Twist, Wrench, on_screw, pose_residual};
+
+/// What is prescribed in one direction of the end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Prescribed {
+    /// The pose: the wrench follows.
+    Pose,
+    /// The wrench: the motion follows.
+    Wrench,
+}
+
+/// Condition at the end of a chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndCondition {
+    /// Axes of the six directions, base from these axes.
+    pub axes: Rotation3<f64>,
+    /// Per direction `x y z rx ry rz` of those axes.
+    pub prescribed: [Prescribed; 6],
+    /// Target where the pose is prescribed, base from tip.
+    pub pose: Pose,
+    /// Wrench where it is prescribed: on the end, about its origin, base axes.
+    pub wrench: Wrench,
+}
+
+impl EndCondition {
+    /// The end is held at a pose.
+    #[must_use]
+    pub fn pose(pose: Pose) -> Self {
+        Self {
+            axes: Rotation3::identity(),
+            prescribed: [Prescribed::Pose; 6],
+            pose,
+            wrench: Wrench::zero(),
+        }
+    }
+
+    /// A dead wrench acts on the end.
+    #[must_use]
+    pub fn wrench(wrench: Wrench) -> Self {
+        Self {
+            axes: Rotation3::identity(),
+            prescribed: [Prescribed::Wrench; 6],
+            pose: Pose::identity(),
+            wrench,
+        }
+    }
+}
+
+/// Everything that decides the equilibrium of one chain.
+#[derive(Clone, Debug)]
+pub struct ChainProblem<'a> {
+    /// The chain.
+    pub chain: &'a Chain,
+    /// Pose of its base in the outer base.
+    pub base: Pose,
+    /// Actuator commands, m or rad.
+    pub commands: Vec<f64>,
+    /// Coordinates of the commanded, unloaded posture (m, rad): start of the iteration and the
+    /// place where posture-dependent springs are evaluated.
+    pub posture: Vec<f64>,
+    /// Loads on nodes.
+    pub loads: Vec<Load>,
+    /// Condition at the end.
+    pub end: EndCondition,
+}
+
+impl<'a> ChainProblem<'a> {
+    /// The chain at home, unloaded, with the given end condition.
+    #[must_use]
+    pub fn new(chain: &'a Chain, end: EndCondition) -> Self {
+        Self {
+            chain,
+            base: Pose::identity(),
+            commands: chain.home_commands(),
+            posture: chain.home_coordinates(),
+            loads: Vec::new(),
+            end,
+        }
+    }
+}
+
+/// How well the conditions of equilibrium hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Residual {
+    /// Closure of the end pose where it is prescribed, m (rotations at the natural length).
+    pub closure_m: f64,
+    /// Unbalanced torque as a share of the loads.
+    pub torque: f64,
+    /// Iterations spent.
+    pub iterations: usize,
+    /// Rate observed: norm of the last correction by that of the one before, in balanced units
+    /// (square root of energy). A linear iteration settles at its rate, exact Newton falls towards
+    /// 0 from step to step. `None` with fewer than two corrections, and where nobody measured it.
+    #[serde(default)]
+    pub rate: Option<f64>,
+}
+
+/// A chain in equilibrium.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// Coordinates, m or rad, in the chain's order.
+    pub coordinates: Vec<f64>,
+    /// Wrench on the end, about its origin, base axes (N, N m).
+    pub wrench: Wrench,
+    /// Pose of the end, base from tip.
+    pub tip: Pose,
+    /// Poses of all nodes.
+    pub nodes: Vec<Pose>,
+    /// Torque of every coordinate's spring, N or N m (zero for passive joints).
+    pub spring_torques: Vec<f64>,
+    /// Energy stored in the springs, J.
+    pub energy: f64,
+    /// All loads have a potential; if not, statements about energy do not hold.
+    pub conservative: bool,
+    /// Tangent stiffness at the end, with what is free, rigid, negative and redundant.
+    pub stiffness: ChainStiffness,
+    /// Whether the chain keeps its shape while its end is held.
+    pub stability: ShapeStability,
+    /// How well the conditions hold.
+    pub residual: Residual,
+}
+
+/// Largest step that keeps rotations of joints below half a radian and slides below half the
+/// natural length: beyond that the linearisation says nothing.
+pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 {
+    let slide = 0.5 * chain.scale().length;
+    chain
+        .coordinates()
+        .iter()
+        .zip(step)
+        .fold(1.0_f64, |limit, (c, dx)| {
+            let most = match c.kind {
+                MotionKind::Revolute => 0.5,
+                MotionKind::Prismatic => slide,
+            };
+            limit.min(most / dx.abs().max(1e-300))
+        })
+}
+
+/// Loads smaller than this share of the natural ones (a deflection by the whole length) are taken
+/// as that large where a residual is stated relative to them.
+pub(crate) const LEAST_LOAD: f64 = 1e-9;
+
+/// Unit of balanced residuals: square root of the energy of a deflection by the natural length.
+pub(crate) fn natural(chain: &Chain) -> f64 {
+    chain.scale().stiffness.sqrt() * chain.scale().length
+}
+
+/// Residuals of a system in balanced units (square root of energy).
+#[derive(Clone, Copy)]
+pub(crate) struct Balance {
+    pub closure: f64,
+    pub torque: f64,
+    /// What torques are measured against.
+    pub loads: f64,
+    /// The part of `torque` that is rounding, see [`rounding`].
+    pub rounding: f64,
+}
+
+/// Share of the loads beyond which no unbalanced torque is taken for rounding.
+const MOST_ROUNDING: f64 = 1e-3;
+
+impl Balance {
+    /// What is unbalanced and no rounding: a state that has run away may have coordinates whose digits are worth more
+    /// than all loads, and balances nothing.
+    pub fn exceeding(&self) -> f64 {
+        beyond(self.torque, self.rounding.min(MOST_ROUNDING * self.loads))
+    }
+}
+
+/// A factored linearisation of one state.
+enum Tangent<'s> {
+    Swept(Box<Bordered<&'s Sweep>>),
+    Dense(Saddle),
+}
+
+/// How the end comes to its prescribed pose; at the whole load it does not matter.
+enum Way {
+    /// The closure at the start shrinks evenly.
+    Straight(Twist),
+    /// On the screw that leads there from a pose.
+    Screw(Pose),
+}
+
+/// State of the chain iteration.
+struct Attempt<'p, 'a> {
+    problem: &'p ChainProblem<'a>,
+    settings: &'p Settings,
+    factors: Vec<f64>,
+    system: System,
+    /// Stages that are not needed at the moment.
+    spare: Option<Box<Sweep>>,
+    /// How the end is led to its prescribed pose while the load grows.
+    way: Way,
+    /// Rotation (vector, rad) that the end lacks.
+    turned: Vector3<f64>,
+    /// Norms of the last two corrections, balanced, the last one first.
+    corrections: [f64; 2],
+}
+
+impl<'p, 'a> Attempt<'p, 'a> {
+    fn new(problem: &'p ChainProblem<'a>, settings: &'p Settings, path: Option<Path>) -> Self {
+        let chain = problem.chain;
+        let factors = balance(chain, &problem.posture);
+        let (posture, commands) = (&problem.posture, &problem.commands);
+        let system = System::of_chain(chain, &problem.base, posture, commands, &factors, path);
+        Self {
+            problem,
+            settings,
+            system,
+            factors,
+            spare: None,
+            way: Way::Straight(Twist::zero()),
+            turned: Vector3::zeros(),
+            corrections: [0.0; 2],
+        }
+    }
+
+    /// The system at a state and a share of the load.
+    fn evaluate_system(&mut self, x: &[f64], wrench: &Wrench, share: f64) {
+        let p = self.problem;
+        for _ in 0..2 {
+            self.system.evaluate_problem(p, x, wrench, share);
+            if self.system.sweep.as_ref().is_none_or(|s| s.serial) {
+                break;
+            }
+            self.system.make_dense();
+        }
+    }
+
+    fn evaluate(&mut self, x: &[f64], wrench: &Wrench, share: f64) -> (Twist, Wrench) {
+        self.evaluate_system(x, wrench, share);
+        let p = self.problem;
+        let tip = self.system.kinematics.tip_pose();
+        let (target, offset) = match &self.way {
+            Way::Screw(from) if share < 1.0 => (on_screw(from, &p.end.pose, share), Twist::zero()),
+            Way::Screw(_) => (p.end.pose, Twist::zero()),
+            Way::Straight(offset) => (p.end.pose, Twist(offset.0 * (1.0 - share))),
+        };
+        let miss = pose_residual(&target, &tip);
+        self.turned = miss.angular();
+        let closure = Twist(miss.0 - offset.0);
+        let lack = Wrench(p.end.wrench.0 * share - wrench.0);
+        (closure, lack)
+    }
+
+    /// Rows of the end condition: closure or missing wrench per direction, balanced.
+    fn end_rows(&self, closure: &Twist, lack: &Wrench) -> Vector6<f64> {
+        let end = &self.problem.end;
+        let inverse = end.axes.inverse();
+        let (e, f) = (closure.rotated(&inverse).0, lack.rotated(&inverse).0);
+        Vector6::from_fn(|k, _| match end.prescribed[k] {
+            Prescribed::Pose => e[k],
+            Prescribed::Wrench => f[k],
+        })
+    }
+
+    fn measure(&self, rows: &Vector6<f64>, wrench: &Wrench) -> Balance {
+        let mut closure = 0.0;
+        let (mut torque, mut loads) = self.system.unbalanced_torques(&self.factors);
+        for k in 0..6 {
+            let (s, pose) = (
+                self.factors[k],
+                self.problem.end.prescribed[k] == Prescribed::Pose,
+            );
+            if pose {
+                closure += (rows[k] * s).powi(2);
+            } else {
+                torque += (rows[k] / s).powi(2);
+            }
+            loads = loads.max((wrench.0[k] / s).abs());
+        }
+        Balance {
+            closure: closure.sqrt(),
+            torque: torque.sqrt(),
+            loads,
+            rounding: rounding(self.problem.chain, &self.system, &self.factors),
+        }
+    }
+
+    fn converged(&self, b: &Balance) -> bool {
+        let unit = natural(self.problem.chain);
+        // Of numbers beyond all sense the squares are infinite, on either side.
+        b.torque.is_finite()
+            && b.closure <= self.settings.closure * unit
+            && b.exceeding() <= self.settings.torque * b.loads + 1e-16 * unit
+    }
+
+    /// Change of the closure (base axes) with the motion of the end. Where all rotations are held
+    /// the closure vanishes, and with it what differs from one; where some are free, the rotation
+    /// vector of what is lacking stays large and does not change by the motion alone.
+    fn closure_rate(&self) -> Option<Matrix6<f64>> {
+        let held = |k: usize| self.problem.end.prescribed[k] == Prescribed::Pose;
+        let some = (3..6).any(held) && !(3..6).all(held);
+        // Half a turn has no one direction to go.
+        let near = self.turned.norm() < 0.9 * std::f64::consts::PI;
+        (some && near).then(|| turned_rows(&rotation_rate(&self.turned)))
+    }
+
+    /// Rows of the end condition over motion and wrench of the end, base axes.
+    fn end_matrices(&self) -> EndRows {
+        let end = &self.problem.end;
+        let turn = crate::spatial::turn_matrix(&end.axes).transpose();
+        let motion = turn * self.closure_rate().unwrap_or_else(Matrix6::identity);
+        let mut held = EndRows {
+            motion: Matrix6::zeros(),
+            wrench: Matrix6::zeros(),
+        };
+        // Three directions of one kind have one unit, so that turned axes stay balanced.
+        for k in 0..6 {
+            if end.prescribed[k] == Prescribed::Pose {
+                held.motion.set_row(k, &motion.row(k));
+            } else {
+                held.wrench.set_row(k, &turn.row(k));
+            }
+        }
+        held
+    }
+
+    /// Correction by one linearisation for what lacks at the state evaluated last: wrench (6) and
+    /// coordinates (n). `None` if a sweep lost a pivot.
+    fn correction(&self, tangent: &Tangent<'_>, rows: &Vector6<f64>) -> Option<Vec<f64>> {
+        let n = self.system.spring_torque.len();
+        match tangent {
+            Tangent::Swept(bordered) => {
+                let right = Vector6::from_fn(|k, _| match self.problem.end.prescribed[k] {
+                    Prescribed::Pose => rows[k] * self.factors[k],
+                    Prescribed::Wrench => rows[k] / self.factors[k],
+                });
+                let torque: Vec<f64> = (0..n)
+                    .map(|i| -self.system.unbalanced(i) * self.factors[6 + i])
+                    .collect();
+                let (wrench, x) = bordered.solve(&torque, &right)?;
+                let balanced = wrench.iter().chain(&x);
+                Some(balanced.zip(&self.factors).map(|(v, f)| v * f).collect())
+            }
+            Tangent::Dense(saddle) => Some(self.dense_correction(saddle, rows)),
+        }
+    }
+
+    fn dense_correction(&self, saddle: &Saddle, rows: &Vector6<f64>) -> Vec<f64> {
+        let n = self.system.spring_torque.len();
+        let mut b = DMatrix::zeros(6 + n, 1);
+        for k in 0..6 {
+            b[(k, 0)] = rows[k];
+        }
+        for i in 0..n {
+            b[(6 + i, 0)] = -self.system.unbalanced(i);
+        }
+        saddle.solve(&mut b);
+        b.as_slice().to_vec()
+    }
+
+    /// The linearisation at `(x, wrench)`, where the system was evaluated, and its correction.
+    /// `held` keeps the stages while others are tried.
+    fn linearised<'s>(
+        &mut self,
+        held: Option<&'s Sweep>,
+        rows: &Vector6<f64>,
+        with_hessian: bool,
+        x: &[f64],
+        wrench: &Wrench,
+        share: f64,
+    ) -> (Tangent<'s>, Vec<f64>) {
+        if let Some(sweep) = held {
+            let form = if with_hessian {
+                Form::Exact
+            } else {
+                Form::Lagged
+            };
+            let ends = self.end_matrices();
+            // A pivot may be lost by accident far from equilibrium: not with every spring at the end.
+            let found = STEP_SPRINGS.into_iter().find_map(|spring| {
+                let tangent = Tangent::Swept(Box::new(Bordered::new(sweep, form, ends, spring)?));
+                let step = self.correction(&tangent, rows)?;
+                Some((tangent, step))
+            });
+            if let Some(found) = found {
+                return found;
+            }
+            self.system.make_dense();
+            self.evaluate_system(x, wrench, share);
+        }
+        let saddle = self.dense_tangent(with_hessian);
+        let step = self.dense_correction(&saddle, rows);
+        (Tangent::Dense(saddle), step)
+    }
+
+    fn dense_tangent(&self, with_hessian: bool) -> Saddle {
+        let n = self.system.spring_torque.len();
+        let end = &self.problem.end;
+        let mut a = self.system.bordered(with_hessian);
+        let turn = crate::spatial::turn_matrix(&end.axes);
+        let turned = match self.closure_rate() {
+            Some(rate) => turn.transpose() * (rate * &self.system.jacobian),
+            None => turn.transpose() * &self.system.jacobian,
+        };
+        let mut row_scale = self.factors.clone();
+        for k in 0..6 {
+            match end.prescribed[k] {
+                Prescribed::Pose => {
+                    for j in 0..n {
+                        a[(k, 6 + j)] = turned[(k, j)];
+                    }
+                }
+                Prescribed::Wrench => {
+                    row_scale[k] = 1.0 / self.factors[k];
+                    for j in 0..n {
+                        a[(k, 6 + j)] = 0.0;
+                    }
+                    for j in 0..6 {
+                        a[(k, j)] = turn[(j, k)];
+                    }
+                }
+            }
+        }
+        Saddle::new(a, &row_scale, &self.factors)
+    }
+
+    /// Size of the motion in a correction: root of the sum of squares of turns (rad) and slides (in
+    /// natural lengths). Forces do not count: they are as stiff as the stiffest spring.
+    fn extent(&self, step: impl Iterator<Item = f64>) -> f64 {
+        let length = self.problem.chain.scale().length;
+        let own = self.problem.chain.coordinates().iter().zip(step.skip(6));
+        own.map(|(c, dx)| match c.kind {
+            MotionKind::Revolute => dx * dx,
+            MotionKind::Prismatic => (dx / length).powi(2),
+        })
+        .sum::<f64>()
+        .sqrt()
+    }
+
+    /// Newton from `(x, wrench)` at one share of the load; updates them. Returns iterations and the
+    /// last residual, `Err` if it did not converge.
+    ///
+    /// Steps are judged by motion, not by residual: after a share `l` of the step `d`, the same
+    /// linearisation wants `(1 - l) d` more if it still holds. What it wants otherwise may be at
+    /// most `l / 2` of `d` (Deuflhard, Newton Methods for Nonlinear Problems, 3.3: restricted natural
+    /// monotonicity). Residuals mislead: a load that lacks is weighed against the chain's natural
+    /// stiffness, which grows with the number of segments, what bending changes to second order is
+    /// not. So the more segments, the shorter the steps would be.
+    fn newton(
+        &mut self,
+        x: &mut [f64],
+        wrench: &mut Wrench,
+        share: f64,
+        mut picard: usize,
+    ) -> std::result::Result<(usize, Balance), (usize, Balance)> {
+        let (mut closure, mut lack) = self.evaluate(x, wrench, share);
+        let mut rows = self.end_rows(&closure, &lack);
+        let mut now = self.measure(&rows, wrench);
+        self.corrections = [0.0; 2];
+        for iteration in 0..self.settings.iterations {
+            if self.converged(&now) && iteration > 0 {
+                return Ok((iteration, now));
+            }
+            // Trials are evaluated elsewhere, for the linearisation refers to this state's stages.
+            let other = self.spare.take().or_else(|| self.system.sweep.clone());
+            let held = std::mem::replace(&mut self.system.sweep, other);
+            let exact = iteration >= picard;
+            let (tangent, step) = self.linearised(held.as_deref(), &rows, exact, x, wrench, share);
+            if step.iter().any(|v| !v.is_finite()) {
+                return Err((iteration, now));
+            }
+            let extent = self.extent(step.iter().copied());
+            let own = step.iter().zip(&self.factors).skip(6);
+            let size = own.map(|(v, f)| (v / f).powi(2)).sum::<f64>().sqrt();
+            self.corrections = [size, self.corrections[0]];
+            let mut length = step_limit(self.problem.chain, step[6..].iter().copied());
+            let merit = now.closure.powi(2) + now.torque.powi(2);
+            let (x0, w0) = (x.to_vec(), *wrench);
+            loop {
+                for (i, value) in x.iter_mut().enumerate() {
+                    *value = x0[i] + length * step[6 + i];
+                }
+                for block in self.problem.chain.springs() {
+                    block.follow(&x0, share, x);
+                }
+                wrench.0 = w0.0 + length * Vector6::from_column_slice(&step[..6]);
+                (closure, lack) = self.evaluate(x, wrench, share);
+                rows = self.end_rows(&closure, &lack);
+                now = self.measure(&rows, wrench);
+                // The report's own steps are taken as they are, but for the last one, which leads
+                // over to Newton.
+                if self.converged(&now) || iteration + 1 < picard {
+                    break;
+                }
+                // Near the end both corrections are rounding.
+                let better =
+                    now.closure.powi(2) + now.torque.powi(2) <= merit * (1.0 - 0.1 * length);
+                if better && extent < 1e-6 {
+                    break;
+                }
+                let bent = self
+                    .correction(&tangent, &rows)
+                    .map_or(f64::INFINITY, |again| {
+                        let off = again.iter().zip(&step);
+                        self.extent(off.map(|(a, s)| a - (1.0 - length) * s))
+                    });
+                if bent <= 0.5 * length * extent {
+                    break;
+                }
+                let wanted = 0.5 * length * length * extent / bent;
+                length = wanted.max(0.1 * length).min(0.5 * length);
+                if length < 1e-3 {
+                    if iteration >= picard {
+                        return Err((iteration, now));
+                    }
+                    // Loads lagged lead nowhere from here: Newton at once.
+                    picard = 0;
+                    x.copy_from_slice(&x0);
+                    *wrench = w0;
+                    (closure, lack) = self.evaluate(x, wrench, share);
+                    rows = self.end_rows(&closure, &lack);
+                    now = self.measure(&rows, wrench);
+                    break;
+                }
+            }
+            self.spare = held;
+        }
+        if self.converged(&now) {
+            Ok((self.settings.iterations, now))
+        } else {
+            Err((self.settings.iterations, now))
+        }
+    }
+}
+
+/// Checks lengths, nodes and that all numbers of a problem are finite.
+pub(crate) fn check_problem(problem: &ChainProblem<'_>) -> Result<()> {
+    let chain = problem.chain;
+    chain.check(&problem.posture, &problem.commands)?;
+    let numbers = problem
+        .end
+        .wrench
+        .0
+        .iter()
+        .chain(problem.end.pose.translation.vector.iter());
+    if let Some(value) = numbers.copied().find(|v| !v.is_finite()) {
+        return Err(Error::NotFinite {
+            place: format!("chain '{}'", chain.name()),
+            what: "the end condition".into(),
+            value,
+        });
+    }
+    check_loads(problem)
+}
+
+/// Solves for the equilibrium of a chain.
+///
+/// # Errors
+/// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last
+/// iterate where no equilibrium was found.
+pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Equilibrium> {
+    solve_along(problem, settings, None).map(|(equilibrium, _)| equilibrium)
+}
+
+/// [`solve_chain`] by a path of choice; says which one was left at the end.
+pub(crate) fn solve_along(
+    problem: &ChainProblem<'_>,
+    settings: &Settings,
+    path: Option<Path>,
+) -> Result<(Equilibrium, Path)> {
+    check_problem(problem)?;
+    let chain = problem.chain;
+    settings.check(&format!("chain '{}'", chain.name()))?;
+    let mut attempt = Attempt::new(problem, settings, path);
+    let mut spent = 0;
+    let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
+        let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
+        let mut wrench = Wrench::zero();
+        match attempt.newton(&mut x, &mut wrench, 1.0, settings.picard_steps) {
+            Ok((iterations, balance)) => Some((x, wrench, iterations, balance)),
+            Err((iterations, _)) => {
+                spent += iterations;
+                None
+            }
+        }
+    };
+    // As given; then slightly out of line, because a straight or flat posture has no linear answer.
+    for nudge in [0.0, 1e-3, 3e-2] {
+        let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) else {
+            continue;
+        };
+        let found = attempt.finish(x, wrench, iterations, &balance);
+        return Ok(led_to(problem, settings, path, &found.0).unwrap_or(found));
+    }
+    let mut failure = match grow_load(&mut attempt, false, 1.0) {
+        Ok((x, wrench, iterations, balance)) => {
+            return Ok(attempt.finish(x, wrench, iterations, &balance));
+        }
+        Err(failure) => failure,
+    };
+    // On a straight way to a bent shape the chain is pressed and buckles; on a screw it is pulled.
+    if problem.end.prescribed == [Prescribed::Pose; 6] {
+        match grow_load(&mut attempt, true, 1.0) {
+            Ok((x, wrench, iterations, balance)) => {
+                return Ok(attempt.finish(x, wrench, iterations, &balance));
+            }
+            Err(other) => {
+                failure.iterations += other.iterations;
+                if other.share > failure.share {
+                    failure = Failure {
+                        iterations: failure.iterations,
+                        ..other
+                    };
+                }
+            }
+        }
+    }
+    // The way from rest may end at a fold although equilibria exist elsewhere.
+    for nudge in [0.3, 0.8, 1.5, 2.5] {
+        if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
+            return Ok(attempt.finish(x, wrench, iterations, &balance));
+        }
+    }
+    if let Some(reason) = crate::chain::no_equilibrium::why(problem) {
+        return Err(reason);
+    }
+    Err(Error::NotConverged {
+        place: format!("chain '{}'", chain.name()),
+        iterations: spent + failure.iterations,
+        residual_position_m: failure.balance.closure / chain.scale().stiffness.sqrt(),
+        residual_torque: failure.balance.torque
+            / failure.balance.loads.max(LEAST_LOAD * natural(chain)),
+        load_factor: failure.share,
+        last: failure.last,
+        limit: None,
+    })
+}
+
+/// How far the growing load came.
+struct Failure {
+    /// Largest share with an equilibrium.
+    share: f64,
+    /// Coordinates of that equilibrium.
+    last: Vec<f64>,
+    /// What it lacks at the full load.
+    balance: Balance,
+    iterations: usize,
+}
+
+/// Turns (rad) and slides (natural lengths) in all beyond which one step may have passed the shape to which the
+/// growing load leads.
+pub(crate) const FAR: f64 = 0.2;
+
+/// Share of the load by which it grows on the way that must not be lost.
+pub(crate) const SHORT_STEP: f64 = 0.02;
+
+/// How far the joints are put aside where a load begins to grow, rad: in short steps the way itself counts, and what
+/// buckles stays on it.
+pub(crate) fn aside(longest_step: f64) -> f64 {
+    if longest_step < 1.0 { 0.0 } else { 1e-3 }
+}
+
+/// Sum of the turns (rad) and slides (natural lengths) of a chain's coordinates.
+pub(crate) fn gone(chain: &Chain, from: &[f64], to: &[f64]) -> f64 {
+    let length = chain.scale().length;
+    let kinds = chain.coordinates().iter().map(|c| c.kind);
+    let moved = kinds.zip(from.iter().zip(to));
+    let moved = moved.map(|(kind, (here, there))| match kind {
+        MotionKind::Revolute => (there - here).abs(),
+        MotionKind::Prismatic => (there - here).abs() / length,
+    });
+    moved.sum()
+}
+
+/// The shape that stays and to which the growing load leads, where one step found another that does not and is
+/// far: it may have passed the former. A straight column, pressed, stays straight.
+fn led_to(
+    problem: &ChainProblem<'_>,
+    settings: &Settings,
+    path: Option<Path>,
+    found: &Equilibrium,
+) -> Option<(Equilibrium, Path)> {
+    let near = gone(problem.chain, &problem.posture, &found.coordinates) <= FAR;
+    if near || stays(problem, settings, found) {
+        return None;
+    }
+    let mut attempt = Attempt::new(problem, settings, path);
+    let (x, wrench, iterations, balance) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
+    let spent = found.residual.iterations + iterations;
+    let grown = attempt.finish(x, wrench, spent, &balance);
+    stays(problem, settings, &grown.0).then_some(grown)
+}
+
+/// Whether an equilibrium stays as its end is prescribed: free where a wrench is, held where the pose is.
+fn stays(problem: &ChainProblem<'_>, settings: &Settings, found: &Equilibrium) -> bool {
+    let held = problem.end.prescribed == [Prescribed::Pose; 6];
+    if held || !found.stability.stable {
+        return found.stability.stable;
+    }
+    // What no motion of the end makes go away, goes away by none of those that are free.
+    if found.stiffness.count(DirectionKind::Negative) == 0 {
+        return true;
+    }
+    stability_as_prescribed(problem, settings, found).is_none_or(|stability| stability.stable)
+}
+
+/// Loads, preloads and closure grow together from the unloaded posture; the closure straight, or on
+/// a screw; in steps up to the `longest` share.
+fn grow_load(
+    attempt: &mut Attempt<'_, '_>,
+    on_screw: bool,
+    longest: f64,
+) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), Failure> {
+    let problem = attempt.problem;
+    let mut x = nudged(problem.chain, &problem.posture, aside(longest));
+    let mut wrench = Wrench::zero();
+    let start =
+        Kinematics::new(problem.chain, &problem.base, &x, &problem.commands, false).tip_pose();
+    attempt.way = if on_screw {
+        Way::Screw(start)
+    } else {
+        Way::Straight(pose_residual(&problem.end.pose, &start))
+    };
+    let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
+    let mut last = Balance {
+        closure: 0.0,
+        torque: 0.0,
+        loads: 1.0,
+        rounding: 0.0,
+    };
+    while share < 1.0 {
+        let next = (share + step).min(1.0);
+        let (mut trial, mut trial_wrench) = (x.clone(), wrench);
+        match attempt.newton(&mut trial, &mut trial_wrench, next, 0) {
+            Ok((spent, balance)) => {
+                iterations += spent;
+                (x, wrench, share, last) = (trial, trial_wrench, next, balance);
+                step = (1.5 * step).min(longest);
+            }
+            Err((spent, _)) => {
+                iterations += spent;
+                step *= 0.5;
+                if step < attempt.settings.smallest_load_step.max(1e-9) {
+                    let (closure, lack) = attempt.evaluate(&x, &wrench, 1.0);
+                    let balance = attempt.measure(&attempt.end_rows(&closure, &lack), &wrench);
+                    return Err(Failure {
+                        share,
+                        last: x,
+                        balance,
+                        iterations,
+                    });
+                }
+            }
+        }
+    }
+    Ok((x, wrench, iterations, last))
+}
+
+/// The posture with every passive coordinate moved by a fixed, irregular amount of size `size` rad.
+pub(crate) fn nudged(chain: &Chain, posture: &[f64], size: f64) -> Vec<f64> {
+    let length = chain.scale().length;
+    posture
+        .iter()
+        .zip(chain.coordinates())
+        .enumerate()
+        .map(|(i, (&x, c))| {
+            let golden = (i as f64 * 0.618_033_988_749_895 + 0.25).fract() - 0.5;
+            match c.kind {
+                MotionKind::Revolute => x + size * golden,
+                MotionKind::Prismatic if c.role == Role::Passive => x + size * golden * length,
+                MotionKind::Prismatic => x,
+            }
+        })
+        .collect()
+}
+
+impl Attempt<'_, '_> {
+    fn finish(
+        mut self,
+        x: Vec<f64>,
+        wrench: Wrench,
+        iterations: usize,
+        balance: &Balance,
+    ) -> (Equilibrium, Path) {
+        self.evaluate_system(&x, &wrench, 1.0);
+        let (chain, factors) = (self.problem.chain, &self.factors);
+        let conservative = is_conservative(self.problem);
+        let swept = self.system.swept_verdicts(chain, factors, None);
+        let verdicts = match swept.filter(|(_, s)| conservative || s.stable) {
+            Some(verdicts) => verdicts,
+            None => {
+                if self.system.sweep.is_some() {
+                    self.system.make_dense();
+                    self.evaluate_system(&x, &wrench, 1.0);
+                }
+                self.system
+                    .dense_verdicts(chain, &self.factors, conservative)
+            }
+        };
+        let mut equilibrium = self.system.described(
+            chain,
+            x,
+            wrench,
+            conservative,
+            iterations,
+            balance,
+            verdicts,
+        );
+        let [last, before] = self.corrections;
+        equilibrium.residual.rate = (before > 0.0).then(|| last / before);
+        (equilibrium, self.system.path())
+    }
+}
+
+impl System {
+    /// Tangent and shape by sweeps; `None` where there are none, or where passive joints are
+    /// redundant or a pivot is lost.
+    /// `solved` as in [`swept_stiffness`].
+    pub fn swept_verdicts(
+        &self,
+        chain: &Chain,
+        factors: &[f64],
+        solved: Option<&DMatrix<f64>>,
+    ) -> Option<(ChainStiffness, ShapeStability)> {
+        let sweep = self.sweep.as_ref()?;
+        let stiffness = swept_stiffness(chain, self, sweep, factors, solved)?;
+        let stability = swept_stability(self, sweep, factors)?;
+        Some((stiffness, stability))
+    }
+
+    fn dense_verdicts(
+        &self,
+        chain: &Chain,
+        factors: &[f64],
+        conservative: bool,
+    ) -> (ChainStiffness, ShapeStability) {
+        let stiffness = chain_stiffness(chain, self, factors, None);
+        let stability = shape_stability(chain, self, factors, conservative);
+        (stiffness, stability)
+    }
+
+    /// Everything that is known about the state at which the system was evaluated; it is dense unless
+    /// the verdicts are given.
+    #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
+    pub fn equilibrium(
+        &self,
+        chain: &Chain,
+        factors: &[f64],
+        x: Vec<f64>,
+        wrench: Wrench,
+        conservative: bool,
+        iterations: usize,
+        balance: &Balance,
+        verdicts: Option<(ChainStiffness, ShapeStability)>,
+    ) -> Equilibrium {
+        let verdicts =
+            verdicts.unwrap_or_else(|| self.dense_verdicts(chain, factors, conservative));
+        self.described(
+            chain,
+            x,
+            wrench,
+            conservative,
+            iterations,
+            balance,
+            verdicts,
+        )
+    }
+
+    #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
+    fn described(
+        &self,
+        chain: &Chain,
+        x: Vec<f64>,
+        wrench: Wrench,
+        conservative: bool,
+        iterations: usize,
+        balance: &Balance,
+        (stiffness, stability): (ChainStiffness, ShapeStability),
+    ) -> Equilibrium {
+        Equilibrium {
+            tip: self.kinematics.tip_pose(),
+            nodes: (0..chain.nodes().len())
+                .map(|i| self.kinematics.node_pose(i))
+                .collect(),
+            spring_torques: self.spring_torque.clone(),
+            energy: self.energy,
+            conservative,
+            coordinates: x,
+            wrench,
+            stiffness,
+            stability,
+            residual: Residual {
+                closure_m: balance.closure / chain.scale().stiffness.sqrt(),
+                torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
+                iterations,
+                rate: None,
+            },
+        }
+    }
+}
+
+/// Tip pose of the unloaded chain (all springs at zero, not at `theta0`) for given passive
+/// coordinates and commands.
+#[must_use]
+pub fn unloaded_tip(chain: &Chain, base: &Pose, coordinates: &[f64], commands: &[f64]) -> Pose {
+    Kinematics::new(chain, base, coordinates, commands, false).tip_pose()
+}

@@ -1,0 +1,13 @@
+//! TODO
+
+pub(crate) mod compliance;
+pub(crate) mod directions;
+pub(crate) mod divergence;
+pub(crate) mod equilibrium;
+pub(crate) mod graded;
+pub(crate) mod link_load;
+pub(crate) mod no_equilibrium;
+pub(crate) mod stability;
+pub(crate) mod stiffness;
+pub(crate) mod sweep;
+pub(crate) mod system;

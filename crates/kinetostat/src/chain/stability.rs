@@ -1,0 +1,429 @@
+//! Does a shape hold [R 5.16-5.21]?
+//!
+//! With the end held, the chain can still move along the null space `N` of its Jacobian. The shape
+//! is stable iff `S_c = N^T (H - K) N` is negative definite; equivalently iff the bordered matrix
+//! has as many positive eigenvalues as the Jacobian has rows. The share of the way to buckling `mu` is the largest
+//! eigenvalue of `(N^T H N) v = mu (N^T K N) v`: it does not depend on coordinates, 0 is unloaded,
+//! 1 is the point of buckling.
+//!
+//! `S_c` is symmetric even where `H` of a moment on the end is not, because null motions do not turn the
+//! end. With the end free, or with moments and followers elsewhere, it need not be: `mu` is then that of
+//! the symmetric part, below 1 of which nothing goes away, whatever the masses are, and beyond it
+//! [`crate::chain::divergence`] decides.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+use crate::chain::divergence::diverging_motions;
+use crate::chain::stiffness::{balanced_jacobian, names_in, passive_null_space};
+use crate::chain::sweep::solve::EndMotions;
+use crate::chain::sweep::stages::Sweep;
+use crate::chain::system::System;
+use crate::linalg::krylov::largest_eigenvalues;
+use crate::linalg::saddle::{
+    Inertia, RANK_TOLERANCE, column_space, complement, complement_of_few, inertia,
+};
+use crate::model::chain::Chain;
+
+/// Whether a chain keeps its shape while its end is held.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShapeStability {
+    /// No neighbouring shape of the held chain has less energy; for loads without a potential: it does
+    /// not go away (divergence), but see [`may_flutter`](Self::may_flutter).
+    pub stable: bool,
+    /// Of the bordered matrix, symmetric part; with a potential stable iff `positive` equals the rank of
+    /// the Jacobian.
+    pub inertia: Inertia,
+    /// Number of motions in which the shape goes away.
+    #[serde(default)]
+    pub unstable_modes: usize,
+    /// `mu`, largest share of the way to buckling: below 1 is stable. `None` for a chain without
+    /// inner freedom; infinite where a passive motion is pushed out of line. Of loads without a potential
+    /// that of the tangent's symmetric part.
+    pub share_to_buckling: Option<f64>,
+    /// Motion of all coordinates in the most critical mode (m, rad), largest component 1; empty where
+    /// nothing can buckle or numbers of 16 digits do not tell it.
+    pub mode: Vec<f64>,
+    /// Passive joints that can move for nothing (neutral, taken out of the verdict).
+    pub neutral: Vec<String>,
+}
+
+/// What a shape is, in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ShapeVerdict {
+    /// It holds: every neighbouring shape has more energy.
+    Stable,
+    /// A neighbouring shape has less energy.
+    Unstable,
+    /// At its critical load within rounding: some motion neither stores nor frees energy.
+    Singular,
+}
+
+/// Shares that differ from 1 by less are taken as 1: rounding of a converged equilibrium.
+const AT_CRITICAL: f64 = 1e-9;
+
+impl ShapeStability {
+    /// The loads have no potential and the shape does not go away, but it may swing with growing amplitude
+    /// (flutter); whether it does depends on the masses.
+    #[must_use]
+    pub fn may_flutter(&self) -> bool {
+        self.stable
+            && self
+                .share_to_buckling
+                .is_some_and(|mu| mu > 1.0 + AT_CRITICAL)
+    }
+
+    /// Stable, unstable, or singular.
+    #[must_use]
+    pub fn verdict(&self) -> ShapeVerdict {
+        match self.share_to_buckling {
+            Some(mu) if (mu - 1.0).abs() <= AT_CRITICAL => ShapeVerdict::Singular,
+            _ if self.stable => ShapeVerdict::Stable,
+            _ => ShapeVerdict::Unstable,
+        }
+    }
+
+    /// The verdict and how far it is from changing, for people.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let mu = self.share_to_buckling.unwrap_or(0.0);
+        match self.verdict() {
+            ShapeVerdict::Singular => "stands at its critical load (mu 1)".into(),
+            ShapeVerdict::Unstable if mu.is_finite() => {
+                format!("does not keep its shape (mu {mu:.4}; it does below 1)")
+            }
+            ShapeVerdict::Unstable => {
+                "does not keep its shape: the load pushes passive joints that nothing holds".into()
+            }
+            ShapeVerdict::Stable if self.share_to_buckling.is_none() => {
+                "keeps its shape: it has no inner freedom".into()
+            }
+            ShapeVerdict::Stable if mu <= 0.0 => {
+                format!("keeps its shape; the load only stiffens it (mu {mu:.4})")
+            }
+            ShapeVerdict::Stable if self.may_flutter() => format!(
+                "does not go away, but may swing with growing amplitude (flutter), which depends on its masses (mu {mu:.4} of the tangent's symmetric part)"
+            ),
+            ShapeVerdict::Stable => format!(
+                "keeps its shape, {:.3} % of the way to buckling (mu {mu:.4})",
+                100.0 * mu
+            ),
+        }
+    }
+}
+
+pub(crate) fn shape_stability(
+    chain: &Chain,
+    system: &System,
+    factors: &[f64],
+    conservative: bool,
+) -> ShapeStability {
+    let held = balanced_jacobian(system, factors);
+    stability_within(chain, system, factors, &held, conservative)
+}
+
+/// The same by sweeps along a long chain without redundant passive joints; `None` where they cannot. They
+/// know the symmetric part of the tangent alone.
+pub(crate) fn swept_stability(
+    system: &System,
+    sweep: &Sweep,
+    factors: &[f64],
+) -> Option<ShapeStability> {
+    let range = column_space(&balanced_jacobian(system, factors));
+    swept_stability_within(sweep, factors, &EndMotions::held(range))
+}
+
+/// The same while some motions of the end are held.
+pub(crate) fn swept_stability_within(
+    sweep: &Sweep,
+    factors: &[f64],
+    ends: &EndMotions,
+) -> Option<ShapeStability> {
+    let shape = crate::chain::sweep::solve::shape(sweep, ends)?;
+    let numbers = shape.mode.iter().chain([&shape.share_to_buckling]);
+    if !numbers.into_iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let own = shape.mode.iter().zip(&factors[6..]);
+    Some(ShapeStability {
+        stable: shape.share_to_buckling < 1.0,
+        inertia: shape.inertia,
+        unstable_modes: shape.inertia.positive.saturating_sub(ends.held_count()),
+        share_to_buckling: Some(shape.share_to_buckling),
+        mode: largest_one(own.map(|(v, f)| v * f).collect()),
+        neutral: Vec::new(),
+    })
+}
+
+/// A motion scaled so that its largest component is 1; empty where its numbers are lost.
+fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
+    if motion.iter().any(|x| !x.is_finite()) {
+        return Vec::new();
+    }
+    let most = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for x in &mut motion {
+        *x /= most.max(f64::MIN_POSITIVE);
+    }
+    motion
+}
+
+/// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
+/// per held motion. The whole end held gives [`shape_stability`]. `conservative`: the loads have a
+/// potential.
+pub(crate) fn stability_within(
+    chain: &Chain,
+    system: &System,
+    factors: &[f64],
+    jacobian: &DMatrix<f64>,
+    conservative: bool,
+) -> ShapeStability {
+    let n = system.spring_torque.len();
+    let range = column_space(jacobian);
+    let rank = range.ncols();
+    let mut hessian = DMatrix::from_fn(n, n, |i, j| {
+        0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * factors[6 + i] * factors[6 + j]
+    });
+    // The springs' geometric stiffness is the load's doing; what is left of them is positive definite.
+    let springs = material_springs(system, factors);
+    without_geometric(system, factors, &mut hessian);
+    let rows = if rank == jacobian.nrows() {
+        jacobian.clone()
+    } else {
+        range.transpose() * jacobian
+    };
+
+    let mut bordered = DMatrix::zeros(rank + n, rank + n);
+    bordered
+        .view_mut((rank, 0), (n, rank))
+        .copy_from(&rows.transpose());
+    bordered.view_mut((0, rank), (rank, n)).copy_from(&rows);
+    bordered
+        .view_mut((rank, rank), (n, n))
+        .copy_from(&(&hessian - &springs));
+    let inertia = inertia(bordered);
+
+    // Neutral passive motions leave the verdict.
+    let neutral = neutral_motions(chain, jacobian, &rows, &hessian);
+    let units = MaterialUnits::of(chain, &springs);
+    let mut taken_out = DMatrix::zeros(n, rank + neutral.ncols());
+    taken_out.columns_mut(0, rank).copy_from(&rows.transpose());
+    units.gather(&mut taken_out);
+    taken_out
+        .columns_mut(rank, neutral.ncols())
+        .copy_from(&neutral);
+    let null = complement_of_few(&taken_out);
+    let stiffness = units.stiffness(springs);
+    let b = null.transpose() * stiffness * &null;
+    let motions = units.motions(null);
+    let a = motions.transpose() * &hessian * &motions;
+    let (share_to_buckling, mode) = share_to_buckling(&a, &b);
+    let mut stable = share_to_buckling.is_none_or(|mu| mu < 1.0);
+    let mut unstable_modes = inertia.positive.saturating_sub(rank);
+    if !conservative && share_to_buckling.is_some_and(|mu| mu >= 1.0 && mu.is_finite()) {
+        let turning = DMatrix::from_fn(n, n, |i, j| {
+            0.5 * (system.hessian[(i, j)] - system.hessian[(j, i)])
+                * (factors[6 + i] * factors[6 + j])
+        });
+        let turning = motions.transpose() * turning * &motions;
+        unstable_modes = diverging_motions(&(b - a - turning), 0.0, true);
+        stable = unstable_modes == 0;
+    }
+    let mode = mode.map_or_else(Vec::new, |v| {
+        let motion = &motions * v;
+        largest_one((0..n).map(|i| motion[i] * factors[6 + i]).collect())
+    });
+    ShapeStability {
+        stable,
+        inertia,
+        unstable_modes,
+        share_to_buckling,
+        mode,
+        neutral: names_in(chain, &neutral),
+    }
+}
+
+/// The springs' own stiffness, without what their loads add to it as they move (geometric), balanced, n x n.
+pub(crate) fn material_springs(system: &System, factors: &[f64]) -> DMatrix<f64> {
+    let n = system.spring_torque.len();
+    let mut springs = DMatrix::from_fn(n, n, |i, j| {
+        system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
+    });
+    without_geometric(system, factors, &mut springs);
+    springs
+}
+
+/// Takes the geometric stiffness of springs out of a balanced matrix, n x n.
+fn without_geometric(system: &System, factors: &[f64], a: &mut DMatrix<f64>) {
+    for &(first, matrix) in &system.spring_geometric {
+        for i in 0..6 {
+            for j in 0..6 {
+                let (row, column) = (first + i, first + j);
+                a[(row, column)] -= matrix[(i, j)] * factors[6 + row] * factors[6 + column];
+            }
+        }
+    }
+}
+
+/// `C A C^T` of a change of rows `C`.
+pub(crate) fn on_both_sides(
+    mut a: DMatrix<f64>,
+    of_rows: impl Fn(&mut DMatrix<f64>),
+) -> DMatrix<f64> {
+    for _ in 0..2 {
+        of_rows(&mut a);
+        a = a.transpose();
+    }
+    a
+}
+
+/// Units in which the material stiffness `K' = L L^T` of every spring is one: an axis that is worlds
+/// stiffer than bending would otherwise drown it. Passive coordinates keep theirs.
+pub(crate) struct MaterialUnits(Vec<(usize, DMatrix<f64>)>);
+
+impl MaterialUnits {
+    /// A block that is not positive definite keeps its units.
+    pub fn of(chain: &Chain, springs: &DMatrix<f64>) -> Self {
+        let blocks = chain.springs().iter().filter_map(|block| {
+            let (first, len) = (block.first, block.len());
+            let own = springs.view((first, first), (len, len)).into_owned();
+            Some((first, own.cholesky()?.l()))
+        });
+        Self(blocks.collect())
+    }
+
+    /// Forces of the coordinates, one column each, in these units: `L^-1 f`.
+    pub fn gather(&self, forces: &mut DMatrix<f64>) {
+        for (first, l) in &self.0 {
+            // A pivot of a Cholesky factor is positive.
+            let _ = l.solve_lower_triangular_mut(&mut forces.rows_mut(*first, l.nrows()));
+        }
+    }
+
+    /// A stiffness in these units: `L^-1 K L^-T`.
+    pub fn both(&self, stiffness: DMatrix<f64>) -> DMatrix<f64> {
+        on_both_sides(stiffness, |rows| self.gather(rows))
+    }
+
+    /// The material stiffness itself: one, but for the blocks that keep their units.
+    pub fn stiffness(&self, mut springs: DMatrix<f64>) -> DMatrix<f64> {
+        for (first, l) in &self.0 {
+            let size = (l.nrows(), l.nrows());
+            springs
+                .view_mut((*first, *first), size)
+                .fill_with_identity();
+        }
+        springs
+    }
+
+    /// Motions in these units, one column each, as those of the coordinates: `L^-T y`.
+    pub fn motions(&self, mut motions: DMatrix<f64>) -> DMatrix<f64> {
+        for (first, l) in &self.0 {
+            let _ = l.tr_solve_lower_triangular_mut(&mut motions.rows_mut(*first, l.nrows()));
+        }
+        motions
+    }
+}
+
+/// Orthonormal motions of passive joints alone that move nothing that is held and that the loads
+/// neither hold nor push (the spin of a strut, a hinge at a loaded tip), n x k, balanced: those
+/// passive null motions `v` for which `N^T H v = 0` with all null motions `N`. Others of the same
+/// joints may be held or pushed and stay in the verdict. `rows` are independent rows of `jacobian`.
+pub(crate) fn neutral_motions(
+    chain: &Chain,
+    jacobian: &DMatrix<f64>,
+    rows: &DMatrix<f64>,
+    hessian: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let passive = passive_null_space(chain, jacobian);
+    if passive.ncols() == 0 {
+        return passive;
+    }
+    let null = complement(&rows.transpose());
+    let pushed = null.transpose() * hessian * &passive;
+    let gram = (pushed.transpose() * &pushed).symmetric_eigen();
+    let most = NEUTRAL * hessian.amax();
+    let free: Vec<usize> = (0..passive.ncols())
+        .filter(|&k| gram.eigenvalues[k] <= most * most)
+        .collect();
+    passive * gram.eigenvectors.select_columns(&free)
+}
+
+/// Share of the largest entry of the loads' Hessian that counts as nothing.
+const NEUTRAL: f64 = 1e-7;
+
+/// What products of orthonormal columns may differ from one by rounding.
+const ORTHONORMAL: f64 = 1e-13;
+
+/// Largest eigenvalue of the pencil `a v = mu b v`, `b` positive semi-definite, and its vector.
+pub(crate) fn share_to_buckling(
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+) -> (Option<f64>, Option<DVector<f64>>) {
+    if a.nrows() == 0 {
+        return (None, None);
+    }
+    // Without passive joints every inner motion has a material stiffness of one.
+    if b.is_identity(ORTHONORMAL) {
+        let (largest, modes) = largest_eigenvalues(&(0.5 * (a + a.transpose())), 1);
+        return (Some(largest[0]), Some(modes.column(0).into_owned()));
+    }
+    // The usual case otherwise: every inner motion strains a spring.
+    if let Some(factor) = b.clone().cholesky().filter(|c| {
+        let d = c.l_dirty().diagonal();
+        d.min() > 1e-4 * d.max()
+    }) {
+        let l = factor.l();
+        let half = l.solve_lower_triangular(a);
+        let reduced = half.and_then(|h| l.solve_lower_triangular(&h.transpose()));
+        if let Some(reduced) = reduced {
+            let eigen = (0.5 * (&reduced + reduced.transpose())).symmetric_eigen();
+            let worst = eigen.eigenvalues.imax();
+            let v = eigen.eigenvectors.column(worst).into_owned();
+            let motion = l.tr_solve_lower_triangular(&v);
+            return (Some(eigen.eigenvalues[worst]), motion);
+        }
+    }
+    let eigen = b.clone().symmetric_eigen();
+    let most = eigen.eigenvalues.amax();
+    let soft: Vec<usize> = (0..b.nrows())
+        .filter(|&i| eigen.eigenvalues[i] <= 1e3 * RANK_TOLERANCE * most)
+        .collect();
+    let hard: Vec<usize> = (0..b.nrows()).filter(|i| !soft.contains(i)).collect();
+    // Hard directions in units where b is the identity.
+    let mut y = eigen.eigenvectors.select_columns(&hard);
+    for (k, &i) in hard.iter().enumerate() {
+        y.column_mut(k).unscale_mut(eigen.eigenvalues[i].sqrt());
+    }
+    let mut reduced = y.transpose() * a * &y;
+    let mut coupling = None;
+    if !soft.is_empty() {
+        // Purely passive motions that a load holds (negative) or pushes out of line (positive).
+        let z = eigen.eigenvectors.select_columns(&soft);
+        let held = z.transpose() * a * &z;
+        let eigen_held = held.clone().symmetric_eigen();
+        let worst = eigen_held.eigenvalues.imax();
+        if eigen_held.eigenvalues[worst] >= -1e-12 * a.amax().max(f64::MIN_POSITIVE) {
+            return (
+                Some(f64::INFINITY),
+                Some(z * eigen_held.eigenvectors.column(worst)),
+            );
+        }
+        if let Some(inverse) = held.try_inverse() {
+            let cross = z.transpose() * a * &y;
+            reduced -= cross.transpose() * &inverse * &cross;
+            coupling = Some(-(z * inverse * cross));
+        }
+    }
+    if hard.is_empty() {
+        return (Some(f64::NEG_INFINITY), None);
+    }
+    let eigen = (0.5 * (&reduced + reduced.transpose())).symmetric_eigen();
+    let worst = eigen.eigenvalues.imax();
+    let v = eigen.eigenvectors.column(worst).into_owned();
+    let motion = match coupling {
+        Some(c) => &y * &v + c * &v,
+        None => &y * &v,
+    };
+    (Some(eigen.eigenvalues[worst]), Some(motion))
+}

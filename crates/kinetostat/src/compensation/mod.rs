@@ -1,0 +1,4 @@
+//! TODO
+
+pub(crate) mod following;
+pub(crate) mod target;

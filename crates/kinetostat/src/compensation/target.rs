@@ -1,0 +1,248 @@
+//! The target that must be commanded so that the tool is where it should be under load
+//! [R 7.7-7.13]: find `t0F` with `F = f(t_desired | t0F)`.
+//!
+//! The report's fixed point `t0F <- t0F + a (t_desired - f^-1(F | t0F))` solves one equilibrium per
+//! step. Here the tool is held at the desired place in the directions that the machine can
+//! correct, the nominal target becomes the unknown there, and one Newton iteration finds both.
+//! What the machine cannot correct stays as a reported residual.
+
+use crate::chain::equilibrium::Residual;
+use crate::error::{Error, Result};
+use crate::machine::platforms::solver::{MechanismState, PlatformSolver, Unknowns};
+use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::model::chain::sensible_pose;
+use crate::model::graph_check::check_state;
+use crate::model::mechanism::Mechanism;
+use crate::settings::Settings;
+use crate::spatial::{Pose, Twist, Wrench, pose_residual};
+
+/// A compensated target.
+#[derive(Clone, Debug)]
+pub struct Compensation<'m> {
+    /// Posture commanded for the modified target `t0F`.
+    pub posture: Posture<'m>,
+    /// From the desired pose to the modified target: what is added to the program.
+    pub correction: Twist,
+    /// From the desired pose to the pose reached under load: what was not corrected.
+    pub left_over: Twist,
+    /// The equilibrium at the modified target.
+    pub equilibrium: MechanismEquilibrium,
+}
+
+/// The modified target for one desired pose and one dead wrench at the tool's origin.
+///
+/// `directions` (base axes `x y z rx ry rz`) are corrected; a milling program of three axes
+/// corrects positions, `[true, true, true, false, false, false]`; see [`Posture::correctable`].
+///
+/// # Errors
+/// As [`Mechanism::posture`] and [`Posture::deflected_by`].
+pub fn compensate<'m>(
+    mechanism: &'m Mechanism,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    settings: &Settings,
+) -> Result<Compensation<'m>> {
+    let posture = mechanism.posture(desired)?.with_settings(*settings);
+    let start = posture.rest_state();
+    compensate_from(&posture, desired, wrench, directions, start)
+}
+
+/// As [`compensate`], starting from the posture and state of a neighbouring answer.
+///
+/// # Errors
+/// As [`compensate`].
+pub fn compensate_from<'m>(
+    near: &Posture<'m>,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    start: MechanismState,
+) -> Result<Compensation<'m>> {
+    let (mut solver, residual) = solve_target(near, desired, wrench, directions, start)?;
+    let equilibrium = conclude(&mut solver, residual)?;
+    Ok(Compensation {
+        correction: pose_residual(&solver.target, desired),
+        left_over: pose_residual(&equilibrium.tool, desired),
+        posture: commanded(near, &solver),
+        equilibrium,
+    })
+}
+
+/// Only the posture to command and the state under load: [`compensate_from`] without stiffness and
+/// stability, for fields of many points.
+///
+/// # Errors
+/// As [`compensate`].
+pub fn target_under_load<'m>(
+    near: &Posture<'m>,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    start: MechanismState,
+) -> Result<(Posture<'m>, MechanismState)> {
+    let (solver, _) = solve_target(near, desired, wrench, directions, start)?;
+    Ok((commanded(near, &solver), solver.state))
+}
+
+fn commanded<'m>(near: &Posture<'m>, solver: &PlatformSolver<'m>) -> Posture<'m> {
+    let mut posture = near.clone();
+    posture.target = solver.target;
+    posture.platforms.clone_from(&solver.nominal);
+    posture.platforms[solver.mechanism.tool()] = solver.target;
+    posture.limbs.clone_from(&solver.posture);
+    posture
+}
+
+fn solve_target<'m>(
+    near: &Posture<'m>,
+    desired: &Pose,
+    wrench: &Wrench,
+    directions: [bool; 6],
+    start: MechanismState,
+) -> Result<(PlatformSolver<'m>, Residual)> {
+    let mechanism = near.mechanism();
+    near.finite("the wrench", wrench.0.iter())?;
+    let place = format!("mechanism '{}'", mechanism.name);
+    sensible_pose(&place, "the pose that is wanted", desired)?;
+    check_state(mechanism, &start)?;
+    let mut state = start;
+    let tool = mechanism.tool();
+    // Held directions start exactly where they must end; the nominal target moves along with them
+    // and takes its other directions from the desired pose.
+    let mut pose = state.platforms[tool];
+    let mut target = *near.target();
+    for k in 0..3 {
+        if directions[k] {
+            let change = desired.translation.vector[k] - pose.translation.vector[k];
+            pose.translation.vector[k] = desired.translation.vector[k];
+            target.translation.vector[k] += change;
+        } else {
+            target.translation.vector[k] = desired.translation.vector[k];
+        }
+    }
+    if directions[3..].iter().any(|d| *d) {
+        pose.rotation = desired.rotation;
+    }
+    target.rotation = desired.rotation;
+    state.platforms[tool] = pose;
+    let settings = *near.settings();
+    let mut solver = PlatformSolver::new(
+        mechanism,
+        settings,
+        near.limbs().to_vec(),
+        state,
+        Unknowns::Target(directions),
+    );
+    solver.wrench = *wrench;
+    solver.target = target;
+    solver.nominal.clone_from(&near.platforms);
+    solver.others.clone_from(&near.others);
+    let solved = if solver.retarget() {
+        solver.solve(1.0, 0).ok()
+    } else {
+        None
+    };
+    let residual = match solved {
+        Some((iterations, balance)) => balance.residual(iterations),
+        None => match fixed_point(&mut solver, desired, directions) {
+            Ok(residual) => residual,
+            Err(error) => {
+                // Where nothing holds the tool, no target helps.
+                return Err(match near.rest_under(wrench, near.rest_state()) {
+                    Err(free @ Error::FreeDirection { .. }) => free,
+                    _ => error,
+                });
+            }
+        },
+    };
+    let residual = undo_drift(&mut solver, desired, directions, residual);
+    Ok((solver, residual))
+}
+
+/// A rotation about one axis is held to second order only while the tool turns about others: the
+/// rest is taken out and the machine solved again.
+fn undo_drift(
+    solver: &mut PlatformSolver<'_>,
+    desired: &Pose,
+    directions: [bool; 6],
+    mut residual: Residual,
+) -> Residual {
+    let tool = solver.mechanism.tool();
+    for _ in 0..4 {
+        let miss = pose_residual(desired, &solver.state.platforms[tool]);
+        let mut drift = Twist::zero();
+        for k in (3..6).filter(|&k| directions[k]) {
+            drift.0[k] = miss.0[k];
+        }
+        if drift.angular().norm() < 1e-14 || solver.unknowns == Unknowns::Pose {
+            break;
+        }
+        let kept = (solver.state.clone(), solver.posture.clone(), solver.target);
+        let nominal = solver.nominal.clone();
+        solver.state.platforms[tool] = crate::spatial::moved(&solver.state.platforms[tool], &drift);
+        match solver.solve(1.0, 0) {
+            Ok((iterations, balance)) => {
+                residual = balance.residual(residual.iterations + iterations);
+            }
+            Err(_) => {
+                // The answer before is an equilibrium; a failed refinement is not.
+                (solver.state, solver.posture, solver.target) = kept;
+                solver.nominal = nominal;
+                break;
+            }
+        }
+    }
+    residual
+}
+
+/// Steps of the report's iteration before it counts as failed.
+const STEPS: usize = 40;
+
+/// The report's own iteration with `a = 1` [R 7.13], each step a robust equilibrium.
+fn fixed_point(
+    solver: &mut PlatformSolver<'_>,
+    desired: &Pose,
+    directions: [bool; 6],
+) -> Result<Residual> {
+    let mechanism = solver.mechanism;
+    let tool = mechanism.tool();
+    solver.unknowns = Unknowns::Pose;
+    let mut target = *desired;
+    let length = mechanism.scale().length;
+    let (mut spent, mut left) = (0, f64::INFINITY);
+    for step in 1..=STEPS {
+        let posture = mechanism.posture(&target)?;
+        solver.target = target;
+        solver.posture = posture.limbs().to_vec();
+        solver.nominal = posture.platforms().to_vec();
+        solver.state = posture.rest_state();
+        let residual = solver.solve_robustly()?;
+        spent += residual.iterations;
+        let mut miss = pose_residual(desired, &solver.state.platforms[tool]);
+        for k in 0..6 {
+            if !directions[k] {
+                miss.0[k] = 0.0;
+            }
+        }
+        left = miss.linear().norm() + miss.angular().norm() * length;
+        // The last steps may turn in rounding; what is left then is no failure.
+        if left < 1e-12 * length || (step == STEPS && left < 1e-9 * length) {
+            return Ok(Residual {
+                iterations: spent,
+                ..residual
+            });
+        }
+        target = crate::spatial::moved(&target, &miss);
+    }
+    // Each step was an equilibrium under the full load; it is the target that was not found.
+    Err(Error::NotConverged {
+        place: format!("compensation on mechanism '{}'", mechanism.name()),
+        iterations: spent,
+        residual_position_m: left,
+        residual_torque: 0.0,
+        load_factor: 1.0,
+        last: solver.state.coordinates.concat(),
+        limit: None,
+    })
+}

@@ -1,0 +1,246 @@
+//! Where a machine comes to rest when Newton does not find it from the unloaded posture: led along
+//! a motion that costs nothing without load, or with a load that grows [R 5.5.3].
+
+use nalgebra::{DMatrix, DVector, Vector6};
+
+use crate::chain::directions::{Direction, DirectionKind, motion_in_words};
+use crate::chain::equilibrium::{EndCondition, Residual};
+use crate::continuation::branches::CurveSettings;
+use crate::continuation::machine_path::Path;
+use crate::continuation::reduced::{LoadPattern, Parameter};
+use crate::error::{Error, Result};
+use crate::machine::platforms::solver::{MechanismState, PlatformSolver, Unknowns};
+use crate::machine::posture::{MechanismEquilibrium, Posture};
+use crate::spatial::{Twist, Wrench, pose_residual};
+
+/// How far a tool is led, in natural lengths: more than half a turn about any axis nearby.
+const FARTHEST: f64 = 12.0;
+
+/// The logarithm of a rotation ends at half a turn.
+const LARGEST_TURN: f64 = 3.0;
+
+/// Steps by which a tool is led, at most.
+const STEPS: usize = 2000;
+
+/// A limit below this share of the load is none.
+const LEAST_SHARE: f64 = 1e-9;
+
+/// Points times coordinates of a way that only explains why there is no equilibrium.
+const EFFORT: usize = 20_000;
+
+/// Secant and tangent compliances along a load that differ less belong to one smooth branch.
+const SMOOTH: f64 = 2.0;
+
+/// A limit point on the way from rest to a load: the branch that starts at rest carries no more,
+/// and a dead load beyond it makes the machine snap to another equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadLimit {
+    /// Share of the load that is carried, 0 to 1.
+    pub share: f64,
+    /// Displacement of the tool there, from the nominal target (m, rad).
+    pub displacement: Twist,
+}
+
+/// How leading a tool along a motion ends.
+enum Led {
+    /// No hand is needed any more.
+    Rest(MechanismState),
+    /// The load pushes on however far one follows.
+    Endless,
+    /// No neighbour was found; whether the load still pushed nearly as at the start.
+    Lost(bool),
+}
+
+impl<'m> Posture<'m> {
+    /// Whether a load from rest meets a limit point before it is whole, though `loaded` was found
+    /// beyond it: then the machine snaps on the way, and `loaded` lies on another branch. `rest` is
+    /// the equilibrium without the wrench of `loaded`. The load is followed only where secant and
+    /// tangents disagree or the verdicts differ.
+    ///
+    /// # Errors
+    /// Those of the equilibrium without load.
+    pub fn snaps_on_the_way(
+        &self,
+        rest: &MechanismEquilibrium,
+        loaded: &MechanismEquilibrium,
+    ) -> Result<Option<LoadLimit>> {
+        let wrench = loaded.wrench;
+        if wrench.0.norm() == 0.0 {
+            return Ok(None);
+        }
+        let by = |e: &MechanismEquilibrium| wrench.0.dot(&(e.compliance().springs * wrench.0));
+        let secant = pose_residual(&loaded.tool, &rest.tool).dot(&wrench);
+        let yields = [by(rest), by(loaded), secant];
+        let most = yields.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+        let smooth = yields.iter().all(|y| *y * SMOOTH > most) || most == 0.0;
+        if smooth && loaded.stable() >= rest.stable() {
+            return Ok(None);
+        }
+        Ok(self.under_growing_load(&wrench)?.1)
+    }
+
+    /// The equilibrium under a wrench that Newton did not find, and why there is none.
+    pub(crate) fn found_otherwise(
+        &self,
+        wrench: &Wrench,
+        error: Error,
+    ) -> Result<(PlatformSolver<'m>, Residual)> {
+        let mut pushed = None;
+        for way in self.costless_ways(wrench) {
+            match self.led(&way, wrench) {
+                Led::Rest(state) => {
+                    if let Some(found) = self.finished(state, wrench) {
+                        return Ok(found);
+                    }
+                }
+                Led::Endless => return Err(self.free_direction(&way, wrench)),
+                Led::Lost(true) => pushed = pushed.or(Some(way)),
+                Led::Lost(false) => {}
+            }
+        }
+        if wrench.0.norm() > 0.0
+            && let Ok((state, limit)) = self.under_growing_load(wrench)
+        {
+            if let Some(found) = state.and_then(|state| self.finished(state, wrench)) {
+                return Ok(found);
+            }
+            if let Some(limit) = limit {
+                return Err(error.at_limit(limit));
+            }
+            if let Ok(found) = self.grown(wrench) {
+                return Ok(found);
+            }
+        }
+        Err(match pushed {
+            Some(way) => self.free_direction(&way, wrench),
+            None => error,
+        })
+    }
+
+    /// Newton from a state near the equilibrium.
+    fn finished(
+        &self,
+        state: MechanismState,
+        wrench: &Wrench,
+    ) -> Option<(PlatformSolver<'m>, Residual)> {
+        let mut solver = self.solver(state, Unknowns::Pose);
+        solver.wrench = *wrench;
+        let (iterations, balance) = solver.solve(1.0, 0).ok()?;
+        Some((solver, balance.residual(iterations)))
+    }
+
+    /// State at the whole load, if the branch from rest reaches it without a limit; the first limit
+    /// at which it stops being stable.
+    fn under_growing_load(
+        &self,
+        wrench: &Wrench,
+    ) -> Result<(Option<MechanismState>, Option<LoadLimit>)> {
+        let load = Parameter::Load(LoadPattern {
+            end: *wrench,
+            loads: Vec::new(),
+        });
+        // What it may cost is bounded: it only says why there is no equilibrium.
+        let limbs = self.mechanism.limbs.iter();
+        let coordinates: usize = limbs.map(|l| l.actual.coordinate_count()).sum();
+        let mut settings = CurveSettings::within(0.0, 1.0);
+        settings.points = (EFFORT / coordinates.max(1)).clamp(10, settings.points);
+        let end = EndCondition::wrench(Wrench::zero());
+        let path = Path::new(self, &load, &end, &settings)?;
+        // Motions that cost nothing have no limit but rounding.
+        let (whole, limit) = path.growing(|p| p.parameter <= LEAST_SHARE)?;
+        let limit = limit.map(|p| LoadLimit {
+            share: p.parameter,
+            displacement: p.equilibrium.displacement,
+        });
+        Ok((whole.map(|p| p.equilibrium.state), limit))
+    }
+
+    /// Motions of the tool that cost nothing without load: the one that all that acts pushes along,
+    /// or if it pushes along none, each by itself.
+    fn costless_ways(&self, wrench: &Wrench) -> Vec<Twist> {
+        let Ok(own) = self.stiffness() else {
+            return Vec::new();
+        };
+        let free: Vec<&Direction> = (own.directions.iter())
+            .filter(|d| d.kind == DirectionKind::Free)
+            .collect();
+        if free.is_empty() {
+            return Vec::new();
+        }
+        // Weights and preloads push besides: what a held tool does not need of its holder.
+        let push = match self.wrench_at(&self.target) {
+            Ok(held) => Wrench(wrench.0 - held.wrench.0),
+            Err(_) => *wrench,
+        };
+        let unit = |i: usize| if i < 3 { 1.0 } else { own.length };
+        let size = (0..6).fold(0.0_f64, |size, i| size.hypot(push.0[i] / unit(i)));
+        let columns: Vec<DVector<f64>> = free
+            .iter()
+            .map(|d| DVector::from_fn(6, |i, _| d.twist.0[i] * unit(i)))
+            .collect();
+        let basis = DMatrix::from_columns(&columns).qr().q();
+        let balanced = DVector::from_fn(6, |i, _| push.0[i] / unit(i));
+        let along = &basis * (basis.transpose() * balanced);
+        if along.norm() > 1e-9 * size {
+            let way = along.normalize();
+            return vec![Twist(Vector6::from_fn(|i, _| way[i] / unit(i)))];
+        }
+        free.iter().map(|d| d.twist).collect()
+    }
+
+    /// Leads the tool along a motion while the whole load acts, the way it is pushed, until it needs
+    /// no hand.
+    fn led(&self, way: &Twist, wrench: &Wrench) -> Led {
+        let Ok(free) = Path::held_at(self, &EndCondition::wrench(*wrench)) else {
+            return Led::Lost(false);
+        };
+        let path = free.driven(
+            &free.balanced(&way.0).normalize(),
+            CurveSettings::within(0.0, 1.0),
+        );
+        let Ok(start) = path.first(0.0) else {
+            return Led::Lost(false);
+        };
+        let hand = start.conjugate;
+        let size = wrench.force().norm() + wrench.moment().norm() / path.length;
+        if hand.abs() <= 1e-12 * size {
+            return Led::Rest(start.equilibrium.state);
+        }
+        let length = path.length;
+        let (mut here, mut by, mut gone) = (start, 0.05 * length, 0.0);
+        for _ in 0..STEPS {
+            // The hand holds back.
+            let step = -hand.signum() * by;
+            let Some(next) = path.step(&here, step) else {
+                by *= 0.5;
+                if by < 1e-7 * length {
+                    return Led::Lost(here.conjugate.abs() > 0.5 * hand.abs());
+                }
+                continue;
+            };
+            if next.conjugate * hand <= 0.0 {
+                let rest = path.between(&here, step, |p| p.conjugate).unwrap_or(next);
+                return Led::Rest(rest.equilibrium.state);
+            }
+            gone += by;
+            let turned = next.equilibrium.displacement.angular().norm();
+            if gone > FARTHEST * length || turned > LARGEST_TURN {
+                return Led::Endless;
+            }
+            by = (1.5 * by).min(0.1 * length);
+            here = next;
+        }
+        Led::Lost(false)
+    }
+
+    fn free_direction(&self, way: &Twist, wrench: &Wrench) -> Error {
+        Error::FreeDirection {
+            place: format!("mechanism '{}'", self.mechanism.name),
+            reason: format!(
+                "no force is needed where the tool {}, and the load pushes on as far as it could be followed",
+                motion_in_words(way)
+            ),
+            wrench: Box::new(*wrench),
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! The wrench that holds the tool, followed along a way of the tool: branches, limit points and
+//! snap-through of a machine [R 5.5.3, Table 5.3].
+
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
+
+use crate::error::Result;
+use crate::linalg::saddle::{complement, pseudo_inverse};
+use crate::machine::platforms::solver::{Guide, MechanismState, Unknowns};
+use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::model::graph_check::check_state;
+use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
+
+/// One point of a curve.
+#[derive(Clone, Debug)]
+pub struct HeldPoint {
+    /// Along the direction from the nominal target, in units of the direction.
+    pub along: f64,
+    /// Component of the holding wrench in the direction, N (if the direction moves by 1 m), without
+    /// the dead wrench.
+    pub force: f64,
+    /// Its derivative along the way, N/m: `direction^T K direction` for a tool held in all
+    /// directions; for one pushed in one what remains of it with the others free.
+    pub slope: f64,
+    /// The equilibrium.
+    pub equilibrium: MechanismEquilibrium,
+}
+
+/// A curve of holding wrenches.
+#[derive(Clone, Debug)]
+pub struct HeldCurve {
+    /// Points in the order of the way.
+    pub points: Vec<HeldPoint>,
+    /// Where the force has a maximum or minimum: under a dead load of that size and direction the
+    /// tool snaps through.
+    pub limits: Vec<HeldPoint>,
+    /// Why it ended early.
+    pub ended: Option<crate::error::Error>,
+}
+
+impl<'m> Posture<'m> {
+    /// As [`Posture::wrench_at`], continued from the state of a neighbouring equilibrium, so that
+    /// its branch is kept: the tool is taken there directly, and if that fails in ever smaller
+    /// steps; never from rest.
+    ///
+    /// # Errors
+    /// [`crate::Error::NotConverged`] where the branch cannot be followed; the share of the load is
+    /// that of the way.
+    pub fn wrench_at_from(
+        &self,
+        pose: &Pose,
+        start: MechanismState,
+    ) -> Result<MechanismEquilibrium> {
+        self.finite("the pose", pose.to_homogeneous().iter())?;
+        check_state(self.mechanism, &start)?;
+        let tool = self.mechanism.tool;
+        let from = start.platforms[tool];
+        let way = pose_residual(pose, &from);
+        let mut solver = self.solver(start, Unknowns::Held);
+        let (mut share, mut step, mut spent) = (0.0_f64, 1.0_f64, 0);
+        loop {
+            let next = (share + step).min(1.0);
+            let kept = solver.state.clone();
+            solver.state.platforms[tool] = if next == 1.0 {
+                *pose
+            } else {
+                moved(&from, &Twist(way.0 * next))
+            };
+            match solver.solve(1.0, 0) {
+                Ok((iterations, balance)) => {
+                    spent += iterations;
+                    share = next;
+                    if share == 1.0 {
+                        let residual = balance.residual(spent);
+                        return conclude(&mut solver, residual);
+                    }
+                }
+                Err((iterations, balance)) => {
+                    spent += iterations;
+                    solver.state = kept;
+                    step *= 0.5;
+                    if step < 1.0 / 1024.0 {
+                        return Err(solver.not_converged(spent, share, &balance));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The holding wrench along `moved(target, direction * s)` for the given `s` in their order,
+    /// each point from the one before, the first from `start` or from rest. The tool is held in all
+    /// directions. Limit points are found between points of opposite slope.
+    ///
+    /// # Errors
+    /// Those of the first point; a curve that ends later says so in [`HeldCurve::ended`].
+    pub fn held_along(
+        &self,
+        direction: &Twist,
+        way: &[f64],
+        start: Option<MechanismState>,
+    ) -> Result<HeldCurve> {
+        self.curve(&Way::Held(*direction), way, start)
+    }
+
+    /// The force that holds the tool's origin at the distances `way` (m, from the nominal target)
+    /// along a direction, while the tool is free in all others under the dead wrench `dead`: what a
+    /// press measures that pushes by a pin. Limit points are those of the machine: under a dead
+    /// force along the direction the tool snaps there.
+    ///
+    /// # Errors
+    /// [`crate::Error::Model`] for a direction without length; else as [`Self::held_along`].
+    pub fn pushed_along(
+        &self,
+        direction: &Vector3<f64>,
+        way: &[f64],
+        dead: &Wrench,
+        start: Option<MechanismState>,
+    ) -> Result<HeldCurve> {
+        self.finite("the wrench", dead.0.iter())?;
+        self.finite("the direction", direction.iter())?;
+        let Some(direction) = direction.try_normalize(1e-12) else {
+            return Err(crate::Error::model(
+                format!("mechanism '{}'", self.mechanism.name),
+                "the direction of a push has no length",
+            ));
+        };
+        self.curve(&Way::Pushed(direction, *dead), way, start)
+    }
+
+    fn curve(&self, kind: &Way, way: &[f64], start: Option<MechanismState>) -> Result<HeldCurve> {
+        if let Some(start) = &start {
+            check_state(self.mechanism, start)?;
+        }
+        self.finite("a distance along the way", way.iter())?;
+        let mut curve = HeldCurve {
+            points: Vec::with_capacity(way.len()),
+            limits: Vec::new(),
+            ended: None,
+        };
+        for &along in way {
+            let point = match (curve.points.last(), &start, kind) {
+                (Some(last), ..) => self.next(kind, along, Some(last), &last.equilibrium.state),
+                (None, Some(state), _) => self.next(kind, along, None, state),
+                (None, None, Way::Held(direction)) => {
+                    let pose = moved(&self.target, &Twist(direction.0 * along));
+                    self.wrench_at(&pose).map(|e| kind.point(along, e))
+                }
+                // Under the dead wrench first, then pushed.
+                (None, None, Way::Pushed(_, dead)) => self
+                    .deflected_by(dead)
+                    .and_then(|e| self.next(kind, along, None, &e.state)),
+            };
+            match point {
+                Ok(point) => curve.points.push(point),
+                Err(error) if curve.points.is_empty() => return Err(error),
+                Err(error) => {
+                    curve.ended = Some(error);
+                    break;
+                }
+            }
+        }
+        for pair in curve.points.windows(2) {
+            if pair[0].slope * pair[1].slope < 0.0
+                && let Some(limit) = self.limit_between(kind, &pair[0], &pair[1])
+            {
+                curve.limits.push(limit);
+            }
+        }
+        Ok(curve)
+    }
+
+    fn next(
+        &self,
+        kind: &Way,
+        along: f64,
+        last: Option<&HeldPoint>,
+        state: &MechanismState,
+    ) -> Result<HeldPoint> {
+        let equilibrium = match kind {
+            Way::Held(direction) => {
+                let pose = moved(&self.target, &Twist(direction.0 * along));
+                self.wrench_at_from(&pose, state.clone())?
+            }
+            Way::Pushed(direction, dead) => {
+                let force = last.map_or(0.0, |l| l.force);
+                self.pushed(direction, dead, along, force, state)?
+            }
+        };
+        Ok(kind.point(along, equilibrium))
+    }
+
+    fn pushed(
+        &self,
+        direction: &Vector3<f64>,
+        dead: &Wrench,
+        along: f64,
+        force: f64,
+        start: &MechanismState,
+    ) -> Result<MechanismEquilibrium> {
+        let tool = self.mechanism.tool;
+        let mut solver = self.solver(start.clone(), Unknowns::Guided);
+        let push = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });
+        solver.guide = Guide {
+            from: self.target,
+            rows: push.transpose(),
+            goals: DVector::zeros(1),
+            hands: push,
+        };
+        solver.wrench = *dead + Wrench::new(direction * force, Vector3::zeros());
+        let place = |pose: &Pose| {
+            direction.dot(&(pose.translation.vector - self.target.translation.vector))
+        };
+        let mut step = along - place(&start.platforms[tool]);
+        let least = step.abs() / 1024.0;
+        let mut spent = 0;
+        loop {
+            let kept = (solver.state.clone(), solver.wrench);
+            let left = along - place(&solver.state.platforms[tool]);
+            let last = step.abs() >= left.abs();
+            let go = if last { left } else { step };
+            solver.guide.goals[0] = place(&solver.state.platforms[tool]) + go;
+            solver.state.platforms[tool].translation.vector += direction * go;
+            match solver.solve(1.0, 0) {
+                Ok((iterations, balance)) => {
+                    spent += iterations;
+                    if last {
+                        let residual = balance.residual(spent);
+                        return conclude(&mut solver, residual);
+                    }
+                }
+                Err((iterations, balance)) => {
+                    spent += iterations;
+                    (solver.state, solver.wrench) = kept;
+                    step = 0.5 * go;
+                    if step.abs() <= least {
+                        let share = 1.0 - left.abs() / (1024.0 * least).max(1e-300);
+                        return Err(solver.not_converged(spent, share, &balance));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Zero of the slope, by false position with halving (Illinois).
+    fn limit_between(&self, kind: &Way, a: &HeldPoint, b: &HeldPoint) -> Option<HeldPoint> {
+        let (mut a, mut b) = (a.clone(), b.clone());
+        let (mut fa, mut fb) = (a.slope, b.slope);
+        let range = (b.along - a.along).abs();
+        let size = fa.abs().max(fb.abs());
+        for _ in 0..60 {
+            let along = (fa * b.along - fb * a.along) / (fa - fb);
+            let next = self
+                .next(kind, along, Some(&a), &a.equilibrium.state)
+                .ok()?;
+            if next.slope.abs() <= 1e-10 * size || (b.along - a.along).abs() <= 1e-12 * range {
+                // A pole of the slope changes its sign too; there is no limit point at one.
+                return (next.slope.abs() <= 1e-3 * size).then_some(next);
+            }
+            if next.slope * b.slope < 0.0 {
+                (a, fa) = (b, fb);
+            } else {
+                fa *= 0.5;
+            }
+            fb = next.slope;
+            b = next;
+        }
+        None
+    }
+}
+
+/// How the tool is taken along.
+enum Way {
+    Held(Twist),
+    Pushed(Vector3<f64>, Wrench),
+}
+
+impl Way {
+    fn point(&self, along: f64, equilibrium: MechanismEquilibrium) -> HeldPoint {
+        let k = &equilibrium.stiffness.matrix;
+        let (force, slope) = match self {
+            Self::Held(direction) => (
+                direction.dot(&equilibrium.wrench),
+                direction.0.dot(&(k * direction.0)),
+            ),
+            Self::Pushed(direction, dead) => {
+                let own = Wrench(equilibrium.wrench.0 - dead.0);
+                (
+                    direction.dot(&own.force()),
+                    alone(k, direction, equilibrium.length),
+                )
+            }
+        };
+        HeldPoint {
+            along,
+            force,
+            slope,
+            equilibrium,
+        }
+    }
+}
+
+/// Stiffness against a force in one direction with the others free, N/m: Schur complement. What is
+/// rigid or free among the others has no share in it.
+fn alone(k: &Matrix6<f64>, direction: &Vector3<f64>, length: f64) -> f64 {
+    let unit = |i: usize| if i < 3 { 1.0 } else { length };
+    let balanced = DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (unit(i) * unit(j)));
+    let d = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });
+    let others = complement(&d);
+    let (inverse, _) = pseudo_inverse(&(others.transpose() * &balanced * &others));
+    let coupling = d.transpose() * &balanced * &others;
+    let back = others.transpose() * &balanced * &d;
+    (d.transpose() * &balanced * &d - coupling * inverse * back)[(0, 0)]
+}

@@ -1,0 +1,466 @@
+//! Elimination block by block for systems of many platforms.
+//!
+//! Blocks are eliminated in the order of fewest neighbours, so that a tree or a lattice of platforms
+//! stays sparse. A block that cannot be eliminated soundly (singular, or the elimination would
+//! magnify rounding) is not replaced or perturbed: it joins a neighbour and is tried again with it
+//! (delayed pivots), in the end as one dense block. A system whose rank is not certain has no
+//! factors here; the caller decides on the dense matrix.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::{DMatrix, Dyn, LU};
+
+use crate::linalg::saddle::{Inertia, RANK_TOLERANCE};
+use crate::machine::platforms::sparse::Sparse;
+
+/// What blocks may be eliminated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pivots {
+    /// Regular ones that do not magnify.
+    Any,
+    /// All: the matrix is positive definite, as badly conditioned as it may be.
+    Definite,
+}
+
+/// An elimination may magnify rounding this much; one step of refinement takes it out.
+const GROWTH: f64 = 1e4;
+
+struct Step {
+    own: Vec<usize>,
+    outer: Vec<usize>,
+    pivot: DMatrix<f64>,
+    factors: LU<f64, Dyn, Dyn>,
+    /// `D^-1 A[own, outer]`.
+    upper: DMatrix<f64>,
+    /// `A[outer, own]`.
+    lower: DMatrix<f64>,
+}
+
+/// A factorised system.
+pub(crate) struct BlockFactors {
+    units: Vec<f64>,
+    /// Balanced.
+    matrix: Sparse,
+    steps: Vec<Step>,
+}
+
+/// Blocks not yet eliminated.
+struct Active {
+    /// Unknowns of every block; empty once eliminated.
+    members: Vec<Vec<usize>>,
+    /// Rows by blocks; structurally symmetric.
+    rows: Vec<BTreeMap<usize, DMatrix<f64>>>,
+    /// Unknowns coupled, and block: the next one first.
+    queue: BTreeSet<(usize, usize)>,
+    cost: Vec<usize>,
+}
+
+impl Active {
+    fn new(matrix: &Sparse, nodes: &[usize]) -> Self {
+        let count = nodes.iter().max().map_or(0, |most| most + 1);
+        // An unknown without any entry is zero.
+        let mut used = vec![false; nodes.len()];
+        for &(i, j, _) in &matrix.entries {
+            (used[i], used[j]) = (true, true);
+        }
+        let mut members = vec![Vec::new(); count];
+        let mut place = vec![0; nodes.len()];
+        for (i, &node) in nodes.iter().enumerate().filter(|(i, _)| used[*i]) {
+            place[i] = members[node].len();
+            members[node].push(i);
+        }
+        let mut own = Self {
+            rows: vec![BTreeMap::new(); count],
+            queue: BTreeSet::new(),
+            cost: vec![0; count],
+            members,
+        };
+        for &(i, j, value) in &matrix.entries {
+            own.block(nodes[i], nodes[j])[(place[i], place[j])] += value;
+            if nodes[i] != nodes[j] {
+                own.block(nodes[j], nodes[i]);
+            }
+        }
+        for node in 0..count {
+            if !own.members[node].is_empty() {
+                own.block(node, node);
+                own.queue.insert((0, node));
+                own.recount(node);
+            }
+        }
+        own
+    }
+
+    fn block(&mut self, row: usize, column: usize) -> &mut DMatrix<f64> {
+        let shape = (self.members[row].len(), self.members[column].len());
+        self.rows[row]
+            .entry(column)
+            .or_insert_with(|| DMatrix::zeros(shape.0, shape.1))
+    }
+
+    fn neighbours(&self, node: usize) -> Vec<usize> {
+        let all = self.rows[node].keys().copied();
+        all.filter(|&other| other != node).collect()
+    }
+
+    fn recount(&mut self, node: usize) {
+        let all = self.rows[node].keys();
+        let cost = all.map(|&other| self.members[other].len()).sum();
+        self.queue.remove(&(self.cost[node], node));
+        self.cost[node] = cost;
+        self.queue.insert((cost, node));
+    }
+
+    /// Factors of a block, or none if it must wait.
+    fn step(&self, node: usize, pivots: Pivots, most: f64) -> Option<Step> {
+        let neighbours = self.neighbours(node);
+        let own = self.members[node].clone();
+        let outer: Vec<usize> = neighbours
+            .iter()
+            .flat_map(|&other| self.members[other].iter().copied())
+            .collect();
+        let mut upper = DMatrix::zeros(own.len(), outer.len());
+        let mut lower = DMatrix::zeros(outer.len(), own.len());
+        let mut at = 0;
+        for &other in &neighbours {
+            let k = self.members[other].len();
+            upper.columns_mut(at, k).copy_from(&self.rows[node][&other]);
+            lower.rows_mut(at, k).copy_from(&self.rows[other][&node]);
+            at += k;
+        }
+        let pivot = self.rows[node][&node].clone();
+        let factors = pivot.clone().lu();
+        match pivots {
+            Pivots::Definite => {
+                pivot.clone().cholesky()?;
+            }
+            Pivots::Any => {
+                let (least, own) = range(&factors);
+                let most = most.max(own);
+                if least.is_nan() || least <= 10.0 * RANK_TOLERANCE * most {
+                    return None;
+                }
+            }
+        }
+        if !factors.solve_mut(&mut upper) {
+            return None;
+        }
+        let sound = pivots == Pivots::Definite || upper.is_empty() || upper.amax() <= GROWTH;
+        sound.then_some(Step {
+            own,
+            outer,
+            pivot,
+            factors,
+            upper,
+            lower,
+        })
+    }
+
+    /// Takes a factorised block out.
+    fn eliminate(&mut self, node: usize, step: &Step) {
+        let neighbours = self.neighbours(node);
+        let update = &step.lower * &step.upper;
+        let mut row = 0;
+        for &i in &neighbours {
+            let mut column = 0;
+            let height = self.members[i].len();
+            for &j in &neighbours {
+                let width = self.members[j].len();
+                *self.block(i, j) -= update.view((row, column), (height, width));
+                column += width;
+            }
+            self.rows[i].remove(&node);
+            row += height;
+        }
+        self.rows[node].clear();
+        self.members[node].clear();
+        for other in neighbours {
+            self.recount(other);
+        }
+    }
+
+    /// Puts a block that must wait into its neighbour of fewest unknowns; false if it has none.
+    fn join(&mut self, node: usize) -> bool {
+        let neighbours = self.neighbours(node);
+        let Some(&into) = neighbours.iter().min_by_key(|&&other| self.cost[other]) else {
+            return false;
+        };
+        let (first, more) = (self.members[into].len(), self.members[node].len());
+        let row = std::mem::take(&mut self.rows[node]);
+        let mut columns: BTreeMap<usize, DMatrix<f64>> = BTreeMap::new();
+        for &other in &neighbours {
+            if let Some(column) = self.rows[other].remove(&node) {
+                columns.insert(other, column);
+            }
+        }
+        let moved = std::mem::take(&mut self.members[node]);
+        self.members[into].extend(moved);
+        let size = first + more;
+        // What the two blocks share.
+        let mut own = DMatrix::zeros(size, size);
+        own.view_mut((0, 0), (first, first))
+            .copy_from(&self.rows[into][&into]);
+        own.view_mut((first, first), (more, more))
+            .copy_from(&row[&node]);
+        own.view_mut((first, 0), (more, first))
+            .copy_from(&row[&into]);
+        own.view_mut((0, first), (first, more))
+            .copy_from(&columns[&into]);
+        let others: BTreeSet<usize> = neighbours
+            .iter()
+            .copied()
+            .chain(self.neighbours(into))
+            .filter(|&other| other != into)
+            .collect();
+        for &other in &others {
+            let width = self.members[other].len();
+            let mut upper = DMatrix::zeros(size, width);
+            let mut lower = DMatrix::zeros(width, size);
+            if let Some(block) = self.rows[into].get(&other) {
+                upper.rows_mut(0, first).copy_from(block);
+                lower
+                    .columns_mut(0, first)
+                    .copy_from(&self.rows[other][&into]);
+            }
+            if let Some(block) = row.get(&other) {
+                upper.rows_mut(first, more).copy_from(block);
+                lower.columns_mut(first, more).copy_from(&columns[&other]);
+            }
+            self.rows[into].insert(other, upper);
+            self.rows[other].insert(into, lower);
+        }
+        self.rows[into].insert(into, own);
+        for other in others.into_iter().chain([into]) {
+            self.recount(other);
+        }
+        true
+    }
+}
+
+/// Smallest and largest pivot.
+fn range(factors: &LU<f64, Dyn, Dyn>) -> (f64, f64) {
+    let pivots = factors.lu_internal().diagonal();
+    pivots.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), p| {
+        let size = p.abs();
+        (
+            if size < l || size.is_nan() { size } else { l },
+            m.max(size),
+        )
+    })
+}
+
+impl BlockFactors {
+    /// Factorises `diag(units) A diag(units)`, unknowns gathered to blocks by `nodes`; `None` if it
+    /// is singular or nearly so.
+    pub fn new(a: &Sparse, nodes: &[usize], units: &[f64], pivots: Pivots) -> Option<Self> {
+        let mut matrix = a.clone();
+        for (i, j, value) in &mut matrix.entries {
+            *value *= units[*i] * units[*j];
+        }
+        let mut active = Active::new(&matrix, nodes);
+        let mut steps: Vec<Step> = Vec::new();
+        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+        while let Some((_, node)) = active.queue.pop_first() {
+            match active.step(node, pivots, most) {
+                Some(step) => {
+                    let (low, high) = range(&step.factors);
+                    (least, most) = (least.min(low), most.max(high));
+                    active.eliminate(node, &step);
+                    steps.push(step);
+                }
+                None if pivots == Pivots::Definite || !active.join(node) => return None,
+                None => {}
+            }
+        }
+        let regular = pivots == Pivots::Definite || least > 10.0 * RANK_TOLERANCE * most;
+        (regular || steps.is_empty()).then(|| Self {
+            units: units.to_vec(),
+            matrix,
+            steps,
+        })
+    }
+
+    /// Solves for all columns of `b`, in place, with one step of refinement.
+    pub fn solve(&self, b: &mut DMatrix<f64>) {
+        for mut column in b.column_iter_mut() {
+            for (x, unit) in column.iter_mut().zip(&self.units) {
+                *x *= unit;
+            }
+        }
+        let mut x = self.once(b);
+        let rest = &*b - self.matrix.times(&x);
+        x += self.once(&rest);
+        for mut column in x.column_iter_mut() {
+            for (x, unit) in column.iter_mut().zip(&self.units) {
+                *x *= unit;
+            }
+        }
+        *b = x;
+    }
+
+    /// Balanced, without refinement.
+    fn once(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut work = b.clone();
+        let mut x = DMatrix::zeros(b.nrows(), b.ncols());
+        for step in &self.steps {
+            let mut own = work.select_rows(&step.own);
+            // The pivots were checked.
+            let solved = step.factors.solve_mut(&mut own);
+            debug_assert!(solved);
+            let change = &step.lower * &own;
+            for (row, &i) in change.row_iter().zip(&step.outer) {
+                let mut target = work.row_mut(i);
+                target -= row;
+            }
+            for (row, &i) in own.row_iter().zip(&step.own) {
+                x.row_mut(i).copy_from(&row);
+            }
+        }
+        for step in self.steps.iter().rev() {
+            let change = &step.upper * x.select_rows(&step.outer);
+            for (row, &i) in change.row_iter().zip(&step.own) {
+                let mut target = x.row_mut(i);
+                target -= row;
+            }
+        }
+        x
+    }
+
+    /// Inertia of a symmetric system, the sum of those of its blocks (Haynsworth), and the smallest
+    /// of their eigenvalues as a share of the largest: where that is at rounding, signs may be wrong
+    /// by an eigenvalue of that share.
+    pub fn inertia(&self) -> (Inertia, f64) {
+        let values: Vec<f64> = self
+            .steps
+            .iter()
+            .flat_map(|step| {
+                let symmetric = 0.5 * (&step.pivot + step.pivot.transpose());
+                let values = symmetric.symmetric_eigenvalues();
+                values.iter().copied().collect::<Vec<f64>>()
+            })
+            .collect();
+        let most = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let least = values.iter().fold(most, |m, v| m.min(v.abs()));
+        let count = |positive: bool| values.iter().filter(|v| (**v > 0.0) == positive).count();
+        let inertia = Inertia {
+            positive: count(true),
+            negative: count(false),
+            zero: 0,
+        };
+        (inertia, least / most.max(f64::MIN_POSITIVE))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::saddle::inertia;
+
+    /// A symmetric system over a ring with chords: `stiff` on the diagonal of block `k`, a rigid
+    /// condition beside every third block.
+    struct Case {
+        matrix: Sparse,
+        nodes: Vec<usize>,
+    }
+
+    fn case(seed: u64, stiff: impl Fn(usize) -> f64, conditions: bool) -> Case {
+        let mut seed = seed;
+        let mut random = move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 33) as f64 / f64::from(1_u32 << 30) - 1.0
+        };
+        let count = 18;
+        let mut nodes: Vec<usize> = (0..6 * count).map(|i| i / 6).collect();
+        let mut entries = Vec::new();
+        for k in 0..count {
+            let ends = [(k + 1) % count, (k * k + 3) % count];
+            for other in ends.into_iter().filter(|&other| other != k) {
+                for i in 0..6 {
+                    for j in 0..6 {
+                        let v = 0.3 * random();
+                        entries.push((6 * k + i, 6 * other + j, v));
+                        entries.push((6 * other + j, 6 * k + i, v));
+                    }
+                }
+            }
+            for i in 0..6 {
+                entries.push((6 * k + i, 6 * k + i, stiff(k)));
+            }
+        }
+        if conditions {
+            for k in (0..count - 1).step_by(3) {
+                let row = nodes.len();
+                nodes.push(k);
+                for j in 0..12 {
+                    let v = random();
+                    entries.push((row, 6 * k + j, v));
+                    entries.push((6 * k + j, row, v));
+                }
+            }
+        }
+        let size = nodes.len();
+        let matrix = Sparse {
+            rows: size,
+            columns: size,
+            entries,
+        };
+        Case { matrix, nodes }
+    }
+
+    #[test]
+    fn blocks_solve_the_dense_system() {
+        // Definite, indefinite, and with blocks that are zero until others are eliminated.
+        let zeros = |k: usize| if k.is_multiple_of(2) { 0.0 } else { 2.0 };
+        let cases = [
+            case(1, |_| 4.0, false),
+            case(2, |_| 4.0, true),
+            case(3, |k| if k.is_multiple_of(2) { 4.0 } else { -4.0 }, true),
+            case(4, zeros, false),
+            case(5, zeros, true),
+            case(6, |_| 0.0, false),
+        ];
+        for (number, own) in cases.into_iter().enumerate() {
+            let size = own.nodes.len();
+            let units: Vec<f64> = (0..size).map(|i| 1.0 + (i % 5) as f64 * 0.1).collect();
+            let factors = BlockFactors::new(&own.matrix, &own.nodes, &units, Pivots::Any);
+            let factors = factors.expect("a regular system");
+            let dense = own.matrix.dense();
+            let given = DMatrix::from_fn(size, 2, |i, j| ((i * 7 + j * 3) % 11) as f64 - 5.0);
+            let mut found = given.clone();
+            factors.solve(&mut found);
+            let left = (&dense * &found - &given).amax() / (dense.amax() * found.amax());
+            assert!(left < 1e-14, "{number}: {left:e}");
+            assert_eq!(factors.inertia().0, inertia(dense), "{number}");
+        }
+    }
+
+    #[test]
+    fn a_singular_system_has_no_factors() {
+        let mut own = case(7, |_| 4.0, true);
+        // The last condition twice.
+        let last = own.nodes.len() - 1;
+        for (i, j, v) in own.matrix.entries.clone() {
+            if i == last {
+                own.matrix.entries.push((i + 1, j, v));
+                own.matrix.entries.push((j, i + 1, v));
+            }
+        }
+        own.nodes.push(own.nodes[last]);
+        (own.matrix.rows, own.matrix.columns) = (last + 2, last + 2);
+        let units = vec![1.0; last + 2];
+        assert!(BlockFactors::new(&own.matrix, &own.nodes, &units, Pivots::Any).is_none());
+    }
+
+    #[test]
+    fn unknowns_without_entries_are_zero() {
+        let matrix = Sparse {
+            rows: 3,
+            columns: 3,
+            entries: vec![(0, 0, 2.0), (2, 2, 4.0)],
+        };
+        let factors = BlockFactors::new(&matrix, &[0, 0, 1], &[1.0; 3], Pivots::Any);
+        let mut b = DMatrix::from_column_slice(3, 1, &[2.0, 5.0, 2.0]);
+        factors.expect("regular").solve(&mut b);
+        assert_eq!(b.as_slice(), &[1.0, 0.0, 0.5]);
+    }
+}

@@ -1,0 +1,6 @@
+//! TODO
+
+pub(crate) mod block_elimination;
+pub(crate) mod krylov;
+pub(crate) mod saddle;
+pub(crate) mod singular_values;

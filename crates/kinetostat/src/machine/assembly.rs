@@ -1,0 +1,127 @@
+//! Limbs with errors of manufacture and assembly, to first order [R 6.15-6.20]. The exact answer is
+//! an equilibrium of the actual geometry without a load.
+
+use nalgebra::DMatrix;
+
+use crate::error::{Error, Result};
+use crate::machine::network::Network;
+use crate::machine::platforms::sparse::PlatformSystem;
+use crate::machine::posture::Posture;
+use crate::spatial::{Twist, Wrench, pose_residual};
+
+/// First-order assembly of limbs with errors, without a load or under one [R 6.15-6.20].
+#[derive(Clone, Debug)]
+pub struct LinearAssembly {
+    /// Motion of the tool from its nominal target.
+    pub shift: Twist,
+    /// Motion of every platform from its nominal place, the base (zero) first.
+    pub platforms: Vec<Twist>,
+    /// Wrench on every limb's tip, base axes; on every platform they add up to the load on it.
+    pub wrenches: Vec<Wrench>,
+    /// Change of the passive joints of every limb, m or rad.
+    pub passive: Vec<Vec<f64>>,
+    /// Deflection of the springs of every limb, m or rad.
+    pub springs: Vec<Vec<f64>>,
+}
+
+impl Posture<'_> {
+    /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes,
+    /// its base where it is nominally.
+    #[must_use]
+    pub fn assembly_errors(&self) -> Vec<Twist> {
+        let m = self.mechanism;
+        m.limbs
+            .iter()
+            .zip(&self.limbs)
+            .map(|(limb, joints)| {
+                let base = self.platforms[limb.from];
+                let tip = |chain| {
+                    crate::chain::equilibrium::unloaded_tip(
+                        chain,
+                        &base,
+                        &joints.coordinates,
+                        &joints.commands,
+                    )
+                };
+                pose_residual(&tip(&limb.actual), &tip(&limb.nominal))
+            })
+            .collect()
+    }
+
+    /// First-order platform shift and internal wrenches for given limb errors `eps_i` (base axes,
+    /// at each limb's tip), no external load:
+    /// `Dt = (sum A^T K A)^-1 sum A^T K eps`, `F_i = K_i (A_i Dt - eps_i)`, with `A_i` the motion of
+    /// the tip by those of the limb's platforms. Where a limb cannot move, `N_i^T (A_i Dt - eps_i) =
+    /// 0` and it carries what is needed; errors that such limbs cannot follow are met as nearly as
+    /// can be (least squares), as an infinite wrench is nobody's answer.
+    ///
+    /// # Errors
+    /// Wrong sizes only.
+    pub fn linear_assembly(&self, errors: &[Twist]) -> Result<LinearAssembly> {
+        self.linear_assembly_under(errors, &Wrench::zero())
+    }
+
+    /// As [`Self::linear_assembly`] with a wrench on the tool (about its origin, base axes) besides:
+    /// `Dt = (sum A^T K A)^-1 (sum A^T K eps + W)`. Weights, preloads and loads on limbs are left out.
+    /// A direction of the tool that is free does not move.
+    ///
+    /// # Errors
+    /// Wrong sizes; a wrench that is not finite.
+    pub fn linear_assembly_under(
+        &self,
+        errors: &[Twist],
+        wrench: &Wrench,
+    ) -> Result<LinearAssembly> {
+        self.finite("the wrench", wrench.0.iter())?;
+        let m = self.mechanism;
+        if errors.len() != m.limbs.len() {
+            return Err(Error::Size {
+                place: format!("mechanism '{}'", m.name),
+                what: "limb errors",
+                expected: m.limbs.len(),
+                found: errors.len(),
+            });
+        }
+        let network = Network::new(self)?;
+        let (moving, rows) = (network.moving(), network.rows());
+        let (size, count) = (6 * moving, rows.count());
+        let mut b = DMatrix::zeros(size + count, 1);
+        {
+            let mut tool = b.fixed_view_mut::<6, 1>(6 * (m.tool - 1), 0);
+            tool += wrench.0;
+        }
+        let mut at = size;
+        for (i, error) in errors.iter().enumerate() {
+            let pull = network.limbs[i].cartesian.matrix * error.0;
+            let ends = &network.motions[i];
+            for (platform, by) in [&ends.to, &ends.from] {
+                if *platform > 0 {
+                    let mut view = b.fixed_view_mut::<6, 1>(6 * (platform - 1), 0);
+                    view += by.transpose() * pull;
+                }
+            }
+            let k = network.rigid[i].ncols();
+            b.view_mut((at, 0), (k, 1))
+                .copy_from(&(network.rigid[i].transpose() * error.0));
+            at += k;
+        }
+        PlatformSystem::new(network.stiffness(), &rows, m.scale()).solve(&mut b);
+        let mut platforms = vec![Twist::zero()];
+        platforms.extend((0..moving).map(|p| Twist(b.fixed_view::<6, 1>(6 * p, 0).into_owned())));
+        let carried: Vec<f64> = b.rows(size, count).iter().copied().collect();
+        let mut result = LinearAssembly {
+            shift: platforms[m.tool],
+            wrenches: network.wrenches(&platforms, errors, &carried),
+            passive: Vec::new(),
+            springs: Vec::new(),
+            platforms,
+        };
+        for (i, k) in network.limbs.iter().enumerate() {
+            let motion = network.motions[i].of(&result.platforms).0 - errors[i].0;
+            let list = |m: &DMatrix<f64>| (m * motion).iter().copied().collect();
+            result.passive.push(list(&k.passive));
+            result.springs.push(list(&k.springs));
+        }
+        Ok(result)
+    }
+}

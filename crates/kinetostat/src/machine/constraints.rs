@@ -1,0 +1,224 @@
+//! What the limbs of a posture forbid with their actuators locked and their springs stiff: whether
+//! that is too little (a singular posture), or more than needed (over-constraint).
+
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::chain::directions::axis_in_words;
+use crate::linalg::saddle::complement;
+use crate::linalg::singular_values::range;
+use crate::machine::directions::independent_columns;
+use crate::machine::network::ends;
+use crate::machine::posture::Posture;
+use crate::model::chain::{MotionKind, Role};
+use crate::model::kinematics::Kinematics;
+use crate::spatial::Wrench;
+
+/// Singular values below this share of the largest are zero: postures close to about 1e-13.
+const ZERO: f64 = 1e-9;
+
+/// Wrenches that the limbs carry with no load, because there are more of them than the platforms
+/// need: every error of manufacture along them strains the machine.
+#[derive(Clone, Debug)]
+pub struct Overconstraint {
+    /// Degree: number of independent self-stresses.
+    pub degree: usize,
+    /// A basis of them, each in as few limbs as elimination finds.
+    pub stresses: Vec<SelfStress>,
+}
+
+/// One set of wrenches in balance with itself.
+#[derive(Clone, Debug)]
+pub struct SelfStress {
+    /// Limb (its index) and wrench on its tip, about it, base axes; the largest has size 1 N, moments
+    /// counted by the natural length. Limbs with less than 1e-9 of it are left out.
+    pub wrenches: Vec<(usize, Wrench)>,
+}
+
+impl SelfStress {
+    /// Which limbs fight, and how: `x: force along z and moment about x; y: ...`.
+    #[must_use]
+    pub fn in_words(&self, posture: &Posture<'_>) -> String {
+        let length = posture.mechanism.scale().length;
+        let parts = self.wrenches.iter().map(|(limb, wrench)| {
+            let (force, moment) = (wrench.force(), wrench.moment());
+            let mut words = Vec::new();
+            if force.norm() > 1e-6 {
+                words.push(format!("force along {}", axis_in_words(&force)));
+            }
+            if moment.norm() > 1e-6 * length {
+                words.push(format!("moment about {}", axis_in_words(&moment)));
+            }
+            let name = &posture.mechanism.limbs[*limb].name;
+            format!("{name}: {}", words.join(" and "))
+        });
+        parts.collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// Rows of all constraints over the motions of all moving platforms.
+pub(crate) struct Constraints {
+    /// Orthonormal wrenches per limb in units of the natural length, 6 x k.
+    pub wrenches: Vec<DMatrix<f64>>,
+    /// Rows x 6P, balanced.
+    pub rows: DMatrix<f64>,
+}
+
+/// Motions of a limb's tip by its joints, 6 x k, rotations at `length`: passive joints only, or
+/// with the actuators.
+pub(crate) fn limb_motions(
+    posture: &Posture<'_>,
+    limb: usize,
+    actuators: bool,
+    length: f64,
+) -> DMatrix<f64> {
+    let (l, joints) = (&posture.mechanism.limbs[limb], &posture.limbs[limb]);
+    let chain = &l.nominal;
+    let base = &posture.platforms[l.from];
+    let kinematics = Kinematics::new(chain, base, &joints.coordinates, &joints.commands, false);
+    let all = kinematics.jacobian(chain.tip());
+    let n = chain.coordinate_count();
+    let mut columns: Vec<(usize, MotionKind)> = chain
+        .indices_of(Role::Passive)
+        .into_iter()
+        .map(|i| (i, chain.coordinates()[i].kind))
+        .collect();
+    if actuators {
+        let own = chain.actuators().iter().enumerate();
+        columns.extend(own.map(|(k, a)| (n + k, a.kind)));
+    }
+    DMatrix::from_fn(6, columns.len(), |i, j| {
+        let (column, kind) = columns[j];
+        let row = if i < 3 { 1.0 } else { length };
+        let unit = match kind {
+            MotionKind::Prismatic => 1.0,
+            MotionKind::Revolute => length,
+        };
+        all[(i, column)] * row / unit
+    })
+}
+
+impl Constraints {
+    pub fn new(posture: &Posture<'_>, with_actuators_free: bool) -> Self {
+        let m = posture.mechanism;
+        let length = m.scale().length;
+        let moving = m.platforms.len() - 1;
+        let unit = |i: usize| if i % 6 < 3 { 1.0 } else { length };
+        let mut wrenches = Vec::new();
+        let mut blocks = Vec::new();
+        for i in 0..m.limbs.len() {
+            let motions = limb_motions(posture, i, with_actuators_free, length);
+            let own = complement(&independent_columns(&motions));
+            let a = ends(posture.mechanism, &posture.platforms, i).matrix(moving);
+            let a = DMatrix::from_fn(6, 6 * moving, |r, c| a[(r, c)] * unit(r) / unit(c));
+            blocks.push(own.transpose() * a);
+            wrenches.push(own);
+        }
+        let count = blocks.iter().map(DMatrix::nrows).sum();
+        let mut rows = DMatrix::zeros(count, 6 * moving);
+        let mut at = 0;
+        for block in blocks {
+            rows.rows_mut(at, block.nrows()).copy_from(&block);
+            at += block.nrows();
+        }
+        Self { wrenches, rows }
+    }
+}
+
+impl Posture<'_> {
+    /// Over-constraint of the nominal machine at this posture, actuators locked: how many
+    /// self-stresses, and in which directions the limbs fight.
+    #[must_use]
+    pub fn overconstraint(&self) -> Overconstraint {
+        let constraints = Constraints::new(self, false);
+        let basis = complement(&range(&constraints.rows, ZERO));
+        let basis = sparse(basis);
+        let length = self.mechanism.scale().length;
+        let stresses = basis.column_iter().map(|column| {
+            let mut at = 0;
+            let mut list = Vec::new();
+            for (limb, own) in constraints.wrenches.iter().enumerate() {
+                let k = own.ncols();
+                let w = own * column.rows(at, k);
+                at += k;
+                list.push((limb, w));
+            }
+            let size = |w: &DVector<f64>| w.norm();
+            let most = list.iter().map(|(_, w)| size(w)).fold(0.0, f64::max);
+            list.retain(|(_, w)| size(w) > 1e-9 * most);
+            SelfStress {
+                wrenches: list
+                    .into_iter()
+                    .map(|(limb, w)| {
+                        let w = w / most;
+                        let force = Vector3::new(w[0], w[1], w[2]);
+                        let moment = Vector3::new(w[3], w[4], w[5]) * length;
+                        (limb, Wrench::new(force, moment))
+                    })
+                    .collect(),
+            }
+        });
+        let stresses: Vec<SelfStress> = stresses.collect();
+        Overconstraint {
+            degree: stresses.len(),
+            stresses,
+        }
+    }
+
+    /// Number of independent ways in which actuators can move while the tool stays: zero if the
+    /// commands follow from the pose of the tool. Where it is not zero, a mechanism with several
+    /// moving platforms takes the commands nearest to home (least sum of squares of the changes,
+    /// rotations at the limb's natural length, passive joints counted with a hundredth; a local
+    /// minimum), and a machine of single limbs the least motion from where the search starts.
+    #[must_use]
+    pub fn redundancy(&self) -> usize {
+        let m = self.mechanism;
+        let length = m.scale().length;
+        let moving = m.platforms.len() - 1;
+        let unit = |i: usize| if i % 6 < 3 { 1.0 } else { length };
+        let rank = |actuators: bool| {
+            let own: Vec<DMatrix<f64>> = (0..m.limbs.len())
+                .map(|i| limb_motions(self, i, actuators, length))
+                .collect();
+            let joints: usize = own.iter().map(DMatrix::ncols).sum();
+            let mut all = DMatrix::zeros(6 * own.len(), joints + 6 * moving);
+            let mut at = 0;
+            for (i, block) in own.iter().enumerate() {
+                all.view_mut((6 * i, at), block.shape()).copy_from(block);
+                at += block.ncols();
+                let a = ends(self.mechanism, &self.platforms, i).matrix(moving);
+                for (r, c) in (0..6).flat_map(|r| (0..6 * moving).map(move |c| (r, c))) {
+                    // The tool is held.
+                    if c / 6 + 1 != m.tool {
+                        all[(6 * i + r, joints + c)] = a[(r, c)] * unit(r) / unit(c);
+                    }
+                }
+            }
+            range(&all, ZERO).ncols()
+        };
+        m.actuator_count() - (rank(true) - rank(false))
+    }
+}
+
+/// The same space by a basis with zeros: every vector has an entry of its own.
+fn sparse(mut basis: DMatrix<f64>) -> DMatrix<f64> {
+    for k in 0..basis.ncols() {
+        // The largest entry of all vectors not yet treated.
+        let rest = basis.columns(k, basis.ncols() - k);
+        let (row, column) = rest.iamax_full();
+        basis.swap_columns(k, k + column);
+        let pivot = basis[(row, k)];
+        basis.column_mut(k).unscale_mut(pivot);
+        let own = basis.column(k).into_owned();
+        for other in (0..basis.ncols()).filter(|&j| j != k) {
+            let share = basis[(row, other)];
+            let mut column = basis.column_mut(other);
+            column -= &own * share;
+        }
+    }
+    for x in basis.iter_mut() {
+        if x.abs() < 1e-9 {
+            *x = 0.0;
+        }
+    }
+    basis
+}

@@ -1,0 +1,4 @@
+//! TODO
+
+pub(crate) mod negative_stiffness;
+pub(crate) mod participation;

@@ -1,0 +1,84 @@
+//! Which joints and springs of which limb move when a machine's tool moves.
+
+use crate::chain::directions::{Direction, DirectionKind, Share, largest};
+use crate::chain::stiffness::ChainStiffness;
+use crate::machine::posture::{MechanismEquilibrium, Posture, UnloadedStiffness};
+use crate::model::mechanism::Mechanism;
+use crate::spatial::{Pose, Twist};
+
+impl UnloadedStiffness {
+    /// Joints and springs that move when the tool of the posture (the one that this is the
+    /// stiffness of) moves by a small twist (m, rad; base axes, at the tool's origin), named
+    /// `limb: joint`, the most first. Only limbs that run from the base to the tool are asked.
+    #[must_use]
+    pub fn behind(&self, posture: &Posture<'_>, twist: &Twist) -> Vec<Share> {
+        let limbs = self.limbs.iter();
+        limbs_behind(posture.mechanism(), posture.target(), limbs, twist)
+    }
+
+    /// With names at its free directions.
+    pub(crate) fn named(mut self, posture: &Posture<'_>) -> Self {
+        for i in 0..self.directions.len() {
+            if loose(&self.directions[i]) {
+                self.directions[i].behind = self.behind(posture, &self.directions[i].twist);
+            }
+        }
+        self
+    }
+}
+
+/// A direction of which a person asks what lets it go.
+fn loose(direction: &Direction) -> bool {
+    matches!(
+        direction.kind,
+        DirectionKind::Free | DirectionKind::Negative
+    )
+}
+
+impl MechanismEquilibrium {
+    /// As [`UnloadedStiffness::behind`], under load.
+    #[must_use]
+    pub fn behind(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
+        let limbs = self.limbs.iter().map(|limb| &limb.stiffness);
+        limbs_behind(mechanism, &self.tool, limbs, twist)
+    }
+
+    /// With names at its free and negative directions.
+    pub(crate) fn named(mut self, mechanism: &Mechanism) -> Self {
+        for i in 0..self.directions.len() {
+            if loose(&self.directions[i]) {
+                self.directions[i].behind = self.behind(mechanism, &self.directions[i].twist);
+            }
+        }
+        self
+    }
+}
+
+fn limbs_behind<'a>(
+    mechanism: &Mechanism,
+    tool: &Pose,
+    limbs: impl Iterator<Item = &'a ChainStiffness>,
+    twist: &Twist,
+) -> Vec<Share> {
+    let mut all: Vec<Share> = Vec::new();
+    let mut total = 0.0;
+    for (limb, stiffness) in mechanism.limbs().iter().zip(limbs) {
+        if limb.from != 0 || limb.to != mechanism.tool() {
+            continue;
+        }
+        let arm = tool.rotation * limb.platform_from_tip.translation.vector;
+        let prefix = format!("{}: ", limb.name);
+        let own = stiffness.behind_named(&limb.actual, &prefix, &twist.shifted(&arm));
+        // Shares of one limb become shares of the machine.
+        let length = limb.actual.scale().length;
+        for mut share in own {
+            share.share = share.size(length).powi(2);
+            total += share.share;
+            all.push(share);
+        }
+    }
+    for share in &mut all {
+        share.share /= f64::max(total, f64::MIN_POSITIVE);
+    }
+    largest(all)
+}

@@ -1,0 +1,96 @@
+//! The nearest pose that a machine with fewer than six motions can take.
+
+use nalgebra::{DMatrix, DVector, Vector6};
+
+use crate::error::Error;
+use crate::machine::inverse::graph::graph_nearest;
+use crate::machine::inverse::limb::{blocked_motions, inverse_kinematics};
+use crate::model::mechanism::Mechanism;
+use crate::spatial::{Pose, Twist, moved, pose_residual, shift_matrix};
+
+/// Steps until all limbs reach the same pose.
+const STEPS: usize = 12;
+
+impl Mechanism {
+    /// The pose next to `target` that every limb can reach, if it lies within `limit` (m; rotations
+    /// at the natural length) and `target` misses it only along motions that the machine does not
+    /// have; `target` itself where it can be reached.
+    #[must_use]
+    pub fn nearest_reachable(&self, target: &Pose, limit: f64) -> Option<Pose> {
+        let length = self.scale().length;
+        let size = |t: &Twist| t.linear().norm().max(length * t.angular().norm());
+        if self.platforms.len() > 2 {
+            let found = graph_nearest(self, target)?;
+            return (size(&pose_residual(&found, target)) <= limit).then_some(found);
+        }
+        let mut pose = *target;
+        for _ in 0..STEPS {
+            // What every limb lacks, and the motions that it cannot make: rows in the tool's twist.
+            let mut rows = DMatrix::zeros(6 * self.limbs.len(), 6);
+            let mut lacks = DVector::zeros(6 * self.limbs.len());
+            let (mut all_reach, mut most) = (true, 0.0_f64);
+            for (i, limb) in self.limbs.iter().enumerate() {
+                let base = &self.platforms[limb.from].home;
+                let tip = pose * limb.platform_from_tip;
+                let (joints, lack) = match inverse_kinematics(&limb.nominal, base, &tip, None) {
+                    Ok(joints) => (joints, Twist::zero()),
+                    Err(Error::Unreachable { nearest, .. }) => {
+                        all_reach = false;
+                        let joints = inverse_kinematics(&limb.nominal, base, &nearest, None);
+                        (joints.ok()?, pose_residual(&nearest, &tip))
+                    }
+                    Err(_) => return None,
+                };
+                if size(&lack) > limit {
+                    return None;
+                }
+                most = most.max(size(&lack) / length);
+                let own = limb.nominal.scale().length;
+                let unit = |k: usize| if k < 3 { 1.0 } else { own };
+                let blocked = blocked_motions(&limb.nominal, base, &joints);
+                let arm = pose.rotation * limb.platform_from_tip.translation.vector;
+                let by_tip = DMatrix::from_fn(6, 6, |a, b| blocked[(a, b)] * unit(b));
+                let by_tool = by_tip * shift_matrix(&arm);
+                let balanced = Vector6::from_fn(|k, _| lack.0[k] * unit(k));
+                for a in 0..6 {
+                    for b in 0..6 {
+                        let turned = if b < 3 { 1.0 } else { 1.0 / length };
+                        rows[(6 * i + a, b)] = by_tool[(a, b)] * turned;
+                    }
+                    lacks[6 * i + a] = balanced[a];
+                }
+            }
+            if all_reach {
+                let off = pose_residual(&pose, target);
+                return (size(&off) <= limit).then_some(pose);
+            }
+            // Rows that repeat each other differ by as much as the pose is off.
+            let own = crate::linalg::singular_values::SingularValues::of(&rows);
+            let step = own.shortest(&lacks, own.largest() * (10.0 * most).max(1e-9));
+            let step = Twist(Vector6::from_fn(|k, _| {
+                if k < 3 { step[k] } else { step[k] / length }
+            }));
+            pose = moved(&pose, &step);
+            if size(&pose_residual(&pose, target)) > 2.0 * limit {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Puts the tool's home at the nearest pose that the machine can take, if it lies within `limit`
+    /// (see [`Self::nearest_reachable`]). The home as it was, if it was changed.
+    pub fn settle_home(&mut self, limit: f64) -> Option<Pose> {
+        let home = self.platforms[self.tool].home;
+        if self.posture(&home).is_ok() {
+            return None;
+        }
+        let nearest = self.nearest_reachable(&home, limit)?;
+        self.platforms[self.tool].home = nearest;
+        if self.posture(&nearest).is_err() {
+            self.platforms[self.tool].home = home;
+            return None;
+        }
+        Some(home)
+    }
+}

@@ -1,0 +1,243 @@
+//! A limb of a mechanism linearised about a state: wrench and coordinates by what lacks and by the
+//! motions of its ends.
+//!
+//! Long limbs from the base are solved by sweeps along them, as chains are: cost and memory grow with
+//! the number of coordinates and no faster. What a sweep cannot do falls back on dense matrices.
+
+use nalgebra::{DMatrix, Vector6};
+
+use crate::chain::equilibrium::System;
+use crate::chain::stiffness::balanced_jacobian;
+use crate::chain::sweep::solve::{Bordered, END_SPRINGS, EndRows, STEP_SPRINGS, unit_motions_of};
+use crate::chain::sweep::stages::{Form, Sweep};
+use crate::linalg::saddle::{Saddle, column_space, complement, rows_certainly_independent};
+use crate::spatial::Twist;
+
+/// Factors of a limb's bordered system.
+enum Tangent {
+    Dense(Saddle),
+    Swept(Box<Bordered<Box<Sweep>>>),
+}
+
+/// What is given at the tip.
+enum Tip {
+    /// The motions that it can make, orthonormal, balanced.
+    Held(DMatrix<f64>),
+    /// Six conditions on its motion and its wrench, see [`EndRows`].
+    Loaded,
+}
+
+/// A limb linearised about a state: balanced system solved for closure, motions of its end, of its
+/// commands and of its base.
+pub(crate) struct Linear {
+    /// (6 + n) x (1 + 6 + r \[+ 6\]): wrench and coordinates; without the columns of the commands
+    /// where a sweep was used.
+    pub solution: DMatrix<f64>,
+    /// Factors of the bordered system, kept while its tangent still serves.
+    tangent: Option<(Tangent, Tip)>,
+    /// Wrenches on the tip that the limb carries without any motion, 6 x k: the tip cannot move
+    /// along them. Empty for a limb that can be strained in every direction.
+    pub rigid: DMatrix<f64>,
+    /// Rows of the reaction on a moving base before substitution: torque, d/dx, d/dF, d/dbase.
+    pub system: System,
+    pub closure: Twist,
+}
+
+/// Orthonormal basis of the wrenches that a limb carries rigidly, see [`Linear::rigid`].
+fn rigid_wrenches(system: &System, factors: &[f64]) -> DMatrix<f64> {
+    let jacobian = balanced_jacobian(system, factors);
+    if rows_certainly_independent(&jacobian) {
+        return DMatrix::zeros(6, 0);
+    }
+    let mut blocked = complement(&column_space(&jacobian));
+    for (mut row, factor) in blocked.row_iter_mut().zip(factors) {
+        row *= *factor;
+    }
+    blocked
+}
+
+impl Linear {
+    pub fn new(system: System) -> Self {
+        Self {
+            solution: DMatrix::zeros(0, 0),
+            tangent: None,
+            rigid: DMatrix::zeros(6, 0),
+            system,
+            closure: Twist::zero(),
+        }
+    }
+
+    /// Closure and unbalanced torques as first column.
+    fn right_hand_side(&self, b: &mut DMatrix<f64>) {
+        for k in 0..6 {
+            b[(k, 0)] = self.closure.0[k];
+        }
+        for row in 0..self.system.spring_torque.len() {
+            b[(6 + row, 0)] = -self.system.unbalanced(row);
+        }
+    }
+
+    /// Linearises with the loads' Hessian or without; `false` where a sweep lost a pivot: then the
+    /// system must be made dense and evaluated again.
+    pub fn linearise(&mut self, with_hessian: bool, factors: &[f64]) -> bool {
+        if let Some(sweep) = &self.system.sweep {
+            let form = match with_hessian {
+                true => Form::Exact,
+                false => Form::Lagged,
+            };
+            let range = column_space(&balanced_jacobian(&self.system, factors));
+            let swept = END_SPRINGS.into_iter().find_map(|spring| {
+                let rows = EndRows::held(&range);
+                let bordered = Bordered::new(sweep.clone(), form, rows, spring)?;
+                let units = unit_motions_of(&bordered, &range)?;
+                let own = self.swept_residual(&bordered, &self.gap(&range, factors), factors)?;
+                Some((bordered, own, units))
+            });
+            let Some((bordered, own, units)) = swept else {
+                return false;
+            };
+            let mut solution = DMatrix::zeros(factors.len(), 7);
+            for (i, factor) in factors.iter().enumerate() {
+                solution[(i, 0)] = own[i];
+                for k in 0..6 {
+                    solution[(i, 1 + k)] = units[(i, k)] * factor * factors[k];
+                }
+            }
+            self.solution = solution;
+            self.tangent = Some((Tangent::Swept(Box::new(bordered)), Tip::Held(range)));
+        } else {
+            self.linearise_densely(with_hessian, factors);
+        }
+        self.rigid = rigid_wrenches(&self.system, factors);
+        true
+    }
+
+    fn linearise_densely(&mut self, with_hessian: bool, factors: &[f64]) {
+        let system = &self.system;
+        let n = system.spring_torque.len();
+        let extra = system.kinematics.velocity_count() - n;
+        let mut b = DMatrix::zeros(6 + n, 7 + extra);
+        self.right_hand_side(&mut b);
+        for k in 0..6 {
+            b[(k, 1 + k)] = 1.0;
+            for j in 0..extra {
+                b[(k, 7 + j)] = -system.jacobian[(k, n + j)];
+            }
+        }
+        if with_hessian {
+            for row in 0..n {
+                for j in 0..extra {
+                    b[(6 + row, 7 + j)] = -system.hessian[(row, n + j)];
+                }
+            }
+        }
+        let saddle = Saddle::new(system.bordered(with_hessian), factors, factors);
+        saddle.solve(&mut b);
+        // The whole tip is held.
+        let all = DMatrix::identity(6, 6);
+        self.tangent = Some((Tangent::Dense(saddle), Tip::Held(all)));
+        self.solution = b;
+    }
+
+    /// As [`Self::linearise`], while six conditions (balanced) say what the tip does: no solution for
+    /// motions of the tip, which may be worlds stiffer in one direction than in another. `right` is what
+    /// these conditions lack now.
+    pub fn linearise_loaded(
+        &mut self,
+        with_hessian: bool,
+        rows: EndRows,
+        right: &Vector6<f64>,
+        factors: &[f64],
+    ) -> bool {
+        let tangent = if let Some(sweep) = &self.system.sweep {
+            let form = match with_hessian {
+                true => Form::Exact,
+                false => Form::Lagged,
+            };
+            let swept = STEP_SPRINGS.into_iter().find_map(|spring| {
+                let bordered = Bordered::new(sweep.clone(), form, rows, spring)?;
+                self.swept_residual(&bordered, right, factors)?;
+                Some(bordered)
+            });
+            let Some(bordered) = swept else {
+                return false;
+            };
+            Tangent::Swept(Box::new(bordered))
+        } else {
+            let mut a = self.system.bordered(with_hessian);
+            let jacobian = balanced_jacobian(&self.system, factors);
+            let moved = rows.motion * jacobian;
+            for k in 0..6 {
+                for j in 0..6 {
+                    a[(k, j)] = rows.wrench[(k, j)] / factors[j];
+                }
+                for j in 0..moved.ncols() {
+                    a[(k, 6 + j)] = moved[(k, j)] / factors[6 + j];
+                }
+            }
+            let mut units = factors.to_vec();
+            units[..6].fill(1.0);
+            Tangent::Dense(Saddle::new(a, &units, factors))
+        };
+        self.tangent = Some((tangent, Tip::Loaded));
+        true
+    }
+
+    /// Change of wrench and coordinates that removes what lacks now, with the right-hand sides of
+    /// the conditions at the tip (balanced), 6 + n. `None` if the tangent does not serve.
+    pub fn loaded(&self, right: &Vector6<f64>, factors: &[f64]) -> Option<DMatrix<f64>> {
+        let (tangent, _) = self.tangent.as_ref()?;
+        let own = match tangent {
+            Tangent::Swept(bordered) => self.swept_residual(bordered, right, factors)?,
+            Tangent::Dense(saddle) => {
+                let mut b = DMatrix::zeros(factors.len(), 1);
+                self.right_hand_side(&mut b);
+                b.rows_mut(0, 6).copy_from(right);
+                saddle.solve(&mut b);
+                return b.iter().all(|v| v.is_finite()).then_some(b);
+            }
+        };
+        Some(DMatrix::from_column_slice(own.len(), 1, &own))
+    }
+
+    /// What the tip lacks of its closure in the motions that it can make, balanced.
+    fn gap(&self, range: &DMatrix<f64>, factors: &[f64]) -> Vector6<f64> {
+        let gap = Vector6::from_fn(|k, _| self.closure.0[k] * factors[k]);
+        let moved = range.transpose() * gap;
+        Vector6::from_fn(|k, _| if k < moved.len() { moved[k] } else { 0.0 })
+    }
+
+    /// Wrench and coordinates that remove what lacks now, by sweeps, 6 + n; `right` of the
+    /// conditions at the tip, balanced.
+    fn swept_residual(
+        &self,
+        bordered: &Bordered<Box<Sweep>>,
+        right: &Vector6<f64>,
+        factors: &[f64],
+    ) -> Option<Vec<f64>> {
+        let torque: Vec<f64> = (factors[6..].iter().enumerate())
+            .map(|(i, factor)| -self.system.unbalanced(i) * factor)
+            .collect();
+        let (wrench, x) = bordered.solve(&torque, right)?;
+        let balanced = wrench.iter().chain(&x).zip(factors);
+        Some(balanced.map(|(value, factor)| value * factor).collect())
+    }
+
+    /// Wrench and coordinates that remove what lacks now, by the tangent as it is; `None` if it
+    /// cannot.
+    pub fn residual(&self, factors: &[f64]) -> Option<DMatrix<f64>> {
+        match self.tangent.as_ref()? {
+            (Tangent::Swept(bordered), Tip::Held(range)) => {
+                let own = self.swept_residual(bordered, &self.gap(range, factors), factors)?;
+                Some(DMatrix::from_column_slice(own.len(), 1, &own))
+            }
+            (Tangent::Dense(saddle), Tip::Held(_)) => {
+                let mut b = DMatrix::zeros(self.solution.nrows(), 1);
+                self.right_hand_side(&mut b);
+                saddle.solve(&mut b);
+                Some(b)
+            }
+            (_, Tip::Loaded) => None,
+        }
+    }
+}

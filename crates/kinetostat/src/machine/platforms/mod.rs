@@ -1,0 +1,7 @@
+//! TODO
+
+pub(crate) mod chain;
+pub(crate) mod limb;
+pub(crate) mod solver;
+pub(crate) mod sparse;
+pub(crate) mod step;

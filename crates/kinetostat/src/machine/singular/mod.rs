@@ -1,0 +1,4 @@
+//! TODO
+
+pub(crate) mod lost_motion;
+pub(crate) mod near;

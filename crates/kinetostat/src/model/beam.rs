@@ -1,0 +1,104 @@
+//! Stiffness of a link from its section: an Euler-Bernoulli cantilever [R 3.26].
+//!
+//! Print swaps `I_y` and `I_z` in the last two diagonal entries; the correct assignment is used
+//! here (errata of 3.26): the printed matrix can be indefinite.
+
+use nalgebra::Matrix6;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::reference::passive_rules::positive;
+
+/// Section and material of a straight prismatic link along its local x axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeamSection {
+    /// Young's modulus, Pa.
+    pub youngs_modulus: f64,
+    /// Shear modulus, Pa.
+    pub shear_modulus: f64,
+    /// Area, m^2.
+    pub area: f64,
+    /// Second moment of area for bending that moves the tip along z (about y), m^4.
+    pub second_moment_y: f64,
+    /// Second moment of area for bending that moves the tip along y (about z), m^4.
+    pub second_moment_z: f64,
+    /// Torsion constant, m^4.
+    pub torsion_constant: f64,
+}
+
+impl BeamSection {
+    /// Round tube; `inner_diameter = 0` is a solid bar. Diameters in m, moduli in Pa.
+    #[must_use]
+    pub fn tube(youngs_modulus: f64, shear_modulus: f64, outer: f64, inner: f64) -> Self {
+        let second_moment = std::f64::consts::PI / 64.0 * (outer.powi(4) - inner.powi(4));
+        Self {
+            youngs_modulus,
+            shear_modulus,
+            area: std::f64::consts::PI / 4.0 * (outer.powi(2) - inner.powi(2)),
+            second_moment_y: second_moment,
+            second_moment_z: second_moment,
+            torsion_constant: 2.0 * second_moment,
+        }
+    }
+
+    /// Stiffness at the free end of a cantilever of this section, 6 x 6 (N/m, N/rad, N m/m,
+    /// N m/rad), axes of the link: x along it, root clamped.
+    ///
+    /// ```
+    /// let bar = kinetostat::BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.0);
+    /// let k = bar.cantilever(0.5)?;
+    /// let bending = 3.0 * 2.1e11 * bar.second_moment_z / 0.5_f64.powi(3);
+    /// let compliance = k.try_inverse().ok_or("singular")?;
+    /// assert!((1.0 / compliance[(1, 1)] / bending - 1.0).abs() < 1e-12); // P L^3 / 3 E I
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A length, a modulus or a value of the section that is not positive and finite (a tube inside out
+    /// has negative second moments).
+    pub fn cantilever(&self, length: f64) -> Result<Matrix6<f64>> {
+        self.check(length)?;
+        Ok(self.rigid_root(length))
+    }
+
+    /// Refuses sections and lengths that no beam has.
+    fn check(&self, length: f64) -> Result<()> {
+        let inside_out = self.area < 0.0 && self.second_moment_y < 0.0;
+        if inside_out {
+            let reason = format!(
+                "its area is {} m^2, a positive number is needed: the inner diameter is larger than the outer one",
+                self.area
+            );
+            return Err(Error::model("section", reason));
+        }
+        for (what, value) in [
+            ("length (m)", length),
+            ("Young's modulus (Pa)", self.youngs_modulus),
+            ("shear modulus (Pa)", self.shear_modulus),
+            ("area (m^2)", self.area),
+            ("second moment about y (m^4)", self.second_moment_y),
+            ("second moment about z (m^4)", self.second_moment_z),
+            ("torsion constant (m^4)", self.torsion_constant),
+        ] {
+            positive("section", what, value)?;
+        }
+        Ok(())
+    }
+
+    fn rigid_root(&self, length: f64) -> Matrix6<f64> {
+        let in_y = self.youngs_modulus * self.second_moment_z;
+        let in_z = self.youngs_modulus * self.second_moment_y;
+        let mut k = Matrix6::zeros();
+        k[(0, 0)] = self.youngs_modulus * self.area / length;
+        k[(1, 1)] = 12.0 * in_y / length.powi(3);
+        k[(2, 2)] = 12.0 * in_z / length.powi(3);
+        k[(3, 3)] = self.shear_modulus * self.torsion_constant / length;
+        k[(4, 4)] = 4.0 * in_z / length;
+        k[(5, 5)] = 4.0 * in_y / length;
+        k[(1, 5)] = -6.0 * in_y / length.powi(2);
+        k[(5, 1)] = k[(1, 5)];
+        k[(2, 4)] = 6.0 * in_z / length.powi(2);
+        k[(4, 2)] = k[(2, 4)];
+        k
+    }
+}

@@ -1,0 +1,332 @@
+//! A chain: an ordered product of rigid offsets and one-degree-of-freedom motions [R 4.1].
+//!
+//! `base_from_tip = E_1 E_2 ... E_m`, each `E` a constant [`Pose`] or a screwless motion
+//! `exp(axis * (ratio * coordinate + command))`. Universal joints, 6-D virtual springs and
+//! parallelograms are words of the [builder](crate::ChainBuilder) that expand into such motions;
+//! a coordinate may drive several of them with ratios (a parallelogram: +1 and -1), so
+//! `J = J_e C` and `H = C^T H_e C` hold from the first day.
+
+use nalgebra::{Matrix3, Unit, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::model::springs::block::SpringBlock;
+use crate::number::short;
+use crate::spatial::Pose;
+
+/// Translation along, or rotation about, an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionKind {
+    /// Translation, m.
+    Prismatic,
+    /// Rotation, rad.
+    Revolute,
+}
+
+/// A share of a coordinate or a command in a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    /// Index of the coordinate (or of the actuator).
+    pub index: usize,
+    /// Motion per unit of it.
+    pub ratio: f64,
+}
+
+/// One elementary motion: displacement `ratio * coordinate + ratio * command` along or about
+/// `axis`, which is given in the frame reached so far.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// Translation or rotation.
+    pub kind: MotionKind,
+    /// Unit axis in the local frame.
+    pub axis: Unit<Vector3<f64>>,
+    /// The elastic or passive coordinate behind it, if any.
+    pub coordinate: Option<Drive>,
+    /// The actuator behind it, if any.
+    pub command: Option<Drive>,
+}
+
+/// One factor of the product.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Element {
+    /// Constant offset.
+    Rigid(Pose),
+    /// Motion.
+    Motion(Motion),
+    /// A named place (index into [`Chain::nodes`]).
+    Node(usize),
+}
+
+/// What holds a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// A spring, `theta`.
+    Spring,
+    /// Nothing: a passive joint, `q`.
+    Passive,
+}
+
+/// A coordinate of the chain.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Coordinate {
+    /// Name, unique in the chain.
+    pub name: String,
+    /// Spring or passive.
+    pub role: Role,
+    /// Kind of its first motion: the unit is m or rad.
+    pub kind: MotionKind,
+    /// Value from which inverse kinematics starts (m or rad).
+    pub home: f64,
+}
+
+/// A commanded joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Actuator {
+    /// Name, unique in the chain.
+    pub name: String,
+    /// Prismatic (m) or revolute (rad).
+    pub kind: MotionKind,
+    /// Command from which inverse kinematics starts (m or rad).
+    pub home: f64,
+    /// Lower and upper limit of the command (m or rad).
+    pub limits: Option<(f64, f64)>,
+    /// The spring coordinate in series with it; `None` for a rigid drive.
+    pub coordinate: Option<usize>,
+}
+
+/// A rigid mass fixed to the frame of a node.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Body {
+    /// Name.
+    pub name: String,
+    /// Node whose origin is the centre of mass.
+    pub node: usize,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Inertia about the centre of mass, 3 x 3, kg m^2, axes of the node (kept for dynamics; statics
+    /// does not use it).
+    pub inertia: Matrix3<f64>,
+}
+
+/// An ordered product of elementary motions with springs, passive joints, nodes and masses.
+/// Never changes after [`crate::ChainBuilder::build`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Chain {
+    pub(crate) name: String,
+    pub(crate) elements: Vec<Element>,
+    pub(crate) coordinates: Vec<Coordinate>,
+    pub(crate) actuators: Vec<Actuator>,
+    pub(crate) springs: Vec<SpringBlock>,
+    pub(crate) nodes: Vec<String>,
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) scale: Scale,
+}
+
+/// Natural length and stiffness of a chain: they make metres and radians comparable where a rank
+/// is decided; results do not depend on them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scale {
+    /// m.
+    pub length: f64,
+    /// N/m.
+    pub stiffness: f64,
+}
+
+impl Chain {
+    /// Starts a description.
+    #[must_use]
+    pub fn builder(name: impl Into<String>) -> crate::ChainBuilder {
+        crate::ChainBuilder::new(name)
+    }
+
+    /// Name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The product, base first.
+    #[must_use]
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// Elastic and passive coordinates in order of first appearance.
+    #[must_use]
+    pub fn coordinates(&self) -> &[Coordinate] {
+        &self.coordinates
+    }
+
+    /// Commanded joints in order of appearance.
+    #[must_use]
+    pub fn actuators(&self) -> &[Actuator] {
+        &self.actuators
+    }
+
+    /// Spring blocks.
+    #[must_use]
+    pub fn springs(&self) -> &[SpringBlock] {
+        &self.springs
+    }
+
+    /// Names of the nodes; the last one is `tip`.
+    #[must_use]
+    pub fn nodes(&self) -> &[String] {
+        &self.nodes
+    }
+
+    /// Masses.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Natural length and stiffness.
+    #[must_use]
+    pub fn scale(&self) -> Scale {
+        self.scale
+    }
+
+    /// Index of the end node.
+    #[must_use]
+    pub fn tip(&self) -> usize {
+        self.nodes.len() - 1
+    }
+
+    /// Number of elastic and passive coordinates.
+    #[must_use]
+    pub fn coordinate_count(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Indices of the coordinates of one role, in order.
+    #[must_use]
+    pub fn indices_of(&self, role: Role) -> Vec<usize> {
+        (0..self.coordinates.len())
+            .filter(|&i| self.coordinates[i].role == role)
+            .collect()
+    }
+
+    /// Index of a node by name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the names that exist.
+    pub fn node(&self, name: &str) -> Result<usize> {
+        self.nodes
+            .iter()
+            .position(|n| n == name)
+            .ok_or_else(|| Error::UnknownName {
+                place: format!("chain '{}'", self.name),
+                what: "node",
+                name: name.into(),
+                known: self.nodes.join(", "),
+            })
+    }
+
+    /// Coordinates from which inverse kinematics starts (m, rad).
+    #[must_use]
+    pub fn home_coordinates(&self) -> Vec<f64> {
+        self.coordinates.iter().map(|c| c.home).collect()
+    }
+
+    /// Commands from which inverse kinematics starts (m, rad).
+    #[must_use]
+    pub fn home_commands(&self) -> Vec<f64> {
+        self.actuators.iter().map(|a| a.home).collect()
+    }
+
+    /// The same chain with its end moved on by a rigid offset (old end from new end): a tool, say.
+    /// The old end stays a node under the name `name`, with what acts on it. Natural length and
+    /// stiffness stay those of the chain without it.
+    ///
+    /// # Errors
+    /// [`Error::Model`] if a node has that name already.
+    pub fn with_end(&self, name: &str, offset: &Pose) -> Result<Self> {
+        if self.nodes.iter().any(|n| n == name) {
+            return Err(Error::model(
+                format!("chain '{}'", self.name),
+                format!("the name '{name}' is used twice"),
+            ));
+        }
+        let mut chain = self.clone();
+        let tip = chain.tip();
+        chain.nodes[tip] = name.to_owned();
+        chain.nodes.push("tip".to_owned());
+        chain.elements.push(Element::Rigid(*offset));
+        chain.elements.push(Element::Node(tip + 1));
+        Ok(chain)
+    }
+
+    /// Checks the lengths of a configuration and that its numbers are finite.
+    pub(crate) fn check(&self, coordinates: &[f64], commands: &[f64]) -> Result<()> {
+        let place = || format!("chain '{}'", self.name);
+        for (what, expected, given) in [
+            ("coordinates", self.coordinates.len(), coordinates),
+            ("commands", self.actuators.len(), commands),
+        ] {
+            if given.len() != expected {
+                return Err(Error::Size {
+                    place: place(),
+                    what,
+                    expected,
+                    found: given.len(),
+                });
+            }
+            for (i, &value) in given.iter().enumerate() {
+                sensible(&place(), || format!("{what}[{i}]"), value)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a pose with a number that [`sensible`] refuses.
+pub(crate) fn sensible_pose(place: &str, what: &str, pose: &crate::spatial::Pose) -> Result<()> {
+    let (p, r) = (pose.translation.vector, pose.rotation.coords);
+    for value in [p.x, p.y, p.z, r.x, r.y, r.z, r.w] {
+        sensible(place, || what.to_owned(), value)?;
+    }
+    Ok(())
+}
+
+/// Numbers beyond this lose themselves when they are multiplied.
+pub(crate) const LARGEST: f64 = 1e60;
+
+/// Refuses a number that is not finite, or so large that its powers are not.
+pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Result<()> {
+    if !value.is_finite() {
+        return Err(Error::NotFinite {
+            place: place.to_owned(),
+            what: what(),
+            value,
+        });
+    }
+    if value.abs() > LARGEST {
+        return Err(Error::model(
+            place,
+            format!(
+                "{} is {}, a number between -{limit} and {limit} is needed",
+                what(),
+                short(value),
+                limit = short(LARGEST)
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// The first of some named numbers that [`sensible`] refuses, in words.
+pub(crate) fn odd_number<'a>(
+    numbers: impl IntoIterator<Item = (&'a str, &'a f64)>,
+) -> Option<String> {
+    let odd = |value: &f64| value.is_nan() || value.abs() > LARGEST;
+    let (what, value) = numbers.into_iter().find(|(_, value)| odd(value))?;
+    Some(match value.is_finite() {
+        true => format!(
+            "the {what} is {value:e}, a number between -{LARGEST:e} and {LARGEST:e} is needed"
+        ),
+        false => format!("the {what} is {value}, a finite number is needed"),
+    })
+}

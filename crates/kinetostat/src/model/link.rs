@@ -1,0 +1,319 @@
+//! Links that bend: a straight elastic link as one or several segments (theory note, section 4).
+//!
+//! A link of length `L` becomes `n` times "rigid offset `h = L/n`, six-dimensional spring". For small
+//! deflections every convention gives the same, exact stiffness (but [`LinkConvention::ConstantStrain`],
+//! which needs segments even for that). Under load they differ in their geometric stiffness:
+//! critical load of a pinned column in units of `pi^2 EI / L^2`, and the tension that buckles it,
+//! which in truth none does:
+//!
+//! | convention          | n = 1 | 2      | 4      | 8       | tension, n = 1 / 2 / 4 |
+//! |---------------------|-------|--------|--------|---------|------------------------|
+//! | `TranslationsFirst` | never | 1.986  | 1.233  | 1.053   | 0.304 / 1.22 / 4.86    |
+//! | `RotationsFirst`    | 0.131 | 0.390  | 0.714  | 0.908   | 0.94 / 3.8 / 15        |
+//! | `Middle`            | 0.334 | 0.708  | 0.907  | 0.975   | 0.74 / 3.0 / 12        |
+//! | `Exponential`       | 0.405 | 0.752  | 0.913  | 0.975   | 1.2 / 4.9 / 19         |
+//! | `ConstantStrain`    | 1.216 | 1.216  | 1.052  | 1.013   | none                   |
+//! | `Bowing`            | 1.216 | 1.0075 | 1.0005 | 1.00004 | none                   |
+//!
+//! A link given by a matrix is divided as a uniform beam: see `uniform.rs`.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::model::beam::BeamSection;
+use crate::model::builder::ChainBuilder;
+use crate::model::springs::block::{Segment, SpringLaw};
+use crate::model::springs::bowing::BowingLaw;
+use crate::model::springs::logarithm::LogarithmLaw;
+use crate::model::uniform::{compliance_per_length, moved, segment_compliance};
+use crate::spatial::{Pose, turn_matrix};
+
+/// How a segment moves, and what energy that costs. Unloaded stiffness does not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum LinkConvention {
+    /// Spring at the segment's end, translations first, and bending shortens: [`BowingLaw`].
+    #[default]
+    Bowing,
+    /// Spring at the segment's end, translations before rotations, constant matrix: the report's
+    /// habit [R 3.26, Table 5.3]. Fails under tension.
+    TranslationsFirst,
+    /// Spring at the segment's end, rotations before translations, constant matrix.
+    RotationsFirst,
+    /// Spring in the middle of the segment, translations before rotations, constant matrix.
+    Middle,
+    /// Exponential coordinates, constant matrix; the end and the middle of the segment are the same.
+    Exponential,
+    /// Strain constant along the segment. A section's shear stiffness is its `G A`.
+    ConstantStrain,
+}
+
+/// What a link's stiffness is known from.
+#[allow(clippy::large_enum_variant)] // one per link, gone when the chain is built
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LinkElasticity {
+    /// Section and material.
+    Section(BeamSection),
+    /// Stiffness of the whole link at its far end, root clamped, 6 x 6 (N/m, N/rad, N m/m, N m/rad).
+    Matrix(Matrix6<f64>),
+}
+
+/// A straight elastic link along local x; see [`ChainBuilder::link_with`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LinkSpec {
+    /// Section or matrix.
+    pub elasticity: LinkElasticity,
+    /// Length, m.
+    pub length: f64,
+    /// Number of equal segments. One is enough far below the Euler load, 8 give buckling loads to
+    /// 0.1 %, 32 give deflections as large as the link.
+    pub segments: usize,
+    /// Convention of the segments.
+    pub convention: LinkConvention,
+}
+
+impl LinkSpec {
+    /// A link of one section (length in m), one segment, the default convention.
+    #[must_use]
+    pub fn beam(section: BeamSection, length: f64) -> Self {
+        Self {
+            elasticity: LinkElasticity::Section(section),
+            length,
+            segments: 1,
+            convention: LinkConvention::default(),
+        }
+    }
+
+    /// A link (length in m) whose stiffness at the far end is known, one segment, the default
+    /// convention. Its bending is taken for that of a uniform beam.
+    #[must_use]
+    pub fn matrix(stiffness: Matrix6<f64>, length: f64) -> Self {
+        Self {
+            elasticity: LinkElasticity::Matrix(stiffness),
+            length,
+            segments: 1,
+            convention: LinkConvention::default(),
+        }
+    }
+
+    /// The same link in `count` segments.
+    #[must_use]
+    pub fn segments(mut self, count: usize) -> Self {
+        self.segments = count;
+        self
+    }
+
+    /// The same link by another convention.
+    #[must_use]
+    pub fn convention(mut self, convention: LinkConvention) -> Self {
+        self.convention = convention;
+        self
+    }
+
+    /// Length of one segment, m.
+    #[allow(clippy::cast_precision_loss)] // nobody has 2^52 segments
+    fn piece(&self) -> f64 {
+        self.length / self.segments as f64
+    }
+
+    /// Stiffness of one segment in the coordinates of its convention.
+    fn segment_stiffness(&self) -> Result<Matrix6<f64>, String> {
+        let h = self.piece();
+        let strain = self.convention == LinkConvention::ConstantStrain;
+        let end = match &self.elasticity {
+            LinkElasticity::Section(s) if strain => {
+                let (e, g) = (s.youngs_modulus, s.shear_modulus);
+                let (bend_y, bend_z) = (e * s.second_moment_y, e * s.second_moment_z);
+                let (shear, twist) = (g * s.area, g * s.torsion_constant);
+                let per_length = Vector6::new(e * s.area, shear, shear, twist, bend_y, bend_z);
+                return Ok(Matrix6::from_diagonal(&(per_length / h)));
+            }
+            LinkElasticity::Section(section) => section.cantilever(h).map_err(|e| e.to_string())?,
+            LinkElasticity::Matrix(matrix) if self.segments == 1 && !strain => *matrix,
+            LinkElasticity::Matrix(matrix) => {
+                let per_length = compliance_per_length(matrix, self.length)?;
+                let middle = if strain {
+                    per_length * h
+                } else {
+                    segment_compliance(&per_length, h)
+                };
+                let stiffness = middle
+                    .try_inverse()
+                    .filter(|k| k.cholesky().is_some())
+                    .ok_or_else(|| {
+                        if strain {
+                            "its matrix leaves no shear strain, which a constant strain needs"
+                        } else {
+                            "the matrix of a segment is not positive definite"
+                        }
+                        .to_owned()
+                    })?;
+                if strain {
+                    return Ok(stiffness);
+                }
+                moved(&stiffness, h)
+            }
+        };
+        Ok(if self.convention == LinkConvention::Middle {
+            moved(&end, -h)
+        } else {
+            end
+        })
+    }
+
+    /// Smaller bending stiffness `EI` of the link, N m^2; zero where a matrix has none.
+    fn bending_stiffness(&self) -> f64 {
+        match &self.elasticity {
+            LinkElasticity::Section(s) => {
+                s.youngs_modulus * s.second_moment_y.min(s.second_moment_z)
+            }
+            // A pure end moment turns the end by m L / EI.
+            LinkElasticity::Matrix(matrix) => matrix.try_inverse().map_or(0.0, |compliance| {
+                let turn = compliance.fixed_view::<2, 2>(4, 4).into_owned();
+                self.length / turn.symmetric_eigenvalues().max()
+            }),
+        }
+    }
+}
+
+impl ChainBuilder {
+    /// A straight elastic link along local x, in segments and by a convention of choice:
+    ///
+    /// ```
+    /// use kinetostat::{BeamSection, Chain, LinkSpec};
+    ///
+    /// let bar = BeamSection::tube(2.1e11, 8.0e10, 0.04, 0.03);
+    /// let chain = Chain::builder("arm")
+    ///     .link_with("upper", &LinkSpec::beam(bar, 0.8).segments(8))
+    ///     .build()?;
+    /// assert_eq!(chain.coordinate_count(), 48);
+    /// # Ok::<(), kinetostat::Error>(())
+    /// ```
+    ///
+    /// A link of one segment has the spring `name`, one of several has `name.1`, `name.2` and so on.
+    #[must_use]
+    pub fn link_with(self, name: &str, spec: &LinkSpec) -> Self {
+        self.link_in_pieces(name, spec, |_| spec.segment_stiffness())
+    }
+
+    /// As [`ChainBuilder::link_with`] for a link that changes along its way: `pieces` are the stiffnesses
+    /// of its equal segments, from the root on, each at the segment's far end with its near end clamped,
+    /// 6 x 6 (N/m, N/rad, N m/m, N m/rad), axes of the link. `whole` has the link's own matrix, length
+    /// and convention; its number of segments is that of the pieces. Every piece bends like a uniform
+    /// beam of its stiffness; the buckling load of a cone converges with the fourth power of the pieces.
+    ///
+    /// A fault where there is no piece, or a matrix is no stiffness of a piece.
+    #[must_use]
+    pub fn link_of_pieces(self, name: &str, whole: &LinkSpec, pieces: &[Matrix6<f64>]) -> Self {
+        let whole = whole.segments(pieces.len());
+        let of = |k: usize| {
+            let piece = LinkSpec::matrix(pieces[k], whole.piece());
+            piece.convention(whole.convention).segment_stiffness()
+        };
+        self.link_in_pieces(name, &whole, of)
+    }
+
+    fn link_in_pieces(
+        mut self,
+        name: &str,
+        spec: &LinkSpec,
+        of: impl Fn(usize) -> Result<Matrix6<f64>, String>,
+    ) -> Self {
+        let length = spec.length;
+        if !(length.is_finite() && length > 0.0) {
+            self.fault(format!(
+                "link '{name}': its length is {length}, a positive number of metres is needed"
+            ));
+            return self;
+        }
+        if spec.segments == 0 {
+            self.fault(format!(
+                "link '{name}': it has no segment, at least 1 is needed"
+            ));
+            return self;
+        }
+        let bending_stiffness = spec.bending_stiffness();
+        let h = spec.piece();
+        let law_of = |matrix: Matrix6<f64>| {
+            let linear =
+                || SpringLaw::Linear(nalgebra::DMatrix::from_fn(6, 6, |i, j| matrix[(i, j)]));
+            let exponential =
+                |length| SpringLaw::Logarithm(Box::new(LogarithmLaw { matrix, length }));
+            match spec.convention {
+                LinkConvention::Bowing => {
+                    let law = BowingLaw { matrix, length: h };
+                    (SpringLaw::Bowing(Box::new(law)), 1.0, false)
+                }
+                LinkConvention::TranslationsFirst => (linear(), 1.0, false),
+                LinkConvention::RotationsFirst => (linear(), 1.0, true),
+                LinkConvention::Middle => (linear(), 0.5, false),
+                LinkConvention::Exponential => (exponential(0.0), 1.0, false),
+                LinkConvention::ConstantStrain => (exponential(h), 1.0, false),
+            }
+        };
+        for k in 1..=spec.segments {
+            let (law, share, rotations_first) = match of(k - 1) {
+                Ok(matrix) => law_of(matrix),
+                Err(reason) => {
+                    self.fault(format!("link '{name}': {reason}"));
+                    return self;
+                }
+            };
+            let own = if spec.segments == 1 {
+                name.to_owned()
+            } else {
+                format!("{name}.{k}")
+            };
+            self = self.rigid(Pose::translation(share * h, 0.0, 0.0));
+            self.add_springs(
+                &own,
+                &[0, 1, 2, 3, 4, 5],
+                rotations_first,
+                law,
+                vec![0.0; 6],
+            );
+            self.last_spring_is(Segment {
+                link: name.to_owned(),
+                link_length: length,
+                bending_stiffness,
+                along: Vector3::x(),
+            });
+            if share < 1.0 {
+                self = self.rigid(Pose::translation((1.0 - share) * h, 0.0, 0.0));
+            }
+        }
+        self
+    }
+
+    /// The spring of a link of one segment that lies anywhere in the frame reached so far, behind
+    /// the offset of its far end, which is written before it: `matrix` 6 x 6 (N/m, N/rad, N m/m,
+    /// N m/rad) at the far end, root clamped, in the axes of that frame; `offset` from near to far
+    /// end, m. It is [`ChainBuilder::spring6`] ([`LinkConvention::TranslationsFirst`]) with the
+    /// link's axial load told.
+    #[must_use]
+    pub fn link_spring(mut self, name: &str, matrix: &Matrix6<f64>, offset: &Vector3<f64>) -> Self {
+        let length = offset.norm();
+        if !(length.is_finite() && length > 0.0) {
+            self.fault(format!(
+                "link '{name}': its length is {length}, a positive number of metres is needed"
+            ));
+            return self;
+        }
+        let turn = Rotation3::rotation_between(&Vector3::x(), offset)
+            .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::y_axis(), PI));
+        let turn = turn_matrix(&turn);
+        let own = LinkSpec::matrix(turn.transpose() * matrix * turn, length);
+        self = self.spring6(name, matrix, [0.0; 6]);
+        self.last_spring_is(Segment {
+            link: name.to_owned(),
+            link_length: length,
+            bending_stiffness: own.bending_stiffness(),
+            along: offset / length,
+        });
+        self
+    }
+}

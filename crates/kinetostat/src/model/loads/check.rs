@@ -1,0 +1,212 @@
+//! Whether a load fits its chain, and whether its tangent is the derivative of its wrenches.
+
+use nalgebra::DVector;
+
+use crate::chain::equilibrium::ChainProblem;
+use crate::error::{Error, Result};
+use crate::model::chain::{Chain, MotionKind, sensible};
+use crate::model::kinematics::Kinematics;
+use crate::model::loads::load::Load;
+use crate::number::short;
+use crate::spatial::{Pose, Wrench};
+
+/// In debug builds a tangent that is off by more than this share is refused before solving.
+const TANGENT_TOLERANCE: f64 = 1e-5;
+
+/// How a load's tangent compares with differences of its wrenches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TangentCheck {
+    /// Largest difference as a share of the largest change or wrench; moments are divided by the
+    /// chain's natural length, changes are per radian or per natural length of slide.
+    pub largest: f64,
+    /// Node whose wrench changes otherwise than the tangent says.
+    pub node: usize,
+    /// Name of the coordinate that was moved.
+    pub coordinate: String,
+}
+
+/// Compares a load's tangent with fourth-order differences of its wrenches over the motions that
+/// the chain can make, at coordinates and commands (m, rad) over a base.
+///
+/// # Errors
+/// Lists of the wrong length or with numbers that are not finite; a load that does not fit.
+pub fn check_tangents(
+    chain: &Chain,
+    base: &Pose,
+    coordinates: &[f64],
+    commands: &[f64],
+    load: &Load,
+) -> Result<TangentCheck> {
+    chain.check(coordinates, commands)?;
+    let place = format!("chain '{}'", chain.name());
+    crate::model::chain::sensible_pose(&place, "the pose of the base", base)?;
+    let kinematics = Kinematics::new(chain, base, coordinates, commands, false);
+    fits(chain, &kinematics, load)?;
+    let length = chain.scale().length;
+    let nodes = chain.nodes().len();
+    // All node wrenches in newtons, stacked.
+    let stacked = |kinematics: &Kinematics| {
+        let mut list = Vec::new();
+        load.add_wrenches(chain, kinematics, 1.0, &mut list);
+        let mut all = DVector::zeros(6 * nodes);
+        for (node, wrench) in list {
+            for k in 0..6 {
+                let unit = if k < 3 { 1.0 } else { length };
+                all[6 * node + k] += wrench.0[k] / unit;
+            }
+        }
+        all
+    };
+    let mut tangents = Vec::new();
+    load.add_tangents(&kinematics, 1.0, &mut tangents);
+    // Also of what cancels within a body.
+    let mut list = Vec::new();
+    load.add_wrenches(chain, &kinematics, 1.0, &mut list);
+    let newtons = |w: &Wrench| w.force().norm().max(w.moment().norm() / length);
+    let mut size = list.iter().map(|(_, w)| newtons(w)).fold(0.0_f64, f64::max);
+    let mut worst = TangentCheck {
+        largest: 0.0,
+        node: 0,
+        coordinate: String::new(),
+    };
+    for (i, coordinate) in chain.coordinates().iter().enumerate() {
+        let unit = match coordinate.kind {
+            MotionKind::Prismatic => length,
+            MotionKind::Revolute => 1.0,
+        };
+        let mut exact = DVector::zeros(6 * nodes);
+        for tangent in &tangents {
+            let change = tangent.matrix * kinematics.jacobian(tangent.by).column(i) * unit;
+            for k in 0..6 {
+                exact[6 * tangent.on + k] += change[k] / if k < 3 { 1.0 } else { length };
+            }
+        }
+        let step = 1e-4;
+        let at = |share: f64| {
+            let mut near = coordinates.to_vec();
+            near[i] += share * step * unit;
+            stacked(&Kinematics::new(chain, base, &near, commands, false))
+        };
+        let differences: DVector<f64> =
+            (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step);
+        size = size.max(exact.amax()).max(differences.amax());
+        let off = (exact - differences).abs();
+        let row = off.imax();
+        // A difference that is not a number is the worst of all.
+        if off[row] > worst.largest || off.iter().any(|x| x.is_nan()) {
+            worst = TangentCheck {
+                largest: if off.iter().any(|x| x.is_nan()) {
+                    f64::INFINITY
+                } else {
+                    off[row]
+                },
+                node: row / 6,
+                coordinate: coordinate.name.clone(),
+            };
+        }
+    }
+    worst.largest /= size.max(f64::MIN_POSITIVE);
+    Ok(worst)
+}
+
+/// Refuses loads that do not fit a chain: nodes it lacks, numbers that are not finite.
+pub(crate) fn fits(chain: &Chain, kinematics: &Kinematics, load: &Load) -> Result<()> {
+    let place = || format!("chain '{}'", chain.name());
+    let (values, nodes) = match load {
+        Load::Dead { node, wrench } => (wrench.0.as_slice().to_vec(), vec![*node]),
+        Load::Gravity(g) => (g.as_slice().to_vec(), Vec::new()),
+        Load::Custom(load) => (Vec::new(), load.nodes()),
+    };
+    let number = |value: &f64| sensible(&place(), || "a load".into(), *value);
+    values.iter().try_for_each(number)?;
+    if let Some(node) = nodes.into_iter().find(|&n| n > chain.tip()) {
+        return Err(Error::model(
+            place(),
+            format!(
+                "a load acts on node {node}, the last one is {}",
+                chain.tip()
+            ),
+        ));
+    }
+    let Load::Custom(custom) = load else {
+        return Ok(());
+    };
+    if let Some(fault) = custom.fault().or_else(|| custom.fault_at(kinematics)) {
+        return Err(Error::model(
+            place(),
+            format!("a load does not fit: {fault}"),
+        ));
+    }
+    let mut wrenches = Vec::new();
+    custom.wrenches(kinematics, &mut wrenches);
+    if let Some((node, _)) = wrenches.iter().find(|(n, _)| *n > chain.tip()) {
+        return Err(Error::model(
+            place(),
+            format!(
+                "a load acts on node {node}, the last one is {}",
+                chain.tip()
+            ),
+        ));
+    }
+    let mut tangents = Vec::new();
+    custom.tangents(kinematics, &mut tangents);
+    let numbers = wrenches.iter().flat_map(|(_, w)| w.0.iter());
+    let mut numbers = numbers.chain(tangents.iter().flat_map(|t| t.matrix.iter()));
+    numbers.try_for_each(number)
+}
+
+/// Refuses a load that does not fit, in debug builds also one with a wrong tangent.
+pub(crate) fn check_load(
+    chain: &Chain,
+    kinematics: &Kinematics,
+    base: &Pose,
+    coordinates: &[f64],
+    commands: &[f64],
+    load: &Load,
+) -> Result<()> {
+    fits(chain, kinematics, load)?;
+    if cfg!(debug_assertions) && matches!(load, Load::Custom(_)) {
+        let check = check_tangents(chain, base, coordinates, commands, load)?;
+        if check.largest > TANGENT_TOLERANCE {
+            return Err(Error::model(
+                format!("chain '{}'", chain.name()),
+                format!(
+                    "the tangent of a load is not the derivative of its wrench: on node '{}' they differ by {} (share of the load) when '{}' moves ({load:?})",
+                    chain.nodes()[check.node],
+                    short(check.largest),
+                    check.coordinate
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what cannot be solved: before the iteration starts, and in debug builds with a look at
+/// every tangent.
+pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
+    let (chain, base) = (problem.chain, &problem.base);
+    let place = format!("chain '{}'", chain.name());
+    let end = &problem.end;
+    let of_pose = |pose: &Pose| {
+        let (p, r) = (pose.translation.vector, pose.rotation.coords);
+        [p.x, p.y, p.z, r.x, r.y, r.z, r.w]
+    };
+    let checked: [(&str, &[f64]); 4] = [
+        ("pose of the base", &of_pose(base)),
+        ("pose of the end condition", &of_pose(&end.pose)),
+        ("wrench of the end condition", end.wrench.0.as_slice()),
+        ("axes of the end condition", end.axes.matrix().as_slice()),
+    ];
+    for (what, numbers) in checked {
+        for &value in numbers {
+            sensible(&place, || format!("the {what}"), value)?;
+        }
+    }
+    let (x, commands) = (&problem.posture, &problem.commands);
+    let kinematics = Kinematics::new(chain, base, x, commands, false);
+    problem
+        .loads
+        .iter()
+        .try_for_each(|load| check_load(chain, &kinematics, base, x, commands, load))
+}

@@ -1,0 +1,230 @@
+//! Loads on platforms: wrenches, and compensators between bodies of different limbs.
+
+use nalgebra::{Matrix6, Vector3};
+
+use crate::error::{Error, Result};
+use crate::model::loads::length_law::LengthLaw;
+use crate::model::loads::load::NodeTangent;
+use crate::model::loads::strut::{Anchor, Strut};
+use crate::model::mechanism::Mechanism;
+use crate::spatial::{Pose, Wrench, hat, rotational};
+
+/// Something that acts on the platforms of a mechanism and belongs to no limb.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum PlatformLoad {
+    /// Force and moment at a point of a platform.
+    Wrench {
+        /// Index of the platform; the base (0) cannot be loaded.
+        platform: usize,
+        /// Where the force acts, platform axes, m.
+        point: Vector3<f64>,
+        /// About that point; base axes, or platform axes if it `turns`.
+        wrench: Wrench,
+        /// It turns with the platform (a follower, without a potential).
+        turns: bool,
+    },
+    /// A spring, gas spring or rope between points of two platforms; nodes of its anchors are
+    /// indices of platforms, and `Anchor::Base` is a point of the base.
+    Strut(Strut),
+}
+
+impl PartialEq for PlatformLoad {
+    fn eq(&self, other: &Self) -> bool {
+        // Numbers tell everything but a function, which equals nothing.
+        let function = matches!(self, Self::Strut(s) if matches!(s.law, LengthLaw::Function(_)));
+        !function && format!("{self:?}") == format!("{other:?}")
+    }
+}
+
+impl PlatformLoad {
+    /// A strut between points (m, platform axes) of two platforms (indices; 0 is the base) by a law
+    /// of length.
+    #[must_use]
+    pub fn strut(from: (usize, Vector3<f64>), to: (usize, Vector3<f64>), law: LengthLaw) -> Self {
+        let anchor = |(node, point): (usize, Vector3<f64>)| match node {
+            0 => Anchor::Base(point),
+            node => Anchor::Node { node, point },
+        };
+        Self::Strut(Strut {
+            from: anchor(from),
+            to: anchor(to),
+            law,
+        })
+    }
+
+    /// Platforms that it moves.
+    #[must_use]
+    pub fn platforms(&self) -> Vec<usize> {
+        match self {
+            Self::Wrench { platform, .. } => vec![*platform],
+            Self::Strut(strut) => {
+                let ends = [&strut.from, &strut.to].into_iter();
+                ends.filter_map(Anchor::on).collect()
+            }
+        }
+    }
+
+    /// It has a potential: a dead moment on a platform that turns about several axes has none, and
+    /// whether a platform does is not looked into.
+    #[must_use]
+    pub fn conservative(&self) -> bool {
+        match self {
+            Self::Wrench { wrench, turns, .. } => !turns && wrench.moment() == Vector3::zeros(),
+            Self::Strut(_) => true,
+        }
+    }
+
+    /// Appends `(platform, wrench)`: base axes, about the platform's origin, on the platform; `poses`
+    /// are those of all platforms.
+    pub fn wrenches(&self, poses: &[Pose], out: &mut Vec<(usize, Wrench)>) {
+        match self {
+            Self::Wrench {
+                platform,
+                point,
+                wrench,
+                turns,
+            } => {
+                let rotation = poses[*platform].rotation;
+                let (arm, own) = (rotation * point, turned(wrench, &poses[*platform], *turns));
+                let moment = own.moment() + arm.cross(&own.force());
+                out.push((*platform, Wrench::new(own.force(), moment)));
+            }
+            Self::Strut(strut) => strut.wrenches_at(&|p| poses[p], out),
+        }
+    }
+
+    /// Appends the derivatives of those wrenches by the motions of platforms (base axes, at their
+    /// origins).
+    pub fn tangents(&self, poses: &[Pose], out: &mut Vec<NodeTangent>) {
+        match self {
+            Self::Wrench {
+                platform,
+                point,
+                wrench,
+                turns,
+            } => {
+                let pose = &poses[*platform];
+                let (arm, own) = (pose.rotation * point, turned(wrench, pose, *turns));
+                let mut matrix = rotational(&(hat(&own.force()) * hat(&arm)));
+                if *turns {
+                    // The arm turns with the force: the moment about the origin turns as a whole.
+                    let moment = own.moment() + arm.cross(&own.force());
+                    matrix = Matrix6::zeros();
+                    matrix
+                        .fixed_view_mut::<3, 3>(0, 3)
+                        .copy_from(&-hat(&own.force()));
+                    matrix
+                        .fixed_view_mut::<3, 3>(3, 3)
+                        .copy_from(&-hat(&moment));
+                }
+                out.push(NodeTangent {
+                    on: *platform,
+                    by: *platform,
+                    matrix,
+                });
+            }
+            Self::Strut(strut) => strut.tangents_at(&|p| poses[p], out),
+        }
+    }
+
+    /// Potential energy, J; `None` where it has none.
+    #[must_use]
+    pub fn energy(&self, poses: &[Pose]) -> Option<f64> {
+        match self {
+            Self::Wrench {
+                platform,
+                point,
+                wrench,
+                ..
+            } => {
+                let place = poses[*platform] * nalgebra::Point3::from(*point);
+                self.conservative()
+                    .then(|| -wrench.force().dot(&place.coords))
+            }
+            Self::Strut(strut) => Some(strut.energy_at(&|p| poses[p])),
+        }
+    }
+
+    /// The same load with the frame of a platform moved to `frame` (platform from new frame).
+    pub(crate) fn reframed(&self, platform: usize, frame: &Pose) -> Self {
+        let inverse = frame.inverse();
+        let there = |point: &Vector3<f64>| (inverse * nalgebra::Point3::from(*point)).coords;
+        match self {
+            Self::Wrench {
+                platform: own,
+                point,
+                wrench,
+                turns,
+            } if *own == platform => Self::Wrench {
+                platform,
+                point: there(point),
+                wrench: if *turns {
+                    wrench.rotated(&inverse.rotation.to_rotation_matrix())
+                } else {
+                    *wrench
+                },
+                turns: *turns,
+            },
+            Self::Strut(strut) => {
+                let anchor = |anchor: &Anchor| match anchor {
+                    Anchor::Node { node, point } if *node == platform => Anchor::Node {
+                        node: platform,
+                        point: there(point),
+                    },
+                    other => *other,
+                };
+                Self::Strut(Strut {
+                    from: anchor(&strut.from),
+                    to: anchor(&strut.to),
+                    law: strut.law.clone(),
+                })
+            }
+            other => other.clone(),
+        }
+    }
+
+    /// That it fits the platforms.
+    pub(crate) fn check(&self, mechanism: &Mechanism) -> Result<()> {
+        let fault = |reason: String| {
+            let place = format!("mechanism '{}'", mechanism.name);
+            Err(Error::model(place, reason))
+        };
+        let own = self.platforms();
+        let count = mechanism.platforms.len();
+        if let Some(wrong) = own.iter().find(|&&p| p == 0 || p >= count) {
+            return fault(format!(
+                "a load acts on platform {wrong}; those that move are 1 to {}",
+                count - 1
+            ));
+        }
+        match self {
+            Self::Wrench { point, wrench, .. } => {
+                if !point.iter().chain(wrench.0.iter()).all(|x| x.is_finite()) {
+                    return fault("a wrench on a platform is not finite".into());
+                }
+            }
+            Self::Strut(strut) => {
+                if own.is_empty() || own.len() == 2 && own[0] == own[1] {
+                    return fault(
+                        "a strut begins and ends at the same platform, so that it does nothing"
+                            .into(),
+                    );
+                }
+                if let Some(reason) = crate::model::loads::load::NodeLoad::fault(strut) {
+                    return fault(reason);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A wrench in base axes.
+fn turned(wrench: &Wrench, pose: &Pose, turns: bool) -> Wrench {
+    if turns {
+        wrench.rotated(&pose.rotation.to_rotation_matrix())
+    } else {
+        *wrench
+    }
+}

@@ -1,0 +1,498 @@
+//! A mechanism: a graph of platforms (rigid bodies in equilibrium; the first one, the base, is
+//! fixed) joined by limbs (chains) [R ch. 3, 6].
+//!
+//! Each limb keeps two geometries: the nominal one, from which the controller commands actuators,
+//! and the actual one, with its assembly and manufacturing errors, which decides where the machine
+//! goes.
+
+use std::collections::BTreeSet;
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::model::chain::{Chain, Scale, sensible_pose};
+use crate::model::graph_check::{check_platform, check_platform_load, sensible_all};
+use crate::model::kinematics::Kinematics;
+use crate::model::loads::check::check_load;
+use crate::model::loads::load::Load;
+use crate::model::loads::platform::PlatformLoad;
+use crate::model::loads::potential::moments_have_potential;
+use crate::spatial::Pose;
+
+/// A rigid body of the graph.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Platform {
+    /// Name, unique.
+    pub name: String,
+    /// Pose at which the machine is at home, base from platform.
+    pub home: Pose,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Centre of mass in the platform's frame, m.
+    pub centre_of_mass: Vector3<f64>,
+    /// Inertia about the centre of mass, kg m^2, platform axes (kept for dynamics).
+    pub inertia: Matrix3<f64>,
+}
+
+impl Platform {
+    /// A massless platform.
+    #[must_use]
+    pub fn new(name: impl Into<String>, home: Pose) -> Self {
+        Self {
+            name: name.into(),
+            home,
+            mass: 0.0,
+            centre_of_mass: Vector3::zeros(),
+            inertia: Matrix3::zeros(),
+        }
+    }
+}
+
+/// A chain between two platforms. Its base frame is the frame of `from`; its tip is fixed to `to`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limb {
+    /// Name, unique.
+    pub name: String,
+    /// Index of the platform where it starts.
+    pub from: usize,
+    /// Index of the platform where it ends.
+    pub to: usize,
+    /// Pose of the tip in the frame of `to`. A limb that ends at the platform's reference point
+    /// has the identity; elsewhere the lever arm's geometric stiffness is accounted for.
+    pub platform_from_tip: Pose,
+    /// Geometry that the controller believes in.
+    pub nominal: Chain,
+    /// Geometry that exists: same joints and springs, other rigid offsets.
+    pub actual: Chain,
+}
+
+/// Platforms, limbs, loads on limbs and gravity. Never changes after [`MechanismBuilder::build`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mechanism {
+    pub(crate) name: String,
+    pub(crate) platforms: Vec<Platform>,
+    pub(crate) limbs: Vec<Limb>,
+    pub(crate) gravity: Vector3<f64>,
+    pub(crate) tool: usize,
+    /// Loads on every limb besides gravity; shorter than the list of limbs where the last have none.
+    #[serde(
+        default,
+        skip_deserializing,
+        skip_serializing_if = "Vec::is_empty",
+        serialize_with = "refuse_loads"
+    )]
+    pub(crate) loads: Vec<Vec<Load>>,
+    /// Loads on platforms, those between limbs included.
+    #[serde(
+        default,
+        skip_deserializing,
+        skip_serializing_if = "Vec::is_empty",
+        serialize_with = "refuse_platform_loads"
+    )]
+    pub(crate) platform_loads: Vec<PlatformLoad>,
+}
+
+/// A load may be a function, which no file holds; to leave it out in silence would be worse.
+fn refuse_loads<S: serde::Serializer>(
+    _: &[Vec<Load>],
+    _: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    Err(serde::ser::Error::custom(
+        "a mechanism whose limbs carry loads cannot be written; write its model file",
+    ))
+}
+
+fn refuse_platform_loads<S: serde::Serializer>(
+    _: &[PlatformLoad],
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    refuse_loads(&[], serializer)
+}
+
+impl Mechanism {
+    /// Starts a description; the base platform exists already and has index 0.
+    #[must_use]
+    pub fn builder(name: impl Into<String>) -> MechanismBuilder {
+        MechanismBuilder {
+            mechanism: Self {
+                name: name.into(),
+                platforms: vec![Platform::new("base", Pose::identity())],
+                limbs: Vec::new(),
+                gravity: Vector3::zeros(),
+                tool: 0,
+                loads: Vec::new(),
+                platform_loads: Vec::new(),
+            },
+            loads: Vec::new(),
+        }
+    }
+
+    /// A serial robot: one chain from the base to the platform `tool`.
+    ///
+    /// # Errors
+    /// As [`MechanismBuilder::build`].
+    pub fn serial(chain: Chain, home: Pose, gravity: Vector3<f64>) -> Result<Self> {
+        let name = chain.name.clone();
+        let mut builder = Self::builder(&name).gravity(gravity);
+        let tool = builder.platform(Platform::new("tool", home));
+        builder
+            .limb(Limb {
+                name,
+                from: 0,
+                to: tool,
+                platform_from_tip: Pose::identity(),
+                nominal: chain.clone(),
+                actual: chain,
+            })
+            .build()
+    }
+
+    /// Name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Platforms; index 0 is the fixed base.
+    #[must_use]
+    pub fn platforms(&self) -> &[Platform] {
+        &self.platforms
+    }
+
+    /// Limbs.
+    #[must_use]
+    pub fn limbs(&self) -> &[Limb] {
+        &self.limbs
+    }
+
+    /// Gravity, m/s^2, base axes.
+    #[must_use]
+    pub fn gravity(&self) -> Vector3<f64> {
+        self.gravity
+    }
+
+    /// Loads on a limb besides gravity, in the order in which they were added.
+    #[must_use]
+    pub fn loads(&self, limb: usize) -> &[Load] {
+        self.loads.get(limb).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether anything acts on it without a load on its tool: gravity, or loads of the model.
+    #[must_use]
+    pub fn has_own_loads(&self) -> bool {
+        let loads = self.loads.iter().map(Vec::len).sum::<usize>() + self.platform_loads.len();
+        self.gravity != Vector3::zeros() || loads > 0
+    }
+
+    /// The same machine without gravity and without the loads of its model (springs between nodes,
+    /// counterweights and so on). Deviations and preloads of springs inside its limbs stay.
+    #[must_use]
+    pub fn without_own_loads(&self) -> Self {
+        Self {
+            gravity: Vector3::zeros(),
+            loads: Vec::new(),
+            platform_loads: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// Loads on platforms, those between limbs included, in the order in which they were added.
+    #[must_use]
+    pub fn platform_loads(&self) -> &[PlatformLoad] {
+        &self.platform_loads
+    }
+
+    /// Everything that acts on a limb between its ends: gravity, then its loads.
+    pub(crate) fn acting(&self, limb: usize) -> Vec<Load> {
+        let gravity = (self.gravity != Vector3::zeros()).then_some(Load::Gravity(self.gravity));
+        gravity
+            .into_iter()
+            .chain(self.loads(limb).iter().cloned())
+            .collect()
+    }
+
+    /// The load has a potential on this limb: statements about energy hold. A dead moment has one
+    /// only where everything before its node, from the fixed base on, turns about one axis.
+    #[must_use]
+    pub fn load_conservative(&self, limb: usize, load: &Load) -> bool {
+        let own = &self.limbs[limb];
+        match load {
+            Load::Dead { wrench, .. } if own.from != 0 => wrench.moment() == Vector3::zeros(),
+            load => load.conservative(&own.actual),
+        }
+    }
+
+    /// All loads of a limb have a potential.
+    #[must_use]
+    pub fn loads_conservative(&self, limb: usize) -> bool {
+        let mut loads = self.loads(limb).iter();
+        loads.all(|load| self.load_conservative(limb, load))
+    }
+
+    /// A dead moment on the tool (N m) has a potential: some limb from the base lets the tool turn
+    /// about one axis only.
+    pub(crate) fn tool_moment_has_potential(&self, moment: &Vector3<f64>) -> bool {
+        *moment == Vector3::zeros()
+            || self.limbs.iter().any(|limb| {
+                limb.from == 0
+                    && limb.to == self.tool
+                    && moments_have_potential(&limb.actual, limb.actual.tip())
+            })
+    }
+
+    /// Index of the platform that carries the tool: the last one.
+    #[must_use]
+    pub fn tool(&self) -> usize {
+        self.tool
+    }
+
+    /// Natural length and stiffness: means over the limbs as they are.
+    pub(crate) fn scale(&self) -> Scale {
+        let count = self.limbs.len() as f64;
+        let mean = |of: fn(Scale) -> f64| {
+            self.limbs.iter().map(|l| of(l.actual.scale())).sum::<f64>() / count
+        };
+        Scale {
+            length: mean(|s| s.length),
+            stiffness: mean(|s| s.stiffness),
+        }
+    }
+
+    /// Size, m: the length of the way from the base to the tool through the limbs, or of the longest
+    /// limb where that is longer.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let lengths: Vec<f64> = self
+            .limbs
+            .iter()
+            .map(|l| l.nominal.scale().length)
+            .collect();
+        // Lengths of the shortest ways to all platforms.
+        let mut ways = vec![f64::INFINITY; self.platforms.len()];
+        ways[0] = 0.0;
+        let mut shorter = true;
+        while shorter {
+            shorter = false;
+            for (limb, length) in self.limbs.iter().zip(&lengths) {
+                for (to, from) in [(limb.to, limb.from), (limb.from, limb.to)] {
+                    if ways[from] + length < ways[to] {
+                        ways[to] = ways[from] + length;
+                        shorter = true;
+                    }
+                }
+            }
+        }
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        match ways[self.tool].is_finite() {
+            true => longest.max(ways[self.tool]),
+            false => longest,
+        }
+    }
+
+    /// Number of actuators of all limbs.
+    #[must_use]
+    pub fn actuator_count(&self) -> usize {
+        self.limbs.iter().map(|l| l.nominal.actuators.len()).sum()
+    }
+
+    /// `limb.actuator` of every actuator, in the order of [`crate::Posture::commands`].
+    #[must_use]
+    pub fn actuator_names(&self) -> Vec<String> {
+        let single = self.limbs.len() == 1;
+        self.limbs
+            .iter()
+            .flat_map(|l| {
+                l.nominal.actuators.iter().map(move |a| {
+                    if single {
+                        a.name.clone()
+                    } else {
+                        format!("{}.{}", l.name, a.name)
+                    }
+                })
+            })
+            .collect()
+    }
+}
+
+/// Builds a [`Mechanism`].
+#[derive(Clone, Debug)]
+pub struct MechanismBuilder {
+    mechanism: Mechanism,
+    /// Name of a limb and a load on it.
+    loads: Vec<(String, Load)>,
+}
+
+impl MechanismBuilder {
+    /// Adds a moving platform and returns its index. The last one added carries the tool.
+    pub fn platform(&mut self, platform: Platform) -> usize {
+        self.mechanism.platforms.push(platform);
+        self.mechanism.tool = self.mechanism.platforms.len() - 1;
+        self.mechanism.tool
+    }
+
+    /// Adds a limb.
+    #[must_use]
+    pub fn limb(mut self, limb: Limb) -> Self {
+        self.mechanism.limbs.push(limb);
+        self
+    }
+
+    /// Adds a load to the limb of this name. Nodes are those of the limb's chain
+    /// ([`Chain::node`]); `Anchor::Base` and base axes mean the world, also for a limb that starts
+    /// at a moving platform. What acts on the limb's tip acts on the platform there. Gravity is
+    /// [`Self::gravity`]'s affair, not a load of a limb.
+    ///
+    /// ```
+    /// use kinetostat::*;
+    /// use nalgebra::{Vector3, vector};
+    ///
+    /// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.08, 0.06);
+    /// let shoulder = ActuatorSpec::new(MotionKind::Revolute, -Vector3::y(), 2e5);
+    /// let chain = Chain::builder("arm")
+    ///     .actuator("shoulder", shoulder)
+    ///     .translation(vector![0.4, 0.0, 0.0])
+    ///     .node("lug")
+    ///     .link("arm", &bar, 0.6)
+    ///     .build()?;
+    /// let (lug, post) = (Anchor::node(chain.node("lug")?), Anchor::Base(vector![0.0, 0.0, 0.5]));
+    /// let mut machine = Mechanism::builder("sprung arm");
+    /// let tool = machine.platform(Platform::new("tool", Pose::translation(1.0, 0.0, 0.0)));
+    /// let machine = machine
+    ///     .limb(Limb {
+    ///         name: "arm".into(),
+    ///         from: 0,
+    ///         to: tool,
+    ///         platform_from_tip: Pose::identity(),
+    ///         nominal: chain.clone(),
+    ///         actual: chain,
+    ///     })
+    ///     .load("arm", Load::spring_between(post, lug, 4e3, 0.3))
+    ///     .build()?;
+    /// let home = machine.platforms()[tool].home;
+    /// let rest = machine.posture(&home)?.deflected_by(&Wrench::zero())?;
+    /// assert!(rest.displacement.linear().z > 1e-3, "the spring lifts the arm");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn load(mut self, limb: impl Into<String>, load: Load) -> Self {
+        self.loads.push((limb.into(), load));
+        self
+    }
+
+    /// Adds a load on platforms: a wrench on any of them, or a spring or compensator between points
+    /// of two, whatever limbs they belong to. It is there in every equilibrium; commands and the
+    /// unloaded stiffness do not feel it.
+    #[must_use]
+    pub fn platform_load(mut self, load: PlatformLoad) -> Self {
+        self.mechanism.platform_loads.push(load);
+        self
+    }
+
+    /// Gravity, m/s^2, base axes; zero if not called.
+    #[must_use]
+    pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
+        self.mechanism.gravity = gravity;
+        self
+    }
+
+    /// Checks the graph and freezes it.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for an unknown platform, a limb from a platform to itself, a name used
+    /// twice, a platform without limbs, a nominal and an actual chain that differ in more than
+    /// rigid offsets, or a load that does not fit its limb or its platforms; [`Error::UnknownName`] for a load on
+    /// a limb that does not exist.
+    pub fn build(self) -> Result<Mechanism> {
+        let mut m = self.mechanism;
+        let place = format!("mechanism '{}'", m.name);
+        let fault = |reason: String| Err(Error::model(place.clone(), reason));
+        if m.platforms.len() < 2 {
+            return fault("it has no moving platform".into());
+        }
+        sensible_all(&place, "gravity", &m.gravity)?;
+        for names in [
+            m.platforms.iter().map(|p| &p.name).collect::<Vec<_>>(),
+            m.limbs.iter().map(|l| &l.name).collect(),
+        ] {
+            let mut seen = BTreeSet::new();
+            if let Some(twice) = names.into_iter().find(|n| !seen.insert(n.as_str())) {
+                return fault(format!("the name '{twice}' is used twice"));
+            }
+        }
+        for platform in &m.platforms {
+            check_platform(&place, platform)?;
+        }
+        for limb in &m.limbs {
+            let count = m.platforms.len();
+            if limb.from >= count || limb.to >= count || limb.from == limb.to {
+                return fault(format!(
+                    "limb '{}': it joins platforms {} and {} of {count}; two different ones are needed",
+                    limb.name, limb.from, limb.to
+                ));
+            }
+            let of_limb = format!("{place}: limb '{}'", limb.name);
+            let tip = &limb.platform_from_tip;
+            sensible_pose(&of_limb, "the pose of its tip on the platform", tip)?;
+            if limb.to == 0 {
+                return fault(format!(
+                    "limb '{}': it ends at the base; write it from the base to the moving platform",
+                    limb.name
+                ));
+            }
+            let same = limb.nominal.coordinates == limb.actual.coordinates
+                && limb.nominal.actuators == limb.actual.actuators
+                && limb.nominal.springs == limb.actual.springs
+                && limb.nominal.bodies == limb.actual.bodies
+                && limb.nominal.nodes == limb.actual.nodes;
+            if !same {
+                return fault(format!(
+                    "limb '{}': nominal and actual chain must have the same joints, springs, masses and nodes",
+                    limb.name
+                ));
+            }
+        }
+        if let Some(lonely) =
+            (1..m.platforms.len()).find(|&p| m.limbs.iter().all(|l| l.from != p && l.to != p))
+        {
+            return fault(format!(
+                "no limb holds platform '{}'",
+                m.platforms[lonely].name
+            ));
+        }
+        for load in &m.platform_loads {
+            check_platform_load(&m, load)?;
+        }
+        for (name, load) in self.loads {
+            let Some(index) = m.limbs.iter().position(|l| l.name == name) else {
+                let known: Vec<&str> = m.limbs.iter().map(|l| l.name.as_str()).collect();
+                return Err(Error::UnknownName {
+                    place,
+                    what: "limb",
+                    name,
+                    known: known.join(", "),
+                });
+            };
+            let limb = &m.limbs[index];
+            if matches!(load, Load::Gravity(_)) {
+                return fault(format!(
+                    "limb '{name}': gravity acts on everything; give it to the mechanism once"
+                ));
+            }
+            let chain = &limb.actual;
+            let (x, commands) = (chain.home_coordinates(), chain.home_commands());
+            let base = &m.platforms[limb.from].home;
+            check_load(
+                chain,
+                &Kinematics::new(chain, base, &x, &commands, false),
+                base,
+                &x,
+                &commands,
+                &load,
+            )?;
+            m.loads.resize(m.loads.len().max(index + 1), Vec::new());
+            m.loads[index].push(load);
+        }
+        Ok(m)
+    }
+}

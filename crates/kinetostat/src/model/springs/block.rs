@@ -1,0 +1,282 @@
+//! Spring blocks: groups of coordinates held by one energy [R 3.2, 4.9].
+//!
+//! A block answers with energy, torque and tangent for the deflections of its own coordinates; a
+//! constant matrix is the simplest law. What a block stores is the virtual joint's energy: the
+//! torque that the chain must apply to it is the gradient.
+
+use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::model::springs::bowing::BowingLaw;
+use crate::model::springs::logarithm::LogarithmLaw;
+use crate::model::springs::parallelogram::ParallelogramLaw;
+
+/// How a spring block answers a deflection.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum SpringLaw {
+    /// Constant symmetric stiffness, k x k (N/m, N/rad, N m/m, N m/rad by coordinate).
+    Linear(DMatrix<f64>),
+    /// Two parallel bars lumped into one spring: see [`ParallelogramLaw`].
+    Parallelogram(Box<ParallelogramLaw>),
+    /// A beam segment that shortens as it bends: see [`BowingLaw`]. Six coordinates.
+    Bowing(Box<BowingLaw>),
+    /// A spring in exponential coordinates: see [`LogarithmLaw`]. Six coordinates.
+    Logarithm(Box<LogarithmLaw>),
+}
+
+/// What a six-dimensional law answers to a deflection.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Response {
+    /// J.
+    pub energy: f64,
+    /// Its gradient, N or N m.
+    pub torque: Vector6<f64>,
+    /// Second derivative that the strains' rates make: positive definite as the matrix of the law is.
+    pub material: Matrix6<f64>,
+    /// Second derivative that a curvature of the strains adds under load: the geometric stiffness.
+    pub geometric: Matrix6<f64>,
+}
+
+/// A named group of spring coordinates with one law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpringBlock {
+    /// Name, unique in the chain.
+    pub name: String,
+    /// Index of the first coordinate; the block's coordinates are consecutive.
+    pub first: usize,
+    /// Coordinates at rest, `theta0` (m or rad): a preload when they differ from the assembled ones.
+    pub rest: Vec<f64>,
+    /// The law.
+    pub law: SpringLaw,
+    /// The piece of an elastic link that this spring stands for, if it is one.
+    #[serde(default)]
+    pub segment: Option<Segment>,
+}
+
+/// A piece of a straight elastic link.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Segment {
+    /// Name of the link.
+    pub link: String,
+    /// Length of the whole link, m.
+    pub link_length: f64,
+    /// Smaller of the link's two bending stiffnesses `EI`, N m^2.
+    pub bending_stiffness: f64,
+    /// Direction of the link from its near to its far end, in the axes of the spring; unit length.
+    #[serde(default = "Vector3::x")]
+    pub along: Vector3<f64>,
+}
+
+impl SpringBlock {
+    /// Number of coordinates.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rest.len()
+    }
+
+    /// True for a block without coordinates.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rest.is_empty()
+    }
+
+    /// Adds this block's energy gradient to `torque` (all coordinates of the chain) and gives its second
+    /// derivative to `entry`: row and column, both counted within the block, and the value there. Returns the
+    /// energy (J). `values` are the coordinates, `posture` those of the commanded, unloaded posture,
+    /// `preload` scales `theta0` (1 is the real one).
+    /// A law with strains that are not linear appends its first coordinate and its geometric stiffness to
+    /// `geometric`: like the loads' Hessian, it decides about stability.
+    pub(crate) fn add(
+        &self,
+        values: &[f64],
+        posture: &[f64],
+        preload: f64,
+        torque: &mut [f64],
+        entry: &mut impl FnMut(usize, usize, f64),
+        geometric: &mut Vec<(usize, Matrix6<f64>)>,
+    ) -> f64 {
+        let deflection =
+            || Vector6::from_fn(|i, _| values[self.first + i] - preload * self.rest[i]);
+        let response = match &self.law {
+            SpringLaw::Linear(matrix) => {
+                return self.add_constant(matrix, values, preload, torque, entry);
+            }
+            SpringLaw::Parallelogram(law) => {
+                let matrix = law.matrix(posture[law.inclination]);
+                return self.add_constant(&matrix, values, preload, torque, entry);
+            }
+            SpringLaw::Bowing(law) => law.respond(&deflection()),
+            SpringLaw::Logarithm(law) => law.respond(&deflection()),
+        };
+        for i in 0..6 {
+            torque[self.first + i] += response.torque[i];
+            for j in 0..6 {
+                entry(i, j, response.material[(i, j)] + response.geometric[(i, j)]);
+            }
+        }
+        geometric.push((self.first, response.geometric));
+        response.energy
+    }
+
+    /// Corrects `to`, which is `from` plus a step of an iteration, to second order: a law that is
+    /// linear in other coordinates than these takes the step in its own.
+    pub(crate) fn follow(&self, from: &[f64], preload: f64, to: &mut [f64]) {
+        if self.len() != 6 {
+            return;
+        }
+        let own = self.first..self.first + self.len();
+        let rest = Vector6::from_column_slice(&self.rest) * preload;
+        let now = Vector6::from_column_slice(&from[own.clone()]);
+        let step = Vector6::from_column_slice(&to[own.clone()]) - now;
+        let next = match &self.law {
+            SpringLaw::Linear(_) | SpringLaw::Parallelogram(_) => return,
+            SpringLaw::Bowing(law) => law.follow(&(now - rest), &step),
+            SpringLaw::Logarithm(law) => law.follow(&(now - rest), &step),
+        };
+        to[own].copy_from_slice((next + rest).as_slice());
+    }
+
+    fn add_constant<R, C, S>(
+        &self,
+        matrix: &nalgebra::Matrix<f64, R, C, S>,
+        values: &[f64],
+        preload: f64,
+        torque: &mut [f64],
+        entry: &mut impl FnMut(usize, usize, f64),
+    ) -> f64
+    where
+        R: nalgebra::Dim,
+        C: nalgebra::Dim,
+        S: nalgebra::RawStorage<f64, R, C>,
+    {
+        let mut energy = 0.0;
+        for i in 0..self.len() {
+            let mut sum = 0.0;
+            for j in 0..self.len() {
+                let deflection = values[self.first + j] - preload * self.rest[j];
+                sum += matrix[(i, j)] * deflection;
+                entry(i, j, matrix[(i, j)]);
+            }
+            torque[self.first + i] += sum;
+            energy += 0.5 * sum * (values[self.first + i] - preload * self.rest[i]);
+        }
+        energy
+    }
+
+    /// The stiffness at the unloaded posture, k x k.
+    #[must_use]
+    pub fn stiffness_at(&self, posture: &[f64]) -> DMatrix<f64> {
+        match &self.law {
+            SpringLaw::Linear(matrix) => matrix.clone(),
+            SpringLaw::Parallelogram(law) => {
+                let m = law.matrix(posture[law.inclination]);
+                DMatrix::from_fn(5, 5, |i, j| m[(i, j)])
+            }
+            SpringLaw::Bowing(law) => DMatrix::from_fn(6, 6, |i, j| law.matrix[(i, j)]),
+            SpringLaw::Logarithm(law) => {
+                let m = law.at_rest();
+                DMatrix::from_fn(6, 6, |i, j| m[(i, j)])
+            }
+        }
+    }
+}
+
+/// A stiffness matrix in units in which its diagonal is one: metres and radians are judged alike.
+pub(crate) fn balanced(k: &DMatrix<f64>) -> DMatrix<f64> {
+    let scale: Vec<f64> = k
+        .diagonal()
+        .iter()
+        .map(|x| x.abs().max(1e-300).sqrt())
+        .collect();
+    DMatrix::from_fn(k.nrows(), k.ncols(), |i, j| {
+        k[(i, j)] / (scale[i] * scale[j])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BeamSection;
+
+    fn respond(block: &SpringBlock, x: &[f64; 6]) -> (f64, Vec<f64>, DMatrix<f64>) {
+        let (mut torque, mut tangent) = (vec![0.0; 6], DMatrix::zeros(6, 6));
+        let energy = block.add(
+            x,
+            &[0.0; 6],
+            1.0,
+            &mut torque,
+            &mut |i, j, value| tangent[(i, j)] += value,
+            &mut Vec::new(),
+        );
+        (energy, torque, tangent)
+    }
+
+    #[test]
+    fn torque_and_tangent_are_derivatives_of_the_energy() {
+        let section = BeamSection {
+            youngs_modulus: 1.0,
+            shear_modulus: 0.4,
+            area: 5.0,
+            second_moment_y: 0.3,
+            second_moment_z: 0.7,
+            torsion_constant: 0.5,
+        };
+        // Every coupling that a matrix from finite elements may have.
+        let matrix = section.cantilever(0.8).unwrap()
+            + Matrix6::from_fn(|i, j| 0.02 * ((1 + i + j + i * j) as f64).sin());
+        let laws = [
+            SpringLaw::Bowing(Box::new(BowingLaw {
+                matrix,
+                length: 0.8,
+            })),
+            SpringLaw::Logarithm(Box::new(LogarithmLaw {
+                matrix,
+                length: 0.0,
+            })),
+            SpringLaw::Logarithm(Box::new(LogarithmLaw {
+                matrix,
+                length: 0.8,
+            })),
+        ];
+        for law in laws {
+            let block = SpringBlock {
+                name: "s".into(),
+                first: 0,
+                rest: vec![0.01, -0.02, 0.03, 0.02, -0.01, 0.04],
+                law,
+                segment: None,
+            };
+            for x in [
+                [0.1, -0.3, 0.2, 0.4, -0.6, 0.5],
+                [-0.2, 0.5, 0.1, -1.0, 1.2, 0.9],
+                [0.01, -0.02, 0.03, 0.02, -0.01, 0.04],
+            ] {
+                let (_, torque, tangent) = respond(&block, &x);
+                assert!((&tangent - tangent.transpose()).amax() < 1e-14);
+                for k in 0..6 {
+                    let at = |s: f64| {
+                        let mut moved = x;
+                        moved[k] += s * 1e-3;
+                        respond(&block, &moved)
+                    };
+                    let [a, b, c, d] = [at(1.0), at(-1.0), at(2.0), at(-2.0)];
+                    let slope = (8.0 * (a.0 - b.0) - (c.0 - d.0)) / 12e-3;
+                    assert!(
+                        (slope - torque[k]).abs() < 1e-9,
+                        "{k}: {slope} {}",
+                        torque[k]
+                    );
+                    for i in 0..6 {
+                        let slope = (8.0 * (a.1[i] - b.1[i]) - (c.1[i] - d.1[i])) / 12e-3;
+                        assert!((slope - tangent[(i, k)]).abs() < 1e-9, "{i} {k}");
+                    }
+                }
+            }
+            let (energy, torque, tangent) =
+                respond(&block, &[0.01, -0.02, 0.03, 0.02, -0.01, 0.04]);
+            assert!(energy == 0.0 && torque.iter().all(|t| t.abs() < 1e-15));
+            assert!((tangent - block.stiffness_at(&[])).amax() < 1e-14);
+        }
+    }
+}
