@@ -1,10 +1,8 @@
 //! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
 //! finding (singular, unstable, redundant) is a field of a result.
 
-use crate::continuation::growing_load::LoadLimit;
-use crate::model::chain::MotionKind;
 use crate::number;
-use crate::spatial::{Pose, Wrench};
+use crate::spatial::{MotionKind, Pose, Twist, Wrench};
 
 /// Joint values in the unit that people read; the unit comes once, at the end.
 fn in_words<const N: usize>(kind: MotionKind, values: [f64; N]) -> String {
@@ -224,4 +222,14 @@ impl Error {
                 | Self::FreeDirection { .. }
         )
     }
+}
+
+/// A limit point on the way from rest to a load: the branch that starts at rest carries no more,
+/// and a dead load beyond it makes the machine snap to another equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadLimit {
+    /// Share of the load that is carried, 0 to 1.
+    pub share: f64,
+    /// Displacement of the tool there, from the nominal target (m, rad).
+    pub displacement: Twist,
 }

@@ -95,11 +95,12 @@ mod spatial;
 
 pub use chain::compliance::CartesianCompliance;
 pub use chain::directions::{Direction, DirectionKind, Share};
-pub use chain::equilibrium::{
-    ChainProblem, EndCondition, Equilibrium, Prescribed, Residual, solve_chain, unloaded_tip,
-};
+pub use chain::equilibrium::{Equilibrium, solve_chain};
 pub use chain::graded::{uneven_in_words, uneven_springs_in_words};
 pub use chain::link_load::{LinkLoad, link_loads};
+pub use chain::potential::{is_conservative, load_energy};
+pub use chain::problem::{ChainProblem, EndCondition, Prescribed};
+pub use chain::residual::Residual;
 pub use chain::stability::{ShapeStability, ShapeVerdict};
 pub use chain::stiffness::{ChainStiffness, unloaded_stiffness};
 pub use compensation::following::{compensate_following, target_under_load_following};
@@ -110,7 +111,6 @@ pub use continuation::critical::{CriticalLoad, CriticalPoint, Judged, critical_l
 pub use continuation::equilibria::{
     Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria,
 };
-pub use continuation::growing_load::LoadLimit;
 pub use continuation::held_curve::{HeldCurve, HeldPoint};
 pub use continuation::jumps::Jump;
 pub use continuation::machine_equilibria::{MachineEquilibria, MachineFound, SpreadSettings};
@@ -118,32 +118,30 @@ pub use continuation::machine_path::{
     MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind,
 };
 pub use continuation::reduced::{LoadPattern, Parameter};
-pub use error::{Error, Result};
+pub use error::{Error, LoadLimit, Result};
 pub use linalg::saddle::Inertia;
 pub use linalg::singular_values::SingularValues;
 pub use machine::assembly::LinearAssembly;
 pub use machine::constraints::{Overconstraint, SelfStress};
 pub use machine::explain::negative_stiffness::OvercomeSpring;
 pub use machine::inverse::limb::{LimbPosture, inverse_kinematics};
-pub use machine::platforms::solver::MechanismState;
 pub use machine::posture::{
     LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
 };
 pub use machine::singular::near::{NearSingularity, SingularityKind};
+pub use machine::state::MechanismState;
 pub use model::beam::BeamSection;
 pub use model::builder::{ActuatorSpec, ChainBuilder};
-pub use model::chain::{
-    Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
-};
-pub use model::kinematics::Kinematics;
+pub use model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
+pub use model::kinematics::{Kinematics, NodeTangent, unloaded_tip};
 pub use model::link::{LinkConvention, LinkElasticity, LinkSpec};
 pub use model::loads::check::{TangentCheck, check_tangents};
 pub use model::loads::follower::{Follower, PointForce};
 pub use model::loads::function::FunctionLoad;
 pub use model::loads::length_law::{LengthFunction, LengthLaw, LengthResponse};
-pub use model::loads::load::{Load, NodeLoad, NodeTangent};
+pub use model::loads::load::Load;
+pub use model::loads::node_load::NodeLoad;
 pub use model::loads::platform::PlatformLoad;
-pub use model::loads::potential::{is_conservative, load_energy};
 pub use model::loads::strut::{Anchor, Strut};
 pub use model::mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
 pub use model::springs::block::{Segment, SpringBlock, SpringLaw};
@@ -164,5 +162,6 @@ pub use reference::report_iteration::{
 pub use reference::shape_criterion::{ShapeCriterion, shape_criterion};
 pub use settings::Settings;
 pub use spatial::{
-    CartesianStiffness, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix, turn_matrix,
+    CartesianStiffness, MotionKind, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix,
+    turn_matrix,
 };

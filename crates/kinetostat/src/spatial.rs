@@ -233,6 +233,27 @@ pub(crate) fn on_screw(from: &Pose, to: &Pose, share: f64) -> Pose {
     from * Pose::from_parts(there.into(), UnitQuaternion::from_scaled_axis(part))
 }
 
+/// Translation along, or rotation about, an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionKind {
+    /// Translation, m.
+    Prismatic,
+    /// Rotation, rad.
+    Revolute,
+}
+
+/// `d log(E exp(hat(w)))/dw` at `w = 0`, for `log E = e`.
+pub(crate) fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
+    let angle = e.norm();
+    let second = if angle < 1e-4 {
+        1.0 / 12.0
+    } else {
+        1.0 / (angle * angle) - 1.0 / (2.0 * angle * (0.5 * angle).tan())
+    };
+    Matrix3::identity() + 0.5 * hat(e) + second * hat(e) * hat(e)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

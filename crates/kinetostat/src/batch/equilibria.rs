@@ -8,8 +8,8 @@ use super::{BLOCKS, Batch, Found, Table, in_parallel, left};
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};
-use crate::machine::platforms::solver::MechanismState;
 use crate::machine::posture::{MechanismEquilibrium, Posture};
+use crate::machine::state::MechanismState;
 use crate::spatial::{Pose, Wrench};
 
 /// Loaded equilibrium of many postures.

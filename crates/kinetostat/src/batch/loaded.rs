@@ -23,7 +23,7 @@ use super::plan::{Held, Joint, Law, Plan, Spring, Step};
 use super::reach::turn_between;
 use super::symmetric::Symmetric;
 use super::unloaded::{Place, amount, matrix};
-use crate::model::chain::MotionKind;
+use crate::spatial::MotionKind;
 
 /// Passes after which a lane is given up. One of [`MOST_CONTRACTION`] is done in thirty.
 pub(super) const MOST_PASSES: usize = 30;

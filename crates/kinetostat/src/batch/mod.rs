@@ -38,12 +38,11 @@ mod verdict;
 
 use rayon::prelude::*;
 
-use crate::chain::equilibrium::unloaded_tip;
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::posture::Posture;
 use crate::model::chain::Chain;
-use crate::model::kinematics::Kinematics;
+use crate::model::kinematics::{Kinematics, unloaded_tip};
 use crate::model::mechanism::{Limb, Mechanism};
 use crate::spatial::Pose;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};

@@ -26,7 +26,7 @@ use super::lanes::{Lanes, Vec3, cross, dot};
 use super::loaded::{LoadedLimb, back, component, lever, rotated_back, select, slid, times};
 use super::plan::{Held, Joint, Plan, Spring, Step};
 use super::unloaded::matrix;
-use crate::model::chain::MotionKind;
+use crate::spatial::MotionKind;
 
 /// Steps, and shortenings of one, after which a lane is given up.
 const MOST_STEPS: usize = 25;

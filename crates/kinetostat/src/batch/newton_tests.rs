@@ -3,12 +3,8 @@
 use nalgebra::{DVector, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3};
 
 use super::*;
-use crate::ActuatorSpec;
-use crate::BeamSection;
-use crate::Chain;
-use crate::Kinematics;
-use crate::MotionKind;
 use crate::spatial::Wrench;
+use crate::{ActuatorSpec, BeamSection, Chain, Kinematics, MotionKind};
 
 const EA: f64 = 1e6;
 

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
-use crate::model::chain::{Chain, Element, Motion, MotionKind, Role};
+use crate::model::chain::{Chain, Element, Motion, Role};
 use crate::model::kinematics::Kinematics;
 use crate::model::springs::block::{SpringBlock, SpringLaw};
 use crate::model::springs::parallelogram::ParallelogramLaw;
-use crate::spatial::Pose;
+use crate::spatial::{MotionKind, Pose};
 
 /// How far a motion goes: `fixed + ratio * command + ratio * coordinate`, m or rad.
 #[derive(Clone, Copy, Debug)]

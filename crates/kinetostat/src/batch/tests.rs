@@ -6,13 +6,7 @@ use pulp::{Arch, Scalar};
 use super::lanes::Lanes;
 use super::run::{CHOSEN, Places};
 use super::*;
-use crate::ActuatorSpec;
-use crate::BeamSection;
-use crate::Chain;
-use crate::Limb;
-use crate::MotionKind;
-use crate::Platform;
-use crate::Wrench;
+use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench};
 
 /// Numbers between -1 and 1 with nothing special about them.
 fn irregular(i: usize) -> f64 {

@@ -16,7 +16,7 @@ use super::lanes::{
 use super::law;
 use super::plan::{Amount, Drive, Held, Joint, Law, Plan, Step};
 use super::symmetric::Symmetric;
-use crate::model::chain::MotionKind;
+use crate::spatial::MotionKind;
 
 /// Axis and place of a motion that a coordinate or a command drives, base axes.
 #[derive(Clone, Copy)]

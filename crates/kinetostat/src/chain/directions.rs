@@ -5,10 +5,11 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::linalg::saddle::{RANK_TOLERANCE, column_space, complement};
-use crate::model::chain::{Chain, MotionKind, Role, Scale};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{RANK_TOLERANCE, column_space};
+use crate::model::chain::{Chain, Role, Scale};
 use crate::number::short;
-use crate::spatial::Twist;
+use crate::spatial::{MotionKind, Twist};
 
 /// Kind of a direction of the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

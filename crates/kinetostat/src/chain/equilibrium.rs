@@ -13,121 +13,28 @@
 //! Long chains are solved by sweeps along them (`sweep.rs`), with cost and memory that grow with the
 //! number of coordinates; what a sweep cannot do falls back on dense matrices.
 
-use nalgebra::{DMatrix, Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::directions::DirectionKind;
+use crate::chain::potential::is_conservative;
+use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
+use crate::chain::residual::{Balance, Residual};
+use crate::chain::scaling::{LEAST_LOAD, gone, natural, nudged, step_limit};
+pub(crate) use crate::chain::scaling::{balance, disparate};
 use crate::chain::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
-use crate::chain::sweep::solve::{Bordered, EndRows, STEP_SPRINGS};
+use crate::chain::sweep::end_spring::STEP_SPRINGS;
+use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{Form, Path, Sweep, turned_rows};
-pub(crate) use crate::chain::system::{System, balance, beyond, disparate, rounding};
-use crate::continuation::reduced::{rotation_rate, stability_as_prescribed};
+pub(crate) use crate::chain::system::{System, rounding};
+use crate::continuation::reduced::stability_as_prescribed;
 use crate::error::{Error, Result};
 use crate::linalg::saddle::Saddle;
-use crate::model::chain::{Chain, MotionKind, Role};
+use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
-use crate::model::loads::check::check_loads;
-use crate::model::loads::load::Load;
-use crate::model::loads::potential::is_conservative;
 use crate::settings::Settings;
-use crate::spatial::{Pose, Twist, Wrench, on_screw, pose_residual};
-
-/// What is prescribed in one direction of the end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Prescribed {
-    /// The pose: the wrench follows.
-    Pose,
-    /// The wrench: the motion follows.
-    Wrench,
-}
-
-/// Condition at the end of a chain.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EndCondition {
-    /// Axes of the six directions, base from these axes.
-    pub axes: Rotation3<f64>,
-    /// Per direction `x y z rx ry rz` of those axes.
-    pub prescribed: [Prescribed; 6],
-    /// Target where the pose is prescribed, base from tip.
-    pub pose: Pose,
-    /// Wrench where it is prescribed: on the end, about its origin, base axes.
-    pub wrench: Wrench,
-}
-
-impl EndCondition {
-    /// The end is held at a pose.
-    #[must_use]
-    pub fn pose(pose: Pose) -> Self {
-        Self {
-            axes: Rotation3::identity(),
-            prescribed: [Prescribed::Pose; 6],
-            pose,
-            wrench: Wrench::zero(),
-        }
-    }
-
-    /// A dead wrench acts on the end.
-    #[must_use]
-    pub fn wrench(wrench: Wrench) -> Self {
-        Self {
-            axes: Rotation3::identity(),
-            prescribed: [Prescribed::Wrench; 6],
-            pose: Pose::identity(),
-            wrench,
-        }
-    }
-}
-
-/// Everything that decides the equilibrium of one chain.
-#[derive(Clone, Debug)]
-pub struct ChainProblem<'a> {
-    /// The chain.
-    pub chain: &'a Chain,
-    /// Pose of its base in the outer base.
-    pub base: Pose,
-    /// Actuator commands, m or rad.
-    pub commands: Vec<f64>,
-    /// Coordinates of the commanded, unloaded posture (m, rad): start of the iteration and the
-    /// place where posture-dependent springs are evaluated.
-    pub posture: Vec<f64>,
-    /// Loads on nodes.
-    pub loads: Vec<Load>,
-    /// Condition at the end.
-    pub end: EndCondition,
-}
-
-impl<'a> ChainProblem<'a> {
-    /// The chain at home, unloaded, with the given end condition.
-    #[must_use]
-    pub fn new(chain: &'a Chain, end: EndCondition) -> Self {
-        Self {
-            chain,
-            base: Pose::identity(),
-            commands: chain.home_commands(),
-            posture: chain.home_coordinates(),
-            loads: Vec::new(),
-            end,
-        }
-    }
-}
-
-/// How well the conditions of equilibrium hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Residual {
-    /// Closure of the end pose where it is prescribed, m (rotations at the natural length).
-    pub closure_m: f64,
-    /// Unbalanced torque as a share of the loads.
-    pub torque: f64,
-    /// Iterations spent.
-    pub iterations: usize,
-    /// Rate observed: norm of the last correction by that of the one before, in balanced units
-    /// (square root of energy). A linear iteration settles at its rate, exact Newton falls towards
-    /// 0 from step to step. `None` with fewer than two corrections, and where nobody measured it.
-    #[serde(default)]
-    pub rate: Option<f64>,
-}
+use crate::spatial::{MotionKind, Pose, Twist, Wrench, on_screw, pose_residual, rotation_rate};
 
 /// A chain in equilibrium.
 #[derive(Clone, Debug)]
@@ -152,54 +59,6 @@ pub struct Equilibrium {
     pub stability: ShapeStability,
     /// How well the conditions hold.
     pub residual: Residual,
-}
-
-/// Largest step that keeps rotations of joints below half a radian and slides below half the
-/// natural length: beyond that the linearisation says nothing.
-pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 {
-    let slide = 0.5 * chain.scale().length;
-    chain
-        .coordinates()
-        .iter()
-        .zip(step)
-        .fold(1.0_f64, |limit, (c, dx)| {
-            let most = match c.kind {
-                MotionKind::Revolute => 0.5,
-                MotionKind::Prismatic => slide,
-            };
-            limit.min(most / dx.abs().max(1e-300))
-        })
-}
-
-/// Loads smaller than this share of the natural ones (a deflection by the whole length) are taken
-/// as that large where a residual is stated relative to them.
-pub(crate) const LEAST_LOAD: f64 = 1e-9;
-
-/// Unit of balanced residuals: square root of the energy of a deflection by the natural length.
-pub(crate) fn natural(chain: &Chain) -> f64 {
-    chain.scale().stiffness.sqrt() * chain.scale().length
-}
-
-/// Residuals of a system in balanced units (square root of energy).
-#[derive(Clone, Copy)]
-pub(crate) struct Balance {
-    pub closure: f64,
-    pub torque: f64,
-    /// What torques are measured against.
-    pub loads: f64,
-    /// The part of `torque` that is rounding, see [`rounding`].
-    pub rounding: f64,
-}
-
-/// Share of the loads beyond which no unbalanced torque is taken for rounding.
-const MOST_ROUNDING: f64 = 1e-3;
-
-impl Balance {
-    /// What is unbalanced and no rounding: a state that has run away may have coordinates whose digits are worth more
-    /// than all loads, and balances nothing.
-    pub fn exceeding(&self) -> f64 {
-        beyond(self.torque, self.rounding.min(MOST_ROUNDING * self.loads))
-    }
 }
 
 /// A factored linearisation of one state.
@@ -560,26 +419,6 @@ impl<'p, 'a> Attempt<'p, 'a> {
     }
 }
 
-/// Checks lengths, nodes and that all numbers of a problem are finite.
-pub(crate) fn check_problem(problem: &ChainProblem<'_>) -> Result<()> {
-    let chain = problem.chain;
-    chain.check(&problem.posture, &problem.commands)?;
-    let numbers = problem
-        .end
-        .wrench
-        .0
-        .iter()
-        .chain(problem.end.pose.translation.vector.iter());
-    if let Some(value) = numbers.copied().find(|v| !v.is_finite()) {
-        return Err(Error::NotFinite {
-            place: format!("chain '{}'", chain.name()),
-            what: "the end condition".into(),
-            value,
-        });
-    }
-    check_loads(problem)
-}
-
 /// Solves for the equilibrium of a chain.
 ///
 /// # Errors
@@ -687,18 +526,6 @@ pub(crate) fn aside(longest_step: f64) -> f64 {
     if longest_step < 1.0 { 0.0 } else { 1e-3 }
 }
 
-/// Sum of the turns (rad) and slides (natural lengths) of a chain's coordinates.
-pub(crate) fn gone(chain: &Chain, from: &[f64], to: &[f64]) -> f64 {
-    let length = chain.scale().length;
-    let kinds = chain.coordinates().iter().map(|c| c.kind);
-    let moved = kinds.zip(from.iter().zip(to));
-    let moved = moved.map(|(kind, (here, there))| match kind {
-        MotionKind::Revolute => (there - here).abs(),
-        MotionKind::Prismatic => (there - here).abs() / length,
-    });
-    moved.sum()
-}
-
 /// The shape that stays and to which the growing load leads, where one step found another that does not and is
 /// far: it may have passed the former. A straight column, pressed, stays straight.
 fn led_to(
@@ -781,24 +608,6 @@ fn grow_load(
         }
     }
     Ok((x, wrench, iterations, last))
-}
-
-/// The posture with every passive coordinate moved by a fixed, irregular amount of size `size` rad.
-pub(crate) fn nudged(chain: &Chain, posture: &[f64], size: f64) -> Vec<f64> {
-    let length = chain.scale().length;
-    posture
-        .iter()
-        .zip(chain.coordinates())
-        .enumerate()
-        .map(|(i, (&x, c))| {
-            let golden = (i as f64 * 0.618_033_988_749_895 + 0.25).fract() - 0.5;
-            match c.kind {
-                MotionKind::Revolute => x + size * golden,
-                MotionKind::Prismatic if c.role == Role::Passive => x + size * golden * length,
-                MotionKind::Prismatic => x,
-            }
-        })
-        .collect()
 }
 
 impl Attempt<'_, '_> {
@@ -924,11 +733,4 @@ impl System {
             },
         }
     }
-}
-
-/// Tip pose of the unloaded chain (all springs at zero, not at `theta0`) for given passive
-/// coordinates and commands.
-#[must_use]
-pub fn unloaded_tip(chain: &Chain, base: &Pose, coordinates: &[f64], commands: &[f64]) -> Pose {
-    Kinematics::new(chain, base, coordinates, commands, false).tip_pose()
 }

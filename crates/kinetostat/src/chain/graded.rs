@@ -8,10 +8,12 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind, direction, rigid_directions};
-use crate::chain::stability::{MaterialUnits, material_springs};
-use crate::chain::sweep::solve::{Bordered, EndRows, STEP_SPRINGS};
+use crate::chain::material::{MaterialUnits, material_springs};
+use crate::chain::scaling::disparate;
+use crate::chain::sweep::end_spring::STEP_SPRINGS;
+use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{Form, Sweep};
-use crate::chain::system::{System, disparate};
+use crate::chain::system::System;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
 use crate::linalg::singular_values::SingularValues;
 use crate::model::chain::{Chain, Scale};

@@ -3,15 +3,15 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::{motion_in_words, scaled_twist};
-use crate::chain::equilibrium::{ChainProblem, Prescribed, unloaded_tip};
+use crate::chain::potential::prescribed_wrench;
+use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::system::System;
 use crate::error::Error;
-use crate::linalg::saddle::complement;
+use crate::linalg::complement::complement;
 use crate::linalg::singular_values::range;
-use crate::model::chain::{MotionKind, Role};
-use crate::model::kinematics::Kinematics;
-use crate::model::loads::potential::prescribed_wrench;
-use crate::spatial::{pose_residual, turn_matrix};
+use crate::model::chain::Role;
+use crate::model::kinematics::{Kinematics, unloaded_tip};
+use crate::spatial::{MotionKind, pose_residual, turn_matrix};
 
 /// The reason, if it is one of those that no iteration can change.
 pub(crate) fn why(problem: &ChainProblem<'_>) -> Option<Error> {

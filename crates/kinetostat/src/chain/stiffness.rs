@@ -12,14 +12,15 @@
 
 use nalgebra::{DMatrix, Matrix6};
 
-pub(crate) use crate::chain::directions::directions;
-pub(crate) use crate::chain::directions::{Direction, DirectionKind};
+pub(crate) use crate::chain::directions::{Direction, DirectionKind, directions};
 use crate::chain::directions::{Share, free_by_joints, largest, shares};
 use crate::chain::graded::Graded;
+use crate::chain::passive::{balanced_jacobian, names_in, passive_null_space};
+use crate::chain::scaling::balance;
 use crate::chain::sweep::stages::Sweep;
-use crate::chain::system::{System, balance};
+use crate::chain::system::System;
 use crate::error::Result;
-use crate::linalg::saddle::{Saddle, column_space, complement, rows_certainly_independent};
+use crate::linalg::saddle::{Saddle, column_space};
 use crate::model::chain::{Chain, Role};
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 
@@ -92,7 +93,7 @@ pub fn unloaded_stiffness(
 ) -> Result<ChainStiffness> {
     chain.check(coordinates, commands)?;
     let place = format!("chain '{}'", chain.name());
-    crate::model::chain::sensible_pose(&place, "the pose of the base", base)?;
+    crate::model::limits::sensible_pose(&place, "the pose of the base", base)?;
     let factors = balance(chain, coordinates);
     let mut system = System::of_chain(chain, base, coordinates, commands, &factors, None);
     loop {
@@ -114,46 +115,6 @@ pub fn unloaded_stiffness(
         }
         system.make_dense();
     }
-}
-
-/// Balanced Jacobian of the `n` coordinates, 6 x n.
-pub(crate) fn balanced_jacobian(system: &System, factors: &[f64]) -> DMatrix<f64> {
-    let n = system.spring_torque.len();
-    DMatrix::from_fn(6, n, |i, j| {
-        system.jacobian[(i, j)] * factors[i] * factors[6 + j]
-    })
-}
-
-/// Basis of the coordinates' motions that move only passive joints and leave the tip where it is,
-/// n x k, balanced.
-pub(crate) fn passive_null_space(chain: &Chain, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-    let passive = chain.indices_of(Role::Passive);
-    let n = jacobian.ncols();
-    if passive.is_empty() {
-        return DMatrix::zeros(n, 0);
-    }
-    let own = jacobian.select_columns(&passive);
-    if rows_certainly_independent(&own.transpose()) {
-        return DMatrix::zeros(n, 0);
-    }
-    let rows = column_space(&own.transpose());
-    if rows.ncols() == passive.len() {
-        return DMatrix::zeros(n, 0);
-    }
-    let null = complement(&rows);
-    let mut basis = DMatrix::zeros(n, null.ncols());
-    for (k, &index) in passive.iter().enumerate() {
-        basis.row_mut(index).copy_from(&null.row(k));
-    }
-    basis
-}
-
-/// Names of the coordinates with a share of at least a tenth in any column.
-pub(crate) fn names_in(chain: &Chain, basis: &DMatrix<f64>) -> Vec<String> {
-    (0..basis.nrows())
-        .filter(|&i| basis.row(i).amax() > 0.1)
-        .map(|i| chain.coordinates()[i].name.clone())
-        .collect()
 }
 
 /// `solved` is the solution of the bordered system for unit motions of the tip, (6 + n) x 6, where

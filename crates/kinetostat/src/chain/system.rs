@@ -3,11 +3,12 @@
 
 use nalgebra::{DMatrix, Matrix6, Matrix6xX};
 
-use crate::chain::equilibrium::ChainProblem;
+use crate::chain::problem::ChainProblem;
+use crate::chain::scaling::disparate;
 use crate::chain::sweep::stages::{Path, SWEEP_FROM, Sweep};
-use crate::model::chain::{Chain, MotionKind, Role};
-use crate::model::kinematics::Kinematics;
-use crate::model::loads::load::{Load, NodeTangent};
+use crate::model::chain::Chain;
+use crate::model::kinematics::{Kinematics, NodeTangent};
+use crate::model::loads::load::Load;
 use crate::spatial::{Pose, Wrench};
 
 /// Matrices and residuals of a chain at one state; buffers are reused between iterations.
@@ -279,61 +280,4 @@ pub(crate) fn rounding(chain: &Chain, system: &System, factors: &[f64]) -> f64 {
         (system.unbalanced(i).abs().min(most) * factor).powi(2)
     });
     explained.sum::<f64>().sqrt()
-}
-
-/// Root of the sum of squares without a part of it.
-pub(crate) fn beyond(whole: f64, part: f64) -> f64 {
-    ((whole - part) * (whole + part)).max(0.0).sqrt()
-}
-
-/// From this ratio of the stiffest to the softest spring on, pivots of dense matrices are lost among
-/// the numbers that they come from; a sweep takes spring by spring.
-const DISPARATE: f64 = 1e7;
-
-/// Whether the springs' stiffnesses (rotations at the natural length) differ by more than [`DISPARATE`].
-pub(crate) fn disparate(factors: &[f64], chain: &Chain) -> bool {
-    let length = chain.scale().length;
-    let own = chain.coordinates().iter().zip(&factors[6..]);
-    let stiffnesses = own
-        .filter(|(c, _)| c.role == Role::Spring)
-        .map(|(c, factor)| match c.kind {
-            MotionKind::Prismatic => factor.powi(-2),
-            MotionKind::Revolute => (factor * length).powi(-2),
-        });
-    let (least, most) = stiffnesses.fold((f64::INFINITY, 0.0_f64), |(least, most), k| {
-        (least.min(k), most.max(k))
-    });
-    most > DISPARATE * least
-}
-
-/// Factors that make all unknowns of a bordered system comparable: six for the wrench, `n` for
-/// the coordinates; each has the unit of its unknown per square root of energy.
-pub(crate) fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
-    let scale = chain.scale();
-    let root = scale.stiffness.sqrt();
-    let mut factors = Vec::with_capacity(6 + chain.coordinate_count());
-    factors.extend([root; 3]);
-    factors.extend([root * scale.length; 3]);
-    let springs: Vec<f64> = {
-        let mut stiffness = vec![0.0; chain.coordinate_count()];
-        for block in chain.springs() {
-            let k = block.stiffness_at(posture);
-            for i in 0..block.len() {
-                stiffness[block.first + i] = k[(i, i)];
-            }
-        }
-        stiffness
-    };
-    factors.extend(
-        chain
-            .coordinates()
-            .iter()
-            .zip(springs)
-            .map(|(c, k)| match (c.role, c.kind) {
-                (Role::Spring, _) => 1.0 / k.sqrt(),
-                (Role::Passive, MotionKind::Prismatic) => 1.0 / root,
-                (Role::Passive, MotionKind::Revolute) => 1.0 / (root * scale.length),
-            }),
-    );
-    factors
 }

@@ -10,13 +10,14 @@
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
 use crate::chain::directions::axis_in_words;
-use crate::chain::equilibrium::Residual;
+use crate::chain::residual::Residual;
 use crate::compensation::target::Compensation;
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::wrap;
-use crate::machine::platforms::solver::{MechanismState, PlatformSolver};
+use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::{Posture, conclude};
 use crate::machine::singular::lost_motion::{Search, solve};
+use crate::machine::state::MechanismState;
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Wrench, pose_residual};
 

@@ -6,12 +6,12 @@
 //! correct, the nominal target becomes the unknown there, and one Newton iteration finds both.
 //! What the machine cannot correct stays as a reported residual.
 
-use crate::chain::equilibrium::Residual;
+use crate::chain::residual::Residual;
 use crate::error::{Error, Result};
-use crate::machine::platforms::solver::{MechanismState, PlatformSolver, Unknowns};
+use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
 use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
-use crate::model::chain::sensible_pose;
-use crate::model::graph_check::check_state;
+use crate::machine::state::{MechanismState, check_state};
+use crate::model::limits::sensible_pose;
 use crate::model::mechanism::Mechanism;
 use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, pose_residual};

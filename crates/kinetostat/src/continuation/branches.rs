@@ -15,14 +15,15 @@ use std::sync::Arc;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use crate::chain::equilibrium::{ChainProblem, Equilibrium};
+use crate::chain::equilibrium::Equilibrium;
+use crate::chain::problem::ChainProblem;
 use crate::chain::stability::ShapeStability;
 use crate::continuation::bifurcation::Special;
 use crate::continuation::family::Family;
 use crate::continuation::reduced::{Parameter, Reduced};
 use crate::continuation::tracer::Tracer;
 use crate::error::Result;
-use crate::model::chain::sensible;
+use crate::model::limits::sensible;
 use crate::settings::{Settings, wrong};
 
 /// How far and how finely curves are followed.

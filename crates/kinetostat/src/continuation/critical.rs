@@ -12,16 +12,18 @@ use std::cell::RefCell;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::equilibrium::{ChainProblem, Equilibrium, solve_chain};
+use crate::chain::equilibrium::{Equilibrium, solve_chain};
+use crate::chain::potential::is_conservative;
+use crate::chain::problem::ChainProblem;
 use crate::chain::stability::share_to_buckling;
 use crate::continuation::bifurcation::SpecialKind;
 use crate::continuation::branches::{CurvePoint, CurveSettings, follow_until};
 use crate::continuation::reduced::{LoadPattern, Parameter, Reduced};
 use crate::continuation::tracer::Tracer;
 use crate::error::Result;
-use crate::linalg::saddle::{Saddle, column_space, complement};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{Saddle, column_space};
 use crate::linalg::singular_values::SingularValues;
-use crate::model::loads::potential::is_conservative;
 use crate::spatial::Wrench;
 
 /// What must stay stable.
@@ -254,7 +256,7 @@ impl Tangent {
         let rows = match judged {
             Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
             Judged::Shape => {
-                crate::chain::stiffness::balanced_jacobian(&reduced.system, &reduced.factors)
+                crate::chain::passive::balanced_jacobian(&reduced.system, &reduced.factors)
             }
         };
         let null = free_motions(reduced, &rows);
@@ -359,7 +361,7 @@ fn linear_prediction(
     let rows = match judged {
         Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
         Judged::Shape => {
-            crate::chain::stiffness::balanced_jacobian(&reduced.system, &reduced.factors)
+            crate::chain::passive::balanced_jacobian(&reduced.system, &reduced.factors)
         }
     };
     // Reactions per unit factor; the posture stays.

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::chain::stability::{MaterialUnits, on_both_sides};
+use crate::chain::material::{MaterialUnits, on_both_sides};
 use crate::continuation::curve_sweep::CurveSweep;
 use crate::continuation::family::Family;
 use crate::linalg::saddle::Saddle;

@@ -14,11 +14,13 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
+use crate::chain::sweep::end_spring::STEP_SPRINGS;
 use crate::chain::sweep::factor::Factored;
-use crate::chain::sweep::solve::{EndRows, STEP_SPRINGS};
+use crate::chain::sweep::solve::EndRows;
 use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::continuation::curve_matrix::{Tangent, determinant};
-use crate::linalg::saddle::{Saddle, complement};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::Saddle;
 
 /// A state of a curve, its chain swept.
 pub(crate) struct CurveSweep {

@@ -13,7 +13,10 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::equilibrium::{ChainProblem, Equilibrium, Prescribed, step_limit};
+use crate::chain::equilibrium::Equilibrium;
+use crate::chain::potential::load_energy;
+use crate::chain::problem::{ChainProblem, Prescribed};
+use crate::chain::scaling::step_limit;
 use crate::continuation::branches::{CurveSettings, follow};
 use crate::continuation::family::family_of;
 use crate::continuation::reduced::{Corrected, LoadPattern, Parameter, Reduced};
@@ -21,10 +24,9 @@ use crate::continuation::state_distance::wrapped;
 use crate::error::{Error, Result};
 use crate::linalg::saddle::{Saddle, pseudo_inverse};
 use crate::linalg::singular_values::SingularValues;
-use crate::model::chain::{Chain, MotionKind, Role};
-use crate::model::loads::potential::load_energy;
+use crate::model::chain::{Chain, Role};
 use crate::settings::Settings;
-use crate::spatial::Twist;
+use crate::spatial::{MotionKind, Twist};
 
 /// Limits of the coordinates within which equilibria count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -288,7 +290,7 @@ fn structured(posture: &[f64], chain: &Chain) -> Vec<Vec<f64>> {
     let mirrored = |x: &[f64]| x.iter().map(|v| -v).collect::<Vec<f64>>();
     let mut list = vec![mirrored(&home), home, mirrored(posture), posture.to_vec()];
     for size in [0.05, 0.5, -0.5] {
-        list.push(crate::chain::equilibrium::nudged(chain, posture, size));
+        list.push(crate::chain::scaling::nudged(chain, posture, size));
     }
     list
 }

@@ -153,7 +153,7 @@ pub(crate) fn family_of(
     if !own.iter().all(|x| x.is_finite()) {
         return None;
     }
-    let motions = &null * crate::linalg::saddle::complement(&DMatrix::from_columns(&[own]));
+    let motions = &null * crate::linalg::complement::complement(&DMatrix::from_columns(&[own]));
     let lefts = found.left.columns(0, k).into_owned();
     let family = Family { motions, lefts };
     let before = reduced.family.replace(family.clone().into());

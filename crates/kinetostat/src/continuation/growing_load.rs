@@ -4,13 +4,15 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind, motion_in_words};
-use crate::chain::equilibrium::{EndCondition, Residual};
+use crate::chain::problem::EndCondition;
+use crate::chain::residual::Residual;
 use crate::continuation::branches::CurveSettings;
 use crate::continuation::machine_path::Path;
 use crate::continuation::reduced::{LoadPattern, Parameter};
-use crate::error::{Error, Result};
-use crate::machine::platforms::solver::{MechanismState, PlatformSolver, Unknowns};
+use crate::error::{Error, LoadLimit, Result};
+use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
 use crate::machine::posture::{MechanismEquilibrium, Posture};
+use crate::machine::state::MechanismState;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
 /// How far a tool is led, in natural lengths: more than half a turn about any axis nearby.
@@ -30,16 +32,6 @@ const EFFORT: usize = 20_000;
 
 /// Secant and tangent compliances along a load that differ less belong to one smooth branch.
 const SMOOTH: f64 = 2.0;
-
-/// A limit point on the way from rest to a load: the branch that starts at rest carries no more,
-/// and a dead load beyond it makes the machine snap to another equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoadLimit {
-    /// Share of the load that is carried, 0 to 1.
-    pub share: f64,
-    /// Displacement of the tool there, from the nominal target (m, rad).
-    pub displacement: Twist,
-}
 
 /// How leading a tool along a motion ends.
 enum Led {

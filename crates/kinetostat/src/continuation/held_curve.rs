@@ -4,10 +4,11 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 use crate::error::Result;
-use crate::linalg::saddle::{complement, pseudo_inverse};
-use crate::machine::platforms::solver::{Guide, MechanismState, Unknowns};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::pseudo_inverse;
+use crate::machine::platforms::solver::{Guide, Unknowns};
 use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
-use crate::model::graph_check::check_state;
+use crate::machine::state::{MechanismState, check_state};
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
 
 /// One point of a curve.

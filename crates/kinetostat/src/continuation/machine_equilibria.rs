@@ -6,15 +6,17 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{DMatrix, DVector, Vector6};
 use rayon::prelude::*;
 
-use crate::chain::equilibrium::{EndCondition, unloaded_tip};
+use crate::chain::problem::EndCondition;
 use crate::continuation::branches::CurveSettings;
 use crate::continuation::equilibria::{Bounds, chance_of_more};
 use crate::continuation::machine_path::Path;
 use crate::error::Result;
-use crate::machine::platforms::solver::{MechanismState, Unknowns};
+use crate::machine::platforms::solver::Unknowns;
 use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
-use crate::model::chain::{MotionKind, Role};
-use crate::spatial::{Pose, Twist, moved, pose_residual};
+use crate::machine::state::MechanismState;
+use crate::model::chain::Role;
+use crate::model::kinematics::unloaded_tip;
+use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

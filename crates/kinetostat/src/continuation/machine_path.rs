@@ -9,16 +9,17 @@ use nalgebra::{DMatrix, DVector, Vector3, Vector6};
 
 use crate::chain::directions::DirectionKind;
 use crate::chain::divergence::diverging_motions;
-use crate::chain::equilibrium::{EndCondition, Prescribed};
 use crate::chain::graded::{levels, root_rows};
+use crate::chain::problem::{EndCondition, Prescribed};
 use crate::continuation::branches::{BranchEnd, CurveSettings};
 use crate::continuation::machine_equilibria::MachineFound;
 use crate::continuation::reduced::{LoadPattern, Parameter};
 use crate::error::{Error, Result};
-use crate::linalg::saddle::complement;
+use crate::linalg::complement::complement;
 use crate::machine::directions::{independent_columns, without};
-use crate::machine::platforms::solver::{Guide, MechanismState, Unknowns};
+use crate::machine::platforms::solver::{Guide, Unknowns};
 use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::machine::state::MechanismState;
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, turn_matrix};
 
 /// Steps that may fail besides as many as there may be points.

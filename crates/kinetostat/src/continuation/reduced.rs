@@ -14,15 +14,15 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
-use crate::chain::equilibrium::{
-    Balance, ChainProblem, Equilibrium, Prescribed, System, balance, check_problem, disparate,
-    natural, nudged, rounding,
-};
-use crate::chain::stability::{
-    MaterialUnits, ShapeStability, material_springs, stability_within, swept_stability_within,
-};
+use crate::chain::equilibrium::{Equilibrium, System, balance, disparate, rounding};
+use crate::chain::material::{MaterialUnits, material_springs};
+use crate::chain::potential::is_conservative;
+use crate::chain::problem::{ChainProblem, Prescribed, check_numbers, check_problem};
+use crate::chain::residual::Balance;
+use crate::chain::scaling::{natural, nudged};
+use crate::chain::stability::{ShapeStability, stability_within, swept_stability_within};
 use crate::chain::sweep::solve::EndMotions;
 use crate::chain::sweep::stages::{Path, turned_rows};
 use crate::continuation::curve_matrix::{CurveMatrix, StateUnits, Whole};
@@ -30,13 +30,13 @@ use crate::continuation::curve_sweep::CurveSweep;
 use crate::continuation::family::Family;
 use crate::continuation::singular_point::NullDirections;
 use crate::error::{Error, Result};
-use crate::linalg::saddle::{RANK_TOLERANCE, column_space, complement};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{RANK_TOLERANCE, column_space};
 use crate::linalg::singular_values::SingularValues;
-use crate::model::chain::{Role, sensible};
+use crate::model::chain::Role;
 use crate::model::loads::load::Load;
-use crate::model::loads::potential::is_conservative;
 use crate::settings::Settings;
-use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, turn_matrix};
+use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, rotation_rate, turn_matrix};
 
 /// Loads that grow together: at factor `f` the chain carries its own loads plus `f` times these.
 #[derive(Clone, Debug, Default)]
@@ -361,7 +361,7 @@ impl<'p, 'a> Reduced<'p, 'a> {
     }
 
     fn balanced_jacobian(&self) -> DMatrix<f64> {
-        crate::chain::stiffness::balanced_jacobian(&self.system, &self.factors)
+        crate::chain::passive::balanced_jacobian(&self.system, &self.factors)
     }
 
     /// Number of reactions.
@@ -1027,25 +1027,4 @@ impl<'p, 'a> Reduced<'p, 'a> {
         }
         equilibrium
     }
-}
-
-/// `d log(E exp(hat(w)))/dw` at `w = 0`, for `log E = e`.
-pub(crate) fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
-    let angle = e.norm();
-    let second = if angle < 1e-4 {
-        1.0 / 12.0
-    } else {
-        1.0 / (angle * angle) - 1.0 / (2.0 * angle * (0.5 * angle).tan())
-    };
-    Matrix3::identity() + 0.5 * hat(e) + second * hat(e) * hat(e)
-}
-
-pub(crate) fn check_numbers(
-    problem: &ChainProblem<'_>,
-    what: &str,
-    v: &Vector6<f64>,
-) -> Result<()> {
-    let place = format!("chain '{}'", problem.chain.name());
-    let mut numbers = v.iter();
-    numbers.try_for_each(|x| sensible(&place, || what.to_owned(), *x))
 }

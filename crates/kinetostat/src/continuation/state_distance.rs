@@ -3,7 +3,8 @@
 use nalgebra::DVector;
 
 use crate::continuation::reduced::Reduced;
-use crate::model::chain::{Chain, MotionKind, Role};
+use crate::model::chain::{Chain, Role};
+use crate::spatial::MotionKind;
 
 /// Full turn of every coordinate in balanced units, 0 where a turn makes a difference.
 pub(crate) fn wraps(chain: &Chain, reduced: &Reduced<'_, '_>) -> Vec<f64> {

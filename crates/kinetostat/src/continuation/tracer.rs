@@ -15,7 +15,7 @@ use crate::continuation::state_distance::{
     distance, off_segment, segment_distance, wrapped, wraps,
 };
 use crate::error::Result;
-use crate::model::chain::MotionKind;
+use crate::spatial::MotionKind;
 
 /// Attempted steps after which a branch must have come further.
 const ATTEMPTS: usize = 150;

@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::{DMatrix, Dyn, LU};
 
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE};
-use crate::machine::platforms::sparse::Sparse;
+use crate::linalg::sparse::Sparse;
 
 /// What blocks may be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -350,6 +350,9 @@ impl BlockFactors {
         (inertia, least / most.max(f64::MIN_POSITIVE))
     }
 }
+
+/// Dense matrices are faster for this many moving platforms and fewer.
+pub(crate) const FEW: usize = 10;
 
 #[cfg(test)]
 mod tests {

@@ -122,32 +122,6 @@ pub(crate) fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
     crate::linalg::singular_values::range(a, RANK_TOLERANCE)
 }
 
-/// Orthonormal basis of everything orthogonal to the (independent) columns of `a`, n x (n - k).
-pub(crate) fn complement(a: &DMatrix<f64>) -> DMatrix<f64> {
-    let (n, k) = a.shape();
-    // As many columns as rows span all there is; more can only be rounding's.
-    if k >= n {
-        return DMatrix::zeros(n, 0);
-    }
-    let mut augmented = DMatrix::zeros(n, k + n);
-    augmented.columns_mut(0, k).copy_from(a);
-    augmented.columns_mut(k, n).fill_with_identity();
-    let q = augmented.qr().q();
-    q.columns(k, n - k).into_owned()
-}
-
-/// The same of few columns in many rows, in a number of steps that grows with `n^2 k` only; a basis whose
-/// columns lie along no axes.
-pub(crate) fn complement_of_few(a: &DMatrix<f64>) -> DMatrix<f64> {
-    let (n, k) = a.shape();
-    if k >= n {
-        return DMatrix::zeros(n, 0);
-    }
-    let mut turned = DMatrix::identity(n, n);
-    a.clone().qr().q_tr_mul(&mut turned);
-    turned.rows(k, n - k).transpose()
-}
-
 /// Number of positive, negative and zero eigenvalues.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Inertia {

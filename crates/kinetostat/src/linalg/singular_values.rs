@@ -13,7 +13,7 @@
 
 use nalgebra::{DMatrix, DVector, Dim, Matrix, RawStorage};
 
-use crate::linalg::saddle::complement;
+use crate::linalg::complement::complement;
 
 /// Matrices of at most so many columns are rotated as they are: what is exactly zero stays so, and
 /// small values of graded matrices are right relative to themselves.

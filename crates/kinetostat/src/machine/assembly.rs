@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use crate::error::{Error, Result};
 use crate::machine::network::Network;
-use crate::machine::platforms::sparse::PlatformSystem;
+use crate::machine::platform_system::PlatformSystem;
 use crate::machine::posture::Posture;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
@@ -36,7 +36,7 @@ impl Posture<'_> {
             .map(|(limb, joints)| {
                 let base = self.platforms[limb.from];
                 let tip = |chain| {
-                    crate::chain::equilibrium::unloaded_tip(
+                    crate::model::kinematics::unloaded_tip(
                         chain,
                         &base,
                         &joints.coordinates,

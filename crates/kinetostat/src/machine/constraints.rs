@@ -4,14 +4,14 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::chain::directions::axis_in_words;
-use crate::linalg::saddle::complement;
+use crate::linalg::complement::complement;
 use crate::linalg::singular_values::range;
 use crate::machine::directions::independent_columns;
 use crate::machine::network::ends;
 use crate::machine::posture::Posture;
-use crate::model::chain::{MotionKind, Role};
+use crate::model::chain::Role;
 use crate::model::kinematics::Kinematics;
-use crate::spatial::Wrench;
+use crate::spatial::{MotionKind, Wrench};
 
 /// Singular values below this share of the largest are zero: postures close to about 1e-13.
 const ZERO: f64 = 1e-9;

@@ -8,10 +8,12 @@ use crate::chain::directions::scaled_twist;
 use crate::chain::divergence::diverging_motions;
 use crate::chain::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 use crate::linalg::block_elimination::Pivots;
-use crate::linalg::saddle::{Saddle, column_space, complement};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{Saddle, column_space};
 use crate::linalg::singular_values::range;
+use crate::linalg::sparse::Sparse;
 use crate::machine::graded::GradedPlatforms;
-use crate::machine::platforms::sparse::{PlatformSystem, RigidRows, Sparse, motion_units};
+use crate::machine::platform_system::{PlatformSystem, RigidRows, motion_units};
 use crate::model::chain::Scale;
 use crate::spatial::shift_matrix;
 

@@ -11,10 +11,12 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::chain::graded::{levels, principal, root_rows, spread};
 use crate::chain::stiffness::{ChainStiffness, Direction};
-use crate::linalg::saddle::{RANK_TOLERANCE, Saddle, complement};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
+use crate::linalg::sparse::Sparse;
 use crate::machine::directions::independent_columns;
 use crate::machine::network::Ends;
-use crate::machine::platforms::sparse::{Sparse, motion_units};
+use crate::machine::platform_system::motion_units;
 use crate::model::chain::Scale;
 
 /// Stiffnesses of limbs that differ by more are kept apart when limbs are added.

@@ -9,7 +9,8 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
 use crate::chain::stiffness::{ChainStiffness, DirectionKind, unloaded_stiffness};
 use crate::error::Result;
-use crate::machine::platforms::sparse::{RigidRows, Sparse};
+use crate::linalg::sparse::Sparse;
+use crate::machine::platform_system::RigidRows;
 use crate::machine::posture::Posture;
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Twist, Wrench, shift_matrix};

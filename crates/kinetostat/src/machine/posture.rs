@@ -7,10 +7,12 @@ use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
-use crate::chain::equilibrium::{
-    ChainProblem, EndCondition, FAR, Residual, SHORT_STEP, gone, unloaded_tip,
-};
+use crate::chain::equilibrium::{FAR, SHORT_STEP};
 use crate::chain::link_load::{LinkLoad, link_loads};
+use crate::chain::potential::load_energy;
+use crate::chain::problem::{ChainProblem, EndCondition};
+use crate::chain::residual::Residual;
+use crate::chain::scaling::gone;
 use crate::chain::stability::ShapeStability;
 use crate::chain::stiffness::{ChainStiffness, Direction, DirectionKind};
 use crate::error::{Error, Result};
@@ -21,14 +23,13 @@ use crate::machine::graded::GradedPlatforms;
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse};
 use crate::machine::inverse::limb::{LimbPosture, inverse_kinematics};
 use crate::machine::network::Network;
-use crate::machine::platforms::solver::{MechanismState, PlatformSolver, Unknowns};
-use crate::machine::platforms::sparse::RigidRows;
-use crate::model::chain::MotionKind;
-use crate::model::graph_check::check_state;
-use crate::model::loads::potential::load_energy;
+use crate::machine::platform_system::RigidRows;
+use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
+use crate::machine::state::{MechanismState, check_state};
+use crate::model::kinematics::unloaded_tip;
 use crate::model::mechanism::Mechanism;
 use crate::settings::Settings;
-use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
+use crate::spatial::{CartesianStiffness, MotionKind, Pose, Twist, Wrench, pose_residual};
 
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
 #[derive(Clone, Debug)]
@@ -215,7 +216,7 @@ impl Mechanism {
 
     fn posture_from(&self, target: &Pose, near: Option<&Posture<'_>>) -> Result<Posture<'_>> {
         let place = format!("mechanism '{}'", self.name);
-        crate::model::chain::sensible_pose(&place, "the target pose", target)?;
+        crate::model::limits::sensible_pose(&place, "the target pose", target)?;
         let mut platforms: Vec<Pose> = self.platforms.iter().map(|p| p.home).collect();
         platforms[self.tool] = *target;
         let limbs = if self.platforms.len() > 2 {
@@ -601,8 +602,9 @@ impl<'m> Posture<'m> {
     ) -> Result<()> {
         let place = format!("mechanism '{}'", self.mechanism.name);
         self.settings.check(&place)?;
-        values
-            .try_for_each(|value| crate::model::chain::sensible(&place, || what.to_owned(), *value))
+        values.try_for_each(|value| {
+            crate::model::limits::sensible(&place, || what.to_owned(), *value)
+        })
     }
 
     pub(crate) fn settled(

@@ -8,10 +8,11 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6};
 
 use crate::chain::stiffness::ChainStiffness;
+use crate::linalg::sparse::Sparse;
 use crate::machine::graded::GradedPlatforms;
 use crate::machine::network::{Ends, ends};
-use crate::machine::platforms::solver::{MechanismState, PlatformSolver};
-use crate::machine::platforms::sparse::Sparse;
+use crate::machine::platforms::solver::PlatformSolver;
+use crate::machine::state::MechanismState;
 use crate::model::loads::load::Load;
 use crate::spatial::{hat, rotational};
 

@@ -7,7 +7,7 @@ use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
-use crate::reference::passive_rules::positive;
+use crate::model::limits::positive;
 
 /// Section and material of a straight prismatic link along its local x axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

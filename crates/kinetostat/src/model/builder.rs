@@ -6,14 +6,12 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
 
 use crate::error::{Error, Result};
 use crate::model::beam::BeamSection;
-use crate::model::chain::{
-    Actuator, Body, Chain, Coordinate, Drive, Element, Motion, MotionKind, Role, Scale,
-};
+use crate::model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
 use crate::model::link::{LinkConvention, LinkSpec};
 use crate::model::springs::block::{Segment, SpringBlock, SpringLaw, balanced};
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::number::short;
-use crate::spatial::Pose;
+use crate::spatial::{MotionKind, Pose};
 
 /// An actuator as the builder takes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +58,7 @@ const SIX_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Finite, and so that powers are finite too.
 fn usable(x: f64) -> bool {
-    x.abs() <= crate::model::chain::LARGEST
+    x.abs() <= crate::model::limits::LARGEST
 }
 
 fn unit(axis: usize) -> Vector3<f64> {

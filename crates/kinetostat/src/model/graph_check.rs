@@ -2,19 +2,9 @@
 //! numbers that can be calculated with.
 
 use crate::error::{Error, Result};
-use crate::machine::platforms::solver::MechanismState;
-use crate::model::chain::{sensible, sensible_pose};
+use crate::model::limits::{sensible_all, sensible_pose};
 use crate::model::loads::platform::PlatformLoad;
 use crate::model::mechanism::{Mechanism, Platform};
-
-pub(crate) fn sensible_all<'a>(
-    place: &str,
-    what: &str,
-    numbers: impl IntoIterator<Item = &'a f64>,
-) -> Result<()> {
-    let mut numbers = numbers.into_iter();
-    numbers.try_for_each(|x| sensible(place, || what.to_owned(), *x))
-}
 
 /// Refuses a platform without a sensible home, mass or inertia.
 pub(crate) fn check_platform(place: &str, platform: &Platform) -> Result<()> {
@@ -52,55 +42,4 @@ pub(crate) fn check_platform_load(mechanism: &Mechanism, load: &PlatformLoad) ->
     tangents
         .iter()
         .try_for_each(|tangent| sensible_all(&place, what, &tangent.matrix))
-}
-
-/// Refuses a state that is not one of this mechanism.
-pub(crate) fn check_state(mechanism: &Mechanism, state: &MechanismState) -> Result<()> {
-    let place = format!("mechanism '{}'", mechanism.name);
-    let limbs = mechanism.limbs.len();
-    let lists = [
-        (
-            "the state to start from, its platforms",
-            mechanism.platforms.len(),
-            state.platforms.len(),
-        ),
-        (
-            "the state to start from, its coordinates by limb",
-            limbs,
-            state.coordinates.len(),
-        ),
-        (
-            "the state to start from, its wrenches by limb",
-            limbs,
-            state.wrenches.len(),
-        ),
-    ];
-    for (what, expected, found) in lists {
-        if expected != found {
-            return Err(Error::Size {
-                place,
-                what,
-                expected,
-                found,
-            });
-        }
-    }
-    let what = "a number of the state to start from";
-    for pose in &state.platforms {
-        sensible_pose(&place, what, pose)?;
-    }
-    for (limb, own) in mechanism.limbs.iter().zip(&state.coordinates) {
-        let (expected, found) = (limb.nominal.coordinate_count(), own.len());
-        if expected != found {
-            return Err(Error::Size {
-                place: format!("{place}: limb '{}'", limb.name),
-                what: "the state to start from, its coordinates",
-                expected,
-                found,
-            });
-        }
-        sensible_all(&place, what, own)?;
-    }
-    let mut wrenches = state.wrenches.iter();
-    wrenches.try_for_each(|wrench| sensible_all(&place, what, &wrench.0))
 }

@@ -5,11 +5,10 @@
 //! for a chain whose base moves, six motions of the base (translation of its origin, rotation
 //! about it, base axes). Everything is in the axes of the outer base.
 
-use nalgebra::{DMatrix, Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Rotation3, UnitQuaternion, Vector3};
 
-use crate::model::chain::{Chain, Element, MotionKind};
-use crate::model::loads::load::NodeTangent;
-use crate::spatial::{Pose, Wrench};
+use crate::model::chain::{Chain, Element};
+use crate::spatial::{MotionKind, Pose, Wrench};
 
 /// Axis and point of one elementary motion, base axes, m.
 #[derive(Clone, Copy, Debug)]
@@ -316,4 +315,22 @@ fn turn(rotation: &Matrix3<f64>, axis: &Vector3<f64>, angle: f64) -> Matrix3<f64
         }
     }
     rotation * Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(*axis), angle).matrix()
+}
+
+/// `d(wrench on node "on") = matrix * (twist of node "by")`, base axes, each at its node's origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeTangent {
+    /// Node on which the wrench acts.
+    pub on: usize,
+    /// Node whose motion changes it.
+    pub by: usize,
+    /// 6 x 6 (N/m, N/rad, N m/m, N m/rad).
+    pub matrix: Matrix6<f64>,
+}
+
+/// Tip pose of the unloaded chain (all springs at zero, not at `theta0`) for given passive
+/// coordinates and commands.
+#[must_use]
+pub fn unloaded_tip(chain: &Chain, base: &Pose, coordinates: &[f64], commands: &[f64]) -> Pose {
+    Kinematics::new(chain, base, coordinates, commands, false).tip_pose()
 }

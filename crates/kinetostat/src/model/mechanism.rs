@@ -11,9 +11,10 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
-use crate::model::chain::{Chain, Scale, sensible_pose};
-use crate::model::graph_check::{check_platform, check_platform_load, sensible_all};
+use crate::model::chain::{Chain, Scale};
+use crate::model::graph_check::{check_platform, check_platform_load};
 use crate::model::kinematics::Kinematics;
+use crate::model::limits::{sensible_all, sensible_pose};
 use crate::model::loads::check::check_load;
 use crate::model::loads::load::Load;
 use crate::model::loads::platform::PlatformLoad;

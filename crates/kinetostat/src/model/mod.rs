@@ -5,6 +5,7 @@ pub(crate) mod builder;
 pub(crate) mod chain;
 pub(crate) mod graph_check;
 pub(crate) mod kinematics;
+pub(crate) mod limits;
 pub(crate) mod link;
 pub(crate) mod loads;
 pub(crate) mod mechanism;

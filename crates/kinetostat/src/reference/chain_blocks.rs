@@ -4,9 +4,11 @@ use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::chain::compliance::CartesianCompliance;
 use crate::chain::directions::scaled_twist;
-use crate::chain::equilibrium::{ChainProblem, Equilibrium, System, balance};
+use crate::chain::equilibrium::{Equilibrium, System, balance};
+use crate::chain::problem::ChainProblem;
 use crate::error::Result;
-use crate::linalg::saddle::{RANK_TOLERANCE, column_space, complement, pseudo_inverse};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{RANK_TOLERANCE, column_space, pseudo_inverse};
 use crate::model::chain::{Chain, Role, Scale};
 use crate::reference::elimination::{Applied, Inapplicable};
 use crate::spatial::{Pose, Wrench};
@@ -46,7 +48,7 @@ impl ChainBlocks {
     ) -> Result<Self> {
         chain.check(coordinates, commands)?;
         let place = format!("chain '{}'", chain.name());
-        crate::model::chain::sensible_pose(&place, "the pose of the base", base)?;
+        crate::model::limits::sensible_pose(&place, "the pose of the base", base)?;
         let mut system = System::new(chain, base, coordinates, commands, false);
         let none = Wrench::zero();
         system.evaluate(

@@ -6,7 +6,8 @@
 
 use nalgebra::{DMatrix, Matrix6, Vector6};
 
-use crate::linalg::saddle::{RANK_TOLERANCE, Saddle, column_space, complement};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{RANK_TOLERANCE, Saddle, column_space};
 use crate::reference::chain_blocks::{ChainBlocks, regular_inverse};
 use crate::reference::passive_rules::eliminated;
 

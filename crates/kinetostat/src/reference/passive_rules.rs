@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
 use crate::error::{Error, Result};
-use crate::model::chain::{LARGEST, sensible};
+use crate::model::limits::{positive, sensible};
 
 /// A pivot below this share of the terms that make it up is rounding: the direction is free.
 const FREE: f64 = 1e-12;
@@ -247,13 +247,4 @@ pub fn planar_with_slide_along_y(stiffness: &Matrix3<f64>) -> Result<Matrix3<f64
 /// As [`eliminate_passive`].
 pub fn planar_with_hinge_at_end(stiffness: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     Ok(eliminate_passive(stiffness, &Vector3::z())?.matrix)
-}
-
-/// Refuses what is not a positive, finite number.
-pub(crate) fn positive(place: &str, what: &str, value: f64) -> Result<()> {
-    if value > 0.0 && value < LARGEST {
-        return Ok(());
-    }
-    let reason = format!("{what} is {value:?}, a positive number below {LARGEST:e} is needed");
-    Err(Error::model(place, reason))
 }

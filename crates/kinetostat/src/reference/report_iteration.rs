@@ -17,13 +17,15 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::equilibrium::{ChainProblem, Equilibrium};
-use crate::continuation::reduced::{Reduced, Row, check_numbers};
+use crate::chain::equilibrium::Equilibrium;
+use crate::chain::problem::{ChainProblem, check_numbers};
+use crate::continuation::reduced::{Reduced, Row};
 use crate::error::Result;
-use crate::linalg::saddle::{RANK_TOLERANCE, Saddle, complement};
-use crate::model::chain::{Chain, MotionKind};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
+use crate::model::chain::Chain;
 use crate::settings::{Settings, wrong};
-use crate::spatial::Wrench;
+use crate::spatial::{MotionKind, Wrench};
 
 /// When an iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

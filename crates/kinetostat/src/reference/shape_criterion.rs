@@ -10,11 +10,13 @@
 
 use nalgebra::DMatrix;
 
-use crate::chain::equilibrium::{ChainProblem, Equilibrium, Prescribed, System};
+use crate::chain::equilibrium::{Equilibrium, System};
+use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::stability::neutral_motions;
 use crate::error::{Error, Result};
-use crate::linalg::saddle::{column_space, complement};
-use crate::model::chain::MotionKind;
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::column_space;
+use crate::spatial::MotionKind;
 
 /// `S_c` with the basis it is written in.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,7 +17,7 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::chain::sweep::solve::EndSpring;
+use crate::chain::sweep::end_spring::EndSpring;
 use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE};
 

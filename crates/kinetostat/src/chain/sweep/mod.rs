@@ -1,5 +1,6 @@
 //! TODO
 
+pub(crate) mod end_spring;
 pub(crate) mod factor;
 pub(crate) mod solve;
 pub(crate) mod stages;

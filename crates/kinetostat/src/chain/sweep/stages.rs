@@ -30,8 +30,7 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3, Vector6};
 
 use crate::linalg::saddle::RANK_TOLERANCE;
 use crate::model::chain::{Chain, Element};
-use crate::model::kinematics::Kinematics;
-use crate::model::loads::load::NodeTangent;
+use crate::model::kinematics::{Kinematics, NodeTangent};
 use crate::spatial::{Wrench, hat, shift_matrix};
 
 /// Chains of fewer coordinates are solved with dense matrices, which are faster there.

@@ -3,12 +3,15 @@
 
 use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
-use crate::chain::equilibrium::{Prescribed, solve_along};
+use crate::chain::equilibrium::solve_along;
+use crate::chain::passive::balanced_jacobian;
+use crate::chain::problem::Prescribed;
+use crate::chain::scaling::balance;
 use crate::chain::stability::stability_within;
-use crate::chain::stiffness::balanced_jacobian;
-use crate::chain::sweep::solve::{Bordered, END_SPRINGS, EndMotions, EndRows};
+use crate::chain::sweep::end_spring::END_SPRINGS;
+use crate::chain::sweep::solve::{Bordered, EndMotions, EndRows};
 use crate::chain::sweep::stages::{Form, Path, SWEEP_FROM};
-use crate::chain::system::{System, balance};
+use crate::chain::system::System;
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::reduced::{LoadPattern, Parameter, Reduced};
 use crate::*;

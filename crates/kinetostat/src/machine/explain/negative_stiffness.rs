@@ -7,9 +7,9 @@
 use crate::chain::equilibrium::System;
 use crate::error::Result;
 use crate::machine::posture::{MechanismEquilibrium, Posture};
-use crate::model::chain::{MotionKind, Role};
+use crate::model::chain::Role;
 use crate::model::loads::load::Load;
-use crate::spatial::Wrench;
+use crate::spatial::{MotionKind, Wrench};
 
 /// A spring coordinate whose own stiffness the loads on its limb outdo while all other coordinates of
 /// the limb stand still and what follows in the limb rides along.

@@ -14,13 +14,13 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector6};
 
 use crate::error::{Error, Result};
-use crate::linalg::block_elimination::{BlockFactors, Pivots};
+use crate::linalg::block_elimination::{BlockFactors, FEW, Pivots};
+use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::limb::{LimbPosture, inverse_kinematics};
-use crate::machine::platforms::sparse::{FEW, Sparse};
-use crate::model::chain::{MotionKind, Role};
+use crate::model::chain::Role;
 use crate::model::kinematics::Kinematics;
 use crate::model::mechanism::Mechanism;
-use crate::spatial::{Pose, Twist, moved, pose_residual, shift_matrix};
+use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual, shift_matrix};
 
 /// Joints of all limbs and poses of all platforms.
 #[derive(Clone, Debug)]

@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::error::{Error, Result};
 use crate::linalg::saddle::pseudo_inverse;
-use crate::model::chain::{Chain, Drive, Element, Motion, MotionKind, Role};
+use crate::model::chain::{Chain, Drive, Element, Motion, Role};
 use crate::model::kinematics::Kinematics;
-use crate::spatial::{Pose, pose_residual};
+use crate::spatial::{MotionKind, Pose, pose_residual};
 
 /// Joints of a limb at a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub fn inverse_kinematics(
 ) -> Result<LimbPosture> {
     let place = format!("limb '{}'", chain.name());
     for (what, pose) in [("the pose of the base", base), ("the target pose", target)] {
-        crate::model::chain::sensible_pose(&place, what, pose)?;
+        crate::model::limits::sensible_pose(&place, what, pose)?;
     }
     if let Some(start) = start {
         chain.check(&start.coordinates, &start.commands)?;

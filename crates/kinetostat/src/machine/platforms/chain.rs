@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::sweep::solve::EndRows;
-use crate::linalg::saddle::complement;
+use crate::linalg::complement::complement;
 use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
 use crate::machine::platforms::step::{PlatformStep, Tangents};
 use crate::model::chain::{Coordinate, Role};

@@ -7,10 +7,12 @@
 use nalgebra::{DMatrix, Vector6};
 
 use crate::chain::equilibrium::System;
-use crate::chain::stiffness::balanced_jacobian;
-use crate::chain::sweep::solve::{Bordered, END_SPRINGS, EndRows, STEP_SPRINGS, unit_motions_of};
+use crate::chain::passive::balanced_jacobian;
+use crate::chain::sweep::end_spring::{END_SPRINGS, STEP_SPRINGS};
+use crate::chain::sweep::solve::{Bordered, EndRows, unit_motions_of};
 use crate::chain::sweep::stages::{Form, Sweep};
-use crate::linalg::saddle::{Saddle, column_space, complement, rows_certainly_independent};
+use crate::linalg::complement::complement;
+use crate::linalg::saddle::{Saddle, column_space, rows_certainly_independent};
 use crate::spatial::Twist;
 
 /// Factors of a limb's bordered system.

@@ -3,5 +3,4 @@
 pub(crate) mod chain;
 pub(crate) mod limb;
 pub(crate) mod solver;
-pub(crate) mod sparse;
 pub(crate) mod step;

@@ -14,32 +14,25 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
 
-use crate::chain::equilibrium::{Balance, LEAST_LOAD, System, balance, rounding, step_limit};
+use crate::chain::equilibrium::{System, balance, rounding};
+use crate::chain::passive::balanced_jacobian;
+use crate::chain::residual::Balance;
+use crate::chain::scaling::{LEAST_LOAD, step_limit};
 use crate::chain::stability::{ShapeStability, shape_stability};
-use crate::chain::stiffness::{ChainStiffness, balanced_jacobian, chain_stiffness, motions_of_end};
+use crate::chain::stiffness::{ChainStiffness, chain_stiffness, motions_of_end};
 use crate::error::{Error, Result};
+use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::machine::inverse::limb::{LimbPosture, command_rates, inverse_kinematics};
 use crate::machine::platforms::chain::ToolBalance;
 use crate::machine::platforms::limb::Linear;
-use crate::machine::platforms::sparse::Sparse;
 use crate::machine::platforms::step::{PlatformStep, Tangents};
-use crate::model::chain::{Chain, MotionKind, Scale};
+use crate::machine::state::MechanismState;
+use crate::model::chain::{Chain, Scale};
 use crate::model::loads::load::Load;
 use crate::model::mechanism::Mechanism;
 use crate::settings::Settings;
-use crate::spatial::{Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix};
-
-/// Poses, coordinates and end wrenches of a mechanism: where an iteration starts and ends.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MechanismState {
-    /// Pose of every platform, the base included.
-    pub platforms: Vec<Pose>,
-    /// Coordinates of every limb, m or rad.
-    pub coordinates: Vec<Vec<f64>>,
-    /// Wrench on the tip of every limb, about it, base axes.
-    pub wrenches: Vec<Wrench>,
-}
+use crate::spatial::{MotionKind, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix};
 
 /// How the unknowns of the platform equations are divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,8 +162,8 @@ pub(crate) struct MechanismBalance {
 
 impl MechanismBalance {
     /// Closure in metres and unbalanced share.
-    pub fn residual(&self, iterations: usize) -> crate::chain::equilibrium::Residual {
-        crate::chain::equilibrium::Residual {
+    pub fn residual(&self, iterations: usize) -> crate::chain::residual::Residual {
+        crate::chain::residual::Residual {
             closure_m: self.closure_m,
             torque: (self.torque / self.loads.max(self.least))
                 .max(self.force / self.forces.max(self.least)),
@@ -617,7 +610,7 @@ impl<'m> PlatformSolver<'m> {
     }
 
     /// As given, and failing that with loads and closures that grow from the unloaded posture.
-    pub fn solve_robustly(&mut self) -> Result<crate::chain::equilibrium::Residual> {
+    pub fn solve_robustly(&mut self) -> Result<crate::chain::residual::Residual> {
         let start = self.state.clone();
         // A state that carries load already is better than the report's first step from rest.
         let loaded = self.state.wrenches.iter().any(|w| *w != Wrench::zero());
@@ -641,14 +634,11 @@ impl<'m> PlatformSolver<'m> {
         &mut self,
         first: &MechanismBalance,
         longest: f64,
-    ) -> Result<crate::chain::equilibrium::Residual> {
+    ) -> Result<crate::chain::residual::Residual> {
         let aside = crate::chain::equilibrium::aside(longest);
         for (i, limb) in self.mechanism.limbs.iter().enumerate() {
-            self.state.coordinates[i] = crate::chain::equilibrium::nudged(
-                &limb.actual,
-                &self.posture[i].coordinates,
-                aside,
-            );
+            self.state.coordinates[i] =
+                crate::chain::scaling::nudged(&limb.actual, &self.posture[i].coordinates, aside);
             self.state.wrenches[i] = Wrench::zero();
         }
         self.share = 1.0;
@@ -688,8 +678,8 @@ impl<'m> PlatformSolver<'m> {
         &self,
         balance: &MechanismBalance,
         iterations: usize,
-    ) -> crate::chain::equilibrium::Residual {
-        crate::chain::equilibrium::Residual {
+    ) -> crate::chain::residual::Residual {
+        crate::chain::residual::Residual {
             rate: self.rate,
             ..balance.residual(iterations)
         }

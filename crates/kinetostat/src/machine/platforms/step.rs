@@ -6,8 +6,10 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6};
 
-use crate::machine::platforms::solver::{MechanismState, PlatformSolver, Unknowns};
-use crate::machine::platforms::sparse::{PlatformSystem, RigidRows, Sparse};
+use crate::linalg::sparse::Sparse;
+use crate::machine::platform_system::{PlatformSystem, RigidRows};
+use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
+use crate::machine::state::MechanismState;
 use crate::model::chain::Scale;
 use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
 

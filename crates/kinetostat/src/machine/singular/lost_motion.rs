@@ -12,8 +12,8 @@ use crate::machine::constraints::limb_motions;
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::network::ends;
 use crate::machine::posture::Posture;
-use crate::model::chain::{Chain, MotionKind, Role};
-use crate::spatial::{Pose, Twist, moved, pose_residual};
+use crate::model::chain::{Chain, Role};
+use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 
 /// A limb is singular where its singular value is at most this share of the largest.
 pub(crate) const SINGULAR: f64 = 1e-8;
@@ -156,7 +156,7 @@ impl<'p, 'm> Search<'p, 'm> {
             }
             let joints = &self.at.limbs[i];
             let base = &self.at.platforms[limb.from];
-            let tip = crate::chain::equilibrium::unloaded_tip(
+            let tip = crate::model::kinematics::unloaded_tip(
                 &limb.nominal,
                 base,
                 &joints.coordinates,

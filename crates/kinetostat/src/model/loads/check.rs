@@ -2,13 +2,13 @@
 
 use nalgebra::DVector;
 
-use crate::chain::equilibrium::ChainProblem;
 use crate::error::{Error, Result};
-use crate::model::chain::{Chain, MotionKind, sensible};
+use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
+use crate::model::limits::sensible;
 use crate::model::loads::load::Load;
 use crate::number::short;
-use crate::spatial::{Pose, Wrench};
+use crate::spatial::{MotionKind, Pose, Wrench};
 
 /// In debug builds a tangent that is off by more than this share is refused before solving.
 const TANGENT_TOLERANCE: f64 = 1e-5;
@@ -39,7 +39,7 @@ pub fn check_tangents(
 ) -> Result<TangentCheck> {
     chain.check(coordinates, commands)?;
     let place = format!("chain '{}'", chain.name());
-    crate::model::chain::sensible_pose(&place, "the pose of the base", base)?;
+    crate::model::limits::sensible_pose(&place, "the pose of the base", base)?;
     let kinematics = Kinematics::new(chain, base, coordinates, commands, false);
     fits(chain, &kinematics, load)?;
     let length = chain.scale().length;
@@ -180,33 +180,4 @@ pub(crate) fn check_load(
         }
     }
     Ok(())
-}
-
-/// Refuses what cannot be solved: before the iteration starts, and in debug builds with a look at
-/// every tangent.
-pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
-    let (chain, base) = (problem.chain, &problem.base);
-    let place = format!("chain '{}'", chain.name());
-    let end = &problem.end;
-    let of_pose = |pose: &Pose| {
-        let (p, r) = (pose.translation.vector, pose.rotation.coords);
-        [p.x, p.y, p.z, r.x, r.y, r.z, r.w]
-    };
-    let checked: [(&str, &[f64]); 4] = [
-        ("pose of the base", &of_pose(base)),
-        ("pose of the end condition", &of_pose(&end.pose)),
-        ("wrench of the end condition", end.wrench.0.as_slice()),
-        ("axes of the end condition", end.axes.matrix().as_slice()),
-    ];
-    for (what, numbers) in checked {
-        for &value in numbers {
-            sensible(&place, || format!("the {what}"), value)?;
-        }
-    }
-    let (x, commands) = (&problem.posture, &problem.commands);
-    let kinematics = Kinematics::new(chain, base, x, commands, false);
-    problem
-        .loads
-        .iter()
-        .try_for_each(|load| check_load(chain, &kinematics, base, x, commands, load))
 }

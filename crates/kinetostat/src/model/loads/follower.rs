@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::model::chain::odd_number;
-use crate::model::kinematics::Kinematics;
-use crate::model::loads::load::{NodeLoad, NodeTangent};
+use crate::model::kinematics::{Kinematics, NodeTangent};
+use crate::model::limits::odd_number;
+use crate::model::loads::node_load::NodeLoad;
 use crate::spatial::{Pose, Wrench, hat, rotational};
 
 /// A wrench with constant components in its node's axes. Its work depends on the path.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix6};
 
-use crate::model::kinematics::Kinematics;
-use crate::model::loads::load::{NodeLoad, NodeTangent};
+use crate::model::kinematics::{Kinematics, NodeTangent};
+use crate::model::loads::node_load::NodeLoad;
 use crate::spatial::{Pose, Twist, Wrench, moved};
 
 type Wrenches = Arc<dyn Fn(&[Pose]) -> Vec<Wrench> + Send + Sync>;

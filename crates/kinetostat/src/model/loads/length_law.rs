@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::chain::odd_number;
+use crate::model::limits::odd_number;
 
 /// What a strut answers to its length.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,75 +6,16 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Vector3;
 
 use crate::model::chain::Chain;
-use crate::model::kinematics::Kinematics;
+use crate::model::kinematics::{Kinematics, NodeTangent};
 use crate::model::loads::follower::{Follower, PointForce};
 use crate::model::loads::function::FunctionLoad;
 use crate::model::loads::length_law::LengthLaw;
+use crate::model::loads::node_load::NodeLoad;
 use crate::model::loads::strut::{Anchor, Strut};
 use crate::spatial::Wrench;
-
-/// `d(wrench on node "on") = matrix * (twist of node "by")`, base axes, each at its node's origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NodeTangent {
-    /// Node on which the wrench acts.
-    pub on: usize,
-    /// Node whose motion changes it.
-    pub by: usize,
-    /// 6 x 6 (N/m, N/rad, N m/m, N m/rad).
-    pub matrix: Matrix6<f64>,
-}
-
-/// A load that a user brings along: fields, controllers, anything that node poses decide.
-pub trait NodeLoad: Send + Sync + std::fmt::Debug {
-    /// Appends `(node, wrench)`: base axes, about the node's origin, applied to the chain.
-    fn wrenches(&self, kinematics: &Kinematics, out: &mut Vec<(usize, Wrench)>);
-
-    /// Appends the derivatives of those wrenches by the motion of nodes. Debug builds compare them
-    /// with differences before a chain is solved (see [`check_tangents`](crate::check_tangents)).
-    fn tangents(&self, kinematics: &Kinematics, out: &mut Vec<NodeTangent>);
-
-    /// Potential energy (J) at these poses: what the load loses when it does work. `None` where
-    /// there is none or nobody knows it.
-    fn energy(&self, _kinematics: &Kinematics) -> Option<f64> {
-        None
-    }
-
-    /// The work on any closed path is zero, so that statements about energy hold. `false` unless
-    /// the load knows better.
-    fn conservative(&self) -> bool {
-        false
-    }
-
-    /// Nodes it reads or acts on; a chain without them refuses the load.
-    fn nodes(&self) -> Vec<usize> {
-        Vec::new()
-    }
-
-    /// What is wrong with the load's own numbers, in words.
-    fn fault(&self) -> Option<String> {
-        None
-    }
-
-    /// All its numbers as text: loads with the same text are equal. `None` where numbers do not
-    /// tell everything (a function): such a load equals its own clones only.
-    fn numbers(&self) -> Option<String> {
-        None
-    }
-
-    /// The two points between which it acts, base axes, m: for drawings. `None` where there is no
-    /// such line.
-    fn line(&self, _kinematics: &Kinematics) -> Option<[Vector3<f64>; 2]> {
-        None
-    }
-
-    /// What is wrong with its answers at these poses, in words.
-    fn fault_at(&self, _kinematics: &Kinematics) -> Option<String> {
-        None
-    }
-}
 
 /// Something that acts on the nodes of a chain. Preloaded joints are no loads: give their springs
 /// a rest position (`theta0`).

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix6, Vector3};
 
 use crate::error::{Error, Result};
+use crate::model::kinematics::NodeTangent;
 use crate::model::loads::length_law::LengthLaw;
-use crate::model::loads::load::NodeTangent;
 use crate::model::loads::strut::{Anchor, Strut};
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Wrench, hat, rotational};
@@ -211,7 +211,7 @@ impl PlatformLoad {
                             .into(),
                     );
                 }
-                if let Some(reason) = crate::model::loads::load::NodeLoad::fault(strut) {
+                if let Some(reason) = crate::model::loads::node_load::NodeLoad::fault(strut) {
                     return fault(reason);
                 }
             }

@@ -3,10 +3,10 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-use crate::model::chain::odd_number;
-use crate::model::kinematics::Kinematics;
+use crate::model::kinematics::{Kinematics, NodeTangent};
+use crate::model::limits::odd_number;
 use crate::model::loads::length_law::{LengthLaw, LengthResponse};
-use crate::model::loads::load::{NodeLoad, NodeTangent};
+use crate::model::loads::node_load::NodeLoad;
 use crate::spatial::{Pose, Wrench, hat, rotational, shift_matrix};
 
 /// Where a strut is hinged.

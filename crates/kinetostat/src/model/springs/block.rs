@@ -25,19 +25,6 @@ pub enum SpringLaw {
     Logarithm(Box<LogarithmLaw>),
 }
 
-/// What a six-dimensional law answers to a deflection.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Response {
-    /// J.
-    pub energy: f64,
-    /// Its gradient, N or N m.
-    pub torque: Vector6<f64>,
-    /// Second derivative that the strains' rates make: positive definite as the matrix of the law is.
-    pub material: Matrix6<f64>,
-    /// Second derivative that a curvature of the strains adds under load: the geometric stiffness.
-    pub geometric: Matrix6<f64>,
-}
-
 /// A named group of spring coordinates with one law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpringBlock {

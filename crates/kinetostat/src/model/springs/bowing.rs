@@ -26,9 +26,9 @@
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::model::springs::block::Response;
 use crate::model::springs::jet::{Jet, quadratic};
 use crate::model::springs::logarithm::{angles, with_rotation_vector};
+use crate::model::springs::response::Response;
 
 /// Energy of a beam segment that shortens as it bends; see [`crate::LinkConvention::Bowing`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Sub};
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::model::springs::block::Response;
+use crate::model::springs::response::Response;
 
 /// A number with its gradient and second derivative by the six coordinates.
 #[derive(Clone, Copy, Debug)]

@@ -17,8 +17,8 @@
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::model::springs::block::Response;
 use crate::model::springs::jet::{Jet, angle_per_sine, cross, logarithm_factor, quadratic, square};
+use crate::model::springs::response::Response;
 use crate::model::uniform::to_middle;
 
 /// Energy in exponential coordinates; see [`crate::LinkConvention::Exponential`] and

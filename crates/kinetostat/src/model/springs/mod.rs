@@ -5,3 +5,4 @@ pub(crate) mod bowing;
 pub(crate) mod jet;
 pub(crate) mod logarithm;
 pub(crate) mod parallelogram;
+pub(crate) mod response;

@@ -6,15 +6,14 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::chain::equilibrium::unloaded_tip;
 use crate::error::{Error, Result};
 use crate::linalg::saddle::{Saddle, pseudo_inverse, rows_certainly_independent};
 use crate::machine::inverse::limb::{LimbPosture, wrap_passive};
 use crate::machine::posture::Posture;
-use crate::model::chain::{MotionKind, Role};
-use crate::model::kinematics::Kinematics;
+use crate::model::chain::Role;
+use crate::model::kinematics::{Kinematics, unloaded_tip};
 use crate::model::mechanism::Mechanism;
-use crate::spatial::{Pose, Twist, moved, pose_residual, shift_matrix};
+use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual, shift_matrix};
 
 /// Largest motion of a command between two closed shapes, rad or natural lengths.
 const STRIDE: f64 = 0.2;

@@ -1,0 +1,151 @@
+//! What decides the equilibrium of one chain: its commands, its loads and what is prescribed at its end.
+
+use nalgebra::{Rotation3, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::model::chain::Chain;
+use crate::model::kinematics::Kinematics;
+use crate::model::limits::sensible;
+use crate::model::loads::check::check_load;
+use crate::model::loads::load::Load;
+use crate::spatial::{Pose, Wrench};
+
+/// Refuses what cannot be solved: before the iteration starts, and in debug builds with a look at
+/// every tangent.
+pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
+    let (chain, base) = (problem.chain, &problem.base);
+    let place = format!("chain '{}'", chain.name());
+    let end = &problem.end;
+    let of_pose = |pose: &Pose| {
+        let (p, r) = (pose.translation.vector, pose.rotation.coords);
+        [p.x, p.y, p.z, r.x, r.y, r.z, r.w]
+    };
+    let checked: [(&str, &[f64]); 4] = [
+        ("pose of the base", &of_pose(base)),
+        ("pose of the end condition", &of_pose(&end.pose)),
+        ("wrench of the end condition", end.wrench.0.as_slice()),
+        ("axes of the end condition", end.axes.matrix().as_slice()),
+    ];
+    for (what, numbers) in checked {
+        for &value in numbers {
+            sensible(&place, || format!("the {what}"), value)?;
+        }
+    }
+    let (x, commands) = (&problem.posture, &problem.commands);
+    let kinematics = Kinematics::new(chain, base, x, commands, false);
+    problem
+        .loads
+        .iter()
+        .try_for_each(|load| check_load(chain, &kinematics, base, x, commands, load))
+}
+
+/// What is prescribed in one direction of the end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Prescribed {
+    /// The pose: the wrench follows.
+    Pose,
+    /// The wrench: the motion follows.
+    Wrench,
+}
+
+/// Condition at the end of a chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndCondition {
+    /// Axes of the six directions, base from these axes.
+    pub axes: Rotation3<f64>,
+    /// Per direction `x y z rx ry rz` of those axes.
+    pub prescribed: [Prescribed; 6],
+    /// Target where the pose is prescribed, base from tip.
+    pub pose: Pose,
+    /// Wrench where it is prescribed: on the end, about its origin, base axes.
+    pub wrench: Wrench,
+}
+
+impl EndCondition {
+    /// The end is held at a pose.
+    #[must_use]
+    pub fn pose(pose: Pose) -> Self {
+        Self {
+            axes: Rotation3::identity(),
+            prescribed: [Prescribed::Pose; 6],
+            pose,
+            wrench: Wrench::zero(),
+        }
+    }
+
+    /// A dead wrench acts on the end.
+    #[must_use]
+    pub fn wrench(wrench: Wrench) -> Self {
+        Self {
+            axes: Rotation3::identity(),
+            prescribed: [Prescribed::Wrench; 6],
+            pose: Pose::identity(),
+            wrench,
+        }
+    }
+}
+
+/// Everything that decides the equilibrium of one chain.
+#[derive(Clone, Debug)]
+pub struct ChainProblem<'a> {
+    /// The chain.
+    pub chain: &'a Chain,
+    /// Pose of its base in the outer base.
+    pub base: Pose,
+    /// Actuator commands, m or rad.
+    pub commands: Vec<f64>,
+    /// Coordinates of the commanded, unloaded posture (m, rad): start of the iteration and the
+    /// place where posture-dependent springs are evaluated.
+    pub posture: Vec<f64>,
+    /// Loads on nodes.
+    pub loads: Vec<Load>,
+    /// Condition at the end.
+    pub end: EndCondition,
+}
+
+impl<'a> ChainProblem<'a> {
+    /// The chain at home, unloaded, with the given end condition.
+    #[must_use]
+    pub fn new(chain: &'a Chain, end: EndCondition) -> Self {
+        Self {
+            chain,
+            base: Pose::identity(),
+            commands: chain.home_commands(),
+            posture: chain.home_coordinates(),
+            loads: Vec::new(),
+            end,
+        }
+    }
+}
+
+/// Checks lengths, nodes and that all numbers of a problem are finite.
+pub(crate) fn check_problem(problem: &ChainProblem<'_>) -> Result<()> {
+    let chain = problem.chain;
+    chain.check(&problem.posture, &problem.commands)?;
+    let numbers = problem
+        .end
+        .wrench
+        .0
+        .iter()
+        .chain(problem.end.pose.translation.vector.iter());
+    if let Some(value) = numbers.copied().find(|v| !v.is_finite()) {
+        return Err(Error::NotFinite {
+            place: format!("chain '{}'", chain.name()),
+            what: "the end condition".into(),
+            value,
+        });
+    }
+    check_loads(problem)
+}
+
+pub(crate) fn check_numbers(
+    problem: &ChainProblem<'_>,
+    what: &str,
+    v: &Vector6<f64>,
+) -> Result<()> {
+    let place = format!("chain '{}'", problem.chain.name());
+    let mut numbers = v.iter();
+    numbers.try_for_each(|x| sensible(&place, || what.to_owned(), *x))
+}

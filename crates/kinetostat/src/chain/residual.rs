@@ -1,0 +1,43 @@
+//! How well the conditions of equilibrium hold.
+
+use serde::{Deserialize, Serialize};
+
+use crate::chain::scaling::beyond;
+
+/// Residuals of a system in balanced units (square root of energy).
+#[derive(Clone, Copy)]
+pub(crate) struct Balance {
+    pub closure: f64,
+    pub torque: f64,
+    /// What torques are measured against.
+    pub loads: f64,
+    /// The part of `torque` that is rounding, see [`rounding`].
+    pub rounding: f64,
+}
+
+/// Share of the loads beyond which no unbalanced torque is taken for rounding.
+const MOST_ROUNDING: f64 = 1e-3;
+
+impl Balance {
+    /// What is unbalanced and no rounding: a state that has run away may have coordinates whose digits are worth more
+    /// than all loads, and balances nothing.
+    pub fn exceeding(&self) -> f64 {
+        beyond(self.torque, self.rounding.min(MOST_ROUNDING * self.loads))
+    }
+}
+
+/// How well the conditions of equilibrium hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Residual {
+    /// Closure of the end pose where it is prescribed, m (rotations at the natural length).
+    pub closure_m: f64,
+    /// Unbalanced torque as a share of the loads.
+    pub torque: f64,
+    /// Iterations spent.
+    pub iterations: usize,
+    /// Rate observed: norm of the last correction by that of the one before, in balanced units
+    /// (square root of energy). A linear iteration settles at its rate, exact Newton falls towards
+    /// 0 from step to step. `None` with fewer than two corrections, and where nobody measured it.
+    #[serde(default)]
+    pub rate: Option<f64>,
+}
