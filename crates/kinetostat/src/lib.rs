@@ -84,6 +84,7 @@ pub mod batch;
 mod chain;
 mod compensation;
 mod continuation;
+mod equilibrium;
 mod error;
 mod linalg;
 mod machine;
@@ -95,7 +96,7 @@ mod spatial;
 
 pub use chain::compliance::CartesianCompliance;
 pub use chain::directions::{Direction, DirectionKind, Share};
-pub use chain::equilibrium::{Equilibrium, solve_chain};
+pub use chain::equilibrium::Equilibrium;
 pub use chain::graded::{uneven_in_words, uneven_springs_in_words};
 pub use chain::link_load::{LinkLoad, link_loads};
 pub use chain::potential::{is_conservative, load_energy};
@@ -107,17 +108,18 @@ pub use compensation::following::{compensate_following, target_under_load_follow
 pub use compensation::target::{Compensation, compensate, compensate_from, target_under_load};
 pub use continuation::bifurcation::{Special, SpecialKind};
 pub use continuation::branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Curves, follow};
-pub use continuation::critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
-pub use continuation::equilibria::{
-    Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria,
-};
 pub use continuation::held_curve::{HeldCurve, HeldPoint};
 pub use continuation::jumps::Jump;
-pub use continuation::machine_equilibria::{MachineEquilibria, MachineFound, SpreadSettings};
 pub use continuation::machine_path::{
     MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind,
 };
 pub use continuation::reduced::{LoadPattern, Parameter};
+pub use equilibrium::all_of_chain::{
+    Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria,
+};
+pub use equilibrium::all_of_machine::{MachineEquilibria, MachineFound, SpreadSettings};
+pub use equilibrium::chain::solve_chain;
+pub use equilibrium::critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
 pub use error::{Error, LoadLimit, Result};
 pub use linalg::saddle::Inertia;
 pub use linalg::singular_values::SingularValues;
@@ -143,7 +145,8 @@ pub use model::loads::load::Load;
 pub use model::loads::node_load::NodeLoad;
 pub use model::loads::platform::PlatformLoad;
 pub use model::loads::strut::{Anchor, Strut};
-pub use model::mechanism::{Limb, Mechanism, MechanismBuilder, Platform};
+pub use model::mechanism::{Limb, Mechanism, Platform};
+pub use model::mechanism_builder::MechanismBuilder;
 pub use model::springs::block::{Segment, SpringBlock, SpringLaw};
 pub use model::springs::bowing::BowingLaw;
 pub use model::springs::logarithm::LogarithmLaw;

@@ -7,7 +7,7 @@ pub(crate) mod equilibrium;
 pub(crate) mod graded;
 pub(crate) mod link_load;
 pub(crate) mod material;
-pub(crate) mod no_equilibrium;
+pub(crate) mod newton;
 pub(crate) mod passive;
 pub(crate) mod potential;
 pub(crate) mod problem;

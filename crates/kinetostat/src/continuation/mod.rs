@@ -2,16 +2,11 @@
 
 pub(crate) mod bifurcation;
 pub(crate) mod branches;
-pub(crate) mod critical;
 pub(crate) mod curve_matrix;
 pub(crate) mod curve_sweep;
-pub(crate) mod descent;
-pub(crate) mod equilibria;
 pub(crate) mod family;
-pub(crate) mod growing_load;
 pub(crate) mod held_curve;
 pub(crate) mod jumps;
-pub(crate) mod machine_equilibria;
 pub(crate) mod machine_path;
 pub(crate) mod reduced;
 pub(crate) mod singular_point;

@@ -7,7 +7,6 @@ use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
-use crate::chain::equilibrium::{FAR, SHORT_STEP};
 use crate::chain::link_load::{LinkLoad, link_loads};
 use crate::chain::potential::load_energy;
 use crate::chain::problem::{ChainProblem, EndCondition};
@@ -15,6 +14,7 @@ use crate::chain::residual::Residual;
 use crate::chain::scaling::gone;
 use crate::chain::stability::ShapeStability;
 use crate::chain::stiffness::{ChainStiffness, Direction, DirectionKind};
+use crate::equilibrium::chain::{FAR, SHORT_STEP};
 use crate::error::{Error, Result};
 use crate::machine::directions::{
     balanced_directions, condensed_directions, none_diverges, others_hold,

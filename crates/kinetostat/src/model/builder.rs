@@ -5,9 +5,7 @@ use std::collections::BTreeSet;
 use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
 
 use crate::error::{Error, Result};
-use crate::model::beam::BeamSection;
 use crate::model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
-use crate::model::link::{LinkConvention, LinkSpec};
 use crate::model::springs::block::{Segment, SpringBlock, SpringLaw, balanced};
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::number::short;
@@ -76,6 +74,14 @@ pub struct ChainBuilder {
 
 /// Smallest eigenvalue of a balanced stiffness matrix that is told from rounding.
 const SINGULAR: f64 = 1e-12;
+
+impl Chain {
+    /// Starts a description.
+    #[must_use]
+    pub fn builder(name: impl Into<String>) -> ChainBuilder {
+        ChainBuilder::new(name)
+    }
+}
 
 impl ChainBuilder {
     pub(crate) fn new(name: impl Into<String>) -> Self {
@@ -392,14 +398,6 @@ impl ChainBuilder {
         if let Some(block) = self.chain.springs.last_mut() {
             block.segment = Some(segment);
         }
-    }
-
-    /// A straight elastic link along local x: the offset, then the spring at its far end [R 3.26],
-    /// one segment by the report's convention. [`Self::link_with`] has the others.
-    #[must_use]
-    pub fn link(self, name: &str, section: &BeamSection, length: f64) -> Self {
-        let spec = LinkSpec::beam(*section, length).convention(LinkConvention::TranslationsFirst);
-        self.link_with(name, &spec)
     }
 
     /// A bar parallelogram along local x that swings about local y: `Ry(q2) Tx(length) V5 Ry(-q2)`,

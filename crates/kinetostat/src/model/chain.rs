@@ -125,12 +125,6 @@ pub struct Scale {
 }
 
 impl Chain {
-    /// Starts a description.
-    #[must_use]
-    pub fn builder(name: impl Into<String>) -> crate::ChainBuilder {
-        crate::ChainBuilder::new(name)
-    }
-
     /// Name.
     #[must_use]
     pub fn name(&self) -> &str {

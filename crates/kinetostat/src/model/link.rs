@@ -181,6 +181,14 @@ impl LinkSpec {
 }
 
 impl ChainBuilder {
+    /// A straight elastic link along local x: the offset, then the spring at its far end [R 3.26],
+    /// one segment by the report's convention. [`Self::link_with`] has the others.
+    #[must_use]
+    pub fn link(self, name: &str, section: &BeamSection, length: f64) -> Self {
+        let spec = LinkSpec::beam(*section, length).convention(LinkConvention::TranslationsFirst);
+        self.link_with(name, &spec)
+    }
+
     /// A straight elastic link along local x, in segments and by a convention of choice:
     ///
     /// ```

@@ -3,7 +3,6 @@
 
 use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
-use crate::chain::equilibrium::solve_along;
 use crate::chain::passive::balanced_jacobian;
 use crate::chain::problem::Prescribed;
 use crate::chain::scaling::balance;
@@ -14,6 +13,7 @@ use crate::chain::sweep::stages::{Form, Path, SWEEP_FROM};
 use crate::chain::system::System;
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::reduced::{LoadPattern, Parameter, Reduced};
+use crate::equilibrium::chain::solve_along;
 use crate::*;
 
 /// In [-1, 1).

@@ -635,7 +635,7 @@ impl<'m> PlatformSolver<'m> {
         first: &MechanismBalance,
         longest: f64,
     ) -> Result<crate::chain::residual::Residual> {
-        let aside = crate::chain::equilibrium::aside(longest);
+        let aside = crate::equilibrium::chain::aside(longest);
         for (i, limb) in self.mechanism.limbs.iter().enumerate() {
             self.state.coordinates[i] =
                 crate::chain::scaling::nudged(&limb.actual, &self.posture[i].coordinates, aside);

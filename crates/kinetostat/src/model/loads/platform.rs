@@ -2,11 +2,9 @@
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::error::{Error, Result};
 use crate::model::kinematics::NodeTangent;
 use crate::model::loads::length_law::LengthLaw;
 use crate::model::loads::strut::{Anchor, Strut};
-use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Wrench, hat, rotational};
 
 /// Something that acts on the platforms of a mechanism and belongs to no limb.
@@ -182,41 +180,6 @@ impl PlatformLoad {
             }
             other => other.clone(),
         }
-    }
-
-    /// That it fits the platforms.
-    pub(crate) fn check(&self, mechanism: &Mechanism) -> Result<()> {
-        let fault = |reason: String| {
-            let place = format!("mechanism '{}'", mechanism.name);
-            Err(Error::model(place, reason))
-        };
-        let own = self.platforms();
-        let count = mechanism.platforms.len();
-        if let Some(wrong) = own.iter().find(|&&p| p == 0 || p >= count) {
-            return fault(format!(
-                "a load acts on platform {wrong}; those that move are 1 to {}",
-                count - 1
-            ));
-        }
-        match self {
-            Self::Wrench { point, wrench, .. } => {
-                if !point.iter().chain(wrench.0.iter()).all(|x| x.is_finite()) {
-                    return fault("a wrench on a platform is not finite".into());
-                }
-            }
-            Self::Strut(strut) => {
-                if own.is_empty() || own.len() == 2 && own[0] == own[1] {
-                    return fault(
-                        "a strut begins and ends at the same platform, so that it does nothing"
-                            .into(),
-                    );
-                }
-                if let Some(reason) = crate::model::loads::node_load::NodeLoad::fault(strut) {
-                    return fault(reason);
-                }
-            }
-        }
-        Ok(())
     }
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn check_platform_load(mechanism: &Mechanism, load: &PlatformLoad) ->
         sensible_all(&place, "the place of a wrench on a platform", point)?;
         sensible_all(&place, "a wrench on a platform", &wrench.0)?;
     }
-    load.check(mechanism)?;
+    check_platforms(mechanism, load)?;
     let home: Vec<_> = mechanism.platforms.iter().map(|p| p.home).collect();
     let (mut wrenches, mut tangents) = (Vec::new(), Vec::new());
     load.wrenches(&home, &mut wrenches);
@@ -42,4 +42,38 @@ pub(crate) fn check_platform_load(mechanism: &Mechanism, load: &PlatformLoad) ->
     tangents
         .iter()
         .try_for_each(|tangent| sensible_all(&place, what, &tangent.matrix))
+}
+
+/// That a load fits the platforms.
+fn check_platforms(mechanism: &Mechanism, load: &PlatformLoad) -> Result<()> {
+    let fault = |reason: String| {
+        let place = format!("mechanism '{}'", mechanism.name);
+        Err(Error::model(place, reason))
+    };
+    let own = load.platforms();
+    let count = mechanism.platforms.len();
+    if let Some(wrong) = own.iter().find(|&&p| p == 0 || p >= count) {
+        return fault(format!(
+            "a load acts on platform {wrong}; those that move are 1 to {}",
+            count - 1
+        ));
+    }
+    match load {
+        PlatformLoad::Wrench { point, wrench, .. } => {
+            if !point.iter().chain(wrench.0.iter()).all(|x| x.is_finite()) {
+                return fault("a wrench on a platform is not finite".into());
+            }
+        }
+        PlatformLoad::Strut(strut) => {
+            if own.is_empty() || own.len() == 2 && own[0] == own[1] {
+                return fault(
+                    "a strut begins and ends at the same platform, so that it does nothing".into(),
+                );
+            }
+            if let Some(reason) = crate::model::loads::node_load::NodeLoad::fault(strut) {
+                return fault(reason);
+            }
+        }
+    }
+    Ok(())
 }

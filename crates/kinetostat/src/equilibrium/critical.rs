@@ -12,7 +12,7 @@ use std::cell::RefCell;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::equilibrium::{Equilibrium, solve_chain};
+use crate::chain::equilibrium::Equilibrium;
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::ChainProblem;
 use crate::chain::stability::share_to_buckling;
@@ -20,6 +20,7 @@ use crate::continuation::bifurcation::SpecialKind;
 use crate::continuation::branches::{CurvePoint, CurveSettings, follow_until};
 use crate::continuation::reduced::{LoadPattern, Parameter, Reduced};
 use crate::continuation::tracer::Tracer;
+use crate::equilibrium::chain::solve_chain;
 use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Saddle, column_space};

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 
 use crate::chain::problem::EndCondition;
 use crate::continuation::branches::CurveSettings;
-use crate::continuation::equilibria::{Bounds, chance_of_more};
 use crate::continuation::machine_path::Path;
+use crate::equilibrium::all_of_chain::{Bounds, chance_of_more};
 use crate::error::Result;
 use crate::machine::platforms::solver::Unknowns;
 use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};

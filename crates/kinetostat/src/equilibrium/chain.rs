@@ -1,0 +1,205 @@
+//! The equilibrium of one chain: directly, by growing the load, or from another start.
+
+use crate::chain::directions::DirectionKind;
+use crate::chain::equilibrium::Equilibrium;
+use crate::chain::newton::{Attempt, Way};
+use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
+use crate::chain::residual::Balance;
+use crate::chain::scaling::{LEAST_LOAD, gone, natural, nudged};
+use crate::chain::sweep::stages::Path;
+use crate::continuation::reduced::stability_as_prescribed;
+use crate::error::{Error, Result};
+use crate::model::kinematics::Kinematics;
+use crate::settings::Settings;
+use crate::spatial::{Wrench, pose_residual};
+
+/// Solves for the equilibrium of a chain.
+///
+/// # Errors
+/// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last
+/// iterate where no equilibrium was found.
+pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Equilibrium> {
+    solve_along(problem, settings, None).map(|(equilibrium, _)| equilibrium)
+}
+
+/// [`solve_chain`] by a path of choice; says which one was left at the end.
+pub(crate) fn solve_along(
+    problem: &ChainProblem<'_>,
+    settings: &Settings,
+    path: Option<Path>,
+) -> Result<(Equilibrium, Path)> {
+    check_problem(problem)?;
+    let chain = problem.chain;
+    settings.check(&format!("chain '{}'", chain.name()))?;
+    let mut attempt = Attempt::new(problem, settings, path);
+    let mut spent = 0;
+    let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
+        let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
+        let mut wrench = Wrench::zero();
+        match attempt.newton(&mut x, &mut wrench, 1.0, settings.picard_steps) {
+            Ok((iterations, balance)) => Some((x, wrench, iterations, balance)),
+            Err((iterations, _)) => {
+                spent += iterations;
+                None
+            }
+        }
+    };
+    // As given; then slightly out of line, because a straight or flat posture has no linear answer.
+    for nudge in [0.0, 1e-3, 3e-2] {
+        let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) else {
+            continue;
+        };
+        let found = attempt.finish(x, wrench, iterations, &balance);
+        return Ok(led_to(problem, settings, path, &found.0).unwrap_or(found));
+    }
+    let mut failure = match grow_load(&mut attempt, false, 1.0) {
+        Ok((x, wrench, iterations, balance)) => {
+            return Ok(attempt.finish(x, wrench, iterations, &balance));
+        }
+        Err(failure) => failure,
+    };
+    // On a straight way to a bent shape the chain is pressed and buckles; on a screw it is pulled.
+    if problem.end.prescribed == [Prescribed::Pose; 6] {
+        match grow_load(&mut attempt, true, 1.0) {
+            Ok((x, wrench, iterations, balance)) => {
+                return Ok(attempt.finish(x, wrench, iterations, &balance));
+            }
+            Err(other) => {
+                failure.iterations += other.iterations;
+                if other.share > failure.share {
+                    failure = Failure {
+                        iterations: failure.iterations,
+                        ..other
+                    };
+                }
+            }
+        }
+    }
+    // The way from rest may end at a fold although equilibria exist elsewhere.
+    for nudge in [0.3, 0.8, 1.5, 2.5] {
+        if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
+            return Ok(attempt.finish(x, wrench, iterations, &balance));
+        }
+    }
+    if let Some(reason) = crate::equilibrium::no_equilibrium::why(problem) {
+        return Err(reason);
+    }
+    Err(Error::NotConverged {
+        place: format!("chain '{}'", chain.name()),
+        iterations: spent + failure.iterations,
+        residual_position_m: failure.balance.closure / chain.scale().stiffness.sqrt(),
+        residual_torque: failure.balance.torque
+            / failure.balance.loads.max(LEAST_LOAD * natural(chain)),
+        load_factor: failure.share,
+        last: failure.last,
+        limit: None,
+    })
+}
+
+/// How far the growing load came.
+struct Failure {
+    /// Largest share with an equilibrium.
+    share: f64,
+    /// Coordinates of that equilibrium.
+    last: Vec<f64>,
+    /// What it lacks at the full load.
+    balance: Balance,
+    iterations: usize,
+}
+
+/// Turns (rad) and slides (natural lengths) in all beyond which one step may have passed the shape to which the
+/// growing load leads.
+pub(crate) const FAR: f64 = 0.2;
+
+/// Share of the load by which it grows on the way that must not be lost.
+pub(crate) const SHORT_STEP: f64 = 0.02;
+
+/// How far the joints are put aside where a load begins to grow, rad: in short steps the way itself counts, and what
+/// buckles stays on it.
+pub(crate) fn aside(longest_step: f64) -> f64 {
+    if longest_step < 1.0 { 0.0 } else { 1e-3 }
+}
+
+/// The shape that stays and to which the growing load leads, where one step found another that does not and is
+/// far: it may have passed the former. A straight column, pressed, stays straight.
+fn led_to(
+    problem: &ChainProblem<'_>,
+    settings: &Settings,
+    path: Option<Path>,
+    found: &Equilibrium,
+) -> Option<(Equilibrium, Path)> {
+    let near = gone(problem.chain, &problem.posture, &found.coordinates) <= FAR;
+    if near || stays(problem, settings, found) {
+        return None;
+    }
+    let mut attempt = Attempt::new(problem, settings, path);
+    let (x, wrench, iterations, balance) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
+    let spent = found.residual.iterations + iterations;
+    let grown = attempt.finish(x, wrench, spent, &balance);
+    stays(problem, settings, &grown.0).then_some(grown)
+}
+
+/// Whether an equilibrium stays as its end is prescribed: free where a wrench is, held where the pose is.
+fn stays(problem: &ChainProblem<'_>, settings: &Settings, found: &Equilibrium) -> bool {
+    let held = problem.end.prescribed == [Prescribed::Pose; 6];
+    if held || !found.stability.stable {
+        return found.stability.stable;
+    }
+    // What no motion of the end makes go away, goes away by none of those that are free.
+    if found.stiffness.count(DirectionKind::Negative) == 0 {
+        return true;
+    }
+    stability_as_prescribed(problem, settings, found).is_none_or(|stability| stability.stable)
+}
+
+/// Loads, preloads and closure grow together from the unloaded posture; the closure straight, or on
+/// a screw; in steps up to the `longest` share.
+fn grow_load(
+    attempt: &mut Attempt<'_, '_>,
+    on_screw: bool,
+    longest: f64,
+) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), Failure> {
+    let problem = attempt.problem;
+    let mut x = nudged(problem.chain, &problem.posture, aside(longest));
+    let mut wrench = Wrench::zero();
+    let start =
+        Kinematics::new(problem.chain, &problem.base, &x, &problem.commands, false).tip_pose();
+    attempt.way = if on_screw {
+        Way::Screw(start)
+    } else {
+        Way::Straight(pose_residual(&problem.end.pose, &start))
+    };
+    let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
+    let mut last = Balance {
+        closure: 0.0,
+        torque: 0.0,
+        loads: 1.0,
+        rounding: 0.0,
+    };
+    while share < 1.0 {
+        let next = (share + step).min(1.0);
+        let (mut trial, mut trial_wrench) = (x.clone(), wrench);
+        match attempt.newton(&mut trial, &mut trial_wrench, next, 0) {
+            Ok((spent, balance)) => {
+                iterations += spent;
+                (x, wrench, share, last) = (trial, trial_wrench, next, balance);
+                step = (1.5 * step).min(longest);
+            }
+            Err((spent, _)) => {
+                iterations += spent;
+                step *= 0.5;
+                if step < attempt.settings.smallest_load_step.max(1e-9) {
+                    let (closure, lack) = attempt.evaluate(&x, &wrench, 1.0);
+                    let balance = attempt.measure(&attempt.end_rows(&closure, &lack), &wrench);
+                    return Err(Failure {
+                        share,
+                        last: x,
+                        balance,
+                        iterations,
+                    });
+                }
+            }
+        }
+    }
+    Ok((x, wrench, iterations, last))
+}

@@ -1,0 +1,216 @@
+//! The words from which a mechanism is written, and what is checked before it is frozen.
+
+use std::collections::BTreeSet;
+
+use nalgebra::Vector3;
+
+use crate::error::{Error, Result};
+use crate::model::kinematics::Kinematics;
+use crate::model::limits::{sensible_all, sensible_pose};
+use crate::model::loads::check::check_load;
+use crate::model::loads::load::Load;
+use crate::model::loads::platform::PlatformLoad;
+use crate::model::mechanism::{Limb, Mechanism, Platform};
+use crate::model::mechanism_check::{check_platform, check_platform_load};
+use crate::spatial::Pose;
+
+/// Builds a [`Mechanism`].
+#[derive(Clone, Debug)]
+pub struct MechanismBuilder {
+    mechanism: Mechanism,
+    /// Name of a limb and a load on it.
+    loads: Vec<(String, Load)>,
+}
+
+impl MechanismBuilder {
+    /// Adds a moving platform and returns its index. The last one added carries the tool.
+    pub fn platform(&mut self, platform: Platform) -> usize {
+        self.mechanism.platforms.push(platform);
+        self.mechanism.tool = self.mechanism.platforms.len() - 1;
+        self.mechanism.tool
+    }
+
+    /// Adds a limb.
+    #[must_use]
+    pub fn limb(mut self, limb: Limb) -> Self {
+        self.mechanism.limbs.push(limb);
+        self
+    }
+
+    /// Adds a load to the limb of this name. Nodes are those of the limb's chain
+    /// ([`Chain::node`]); `Anchor::Base` and base axes mean the world, also for a limb that starts
+    /// at a moving platform. What acts on the limb's tip acts on the platform there. Gravity is
+    /// [`Self::gravity`]'s affair, not a load of a limb.
+    ///
+    /// ```
+    /// use kinetostat::*;
+    /// use nalgebra::{Vector3, vector};
+    ///
+    /// let bar = BeamSection::tube(2.1e11, 8.1e10, 0.08, 0.06);
+    /// let shoulder = ActuatorSpec::new(MotionKind::Revolute, -Vector3::y(), 2e5);
+    /// let chain = Chain::builder("arm")
+    ///     .actuator("shoulder", shoulder)
+    ///     .translation(vector![0.4, 0.0, 0.0])
+    ///     .node("lug")
+    ///     .link("arm", &bar, 0.6)
+    ///     .build()?;
+    /// let (lug, post) = (Anchor::node(chain.node("lug")?), Anchor::Base(vector![0.0, 0.0, 0.5]));
+    /// let mut machine = Mechanism::builder("sprung arm");
+    /// let tool = machine.platform(Platform::new("tool", Pose::translation(1.0, 0.0, 0.0)));
+    /// let machine = machine
+    ///     .limb(Limb {
+    ///         name: "arm".into(),
+    ///         from: 0,
+    ///         to: tool,
+    ///         platform_from_tip: Pose::identity(),
+    ///         nominal: chain.clone(),
+    ///         actual: chain,
+    ///     })
+    ///     .load("arm", Load::spring_between(post, lug, 4e3, 0.3))
+    ///     .build()?;
+    /// let home = machine.platforms()[tool].home;
+    /// let rest = machine.posture(&home)?.deflected_by(&Wrench::zero())?;
+    /// assert!(rest.displacement.linear().z > 1e-3, "the spring lifts the arm");
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn load(mut self, limb: impl Into<String>, load: Load) -> Self {
+        self.loads.push((limb.into(), load));
+        self
+    }
+
+    /// Adds a load on platforms: a wrench on any of them, or a spring or compensator between points
+    /// of two, whatever limbs they belong to. It is there in every equilibrium; commands and the
+    /// unloaded stiffness do not feel it.
+    #[must_use]
+    pub fn platform_load(mut self, load: PlatformLoad) -> Self {
+        self.mechanism.platform_loads.push(load);
+        self
+    }
+
+    /// Gravity, m/s^2, base axes; zero if not called.
+    #[must_use]
+    pub fn gravity(mut self, gravity: Vector3<f64>) -> Self {
+        self.mechanism.gravity = gravity;
+        self
+    }
+
+    /// Checks the graph and freezes it.
+    ///
+    /// # Errors
+    /// [`Error::Model`] for an unknown platform, a limb from a platform to itself, a name used
+    /// twice, a platform without limbs, a nominal and an actual chain that differ in more than
+    /// rigid offsets, or a load that does not fit its limb or its platforms; [`Error::UnknownName`] for a load on
+    /// a limb that does not exist.
+    pub fn build(self) -> Result<Mechanism> {
+        let mut m = self.mechanism;
+        let place = format!("mechanism '{}'", m.name);
+        let fault = |reason: String| Err(Error::model(place.clone(), reason));
+        if m.platforms.len() < 2 {
+            return fault("it has no moving platform".into());
+        }
+        sensible_all(&place, "gravity", &m.gravity)?;
+        for names in [
+            m.platforms.iter().map(|p| &p.name).collect::<Vec<_>>(),
+            m.limbs.iter().map(|l| &l.name).collect(),
+        ] {
+            let mut seen = BTreeSet::new();
+            if let Some(twice) = names.into_iter().find(|n| !seen.insert(n.as_str())) {
+                return fault(format!("the name '{twice}' is used twice"));
+            }
+        }
+        for platform in &m.platforms {
+            check_platform(&place, platform)?;
+        }
+        for limb in &m.limbs {
+            let count = m.platforms.len();
+            if limb.from >= count || limb.to >= count || limb.from == limb.to {
+                return fault(format!(
+                    "limb '{}': it joins platforms {} and {} of {count}; two different ones are needed",
+                    limb.name, limb.from, limb.to
+                ));
+            }
+            let of_limb = format!("{place}: limb '{}'", limb.name);
+            let tip = &limb.platform_from_tip;
+            sensible_pose(&of_limb, "the pose of its tip on the platform", tip)?;
+            if limb.to == 0 {
+                return fault(format!(
+                    "limb '{}': it ends at the base; write it from the base to the moving platform",
+                    limb.name
+                ));
+            }
+            let same = limb.nominal.coordinates == limb.actual.coordinates
+                && limb.nominal.actuators == limb.actual.actuators
+                && limb.nominal.springs == limb.actual.springs
+                && limb.nominal.bodies == limb.actual.bodies
+                && limb.nominal.nodes == limb.actual.nodes;
+            if !same {
+                return fault(format!(
+                    "limb '{}': nominal and actual chain must have the same joints, springs, masses and nodes",
+                    limb.name
+                ));
+            }
+        }
+        if let Some(lonely) =
+            (1..m.platforms.len()).find(|&p| m.limbs.iter().all(|l| l.from != p && l.to != p))
+        {
+            return fault(format!(
+                "no limb holds platform '{}'",
+                m.platforms[lonely].name
+            ));
+        }
+        for load in &m.platform_loads {
+            check_platform_load(&m, load)?;
+        }
+        for (name, load) in self.loads {
+            let Some(index) = m.limbs.iter().position(|l| l.name == name) else {
+                let known: Vec<&str> = m.limbs.iter().map(|l| l.name.as_str()).collect();
+                return Err(Error::UnknownName {
+                    place,
+                    what: "limb",
+                    name,
+                    known: known.join(", "),
+                });
+            };
+            let limb = &m.limbs[index];
+            if matches!(load, Load::Gravity(_)) {
+                return fault(format!(
+                    "limb '{name}': gravity acts on everything; give it to the mechanism once"
+                ));
+            }
+            let chain = &limb.actual;
+            let (x, commands) = (chain.home_coordinates(), chain.home_commands());
+            let base = &m.platforms[limb.from].home;
+            check_load(
+                chain,
+                &Kinematics::new(chain, base, &x, &commands, false),
+                base,
+                &x,
+                &commands,
+                &load,
+            )?;
+            m.loads.resize(m.loads.len().max(index + 1), Vec::new());
+            m.loads[index].push(load);
+        }
+        Ok(m)
+    }
+}
+
+impl Mechanism {
+    /// Starts a description; the base platform exists already and has index 0.
+    #[must_use]
+    pub fn builder(name: impl Into<String>) -> MechanismBuilder {
+        MechanismBuilder {
+            mechanism: Self {
+                name: name.into(),
+                platforms: vec![Platform::new("base", Pose::identity())],
+                limbs: Vec::new(),
+                gravity: Vector3::zeros(),
+                tool: 0,
+                loads: Vec::new(),
+                platform_loads: Vec::new(),
+            },
+            loads: Vec::new(),
+        }
+    }
+}
