@@ -125,13 +125,13 @@ pub use linalg::saddle::Inertia;
 pub use linalg::singular_values::SingularValues;
 pub use machine::assembly::LinearAssembly;
 pub use machine::constraints::{Overconstraint, SelfStress};
+pub use machine::equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
 pub use machine::explain::negative_stiffness::OvercomeSpring;
 pub use machine::inverse::limb::{LimbPosture, inverse_kinematics};
-pub use machine::posture::{
-    LimbEquilibrium, MechanismEquilibrium, PlatformStability, Posture, UnloadedStiffness,
-};
+pub use machine::posture::Posture;
 pub use machine::singular::near::{NearSingularity, SingularityKind};
 pub use machine::state::MechanismState;
+pub use machine::stiffness::UnloadedStiffness;
 pub use model::beam::BeamSection;
 pub use model::builder::{ActuatorSpec, ChainBuilder};
 pub use model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
@@ -152,7 +152,8 @@ pub use model::springs::bowing::BowingLaw;
 pub use model::springs::logarithm::LogarithmLaw;
 pub use model::springs::parallelogram::ParallelogramLaw;
 pub use reference::chain_blocks::ChainBlocks;
-pub use reference::elimination::{Applied, Inapplicable, LoadedClosedForm, Recursion};
+pub use reference::conditions::{Applied, Inapplicable};
+pub use reference::elimination::{LoadedClosedForm, Recursion};
 pub use reference::passive_rules::{
     Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,
     planar_with_slide_along_x, planar_with_slide_along_y, with_hinge_at, with_hinge_at_end,

@@ -8,7 +8,8 @@ use super::{BLOCKS, Batch, Found, Table, in_parallel, left};
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};
-use crate::machine::posture::{MechanismEquilibrium, Posture};
+use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::spatial::{Pose, Wrench};
 

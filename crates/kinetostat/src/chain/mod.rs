@@ -1,4 +1,16 @@
-//! TODO
+//! One chain at one state, and Newton's iteration for it: a limb by itself, or a serial robot.
+//!
+//! Takes a [`ChainProblem`](crate::ChainProblem) (commands, loads, what is prescribed at the end), gives the tangent
+//! stiffness at the end, the principal directions with the joints and springs that take part in them, and whether the
+//! shape is stable. Long chains are solved by sweeps along them (`sweep`), short ones by dense matrices: two algorithms
+//! of one linear system, held together by one suite of tests (`sweep::tests`).
+//!
+//! ```text
+//! [ 0    J   ] [ F ]                                                      bordered system [R 4.15-4.16, 4.26]
+//! [ J^T  H-K ] [ x ]
+//! K_C = (J_theta K^-1 J_theta^T)^-1 with passive joints eliminated        [R 3.10, 3.13, 4.28]
+//! N^T (K - H) N > 0, N the null space of J: the shape is stable           [R 5.16-5.21]
+//! ```
 
 pub(crate) mod compliance;
 pub(crate) mod directions;

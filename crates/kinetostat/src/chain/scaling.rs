@@ -115,3 +115,16 @@ pub(crate) fn nudged(chain: &Chain, posture: &[f64], size: f64) -> Vec<f64> {
         })
         .collect()
 }
+
+/// Turns (rad) and slides (natural lengths) in all beyond which one step may have passed the shape to which the
+/// growing load leads.
+pub(crate) const FAR: f64 = 0.2;
+
+/// Share of the load by which it grows on the way that must not be lost.
+pub(crate) const SHORT_STEP: f64 = 0.02;
+
+/// How far the joints are put aside where a load begins to grow, rad: in short steps the way itself counts, and what
+/// buckles stays on it.
+pub(crate) fn aside(longest_step: f64) -> f64 {
+    if longest_step < 1.0 { 0.0 } else { 1e-3 }
+}

@@ -8,8 +8,10 @@
 
 use crate::chain::residual::Residual;
 use crate::error::{Error, Result};
-use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
-use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
+use crate::machine::platforms::parts::Unknowns;
+use crate::machine::platforms::solver::PlatformSolver;
+use crate::machine::posture::Posture;
 use crate::machine::state::{MechanismState, check_state};
 use crate::model::limits::sensible_pose;
 use crate::model::mechanism::Mechanism;

@@ -6,8 +6,9 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::pseudo_inverse;
-use crate::machine::platforms::solver::{Guide, Unknowns};
-use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
+use crate::machine::platforms::parts::{Guide, Unknowns};
+use crate::machine::posture::Posture;
 use crate::machine::state::{MechanismState, check_state};
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
 

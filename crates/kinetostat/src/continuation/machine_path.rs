@@ -13,12 +13,13 @@ use crate::chain::graded::{levels, root_rows};
 use crate::chain::problem::{EndCondition, Prescribed};
 use crate::continuation::branches::{BranchEnd, CurveSettings};
 use crate::continuation::reduced::{LoadPattern, Parameter};
-use crate::equilibrium::all_of_machine::MachineFound;
 use crate::error::{Error, Result};
 use crate::linalg::complement::complement;
-use crate::machine::directions::{independent_columns, without};
-use crate::machine::platforms::solver::{Guide, Unknowns};
-use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::linalg::saddle::independent_columns;
+use crate::machine::directions::without;
+use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
+use crate::machine::platforms::parts::{Guide, Unknowns};
+use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual, turn_matrix};
 
@@ -106,15 +107,15 @@ pub struct MachinePath {
 }
 
 /// How the tool keeps its place under dead wrenches.
-struct Holding {
+pub(crate) struct Holding {
     /// It does not go away.
-    stays: bool,
+    pub stays: bool,
     /// The symmetric part of its stiffness is positive: it does not swing with growing amplitude either.
-    definite: bool,
+    pub definite: bool,
 }
 
 impl Holding {
-    fn may_flutter(&self) -> bool {
+    pub fn may_flutter(&self) -> bool {
         self.stays && !self.definite
     }
 }
@@ -366,36 +367,12 @@ impl<'p, 'm> Path<'p, 'm> {
             && (x.iter().zip(&y)).all(|(x, y)| (x - y).abs() <= 1e-5 * most + 1e-9)
     }
 
-    /// With verdict and energy.
-    pub(crate) fn judged(&self, e: MechanismEquilibrium, dead: &Wrench) -> MachineFound {
-        let k = self.balanced_stiffness(&e);
-        let possible = self.possible(&e, &self.free);
-        let possible = self.without(&e, &possible, DirectionKind::Free);
-        let k = possible.transpose() * (&k + k.transpose()) * &possible * 0.5;
-        let singular = !k.is_empty() && {
-            let values = k.symmetric_eigenvalues();
-            let most = values.amax();
-            values.iter().any(|v| v.abs() < 1e-7 * most)
-        };
-        let holding = self.holds(&e, &self.free);
-        let springs: f64 = e.limbs.iter().map(|l| l.energy).sum();
-        let motion = self.motion(&e.tool);
-        MachineFound {
-            stable: e.shapes_stable() && e.others_hold && holding.stays,
-            may_flutter: holding.may_flutter(),
-            singular,
-            potential: e.energy.unwrap_or(springs) - dead.0.dot(&motion),
-            hits: 0,
-            equilibrium: e,
-        }
-    }
-
     fn unit(&self, i: usize) -> f64 {
         if i < 3 { 1.0 } else { self.length }
     }
 
     /// Motion of the tool from its nominal target, base axes.
-    fn motion(&self, pose: &Pose) -> Vector6<f64> {
+    pub(crate) fn motion(&self, pose: &Pose) -> Vector6<f64> {
         pose_residual(pose, &self.posture.target).0
     }
 
@@ -555,7 +532,7 @@ impl<'p, 'm> Path<'p, 'm> {
     }
 
     /// Whether the tool keeps its place in some motions (balanced) under dead wrenches.
-    fn holds(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> Holding {
+    pub(crate) fn holds(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> Holding {
         let possible = self.possible(e, motions);
         if possible.ncols() == 0 {
             return Holding {

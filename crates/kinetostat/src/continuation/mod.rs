@@ -1,4 +1,12 @@
-//! TODO
+//! Equilibria as one parameter grows: a displacement of the end or a pattern of loads, around limit points and through
+//! bifurcations.
+//!
+//! Takes an equilibrium and what grows, gives the curve through it with limit points, bifurcations, jumps and stability.
+//!
+//! ```text
+//! G(u, lambda) = 0,   normal . (z - z_0) = ds                             arc length (Keller)
+//! limit point: the parameter's rate changes its sign;  simple bifurcation: det [G_z; t^T] does
+//! ```
 
 pub(crate) mod bifurcation;
 pub(crate) mod branches;

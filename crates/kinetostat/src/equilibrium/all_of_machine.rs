@@ -6,17 +6,19 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{DMatrix, DVector, Vector6};
 use rayon::prelude::*;
 
+use crate::chain::directions::DirectionKind;
 use crate::chain::problem::EndCondition;
 use crate::continuation::branches::CurveSettings;
 use crate::continuation::machine_path::Path;
 use crate::equilibrium::all_of_chain::{Bounds, chance_of_more};
 use crate::error::Result;
-use crate::machine::platforms::solver::Unknowns;
-use crate::machine::posture::{MechanismEquilibrium, Posture, conclude};
+use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
+use crate::machine::platforms::parts::Unknowns;
+use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::model::chain::Role;
 use crate::model::kinematics::unloaded_tip;
-use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
+use crate::spatial::{MotionKind, Pose, Twist, Wrench, moved, pose_residual};
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -362,4 +364,30 @@ fn spread(free: &DMatrix<f64>, k: usize, path: &Path<'_, '_>) -> Vector6<f64> {
     let motion = free * parts * AMPLITUDES[k / 2 % 4];
     let size = path.posture.mechanism.size();
     Vector6::from_fn(|i, _| motion[i] * if i < 3 { size } else { PI })
+}
+
+impl Path<'_, '_> {
+    /// With verdict and energy.
+    pub(crate) fn judged(&self, e: MechanismEquilibrium, dead: &Wrench) -> MachineFound {
+        let k = self.balanced_stiffness(&e);
+        let possible = self.possible(&e, &self.free);
+        let possible = self.without(&e, &possible, DirectionKind::Free);
+        let k = possible.transpose() * (&k + k.transpose()) * &possible * 0.5;
+        let singular = !k.is_empty() && {
+            let values = k.symmetric_eigenvalues();
+            let most = values.amax();
+            values.iter().any(|v| v.abs() < 1e-7 * most)
+        };
+        let holding = self.holds(&e, &self.free);
+        let springs: f64 = e.limbs.iter().map(|l| l.energy).sum();
+        let motion = self.motion(&e.tool);
+        MachineFound {
+            stable: e.shapes_stable() && e.others_hold && holding.stays,
+            may_flutter: holding.may_flutter(),
+            singular,
+            potential: e.energy.unwrap_or(springs) - dead.0.dot(&motion),
+            hits: 0,
+            equilibrium: e,
+        }
+    }
 }

@@ -5,7 +5,7 @@ use crate::chain::equilibrium::Equilibrium;
 use crate::chain::newton::{Attempt, Way};
 use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
 use crate::chain::residual::Balance;
-use crate::chain::scaling::{LEAST_LOAD, gone, natural, nudged};
+use crate::chain::scaling::{FAR, LEAST_LOAD, SHORT_STEP, aside, gone, natural, nudged};
 use crate::chain::sweep::stages::Path;
 use crate::continuation::reduced::stability_as_prescribed;
 use crate::error::{Error, Result};
@@ -105,19 +105,6 @@ struct Failure {
     /// What it lacks at the full load.
     balance: Balance,
     iterations: usize,
-}
-
-/// Turns (rad) and slides (natural lengths) in all beyond which one step may have passed the shape to which the
-/// growing load leads.
-pub(crate) const FAR: f64 = 0.2;
-
-/// Share of the load by which it grows on the way that must not be lost.
-pub(crate) const SHORT_STEP: f64 = 0.02;
-
-/// How far the joints are put aside where a load begins to grow, rad: in short steps the way itself counts, and what
-/// buckles stays on it.
-pub(crate) fn aside(longest_step: f64) -> f64 {
-    if longest_step < 1.0 { 0.0 } else { 1e-3 }
 }
 
 /// The shape that stays and to which the growing load leads, where one step found another that does not and is

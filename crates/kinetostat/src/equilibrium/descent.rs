@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::DirectionKind;
 use crate::continuation::machine_path::Path;
-use crate::machine::platforms::solver::Guide;
-use crate::machine::posture::MechanismEquilibrium;
+use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::machine::platforms::parts::Guide;
 use crate::spatial::{Twist, moved, pose_residual};
 
 /// Steps of one descent.

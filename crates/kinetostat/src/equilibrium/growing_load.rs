@@ -6,12 +6,15 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use crate::chain::directions::{Direction, DirectionKind, motion_in_words};
 use crate::chain::problem::EndCondition;
 use crate::chain::residual::Residual;
+use crate::chain::scaling::SHORT_STEP;
 use crate::continuation::branches::CurveSettings;
 use crate::continuation::machine_path::Path;
 use crate::continuation::reduced::{LoadPattern, Parameter};
 use crate::error::{Error, LoadLimit, Result};
-use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
-use crate::machine::posture::{MechanismEquilibrium, Posture};
+use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::machine::platforms::parts::Unknowns;
+use crate::machine::platforms::solver::PlatformSolver;
+use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
@@ -107,6 +110,15 @@ impl<'m> Posture<'m> {
             Some(way) => self.free_direction(&way, wrench),
             None => error,
         })
+    }
+
+    /// The load grown from rest in short steps.
+    pub(crate) fn grown(&self, wrench: &Wrench) -> Result<(PlatformSolver<'m>, Residual)> {
+        let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
+        solver.wrench = *wrench;
+        let at_rest = solver.evaluate().0;
+        let residual = solver.grow_load(&at_rest, SHORT_STEP)?;
+        Ok((solver, residual))
     }
 
     /// Newton from a state near the equilibrium.

@@ -1,4 +1,8 @@
-//! TODO
+//! Equilibria: the one to which a load leads, all that can be found, and the load at which stability is lost.
+//!
+//! Takes the question (a chain with its end condition, a posture with a wrench), tries Newton's iteration directly, then a
+//! load that grows, then other starts; where there is no equilibrium it says why. Built on `chain`, `machine` and
+//! `continuation`.
 
 pub(crate) mod all_of_chain;
 pub(crate) mod all_of_machine;
@@ -6,4 +10,5 @@ pub(crate) mod chain;
 pub(crate) mod critical;
 pub(crate) mod descent;
 pub(crate) mod growing_load;
+pub(crate) mod machine;
 pub(crate) mod no_equilibrium;

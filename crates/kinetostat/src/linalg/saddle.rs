@@ -4,7 +4,7 @@
 
 use nalgebra::{DMatrix, Dyn, LU};
 
-use crate::linalg::singular_values::SingularValues;
+use crate::linalg::singular_values::{SingularValues, range};
 
 /// Pivots or singular values below this share of the largest count as zero. Regular machines stay
 /// above 1e-8 in balanced units (flat postures to 1 um included); rounding stays below 1e-13.
@@ -166,6 +166,12 @@ pub(crate) fn inertia(a: DMatrix<f64>) -> Inertia {
         }
     }
     count
+}
+
+/// Orthonormal basis of the span of the columns, by singular values. Columns may be fewer or more
+/// than rows.
+pub(crate) fn independent_columns(a: &DMatrix<f64>) -> DMatrix<f64> {
+    range(a, 1e-10)
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::chain::directions::axis_in_words;
 use crate::linalg::complement::complement;
+use crate::linalg::saddle::independent_columns;
 use crate::linalg::singular_values::range;
-use crate::machine::directions::independent_columns;
 use crate::machine::network::ends;
 use crate::machine::posture::Posture;
 use crate::model::chain::Role;

@@ -9,8 +9,7 @@ use crate::chain::divergence::diverging_motions;
 use crate::chain::stiffness::{ChainStiffness, Direction, DirectionKind, directions};
 use crate::linalg::block_elimination::Pivots;
 use crate::linalg::complement::complement;
-use crate::linalg::saddle::{Saddle, column_space};
-use crate::linalg::singular_values::range;
+use crate::linalg::saddle::{Saddle, column_space, independent_columns};
 use crate::linalg::sparse::Sparse;
 use crate::machine::graded::GradedPlatforms;
 use crate::machine::platform_system::{PlatformSystem, RigidRows, motion_units};
@@ -398,10 +397,4 @@ fn among(
         matrix: Matrix6::from_fn(|i, j| k[(i, j)] / (units[own[i]] * units[own[j]])),
         range,
     }
-}
-
-/// Orthonormal basis of the span of the columns, by singular values. Columns may be fewer or more
-/// than rows.
-pub(crate) fn independent_columns(a: &DMatrix<f64>) -> DMatrix<f64> {
-    range(a, 1e-10)
 }

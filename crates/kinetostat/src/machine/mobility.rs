@@ -2,8 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::linalg::saddle::column_space;
-use crate::machine::directions::independent_columns;
+use crate::linalg::saddle::{column_space, independent_columns};
 use crate::machine::inverse::limb::blocked_motions;
 use crate::machine::network::ends;
 use crate::machine::platforms::solver::rates_of;

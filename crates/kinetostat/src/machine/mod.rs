@@ -1,8 +1,18 @@
-//! TODO
+//! A mechanism commanded for a target: its posture, its stiffness there, and the Newton iteration of its platforms.
+//!
+//! Takes a [`Mechanism`](crate::Mechanism) and a target of the tool, gives the commands of the actuators (`inverse`), the
+//! posture, its unloaded stiffness, what the limbs constrain, how near a singular posture is (`singular`), what assembly
+//! with errors does to first order (`assembly`), and which joints and springs take part in a motion of the tool
+//! (`explain`). `platforms` is the equilibrium of the platforms at one share of the load.
+//!
+//! ```text
+//! W = sum T_i^T F_i,   K = sum T_i^T K_i T_i + sum blkdiag(0, hat(f_i) hat(s_i))     [R 6.21-6.30, 5.28 corrected]
+//! ```
 
 pub(crate) mod assembly;
 pub(crate) mod constraints;
 pub(crate) mod directions;
+pub(crate) mod equilibrium;
 pub(crate) mod explain;
 pub(crate) mod forward;
 pub(crate) mod graded;
@@ -14,4 +24,5 @@ pub(crate) mod platforms;
 pub(crate) mod posture;
 pub(crate) mod singular;
 pub(crate) mod state;
+pub(crate) mod stiffness;
 pub(crate) mod turned_loads;

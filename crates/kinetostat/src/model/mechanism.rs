@@ -5,7 +5,6 @@
 //! and the actual one, with its assembly and manufacturing errors, which decides where the machine
 //! goes.
 
-
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -291,5 +290,37 @@ impl Mechanism {
                 })
             })
             .collect()
+    }
+}
+
+impl Mechanism {
+    /// The same mechanism with its tool platform's reference point and axes moved to `tool`
+    /// (platform from tool): a spindle's tip, say. Results then refer to that point.
+    #[must_use]
+    pub fn with_tool(&self, tool: &Pose) -> Self {
+        let mut moved = self.clone();
+        let inverse = tool.inverse();
+        for limb in &mut moved.limbs {
+            if limb.to == moved.tool {
+                limb.platform_from_tip = inverse * limb.platform_from_tip;
+            }
+            if limb.from == moved.tool {
+                for chain in [&mut limb.nominal, &mut limb.actual] {
+                    chain
+                        .elements
+                        .insert(0, crate::model::chain::Element::Rigid(inverse));
+                }
+            }
+        }
+        for load in &mut moved.platform_loads {
+            *load = load.reframed(moved.tool, tool);
+        }
+        let platform = &mut moved.platforms[moved.tool];
+        platform.home *= *tool;
+        platform.centre_of_mass =
+            (inverse * nalgebra::Point3::from(platform.centre_of_mass)).coords;
+        let turn = tool.rotation.to_rotation_matrix();
+        platform.inertia = turn.matrix().transpose() * platform.inertia * turn.matrix();
+        moved
     }
 }

@@ -1,4 +1,15 @@
-//! TODO
+//! What a robot is made of: chains and mechanisms, the laws of their springs, the loads on them.
+//!
+//! Takes descriptions in the words of the field (actuator, passive joint, link, spring, platform, limb), checks them once
+//! and freezes them; nothing here changes after `build()`. Gives positions, Jacobians and the Hessian of loads of a
+//! chain at given coordinates (`kinematics`), torques and tangents of springs (`springs`), wrenches and tangents of loads
+//! (`loads`). It solves nothing.
+//!
+//! ```text
+//! base_from_tip = E_1 E_2 ... E_m                                         [R 4.1]
+//! J, H = d(sum J_j^T G_j)/dx                                              [R 4.3-4.6, 4.21]
+//! torques of a spring block  -dU/dtheta, tangent d2U/dtheta2              [R 3.2, 4.9]
+//! ```
 
 pub(crate) mod beam;
 pub(crate) mod builder;

@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, column_space, pseudo_inverse};
 use crate::model::chain::{Chain, Role, Scale};
-use crate::reference::elimination::{Applied, Inapplicable};
+use crate::reference::conditions::{Applied, Inapplicable};
 use crate::spatial::{Pose, Wrench};
 
 /// Jacobians, springs and Hessians of a chain at one state, balanced.

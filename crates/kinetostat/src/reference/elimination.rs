@@ -9,27 +9,8 @@ use nalgebra::{DMatrix, Matrix6, Vector6};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle, column_space};
 use crate::reference::chain_blocks::{ChainBlocks, regular_inverse};
+use crate::reference::conditions::{Applied, Inapplicable};
 use crate::reference::passive_rules::eliminated;
-
-/// Why a form has no answer here.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Inapplicable {
-    /// `J_theta k J_theta^T` is singular: the springs alone do not move the end in all six
-    /// directions [R remark 1]. Carries how many they move.
-    SpringsDoNotReach(usize),
-    /// `J_q^T K J_q` is singular: these passive joints are redundant [R remark 2].
-    RedundantPassiveJoints(Vec<String>),
-    /// `K_theta - H_thetatheta` is singular: the load takes a spring's hold, as if nothing else
-    /// held it.
-    SpringsAreSpent,
-    /// The last bracket of [R 4.29] is singular: the held chain has a neutral motion of these
-    /// passive joints (redundancy, or a critical load).
-    PassiveJointsUndecided(Vec<String>),
-    /// The order must name each passive joint at most once; carries how many there are.
-    NotAnOrder(usize),
-    /// The form is that of the unloaded chain [R 3.10, 3.11], and this one is loaded.
-    Loaded,
-}
 
 impl std::fmt::Display for Inapplicable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -58,9 +39,6 @@ impl std::fmt::Display for Inapplicable {
         }
     }
 }
-
-/// Answer of a form that does not always apply; `Err` says why it does not.
-pub type Applied<T> = std::result::Result<T, Inapplicable>;
 
 /// A loaded stiffness by [R 4.28-4.30], base axes, at the tip.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,11 @@
-//! TODO
+//! Forms of the report and of textbooks that no engine needs: for those who check, teach or simplify.
+//!
+//! The blocks of a chain's tangent and the three ways to its stiffness [R 3.7-3.16, 4.27-4.29], the elimination of single
+//! passive joints with the cases of Tables 3.1-3.3, the report's own iteration [R 4.15-4.16] and its criterion of a
+//! shape [R 5.16-5.21].
 
 pub(crate) mod chain_blocks;
+pub(crate) mod conditions;
 pub(crate) mod elimination;
 pub(crate) mod passive_rules;
 pub(crate) mod report_iteration;

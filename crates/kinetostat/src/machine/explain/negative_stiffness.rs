@@ -6,7 +6,8 @@
 
 use crate::chain::equilibrium::System;
 use crate::error::Result;
-use crate::machine::posture::{MechanismEquilibrium, Posture};
+use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::machine::posture::Posture;
 use crate::model::chain::Role;
 use crate::model::loads::load::Load;
 use crate::spatial::{MotionKind, Wrench};

@@ -2,7 +2,9 @@
 
 use crate::chain::directions::{Direction, DirectionKind, Share, largest};
 use crate::chain::stiffness::ChainStiffness;
-use crate::machine::posture::{MechanismEquilibrium, Posture, UnloadedStiffness};
+use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::machine::posture::Posture;
+use crate::machine::stiffness::UnloadedStiffness;
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Twist};
 

@@ -8,22 +8,10 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::sweep::solve::EndRows;
 use crate::linalg::complement::complement;
-use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
-use crate::machine::platforms::step::{PlatformStep, Tangents};
+use crate::machine::platforms::parts::{PlatformStep, Tangents, ToolBalance, Unknowns};
+use crate::machine::platforms::solver::PlatformSolver;
 use crate::model::chain::{Coordinate, Role};
 use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
-
-/// Balance of the tool, `T^T dF + A dt - hands * dh = lack`, over wrench and motion of the tip, with
-/// the unknown hands taken out, and the conditions of the guide.
-pub(crate) struct ToolBalance {
-    /// The first rows: combinations of the balance across the hands, (6 - k) x 6.
-    across: DMatrix<f64>,
-    /// Wrench (natural units) and motion in the balance.
-    wrench: Matrix6<f64>,
-    motion: Matrix6<f64>,
-    /// Of every row, so that its largest balanced entry is one.
-    sizes: Vector6<f64>,
-}
 
 impl PlatformSolver<'_> {
     /// One limb without passive joints from the base to the only moving platform, which goes where

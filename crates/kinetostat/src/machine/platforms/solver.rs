@@ -12,100 +12,25 @@
 //! A limb that starts at a moving platform loads it with everything that acts on the limb; that
 //! reaction and its derivative come from six motions of the limb's base.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3, Vector6};
+use nalgebra::{DMatrix, Vector3, Vector6};
 
 use crate::chain::equilibrium::{System, balance, rounding};
 use crate::chain::passive::balanced_jacobian;
 use crate::chain::residual::Balance;
-use crate::chain::scaling::{LEAST_LOAD, step_limit};
+use crate::chain::scaling::LEAST_LOAD;
 use crate::chain::stability::{ShapeStability, shape_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, motions_of_end};
-use crate::error::{Error, Result};
 use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::machine::inverse::limb::{LimbPosture, command_rates, inverse_kinematics};
-use crate::machine::platforms::chain::ToolBalance;
 use crate::machine::platforms::limb::Linear;
-use crate::machine::platforms::step::{PlatformStep, Tangents};
+use crate::machine::platforms::parts::{Guide, ToolBalance, Unknowns};
 use crate::machine::state::MechanismState;
 use crate::model::chain::{Chain, Scale};
 use crate::model::loads::load::Load;
 use crate::model::mechanism::Mechanism;
 use crate::settings::Settings;
-use crate::spatial::{MotionKind, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix};
-
-/// How the unknowns of the platform equations are divided.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Unknowns {
-    /// All platforms move; commands are given.
-    Pose,
-    /// The tool is held and its wrench follows; other platforms move.
-    Held,
-    /// The tool is held in the directions that are `true` and the nominal target moves there
-    /// instead: compensation.
-    Target([bool; 6]),
-    /// The tool is held where [`PlatformSolver::guide`] says, and the wrenches that hold it there
-    /// follow: a part of [`PlatformSolver::wrench`]. Everything else moves.
-    Guided,
-}
-
-/// Conditions on the motion of the tool from a pose, and as many wrenches on it.
-#[derive(Clone, Debug)]
-pub(crate) struct Guide {
-    /// Where the motion is counted from.
-    pub from: Pose,
-    /// Conditions `rows * motion = goals`, k x 6, base axes.
-    pub rows: DMatrix<f64>,
-    /// See `rows`, k.
-    pub goals: DVector<f64>,
-    /// Columns: wrenches about the tool's origin, base axes, 6 x k.
-    pub hands: DMatrix<f64>,
-}
-
-impl Guide {
-    /// No condition.
-    pub fn none() -> Self {
-        Self {
-            from: Pose::identity(),
-            rows: DMatrix::zeros(0, 6),
-            goals: DVector::zeros(0),
-            hands: DMatrix::zeros(6, 0),
-        }
-    }
-
-    /// What the motion to `pose` lacks of the goals.
-    pub fn lack(&self, pose: &Pose) -> DVector<f64> {
-        &self.goals - &self.rows * pose_residual(pose, &self.from).0
-    }
-
-    /// Rows by the motion of the tool at `pose`: the logarithm is no sum.
-    pub fn rows_at(&self, pose: &Pose) -> DMatrix<f64> {
-        let turned = pose_residual(pose, &self.from).angular();
-        let angle = turned.norm();
-        let mut rows = self.rows.clone();
-        if angle > 1e-9 {
-            let cross = hat(&turned);
-            let share = (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle);
-            let by_turn = Matrix3::identity() - cross * 0.5 + cross * cross * share;
-            let turns = rows.columns(3, 3) * by_turn;
-            rows.columns_mut(3, 3).copy_from(&turns);
-        }
-        rows
-    }
-}
-
-/// Where an iteration is.
-struct Place {
-    state: MechanismState,
-    posture: Vec<LimbPosture>,
-    nominal: Vec<Pose>,
-    target: Pose,
-    wrench: Wrench,
-}
-
-/// Corrections of less motion than this (rad, natural lengths) are judged by the residual after them,
-/// larger ones by the motion that the same tangents still want.
-const SMALL: f64 = 1e-2;
+use crate::spatial::{Pose, Twist, Wrench, pose_residual, shift_matrix};
 
 /// A mechanism's equilibrium being solved.
 pub(crate) struct PlatformSolver<'m> {
@@ -133,11 +58,11 @@ pub(crate) struct PlatformSolver<'m> {
     /// Of a machine that is one chain: what its tool lacks, as it was linearised.
     pub balance: Option<ToolBalance>,
     /// Closure at the start, kept while the load grows.
-    offsets: Vec<Twist>,
+    pub offsets: Vec<Twist>,
     /// Limbs from the base outwards, where every moving platform has a single limb to it; else none.
     tree: Vec<usize>,
     /// The tool is led to its place while the load grows, its limb after it.
-    leads: bool,
+    pub leads: bool,
     pub share: f64,
     /// See [`crate::Residual::rate`], of the limbs' wrenches and coordinates.
     pub rate: Option<f64>,
@@ -148,16 +73,16 @@ pub(crate) struct PlatformSolver<'m> {
 /// Largest residuals of all limbs and platforms, balanced.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MechanismBalance {
-    merit: f64,
-    closure_m: f64,
-    torque: f64,
-    loads: f64,
-    force: f64,
-    forces: f64,
+    pub merit: f64,
+    pub closure_m: f64,
+    pub torque: f64,
+    pub loads: f64,
+    pub force: f64,
+    pub forces: f64,
     /// What loads count as at least, see [`LEAST_LOAD`].
-    least: f64,
+    pub least: f64,
     /// Largest unbalanced torque without what is rounding, see [`rounding`].
-    exceeding: f64,
+    pub exceeding: f64,
 }
 
 impl MechanismBalance {
@@ -264,7 +189,7 @@ impl<'m> PlatformSolver<'m> {
         }
     }
 
-    fn evaluate_limbs(&mut self) {
+    pub fn evaluate_limbs(&mut self) {
         if !self.follows() {
             (0..self.linear.len()).for_each(|i| self.evaluate_limb(i));
             return;
@@ -375,7 +300,7 @@ impl<'m> PlatformSolver<'m> {
         (balance, lack)
     }
 
-    fn converged(&self, b: &MechanismBalance) -> bool {
+    pub fn converged(&self, b: &MechanismBalance) -> bool {
         let unit = self.stiffness.sqrt() * self.length;
         b.torque.is_finite()
             && b.closure_m <= self.settings.closure * self.length
@@ -413,294 +338,6 @@ impl<'m> PlatformSolver<'m> {
     pub fn refresh_rates(&mut self) {
         self.nominal[self.mechanism.tool] = self.target;
         self.rates = rates_of(self.mechanism, &self.nominal, &self.posture);
-    }
-
-    /// Newton at one share of the load.
-    pub fn solve(
-        &mut self,
-        share: f64,
-        mut picard: usize,
-    ) -> std::result::Result<(usize, MechanismBalance), (usize, MechanismBalance)> {
-        self.share = share;
-        self.rate = None;
-        let mut before: Option<f64> = None;
-        let (mut now, mut lack) = self.evaluate();
-        // A tangent that gains this much in one step (squared) serves for the next step too.
-        const STILL_GOOD: f64 = 1e-5;
-        let mut fresh = true;
-        for iteration in 0..self.settings.iterations {
-            if self.converged(&now) && iteration > 0 {
-                return Ok((iteration, now));
-            }
-            let here = self.state.clone();
-            let old = (!fresh)
-                .then(|| self.newton(&lack, &here, Tangents::Old))
-                .flatten();
-            let reused = old.is_some();
-            let new = Tangents::New {
-                with_hessian: iteration >= picard,
-            };
-            let Some((step, steps)) = old.or_else(|| self.newton(&lack, &here, new)) else {
-                return Err((iteration, now));
-            };
-            let mut length = self.longest(&step, &steps);
-            let extent = self.extent(steps.iter());
-            let correction: f64 = steps
-                .iter()
-                .zip(&self.factors)
-                .flat_map(|(step, units)| step.iter().zip(units))
-                .map(|(change, unit)| (change / unit).powi(2))
-                .sum();
-            let start = self.place();
-            // Where platforms go where their limbs lead, large corrections are judged as those of
-            // chains. Limbs that constrain each other are judged by the residual, and stay on their branch.
-            let by_motion = self.follows();
-            loop {
-                let reached = self.go(&start, &step, &steps, length);
-                let merit = now.merit;
-                let (next, missing) = self.evaluate();
-                let better = next.merit <= merit * (1.0 - 0.1 * length);
-                let lagged = match by_motion {
-                    true => iteration + 1 < picard,
-                    false => iteration < picard,
-                };
-                let fine = self.converged(&next) || lagged;
-                let less = better && (extent < SMALL || !by_motion);
-                let mut accepted = reached && (fine || less);
-                // Rounding: no further progress is possible and the conditions nearly hold.
-                let close = next.closure_m <= 100.0 * self.settings.closure * self.length
-                    && next.torque <= 10.0 * self.settings.torque * next.loads
-                    && next.force <= 10.0 * self.settings.torque * next.forces;
-                if reached && !accepted && !better && close {
-                    return Ok((iteration, next));
-                }
-                let mut shorter = 0.5 * length;
-                if reached && !accepted && by_motion {
-                    let again = self.newton(&missing, &start.state, Tangents::Old);
-                    let bent = again.map_or(f64::INFINITY, |(_, again)| {
-                        let off = again.iter().zip(&steps);
-                        let off: Vec<_> = off.map(|(a, s)| a - s * (1.0 - length)).collect();
-                        self.extent(off.iter())
-                    });
-                    accepted = bent <= 0.5 * length * extent;
-                    let wanted = 0.5 * length * length * extent / bent;
-                    shorter = wanted.max(0.1 * length).min(shorter);
-                }
-                if accepted {
-                    let moved = length * correction.sqrt();
-                    self.rate = before.filter(|b| *b > 0.0).map(|b| moved / b);
-                    before = Some(moved);
-                    fresh = iteration < picard || next.merit > STILL_GOOD * merit;
-                    (now, lack) = (next, missing);
-                    break;
-                }
-                if reused && by_motion {
-                    // The tangents do not serve any more.
-                    self.put(start);
-                    (now, lack) = self.evaluate();
-                    fresh = true;
-                    break;
-                }
-                length = shorter;
-                if length < 1e-3 {
-                    self.put(start);
-                    if iteration >= picard || !by_motion {
-                        return Err((iteration, now));
-                    }
-                    // Loads lagged lead nowhere from here: Newton at once.
-                    picard = 0;
-                    (now, lack) = self.evaluate();
-                    break;
-                }
-            }
-        }
-        if self.converged(&now) {
-            Ok((self.settings.iterations, now))
-        } else {
-            Err((self.settings.iterations, now))
-        }
-    }
-
-    /// Longest share of a step over which the linearisation says something.
-    fn longest(&self, step: &PlatformStep, steps: &[DVector<f64>]) -> f64 {
-        let mut length = 1.0_f64;
-        for (limb, step) in self.mechanism.limbs.iter().zip(steps) {
-            length = length.min(step_limit(&limb.actual, step.iter().skip(6).copied()));
-        }
-        // Platforms that follow their limbs go as far as those.
-        let free = if self.follows() {
-            &[]
-        } else {
-            &step.motions[..]
-        };
-        for motion in free.iter().chain([&step.target]) {
-            length = length
-                .min(0.5 / motion.angular().norm().max(1e-300))
-                .min(0.5 * self.length / motion.linear().norm().max(1e-300));
-        }
-        length
-    }
-
-    /// Size of the motion of all limbs in a correction: root of the sum of squares of turns (rad) and
-    /// slides (in natural lengths).
-    fn extent<'v>(&self, steps: impl Iterator<Item = &'v DVector<f64>>) -> f64 {
-        let limbs = self.mechanism.limbs.iter().zip(steps);
-        limbs
-            .flat_map(|(limb, step)| {
-                let length = limb.actual.scale().length;
-                let own = limb.actual.coordinates().iter().zip(step.iter().skip(6));
-                own.map(move |(c, dx)| match c.kind {
-                    MotionKind::Revolute => dx * dx,
-                    MotionKind::Prismatic => (dx / length).powi(2),
-                })
-            })
-            .sum::<f64>()
-            .sqrt()
-    }
-
-    fn place(&self) -> Place {
-        Place {
-            state: self.state.clone(),
-            posture: self.posture.clone(),
-            nominal: self.nominal.clone(),
-            target: self.target,
-            wrench: self.wrench,
-        }
-    }
-
-    fn put(&mut self, place: Place) {
-        self.state = place.state;
-        self.posture = place.posture;
-        self.nominal = place.nominal;
-        self.target = place.target;
-        self.wrench = place.wrench;
-    }
-
-    /// Goes a share of a step from a place; `false` where the commands cannot follow.
-    fn go(
-        &mut self,
-        from: &Place,
-        step: &PlatformStep,
-        steps: &[DVector<f64>],
-        length: f64,
-    ) -> bool {
-        self.wrench = from.wrench + step.push * length;
-        for (k, motion) in step.motions.iter().enumerate() {
-            self.state.platforms[k + 1] =
-                moved(&from.state.platforms[k + 1], &Twist(motion.0 * length));
-        }
-        for (i, step) in steps.iter().enumerate() {
-            let start = &from.state.coordinates[i];
-            self.state.wrenches[i].0 =
-                from.state.wrenches[i].0 + length * step.fixed_view::<6, 1>(0, 0);
-            for (j, x) in self.state.coordinates[i].iter_mut().enumerate() {
-                *x = start[j] + length * step[6 + j];
-            }
-            for block in self.mechanism.limbs[i].actual.springs() {
-                block.follow(start, self.share, &mut self.state.coordinates[i]);
-            }
-        }
-        if step.target.0 == Vector6::zeros() {
-            return true;
-        }
-        self.posture.clone_from(&from.posture);
-        self.nominal.clone_from(&from.nominal);
-        self.target = moved(&from.target, &Twist(step.target.0 * length));
-        self.retarget()
-    }
-
-    /// As given, and failing that with loads and closures that grow from the unloaded posture.
-    pub fn solve_robustly(&mut self) -> Result<crate::chain::residual::Residual> {
-        let start = self.state.clone();
-        // A state that carries load already is better than the report's first step from rest.
-        let loaded = self.state.wrenches.iter().any(|w| *w != Wrench::zero());
-        let picard = if loaded {
-            0
-        } else {
-            self.settings.picard_steps
-        };
-        match self.solve(1.0, picard) {
-            Ok((iterations, balance)) => Ok(self.residual(&balance, iterations)),
-            Err((_, balance)) => {
-                self.state = start;
-                self.grow_load(&balance, 1.0)
-            }
-        }
-    }
-
-    /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is what one step
-    /// lacked.
-    pub fn grow_load(
-        &mut self,
-        first: &MechanismBalance,
-        longest: f64,
-    ) -> Result<crate::chain::residual::Residual> {
-        let aside = crate::equilibrium::chain::aside(longest);
-        for (i, limb) in self.mechanism.limbs.iter().enumerate() {
-            self.state.coordinates[i] =
-                crate::chain::scaling::nudged(&limb.actual, &self.posture[i].coordinates, aside);
-            self.state.wrenches[i] = Wrench::zero();
-        }
-        self.share = 1.0;
-        self.offsets.fill(Twist::zero());
-        self.leads = self.unknowns == Unknowns::Guided;
-        self.evaluate();
-        self.offsets = self.linear.iter().map(|l| l.closure).collect();
-        let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
-        let mut last = *first;
-        while share < 1.0 {
-            let kept = self.state.clone();
-            let next = (share + step).min(1.0);
-            match self.solve(next, 0) {
-                Ok((spent, balance)) => {
-                    iterations += spent;
-                    share = next;
-                    last = balance;
-                    step = (1.5 * step).min(longest);
-                }
-                Err((spent, _)) => {
-                    iterations += spent;
-                    self.state = kept;
-                    step *= 0.5;
-                    if step < self.settings.smallest_load_step.max(1e-9) {
-                        self.leads = false;
-                        return Err(self.not_converged(iterations, share, first));
-                    }
-                }
-            }
-        }
-        self.offsets.fill(Twist::zero());
-        self.leads = false;
-        Ok(self.residual(&last, iterations))
-    }
-
-    fn residual(
-        &self,
-        balance: &MechanismBalance,
-        iterations: usize,
-    ) -> crate::chain::residual::Residual {
-        crate::chain::residual::Residual {
-            rate: self.rate,
-            ..balance.residual(iterations)
-        }
-    }
-
-    pub fn not_converged(
-        &self,
-        iterations: usize,
-        share: f64,
-        balance: &MechanismBalance,
-    ) -> Error {
-        let residual = balance.residual(iterations);
-        Error::NotConverged {
-            place: format!("mechanism '{}'", self.mechanism.name),
-            iterations,
-            residual_position_m: residual.closure_m,
-            residual_torque: residual.torque,
-            load_factor: share,
-            last: self.state.coordinates.concat(),
-            limit: None,
-        }
     }
 
     /// Exact tangents at the present state: evaluates, linearises and returns `K` of the platforms,

@@ -8,31 +8,11 @@ use nalgebra::{DMatrix, DVector, Matrix6};
 
 use crate::linalg::sparse::Sparse;
 use crate::machine::platform_system::{PlatformSystem, RigidRows};
-use crate::machine::platforms::solver::{PlatformSolver, Unknowns};
+use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
+use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::state::MechanismState;
 use crate::model::chain::Scale;
 use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
-
-/// Which tangents a step is made with.
-#[derive(Clone, Copy)]
-pub(crate) enum Tangents {
-    /// Those at the state evaluated last.
-    New { with_hessian: bool },
-    /// Those of the step before.
-    Old,
-}
-
-/// One Newton step of the platforms.
-pub(crate) struct PlatformStep {
-    /// Motions of the moving platforms.
-    pub motions: Vec<Twist>,
-    /// Motion of the nominal target.
-    pub target: Twist,
-    /// Wrenches that limbs carry rigidly.
-    pub carried: Vec<Wrench>,
-    /// Change of the force that holds the tool in one direction.
-    pub push: Wrench,
-}
 
 impl PlatformSolver<'_> {
     /// Solves every limb's bordered system for closure, end, command and base motions.

@@ -1,4 +1,7 @@
-//! TODO
+//! Loads: which wrenches act on which nodes (or platforms) at given poses, how those change, and with which potential.
+//!
+//! A load on a limb is a [`NodeLoad`](crate::NodeLoad) [R 4.2, 4.22-4.23]; what touches two limbs acts on platforms
+//! (`platform`). `check` compares every tangent with differences of its wrenches.
 
 pub(crate) mod check;
 pub(crate) mod follower;

@@ -1,0 +1,91 @@
+//! Where a machine goes under a load, `f^-1(F | t0)` [R 6.28-6.30].
+
+use crate::chain::residual::Residual;
+use crate::chain::scaling::{FAR, gone};
+use crate::error::Result;
+use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
+use crate::machine::platforms::parts::Unknowns;
+use crate::machine::platforms::solver::PlatformSolver;
+use crate::machine::posture::Posture;
+use crate::machine::state::{MechanismState, check_state};
+use crate::spatial::Wrench;
+
+impl<'m> Posture<'m> {
+    /// `f^-1(F | t0)`: where the tool goes under a dead wrench at its origin [R 6.28-6.30], with
+    /// gravity, preloads and assembly errors of the model.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] with the last state and share of the load, and the limit point if
+    /// one is on the way; [`Error::FreeDirection`] where the load pushes on along a motion that
+    /// nothing holds, as far as it can be followed.
+    pub fn deflected_by(&self, wrench: &Wrench) -> Result<MechanismEquilibrium> {
+        self.deflected_from(wrench, self.rest_state())
+    }
+
+    /// As [`Self::deflected_by`], starting from the state of a neighbouring equilibrium.
+    ///
+    /// # Errors
+    /// As [`Self::deflected_by`].
+    pub fn deflected_from(
+        &self,
+        wrench: &Wrench,
+        start: MechanismState,
+    ) -> Result<MechanismEquilibrium> {
+        let (mut solver, residual) = self.settled(wrench, start)?;
+        let found = conclude(&mut solver, residual)?;
+        Ok(self.led_to(wrench, &found).unwrap_or(found))
+    }
+
+    /// Only where the platforms and limbs come to rest: [`Self::deflected_from`] without stiffness
+    /// and stability, for fields of many points.
+    ///
+    /// # Errors
+    /// As [`Self::deflected_by`].
+    pub fn rest_under(&self, wrench: &Wrench, start: MechanismState) -> Result<MechanismState> {
+        let (mut solver, residual) = self.settled(wrench, start)?;
+        if !self.is_far(&solver.state) {
+            return Ok(solver.state);
+        }
+        let found = conclude(&mut solver, residual)?;
+        Ok(self.led_to(wrench, &found).unwrap_or(found).state)
+    }
+
+    /// The stable equilibrium to which the growing load leads, where one step found another that does not stay and
+    /// which lies far: it may have passed the former.
+    fn led_to(
+        &self,
+        wrench: &Wrench,
+        found: &MechanismEquilibrium,
+    ) -> Option<MechanismEquilibrium> {
+        if found.stable() || !self.is_far(&found.state) {
+            return None;
+        }
+        let (mut solver, residual) = self.grown(wrench).ok()?;
+        let grown = conclude(&mut solver, residual).ok()?;
+        grown.stable().then_some(grown)
+    }
+
+    /// Whether one step may have passed the equilibrium to which the growing load leads.
+    fn is_far(&self, state: &MechanismState) -> bool {
+        let limbs = self.mechanism.limbs.iter().zip(&self.limbs);
+        let ways = limbs
+            .zip(&state.coordinates)
+            .map(|((limb, home), there)| gone(&limb.actual, &home.coordinates, there));
+        ways.sum::<f64>() > FAR
+    }
+
+    pub(crate) fn settled(
+        &self,
+        wrench: &Wrench,
+        start: MechanismState,
+    ) -> Result<(PlatformSolver<'m>, Residual)> {
+        self.finite("the wrench", wrench.0.iter())?;
+        check_state(self.mechanism, &start)?;
+        let mut solver = self.solver(start, Unknowns::Pose);
+        solver.wrench = *wrench;
+        match solver.solve_robustly() {
+            Ok(residual) => Ok((solver, residual)),
+            Err(error) => self.found_otherwise(wrench, error),
+        }
+    }
+}

@@ -1,0 +1,336 @@
+//! A machine in equilibrium: where its platforms are, what its limbs carry, how stiff it is there and whether it
+//! stays [R 6.21-6.30].
+
+use nalgebra::Matrix6;
+
+use serde::{Deserialize, Serialize};
+
+use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
+use crate::chain::directions::{Direction, DirectionKind};
+use crate::chain::link_load::{LinkLoad, link_loads};
+use crate::chain::potential::load_energy;
+use crate::chain::problem::{ChainProblem, EndCondition};
+use crate::chain::residual::Residual;
+use crate::chain::stability::ShapeStability;
+use crate::chain::stiffness::ChainStiffness;
+use crate::error::{Error, Result};
+use crate::machine::directions::{
+    balanced_directions, condensed_directions, none_diverges, others_hold,
+};
+use crate::machine::platform_system::RigidRows;
+use crate::machine::platforms::parts::Unknowns;
+use crate::machine::platforms::solver::PlatformSolver;
+use crate::machine::posture::Posture;
+use crate::machine::state::MechanismState;
+use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
+
+/// Whether the platform stays where it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlatformStability {
+    /// Every motion of the free platform costs energy, or (see `free`) none; for loads without a potential: it does
+    /// not go away (divergence), but see `may_flutter`.
+    pub stable: bool,
+    /// The loads have no potential, the platform does not go away, but it may swing with growing amplitude
+    /// (flutter); whether it does depends on the masses.
+    #[serde(default)]
+    pub may_flutter: bool,
+    /// Smallest principal stiffness, N/m (rotations referred to the natural length).
+    pub smallest_stiffness_n_per_m: f64,
+    /// Number of directions without stiffness.
+    pub free: usize,
+}
+
+/// What one limb does in an equilibrium.
+#[derive(Clone, Debug)]
+pub struct LimbEquilibrium {
+    /// Name of the limb.
+    pub name: String,
+    /// Wrench of the platform on the limb's tip, about it, base axes.
+    pub wrench: Wrench,
+    /// Coordinates, m or rad, in the chain's order.
+    pub coordinates: Vec<f64>,
+    /// Torque of every spring coordinate, N or N m; zero for passive joints.
+    pub spring_torques: Vec<f64>,
+    /// Energy in its springs, J.
+    pub energy: f64,
+    /// Potential energy of its loads and weights, J; the zero is arbitrary but the same in all
+    /// equilibria of a posture. `None` where a load has no potential.
+    pub load_energy: Option<f64>,
+    /// All its loads have a potential; if not, statements about energy do not hold.
+    pub conservative: bool,
+    /// Axial load of its elastic links, relative to their Euler loads.
+    pub link_loads: Vec<LinkLoad>,
+    /// Poses of its nodes, base from node, in the chain's order.
+    pub nodes: Vec<Pose>,
+    /// Force (N) or torque (N m) of the loads on every actuator.
+    pub actuator_forces: Vec<f64>,
+    /// Tangent stiffness at its tip.
+    pub stiffness: ChainStiffness,
+    /// Stability of its shape with the tip held.
+    pub stability: ShapeStability,
+}
+
+impl LimbEquilibrium {
+    /// It has no motion while its end is held, so that its end's motions are all that it has.
+    fn follows_its_end(&self) -> bool {
+        self.stability.stable && self.stability.share_to_buckling.is_none()
+    }
+}
+
+/// A mechanism in equilibrium.
+#[derive(Clone, Debug)]
+pub struct MechanismEquilibrium {
+    /// Pose of the tool platform.
+    pub tool: Pose,
+    /// From the nominal target to that pose.
+    pub displacement: Twist,
+    /// External wrench on the tool, about its origin, base axes: given (`f^-1`) or found (`f`).
+    pub wrench: Wrench,
+    /// Energy of all springs and potential of all weights, loads on limbs and on platforms, J, without the
+    /// wrench on the tool, whose work it is while the tool is moved. `None` where a load has no
+    /// potential.
+    pub energy: Option<f64>,
+    /// All loads on limbs and the dead wrench on the tool (if it is not held) have a potential; if
+    /// not, the machine
+    /// may gain energy on a closed path, and stability judged by stiffness is not all of it.
+    pub conservative: bool,
+    /// Tangent stiffness of the tool with all other platforms free, at its origin, base axes.
+    pub stiffness: CartesianStiffness,
+    /// Its principal directions.
+    pub directions: Vec<Direction>,
+    /// Natural length, m: what a rotation is multiplied with to be compared with a translation.
+    pub length: f64,
+    /// Whether the free platform stays.
+    pub platform: PlatformStability,
+    /// Limbs in the mechanism's order.
+    pub limbs: Vec<LimbEquilibrium>,
+    /// How well the conditions of equilibrium hold.
+    pub residual: Residual,
+    /// State from which a neighbouring equilibrium can be started.
+    pub state: MechanismState,
+    /// Platforms other than the tool keep their places while the tool is held.
+    pub(crate) others_hold: bool,
+}
+
+impl MechanismEquilibrium {
+    /// Tangent compliance of the tool: it exists where the stiffness is infinite (rigid directions)
+    /// or zero (free ones).
+    #[must_use]
+    pub fn compliance(&self) -> CartesianCompliance {
+        CartesianCompliance::of(&self.stiffness.matrix, &self.directions, self.length)
+    }
+
+    /// Every limb keeps its shape while the tool is held.
+    #[must_use]
+    pub fn shapes_stable(&self) -> bool {
+        self.limbs.iter().all(|l| l.stability.stable)
+    }
+
+    /// The motions of the tool are all that the machine has.
+    pub(crate) fn moves_with_its_tool(&self) -> bool {
+        self.state.platforms.len() == 2 && self.limbs.iter().all(LimbEquilibrium::follows_its_end)
+    }
+
+    /// Every limb keeps its shape and the platform its place.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.platform.stable && self.shapes_stable()
+    }
+
+    /// Under loads without a potential nothing goes away, but the machine may swing with growing amplitude
+    /// (flutter), which depends on the masses.
+    #[must_use]
+    pub fn may_flutter(&self) -> bool {
+        self.stable()
+            && (self.platform.may_flutter || self.limbs.iter().any(|l| l.stability.may_flutter()))
+    }
+
+    /// Largest share of the way to buckling `mu` of all limbs; below 1 is stable.
+    #[must_use]
+    pub fn share_to_buckling(&self) -> Option<f64> {
+        self.limbs
+            .iter()
+            .filter_map(|l| l.stability.share_to_buckling)
+            .max_by(f64::total_cmp)
+    }
+
+    /// Force (N) that moves the tool's origin by 1 m in its softest direction while the tool may
+    /// turn as it likes: what a person who pushes the tool feels. Zero if a direction is free,
+    /// negative if the symmetric part of the stiffness lets some force move the tool against itself, infinite
+    /// if no force moves it. It is no verdict: a tool that runs away may yet be moved along every force,
+    /// see [`Self::stable`].
+    #[must_use]
+    pub fn stiffness_against_force(&self) -> f64 {
+        stiffness_against_force(&self.stiffness.symmetric(), &self.directions, self.length)
+    }
+
+    /// Forces (N) or torques (N m) of the loads on all actuators, in the mechanism's order.
+    #[must_use]
+    pub fn actuator_forces(&self) -> Vec<f64> {
+        self.limbs
+            .iter()
+            .flat_map(|l| l.actuator_forces.iter().copied())
+            .collect()
+    }
+}
+
+/// Stiffness, stability and limbs at a solved state.
+pub(crate) fn conclude(
+    solver: &mut PlatformSolver<'_>,
+    residual: Residual,
+) -> Result<MechanismEquilibrium> {
+    let (tangent, lack) = solver.finish();
+    let m = solver.mechanism;
+    let tool = m.tool;
+    let scale = m.scale();
+    // What a held tool lacks is what its holder must apply.
+    let wrench = match solver.unknowns {
+        Unknowns::Held => Wrench(-lack[tool].0),
+        _ => solver.wrench,
+    };
+    let rigid = match m.platforms.len() {
+        2 => RigidRows::none(1),
+        _ => solver.rigid_rows(&solver.state).0,
+    };
+    if let Some(&(.., value)) = tangent.entries.iter().find(|(.., x)| !x.is_finite()) {
+        return Err(Error::NotFinite {
+            place: format!("mechanism '{}'", m.name),
+            what: "its tangent stiffness".into(),
+            value,
+        });
+    }
+    let verdicts: Vec<_> = (0..m.limbs.len()).map(|i| solver.verdicts(i)).collect();
+    let limbs: Vec<LimbEquilibrium> = m
+        .limbs
+        .iter()
+        .zip(verdicts)
+        .enumerate()
+        .map(|(i, (limb, (stiffness, stability)))| {
+            let system = solver.limb_system(i);
+            let n = limb.actual.coordinate_count();
+            let r = limb.actual.actuators().len();
+            let joints = &solver.posture[i];
+            let loaded = ChainProblem {
+                chain: &limb.actual,
+                base: solver.state.platforms[limb.from],
+                commands: joints.commands.clone(),
+                posture: joints.coordinates.clone(),
+                loads: solver.loads[i].clone(),
+                end: EndCondition::pose(system.kinematics.tip_pose()),
+            };
+            Ok(LimbEquilibrium {
+                load_energy: load_energy(&loaded, &solver.state.coordinates[i])?,
+                conservative: m.loads_conservative(i),
+                link_loads: link_loads(&limb.actual, &system.spring_torque),
+                nodes: (0..limb.actual.nodes().len())
+                    .map(|node| system.kinematics.node_pose(node))
+                    .collect(),
+                name: limb.name.clone(),
+                wrench: solver.state.wrenches[i],
+                coordinates: solver.state.coordinates[i].clone(),
+                spring_torques: system.spring_torque.clone(),
+                energy: system.energy,
+                actuator_forces: system.torque[n..n + r].to_vec(),
+                stiffness,
+                stability,
+            })
+        })
+        .collect::<Result<_>>()?;
+    let weights: f64 = m
+        .platforms
+        .iter()
+        .zip(&solver.state.platforms)
+        .skip(1)
+        .map(|(p, pose)| {
+            let centre = pose * nalgebra::Point3::from(p.centre_of_mass);
+            -p.mass * m.gravity.dot(&centre.coords)
+        })
+        .sum();
+    // A dead force has a potential; a dead moment is not asked for one here.
+    let dead = solver.others.iter().map(|(platform, wrench)| {
+        let place = solver.state.platforms[*platform].translation.vector;
+        (wrench.moment() == nalgebra::Vector3::zeros()).then(|| -wrench.force().dot(&place))
+    });
+    let between = m.platform_loads.iter();
+    let between = between.map(|load| load.energy(&solver.state.platforms));
+    let outside = dead.chain(between).sum::<Option<f64>>();
+    let outside = outside.map(|outside| outside + weights);
+    let energy = limbs.iter().fold(outside, |sum, limb| {
+        Some(sum? + limb.energy + limb.load_energy?)
+    });
+    // With platforms in between, what blocks the tool is not one limb's affair.
+    let own: Vec<&ChainStiffness> = limbs.iter().map(|limb| &limb.stiffness).collect();
+    let graded = solver.graded(&tangent, &own);
+    let (stiffness, directions) = if m.platforms.len() > 2 {
+        condensed_directions(&tangent, graded.as_ref(), &rigid, tool - 1, scale)
+    } else {
+        let mut stiffness = Matrix6::zeros();
+        for &(i, j, value) in &tangent.entries {
+            stiffness[(i, j)] += value;
+        }
+        let own = own.into_iter().zip(&m.limbs).map(|(limb, description)| {
+            let arm = solver.state.platforms[tool].rotation
+                * description.platform_from_tip.translation.vector;
+            (limb, arm, description.actual.scale())
+        });
+        let directions = balanced_directions(&stiffness, graded.as_ref(), scale, own);
+        (stiffness, directions)
+    };
+    let least = directions
+        .iter()
+        .map(|d| d.stiffness_n_per_m)
+        .fold(f64::INFINITY, f64::min);
+    let free = directions
+        .iter()
+        .filter(|d| d.kind == DirectionKind::Free)
+        .count();
+    let conservative = outside.is_some()
+        && limbs.iter().all(|l| l.conservative)
+        && (solver.unknowns == Unknowns::Held
+            || m.tool_moment_has_potential(&solver.dead_moment(&wrench)));
+    let held = solver.unknowns == Unknowns::Held;
+    let hold = |held| others_hold(&tangent, graded.as_ref(), &rigid, tool - 1, scale, held);
+    let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
+    let stays = |held| {
+        !conservative && none_diverges(&tangent, &directions, &rigid, tool - 1, scale, held, whole)
+    };
+    let definite = least >= 0.0 && hold(held);
+    let stable = definite || stays(held);
+    let others_hold = hold(true) || stays(true);
+    let answer = MechanismEquilibrium {
+        tool: solver.state.platforms[tool],
+        displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
+        conservative,
+        energy,
+        wrench,
+        stiffness: CartesianStiffness { matrix: stiffness },
+        platform: PlatformStability {
+            stable,
+            may_flutter: stable && !definite,
+            smallest_stiffness_n_per_m: least,
+            free,
+        },
+        others_hold,
+        directions,
+        length: scale.length,
+        limbs,
+        residual,
+        state: solver.state.clone(),
+    };
+    Ok(answer.named(m))
+}
+
+impl Posture<'_> {
+    /// `f(t | t0)`: the wrench that holds the tool at `pose` [R 6.21].
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`], for instance for a pose that the limbs cannot follow.
+    pub fn wrench_at(&self, pose: &Pose) -> Result<MechanismEquilibrium> {
+        self.finite("the pose", pose.to_homogeneous().iter())?;
+        let mut state = self.rest_state();
+        state.platforms[self.mechanism.tool] = *pose;
+        let mut solver = self.solver(state, Unknowns::Held);
+        let residual = solver.solve_robustly()?;
+        conclude(&mut solver, residual)
+    }
+}

@@ -1,0 +1,314 @@
+//! Newton's iteration for the platforms of a mechanism under step control, directly or with loads that grow.
+
+use nalgebra::{DVector, Vector6};
+
+use crate::chain::scaling::{aside, step_limit};
+use crate::error::{Error, Result};
+use crate::machine::inverse::limb::LimbPosture;
+use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
+use crate::machine::platforms::solver::{MechanismBalance, PlatformSolver};
+use crate::machine::state::MechanismState;
+use crate::spatial::{MotionKind, Pose, Twist, Wrench, moved};
+
+impl PlatformSolver<'_> {
+    /// Newton at one share of the load.
+    pub fn solve(
+        &mut self,
+        share: f64,
+        mut picard: usize,
+    ) -> std::result::Result<(usize, MechanismBalance), (usize, MechanismBalance)> {
+        self.share = share;
+        self.rate = None;
+        let mut before: Option<f64> = None;
+        let (mut now, mut lack) = self.evaluate();
+        // A tangent that gains this much in one step (squared) serves for the next step too.
+        const STILL_GOOD: f64 = 1e-5;
+        let mut fresh = true;
+        for iteration in 0..self.settings.iterations {
+            if self.converged(&now) && iteration > 0 {
+                return Ok((iteration, now));
+            }
+            let here = self.state.clone();
+            let old = (!fresh)
+                .then(|| self.newton(&lack, &here, Tangents::Old))
+                .flatten();
+            let reused = old.is_some();
+            let new = Tangents::New {
+                with_hessian: iteration >= picard,
+            };
+            let Some((step, steps)) = old.or_else(|| self.newton(&lack, &here, new)) else {
+                return Err((iteration, now));
+            };
+            let mut length = self.longest(&step, &steps);
+            let extent = self.extent(steps.iter());
+            let correction: f64 = steps
+                .iter()
+                .zip(&self.factors)
+                .flat_map(|(step, units)| step.iter().zip(units))
+                .map(|(change, unit)| (change / unit).powi(2))
+                .sum();
+            let start = self.place();
+            // Where platforms go where their limbs lead, large corrections are judged as those of
+            // chains. Limbs that constrain each other are judged by the residual, and stay on their branch.
+            let by_motion = self.follows();
+            loop {
+                let reached = self.go(&start, &step, &steps, length);
+                let merit = now.merit;
+                let (next, missing) = self.evaluate();
+                let better = next.merit <= merit * (1.0 - 0.1 * length);
+                let lagged = match by_motion {
+                    true => iteration + 1 < picard,
+                    false => iteration < picard,
+                };
+                let fine = self.converged(&next) || lagged;
+                let less = better && (extent < SMALL || !by_motion);
+                let mut accepted = reached && (fine || less);
+                // Rounding: no further progress is possible and the conditions nearly hold.
+                let close = next.closure_m <= 100.0 * self.settings.closure * self.length
+                    && next.torque <= 10.0 * self.settings.torque * next.loads
+                    && next.force <= 10.0 * self.settings.torque * next.forces;
+                if reached && !accepted && !better && close {
+                    return Ok((iteration, next));
+                }
+                let mut shorter = 0.5 * length;
+                if reached && !accepted && by_motion {
+                    let again = self.newton(&missing, &start.state, Tangents::Old);
+                    let bent = again.map_or(f64::INFINITY, |(_, again)| {
+                        let off = again.iter().zip(&steps);
+                        let off: Vec<_> = off.map(|(a, s)| a - s * (1.0 - length)).collect();
+                        self.extent(off.iter())
+                    });
+                    accepted = bent <= 0.5 * length * extent;
+                    let wanted = 0.5 * length * length * extent / bent;
+                    shorter = wanted.max(0.1 * length).min(shorter);
+                }
+                if accepted {
+                    let moved = length * correction.sqrt();
+                    self.rate = before.filter(|b| *b > 0.0).map(|b| moved / b);
+                    before = Some(moved);
+                    fresh = iteration < picard || next.merit > STILL_GOOD * merit;
+                    (now, lack) = (next, missing);
+                    break;
+                }
+                if reused && by_motion {
+                    // The tangents do not serve any more.
+                    self.put(start);
+                    (now, lack) = self.evaluate();
+                    fresh = true;
+                    break;
+                }
+                length = shorter;
+                if length < 1e-3 {
+                    self.put(start);
+                    if iteration >= picard || !by_motion {
+                        return Err((iteration, now));
+                    }
+                    // Loads lagged lead nowhere from here: Newton at once.
+                    picard = 0;
+                    (now, lack) = self.evaluate();
+                    break;
+                }
+            }
+        }
+        if self.converged(&now) {
+            Ok((self.settings.iterations, now))
+        } else {
+            Err((self.settings.iterations, now))
+        }
+    }
+
+    /// Longest share of a step over which the linearisation says something.
+    fn longest(&self, step: &PlatformStep, steps: &[DVector<f64>]) -> f64 {
+        let mut length = 1.0_f64;
+        for (limb, step) in self.mechanism.limbs.iter().zip(steps) {
+            length = length.min(step_limit(&limb.actual, step.iter().skip(6).copied()));
+        }
+        // Platforms that follow their limbs go as far as those.
+        let free = if self.follows() {
+            &[]
+        } else {
+            &step.motions[..]
+        };
+        for motion in free.iter().chain([&step.target]) {
+            length = length
+                .min(0.5 / motion.angular().norm().max(1e-300))
+                .min(0.5 * self.length / motion.linear().norm().max(1e-300));
+        }
+        length
+    }
+
+    /// Size of the motion of all limbs in a correction: root of the sum of squares of turns (rad) and
+    /// slides (in natural lengths).
+    fn extent<'v>(&self, steps: impl Iterator<Item = &'v DVector<f64>>) -> f64 {
+        let limbs = self.mechanism.limbs.iter().zip(steps);
+        limbs
+            .flat_map(|(limb, step)| {
+                let length = limb.actual.scale().length;
+                let own = limb.actual.coordinates().iter().zip(step.iter().skip(6));
+                own.map(move |(c, dx)| match c.kind {
+                    MotionKind::Revolute => dx * dx,
+                    MotionKind::Prismatic => (dx / length).powi(2),
+                })
+            })
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    fn place(&self) -> Place {
+        Place {
+            state: self.state.clone(),
+            posture: self.posture.clone(),
+            nominal: self.nominal.clone(),
+            target: self.target,
+            wrench: self.wrench,
+        }
+    }
+
+    fn put(&mut self, place: Place) {
+        self.state = place.state;
+        self.posture = place.posture;
+        self.nominal = place.nominal;
+        self.target = place.target;
+        self.wrench = place.wrench;
+    }
+
+    /// Goes a share of a step from a place; `false` where the commands cannot follow.
+    fn go(
+        &mut self,
+        from: &Place,
+        step: &PlatformStep,
+        steps: &[DVector<f64>],
+        length: f64,
+    ) -> bool {
+        self.wrench = from.wrench + step.push * length;
+        for (k, motion) in step.motions.iter().enumerate() {
+            self.state.platforms[k + 1] =
+                moved(&from.state.platforms[k + 1], &Twist(motion.0 * length));
+        }
+        for (i, step) in steps.iter().enumerate() {
+            let start = &from.state.coordinates[i];
+            self.state.wrenches[i].0 =
+                from.state.wrenches[i].0 + length * step.fixed_view::<6, 1>(0, 0);
+            for (j, x) in self.state.coordinates[i].iter_mut().enumerate() {
+                *x = start[j] + length * step[6 + j];
+            }
+            for block in self.mechanism.limbs[i].actual.springs() {
+                block.follow(start, self.share, &mut self.state.coordinates[i]);
+            }
+        }
+        if step.target.0 == Vector6::zeros() {
+            return true;
+        }
+        self.posture.clone_from(&from.posture);
+        self.nominal.clone_from(&from.nominal);
+        self.target = moved(&from.target, &Twist(step.target.0 * length));
+        self.retarget()
+    }
+
+    /// As given, and failing that with loads and closures that grow from the unloaded posture.
+    pub fn solve_robustly(&mut self) -> Result<crate::chain::residual::Residual> {
+        let start = self.state.clone();
+        // A state that carries load already is better than the report's first step from rest.
+        let loaded = self.state.wrenches.iter().any(|w| *w != Wrench::zero());
+        let picard = if loaded {
+            0
+        } else {
+            self.settings.picard_steps
+        };
+        match self.solve(1.0, picard) {
+            Ok((iterations, balance)) => Ok(self.residual(&balance, iterations)),
+            Err((_, balance)) => {
+                self.state = start;
+                self.grow_load(&balance, 1.0)
+            }
+        }
+    }
+
+    /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is what one step
+    /// lacked.
+    pub fn grow_load(
+        &mut self,
+        first: &MechanismBalance,
+        longest: f64,
+    ) -> Result<crate::chain::residual::Residual> {
+        let aside = aside(longest);
+        for (i, limb) in self.mechanism.limbs.iter().enumerate() {
+            self.state.coordinates[i] =
+                crate::chain::scaling::nudged(&limb.actual, &self.posture[i].coordinates, aside);
+            self.state.wrenches[i] = Wrench::zero();
+        }
+        self.share = 1.0;
+        self.offsets.fill(Twist::zero());
+        self.leads = self.unknowns == Unknowns::Guided;
+        self.evaluate();
+        self.offsets = self.linear.iter().map(|l| l.closure).collect();
+        let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
+        let mut last = *first;
+        while share < 1.0 {
+            let kept = self.state.clone();
+            let next = (share + step).min(1.0);
+            match self.solve(next, 0) {
+                Ok((spent, balance)) => {
+                    iterations += spent;
+                    share = next;
+                    last = balance;
+                    step = (1.5 * step).min(longest);
+                }
+                Err((spent, _)) => {
+                    iterations += spent;
+                    self.state = kept;
+                    step *= 0.5;
+                    if step < self.settings.smallest_load_step.max(1e-9) {
+                        self.leads = false;
+                        return Err(self.not_converged(iterations, share, first));
+                    }
+                }
+            }
+        }
+        self.offsets.fill(Twist::zero());
+        self.leads = false;
+        Ok(self.residual(&last, iterations))
+    }
+
+    fn residual(
+        &self,
+        balance: &MechanismBalance,
+        iterations: usize,
+    ) -> crate::chain::residual::Residual {
+        crate::chain::residual::Residual {
+            rate: self.rate,
+            ..balance.residual(iterations)
+        }
+    }
+
+    pub fn not_converged(
+        &self,
+        iterations: usize,
+        share: f64,
+        balance: &MechanismBalance,
+    ) -> Error {
+        let residual = balance.residual(iterations);
+        Error::NotConverged {
+            place: format!("mechanism '{}'", self.mechanism.name),
+            iterations,
+            residual_position_m: residual.closure_m,
+            residual_torque: residual.torque,
+            load_factor: share,
+            last: self.state.coordinates.concat(),
+            limit: None,
+        }
+    }
+}
+
+/// Where an iteration is.
+struct Place {
+    state: MechanismState,
+    posture: Vec<LimbPosture>,
+    nominal: Vec<Pose>,
+    target: Pose,
+    wrench: Wrench,
+}
+
+/// Corrections of less motion than this (rad, natural lengths) are judged by the residual after them,
+/// larger ones by the motion that the same tangents still want.
+const SMALL: f64 = 1e-2;

@@ -1,0 +1,98 @@
+//! What a solution for the platforms is made of: its unknowns, what guides the tool, one step.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
+
+use crate::spatial::{Pose, Twist, Wrench, hat, pose_residual};
+
+/// How the unknowns of the platform equations are divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Unknowns {
+    /// All platforms move; commands are given.
+    Pose,
+    /// The tool is held and its wrench follows; other platforms move.
+    Held,
+    /// The tool is held in the directions that are `true` and the nominal target moves there
+    /// instead: compensation.
+    Target([bool; 6]),
+    /// The tool is held where [`PlatformSolver::guide`] says, and the wrenches that hold it there
+    /// follow: a part of [`PlatformSolver::wrench`]. Everything else moves.
+    Guided,
+}
+
+/// Conditions on the motion of the tool from a pose, and as many wrenches on it.
+#[derive(Clone, Debug)]
+pub(crate) struct Guide {
+    /// Where the motion is counted from.
+    pub from: Pose,
+    /// Conditions `rows * motion = goals`, k x 6, base axes.
+    pub rows: DMatrix<f64>,
+    /// See `rows`, k.
+    pub goals: DVector<f64>,
+    /// Columns: wrenches about the tool's origin, base axes, 6 x k.
+    pub hands: DMatrix<f64>,
+}
+
+impl Guide {
+    /// No condition.
+    pub fn none() -> Self {
+        Self {
+            from: Pose::identity(),
+            rows: DMatrix::zeros(0, 6),
+            goals: DVector::zeros(0),
+            hands: DMatrix::zeros(6, 0),
+        }
+    }
+
+    /// What the motion to `pose` lacks of the goals.
+    pub fn lack(&self, pose: &Pose) -> DVector<f64> {
+        &self.goals - &self.rows * pose_residual(pose, &self.from).0
+    }
+
+    /// Rows by the motion of the tool at `pose`: the logarithm is no sum.
+    pub fn rows_at(&self, pose: &Pose) -> DMatrix<f64> {
+        let turned = pose_residual(pose, &self.from).angular();
+        let angle = turned.norm();
+        let mut rows = self.rows.clone();
+        if angle > 1e-9 {
+            let cross = hat(&turned);
+            let share = (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle);
+            let by_turn = Matrix3::identity() - cross * 0.5 + cross * cross * share;
+            let turns = rows.columns(3, 3) * by_turn;
+            rows.columns_mut(3, 3).copy_from(&turns);
+        }
+        rows
+    }
+}
+
+/// Which tangents a step is made with.
+#[derive(Clone, Copy)]
+pub(crate) enum Tangents {
+    /// Those at the state evaluated last.
+    New { with_hessian: bool },
+    /// Those of the step before.
+    Old,
+}
+
+/// One Newton step of the platforms.
+pub(crate) struct PlatformStep {
+    /// Motions of the moving platforms.
+    pub motions: Vec<Twist>,
+    /// Motion of the nominal target.
+    pub target: Twist,
+    /// Wrenches that limbs carry rigidly.
+    pub carried: Vec<Wrench>,
+    /// Change of the force that holds the tool in one direction.
+    pub push: Wrench,
+}
+
+/// Balance of the tool, `T^T dF + A dt - hands * dh = lack`, over wrench and motion of the tip, with
+/// the unknown hands taken out, and the conditions of the guide.
+pub(crate) struct ToolBalance {
+    /// The first rows: combinations of the balance across the hands, (6 - k) x 6.
+    pub across: DMatrix<f64>,
+    /// Wrench (natural units) and motion in the balance.
+    pub wrench: Matrix6<f64>,
+    pub motion: Matrix6<f64>,
+    /// Of every row, so that its largest balanced entry is one.
+    pub sizes: Vector6<f64>,
+}

@@ -1,0 +1,93 @@
+//! Stiffness of an unloaded machine at its tool [R 3.10, 3.13].
+
+use nalgebra::Matrix6;
+
+use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
+use crate::chain::directions::{Direction, DirectionKind};
+use crate::chain::stiffness::ChainStiffness;
+use crate::error::Result;
+use crate::machine::directions::{balanced_directions, condensed_directions};
+use crate::machine::graded::GradedPlatforms;
+use crate::machine::network::Network;
+use crate::machine::posture::Posture;
+use crate::spatial::CartesianStiffness;
+
+impl Posture<'_> {
+    /// Unloaded stiffness of the nominal mechanism, at the tool's origin, base axes [R 3.10, 3.13],
+    /// all other platforms free.
+    ///
+    /// # Errors
+    /// Wrong sizes only; a singular stiffness is a result.
+    pub fn stiffness(&self) -> Result<UnloadedStiffness> {
+        let m = self.mechanism;
+        let network = Network::new(self)?;
+        let scale = m.scale();
+        // Nothing acts: no more than the limbs' own.
+        let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
+        let own = network.limbs.iter().zip(scales.clone());
+        let own = own.zip(&network.motions).map(|((k, s), e)| (k, s, e));
+        let graded = GradedPlatforms::of(scale, network.moving(), own);
+        let (matrix, directions) = if m.platforms.len() > 2 {
+            let (total, rigid) = (network.stiffness(), network.rows());
+            condensed_directions(&total, graded.as_ref(), &rigid, m.tool - 1, scale)
+        } else {
+            let mut total = Matrix6::zeros();
+            for (k, ends) in network.limbs.iter().zip(&network.motions) {
+                total += ends.to.1.transpose() * k.cartesian.matrix * ends.to.1;
+            }
+            let arms = m
+                .limbs
+                .iter()
+                .map(|limb| self.target.rotation * limb.platform_from_tip.translation.vector);
+            let own = network.limbs.iter().zip(arms).zip(scales);
+            let own = own.map(|((k, arm), scale)| (k, arm, scale));
+            let directions = balanced_directions(&total, graded.as_ref(), scale, own);
+            (total, directions)
+        };
+        let answer = UnloadedStiffness {
+            length: scale.length,
+            cartesian: CartesianStiffness { matrix },
+            directions,
+            limbs: network.limbs,
+        };
+        Ok(answer.named(self))
+    }
+}
+
+/// Unloaded stiffness of a mechanism and its limbs.
+#[derive(Clone, Debug)]
+pub struct UnloadedStiffness {
+    /// `K_C` of the platform at the tool's origin, base axes.
+    pub cartesian: CartesianStiffness,
+    /// Its principal directions.
+    pub directions: Vec<Direction>,
+    /// `K_C^(i)` of every limb at its tip.
+    pub limbs: Vec<ChainStiffness>,
+    /// Natural length, m: what a rotation is multiplied with to be compared with a translation.
+    pub length: f64,
+}
+
+impl UnloadedStiffness {
+    /// Compliance of the tool: it exists where the stiffness is infinite (rigid directions) or zero
+    /// (free ones).
+    #[must_use]
+    pub fn compliance(&self) -> CartesianCompliance {
+        CartesianCompliance::of(&self.cartesian.matrix, &self.directions, self.length)
+    }
+
+    /// As [`MechanismEquilibrium::stiffness_against_force`].
+    #[must_use]
+    pub fn stiffness_against_force(&self) -> f64 {
+        let own = self.cartesian.symmetric();
+        stiffness_against_force(&own, &self.directions, self.length)
+    }
+
+    /// Number of directions with stiffness.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.directions
+            .iter()
+            .filter(|d| d.kind != DirectionKind::Free)
+            .count()
+    }
+}
