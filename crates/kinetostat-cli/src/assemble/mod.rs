@@ -1,0 +1,60 @@
+//! `kinetostat assemble`: what assembly with errors locks in.
+
+mod along_line;
+mod answer;
+pub(crate) mod arguments;
+mod query;
+mod text;
+
+use crate::assemble::answer::answer;
+use crate::assemble::arguments::AssembleArgs;
+use crate::assemble::query::question;
+use crate::files::output::{Existing, Outputs};
+use crate::program::solve;
+use crate::ui::failure::Answer;
+use crate::ui::screen::{self, Stream};
+
+pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
+    let question = question(args)?;
+    let existing = match args.force_overwrite {
+        true => Existing::Replace,
+        false => Existing::Refuse,
+    };
+    let mut outputs = Outputs::new(existing, question.spot.inputs.clone());
+    let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
+    let csv = csv.transpose()?;
+    let plot = args.plot.as_ref().map(|p| outputs.claim("plot", p));
+    let plot = plot.transpose()?;
+    let (text, json, table) = match &args.along {
+        Some(line) => {
+            let a = along_line::answer(&question, line, args)?;
+            if let Some(index) = plot {
+                let drawn = along_line::plot(&a, args.component).svg();
+                outputs.fill(index, drawn.as_bytes())?;
+            }
+            (
+                along_line::in_words(&question, &a),
+                solve::json(&a)?,
+                along_line::csv(&a)?,
+            )
+        }
+        None => {
+            let a = answer(&question)?;
+            (
+                text::in_words(&question, &a, args.all),
+                solve::json(&a)?,
+                text::csv(&a)?,
+            )
+        }
+    };
+    if let Some(index) = csv {
+        outputs.fill(index, &table)?;
+    }
+    let paths = outputs.commit()?;
+    let text = format!("{text}{}", solve::written(&paths));
+    if args.json {
+        screen::print(Stream::Err, &text)?;
+        return screen::print_bytes(json.as_bytes());
+    }
+    screen::print(Stream::Out, &text)
+}

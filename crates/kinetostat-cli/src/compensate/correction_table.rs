@@ -1,0 +1,331 @@
+//! `kinetostat compensate --map`: a program corrected from a table.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_machining::number::{
+    MISSING, Rounding, fixed, largest, largest_length, mean_length, significant, with_unit,
+};
+use kinetostat_machining::{
+    RESULT_SCHEMA, RunError, ToleranceVerdict, Warning, WarningCode, keeps_as_it_is,
+    odd_correction, odd_tolerances, of_accounting, of_program, of_table, unchanged_in_words,
+};
+use kinetostat_program::{
+    Accounting, Corrected, CorrectionMap, FieldCheck, Knowledge, MoveKind, NoCorrection,
+    Path as ToolPath, Program, WriteError, WriteOptions, verify_against_field, verify_written,
+    write_corrected,
+};
+use serde::Serialize;
+
+use crate::files::input::Files;
+use crate::files::output::{Existing, Outputs};
+use crate::job::setting::Setting;
+use crate::program::{solve, summary};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::progress::Progress;
+use crate::ui::screen::{self, Stream, columns, wrapped};
+
+/// Result of a program corrected from a table.
+#[derive(Serialize)]
+struct MapResult<'a> {
+    schema: u32,
+    kinetostat_version: &'static str,
+    program: &'a str,
+    map: String,
+    accounting: &'a Accounting,
+    /// No correction could be written: the program came back byte for byte.
+    unchanged: bool,
+    /// It came back so because it keeps the tolerance as it is.
+    within_tolerance_before: bool,
+    /// How the written program stands to its tolerance, as for a model.
+    tolerance: ToleranceVerdict,
+    /// Places of the written program at which the table was asked again.
+    places_checked: usize,
+    /// Largest distance between where the program goes as it is and where the table wants it.
+    max_position_error_before_mm: f64,
+    /// Largest distance there between where the program goes and where the table wants it.
+    max_position_error_after_mm: f64,
+    /// What that may be at most.
+    max_position_error_allowed_mm: f64,
+    largest_distance_mm: f64,
+    largest_speed_error_percent: f64,
+    warnings: Vec<Warning>,
+}
+
+/// More faults than this are not looked for in a table.
+const FAULTS_OF_A_TABLE: usize = 1000;
+
+pub(crate) fn from_map(
+    files: &Files,
+    map: &Path,
+    setting: &Setting,
+    existing: Existing,
+    to_screen: bool,
+) -> Answer<()> {
+    let t = &setting.targets;
+    if t.report.is_some() || t.points.is_some() {
+        return Err(Failure::input(
+            "--map writes no --report and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
+        ));
+    }
+    let bytes = files.bytes("map", map)?;
+    let field = CorrectionMap::read(&bytes).map_err(|first| {
+        let all = CorrectionMap::faults(&bytes, FAULTS_OF_A_TABLE);
+        let places = match all.len() {
+            FAULTS_OF_A_TABLE => "or more places of the table",
+            _ => "places of the table",
+        };
+        let message = solve::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
+        Failure::input(message).within(&map.display().to_string())
+    })?;
+    let (program, path) = solve::read_program(setting)?;
+    let mut inputs = setting.inputs.clone();
+    inputs.push(map.to_owned());
+    let mut outputs = Outputs::new(existing, inputs);
+    let mut claim = |what, target: &Option<PathBuf>| {
+        target
+            .as_deref()
+            .map(|path| outputs.claim(what, path))
+            .transpose()
+    };
+    let (out, json_out) = (
+        claim("corrected program", &t.program)?,
+        claim("result", &t.json)?,
+    );
+    let mut writing = setting.writing.clone();
+    let name = map
+        .file_name()
+        .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    if let Some(header) = &mut writing.header {
+        *header = vec![
+            format!("version {}", env!("CARGO_PKG_VERSION")),
+            format!("corrections from the table {name}"),
+        ];
+    }
+    let refuse = |error| {
+        Failure::from(kinetostat_machining::RunError::Write(error)).within(&setting.program_name)
+    };
+    let progress = Progress::new();
+    let made = make(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let (written, against) = (&made.written, &made.against);
+    let a = &written.accounting;
+    let beyond = of_accounting(&setting.limits, a);
+    if !beyond.is_empty() {
+        return Err(Failure::from(RunError::BeyondLimits(beyond)).within(&setting.program_name));
+    }
+    let check =
+        verify_written(&program, &path, written, &setting.reading, &writing).map_err(refuse)?;
+    progress.finish();
+    let mut warnings = of_program(&path, Some(&a.warnings));
+    let unchanged = written.bytes == program.bytes();
+    let farthest = match unchanged {
+        true => &against.before,
+        false => &against.after,
+    };
+    let tolerance = of_table(farthest, against.allowed_mm, a);
+    let (largest_mm, largest_line) = made.largest_correction;
+    let odd = odd_correction(
+        &setting.limits,
+        largest_mm,
+        largest_line,
+        writing.tolerance_mm,
+    );
+    // What was left out was to be corrected all the same.
+    let nothing_left_out =
+        |w: &Warning| tolerance.held == Some(true) || w.code != WarningCode::SmallCorrection;
+    warnings.extend(odd.filter(nothing_left_out));
+    warnings.extend(wide_table(&path, &field));
+    warnings.extend(odd_tolerances(&writing));
+    let result = MapResult {
+        schema: RESULT_SCHEMA,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        program: &setting.program_name,
+        map: name,
+        accounting: a,
+        unchanged,
+        within_tolerance_before: made.within_before,
+        tolerance,
+        places_checked: against.places,
+        max_position_error_before_mm: against.before.distance_mm,
+        max_position_error_after_mm: farthest.distance_mm,
+        max_position_error_allowed_mm: against.allowed_mm,
+        largest_distance_mm: check.largest_distance_mm,
+        largest_speed_error_percent: 100.0 * check.largest_speed_error,
+        warnings,
+    };
+    if let Some(index) = json_out {
+        outputs.fill(index, solve::json(&result)?.as_bytes())?;
+    }
+    if let Some(index) = out {
+        outputs.fill(index, &written.bytes)?;
+    }
+    let paths = outputs.commit()?;
+    let mut text = words(&result);
+    text.push_str(&summary::warnings(&result.warnings));
+    text.push_str(&solve::written(&paths));
+    if to_screen {
+        screen::print(Stream::Err, &text)?;
+        screen::print_bytes(solve::json(&result)?.as_bytes())?;
+    } else {
+        screen::print(Stream::Out, &text)?;
+    }
+    solve::judged(&result.tolerance, result.program)
+}
+
+/// A table so many times as wide as the program, and no smaller than this (mm), may have its nodes in micrometres.
+const WIDE: (f64, f64) = (50.0, 10_000.0);
+
+/// Nodes that may be in micrometres: along every axis along which both reach, the table is far wider.
+fn wide_table(path: &ToolPath, field: &CorrectionMap) -> Option<Warning> {
+    let [low, high] = field.bounds_mm();
+    let feeds = || {
+        let moves = path.moves.iter();
+        moves.filter(|m| m.kind == MoveKind::Feed && m.known == Knowledge::Whole)
+    };
+    let mut found = None;
+    for axis in 0..3 {
+        let places = || feeds().flat_map(|m| [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| m.point(s)[axis]));
+        let least = places().fold(f64::INFINITY, f64::min);
+        let program = places().fold(f64::NEG_INFINITY, f64::max) - least;
+        let table = high[axis] - low[axis];
+        if !(program > 0.0 && table > 0.0) {
+            continue;
+        }
+        if table < WIDE.0 * program || table < WIDE.1 {
+            return None;
+        }
+        found.get_or_insert((axis, table, program));
+    }
+    let (axis, table, program) = found?;
+    Some(Warning::new(
+        WarningCode::WideTable,
+        format!(
+            "the table reaches over {} in {}, the program over {}: are its nodes in micrometres? Positions and corrections are in millimetres",
+            mean_length(table),
+            ["x", "y", "z"][axis],
+            mean_length(program)
+        ),
+    ))
+}
+
+/// The program as it will be written, and how far it is from the table.
+struct Made {
+    written: Corrected,
+    against: FieldCheck,
+    /// As it is, it keeps the tolerance.
+    within_before: bool,
+    /// The largest correction that the table asks for, and its line; written or not.
+    largest_correction: (f64, Option<usize>),
+}
+
+/// Corrected, or left as it is where that keeps the tolerance: what is written could be farther off.
+fn make(
+    program: &Program,
+    path: &ToolPath,
+    field: &CorrectionMap,
+    writing: &WriteOptions,
+    progress: &Progress,
+) -> Result<Made, WriteError> {
+    let written = write_corrected(program, path, field, writing, progress)?;
+    let against = verify_against_field(path, &written, field, writing, progress)?;
+    let a = &written.accounting;
+    let mut made = Made {
+        within_before: written.bytes != program.bytes()
+            && keeps_as_it_is(
+                against.before.distance_mm.max(against.before_at_ends_mm),
+                against.after.distance_mm,
+                writing.tolerance_mm,
+                against.allowed_mm,
+            ),
+        largest_correction: (a.largest_correction_mm, a.largest_correction_line),
+        written,
+        against,
+    };
+    if made.within_before {
+        // What was measured, so that the warning has the figure of the verdict.
+        let before = made.against.before;
+        made.largest_correction = (before.distance_mm, before.line);
+        made.written = write_corrected(program, path, &NoCorrection, writing, progress)?;
+    }
+    Ok(made)
+}
+
+/// The result for a person: what is missed first, then the figures.
+fn words(result: &MapResult<'_>) -> String {
+    let a = result.accounting;
+    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    let mut text = wrapped(
+        &format!("{} corrected by the table {}", result.program, result.map),
+        0,
+    );
+    let said = result.tolerance.missed_in_words().or_else(|| {
+        let before = result.max_position_error_before_mm;
+        result
+            .unchanged
+            .then(|| unchanged_in_words(result.within_tolerance_before, before))
+    });
+    if let Some(said) = said {
+        text.push('\n');
+        text.push_str(&wrapped(&said, 2));
+    }
+    text.push('\n');
+    let per_second =
+        |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |rate| largest(rate, "1/s"));
+    let mean_per_second = |rate: Option<f64>| {
+        let nearest = |rate| with_unit(&significant(rate, 3, Rounding::Nearest), "1/s");
+        rate.map_or_else(|| MISSING.to_owned(), nearest)
+    };
+    let seconds = |time: Option<f64>| {
+        time.map_or_else(
+            || MISSING.to_owned(),
+            |time| with_unit(&fixed(time, 1), "s"),
+        )
+    };
+    text.push_str(&columns(
+        &[
+            row(
+                "largest correction",
+                largest_length(a.largest_correction_mm),
+            ),
+            row(
+                "farthest from where the table wants it",
+                largest_length(result.max_position_error_after_mm),
+            ),
+            row("places checked", result.places_checked.to_string()),
+            row("rounding", largest_length(a.largest_rounding_mm)),
+            row(
+                match a.feed_limited_pieces {
+                    0 => "speed along the part, error",
+                    _ => "error of the speed, feed not limited",
+                },
+                largest(result.largest_speed_error_percent, "%"),
+            ),
+            row("blocks read", a.blocks_in.to_string()),
+            row("blocks written", a.blocks_out.to_string()),
+            row("blocks unchanged", a.blocks_carried.to_string()),
+            row(
+                "length at feed, before",
+                with_unit(&fixed(a.feed_length_in_mm, 1), "mm"),
+            ),
+            row(
+                "length at feed, after",
+                with_unit(&fixed(a.feed_length_out_mm, 1), "mm"),
+            ),
+            row("time at feed, before", seconds(a.feed_time_in_s)),
+            row("time at feed, after", seconds(a.feed_time_out_s)),
+            row(
+                "blocks per second, before",
+                mean_per_second(a.mean_blocks_per_second_in),
+            ),
+            row(
+                "blocks per second, after",
+                mean_per_second(a.mean_blocks_per_second),
+            ),
+            row(
+                "most of 16 in a row, after",
+                per_second(a.peak_blocks_per_second),
+            ),
+        ],
+        2,
+    ));
+    text
+}

@@ -1,0 +1,255 @@
+//! The answer of `equilibria`: every shape with its energy, stability and forces, and how complete
+//! the list is.
+
+use kinetostat::{
+    Bounds, ChainProblem, Direction, DirectionKind, EndCondition, FoundEquilibrium, Kinematics,
+    Prescribed, SearchSettings, equilibria, shape_criterion, turn_matrix,
+};
+use kinetostat_machining::Warning;
+use nalgebra::{DMatrix, Vector3};
+use serde::Serialize;
+
+use crate::curve::query::Holding;
+use crate::deflect::PlaceAsked;
+use crate::end_condition::chain::{CoordinateName, SerialChain, mode_in_words};
+use crate::ui::background::Stage;
+use crate::ui::failure::Answer;
+
+/// The search ends when so many are known.
+pub(crate) const MOST_KNOWN: usize = 100;
+
+/// A question of `equilibria`.
+pub(crate) struct Question {
+    pub(crate) end: EndCondition,
+    pub(crate) holding: Holding,
+    pub(crate) settings: SearchSettings,
+    /// Direction along which a stiffness is shown, base axes.
+    pub(crate) along: Option<Vector3<f64>>,
+    pub(crate) words: String,
+}
+
+/// The answer, stable names with units.
+#[derive(Serialize)]
+pub(crate) struct EquilibriaAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    pub(crate) place: PlaceAsked,
+    pub(crate) question: String,
+    pub(crate) tool_held: Holding,
+    /// Direction of `stiffness_n_per_mm`; null: the principal one with the smallest stiffness.
+    pub(crate) stiffness_along: Option<[f64; 3]>,
+    pub(crate) coordinates: Vec<CoordinateName>,
+    /// By rising energy.
+    pub(crate) equilibria: Vec<ShapeAnswer>,
+    pub(crate) coverage: Coverage,
+    pub(crate) conservative: bool,
+    pub(crate) warnings: Vec<Warning>,
+    /// Chain's shape per equilibrium, m.
+    #[serde(skip)]
+    pub(crate) outlines: Vec<Vec<Vector3<f64>>>,
+}
+
+/// One equilibrium.
+#[derive(Serialize)]
+pub(crate) struct ShapeAnswer {
+    pub(crate) number: usize,
+    /// Springs and loads, up to a constant; of the springs alone where a load has no potential.
+    pub(crate) energy_j: f64,
+    /// Under the conditions as prescribed.
+    pub(crate) stable: bool,
+    /// Under loads without a potential it does not go away, but it may swing with growing amplitude;
+    /// whether it does depends on the masses.
+    pub(crate) may_flutter: bool,
+    /// With the tool held.
+    pub(crate) shape_stable: bool,
+    /// mu; null without inner freedom, and where a passive joint is pushed out of line.
+    pub(crate) share_to_buckling: Option<f64>,
+    /// Motion of the coordinates in which it would buckle.
+    pub(crate) mode_in_words: String,
+    /// At a limit or bifurcation point, or one of a family that moves for nothing.
+    pub(crate) singular: bool,
+    pub(crate) found_by_spread_starts: usize,
+    /// Along the direction asked for; without one the smallest principal stiffness, rotations at the natural length. Null if infinite.
+    pub(crate) stiffness_n_per_mm: f64,
+    /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); at the tool's tip.
+    pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rotation_vector_deg: [f64; 3],
+    pub(crate) coordinates: Vec<f64>,
+}
+
+/// How complete the list is.
+#[derive(Serialize)]
+pub(crate) struct Coverage {
+    pub(crate) starts: usize,
+    pub(crate) ended_within_bounds: usize,
+    pub(crate) ended_outside_bounds: usize,
+    /// Starts since the last new equilibrium.
+    pub(crate) fruitless: usize,
+    pub(crate) chance_of_more: f64,
+    pub(crate) chance_of_more_at_most: f64,
+    pub(crate) settled: bool,
+}
+
+/// Finds all equilibria.
+pub(crate) fn solve(
+    chain: &SerialChain,
+    q: &Question,
+    place: PlaceAsked,
+    spot: [String; 3],
+    stage: &Stage,
+) -> Answer<EquilibriaAnswer> {
+    stage.is("searching for equilibria");
+    let problem = chain.problem(q.end.clone());
+    let found = equilibria(&problem, &Bounds::of(&chain.chain), &q.settings)?;
+    let outlines = found
+        .found
+        .iter()
+        .map(|f| chain.outline(&f.equilibrium.coordinates))
+        .collect();
+    let conservative = found.found.iter().all(|f| f.equilibrium.conservative);
+    let [model, model_source, tool] = spot;
+    Ok(EquilibriaAnswer {
+        schema: 3,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model,
+        model_source,
+        tool,
+        place,
+        question: q.words.clone(),
+        tool_held: q.holding.clone(),
+        stiffness_along: q.along.map(Into::into),
+        coordinates: chain.coordinates(),
+        equilibria: found
+            .found
+            .iter()
+            .enumerate()
+            .map(|(i, f)| shape(chain, q, &problem, i + 1, f))
+            .collect(),
+        coverage: Coverage {
+            starts: found.starts,
+            ended_within_bounds: found.hits,
+            ended_outside_bounds: found.outside,
+            fruitless: found.fruitless,
+            chance_of_more: found.chance_of_more,
+            chance_of_more_at_most: found.chance_of_more_at_most,
+            settled: found.settled,
+        },
+        conservative,
+        warnings: Vec::new(),
+        outlines,
+    })
+}
+
+fn shape(
+    chain: &SerialChain,
+    q: &Question,
+    problem: &ChainProblem<'_>,
+    number: usize,
+    f: &FoundEquilibrium,
+) -> ShapeAnswer {
+    let e = &f.equilibrium;
+    let k = &e.stiffness.cartesian.matrix;
+    let stiffness = match q.along {
+        Some(d) => 1e-3 * (d.transpose() * k.fixed_view::<3, 3>(0, 0) * d)[0],
+        None => softest(&e.stiffness.directions),
+    };
+    ShapeAnswer {
+        number,
+        energy_j: f.potential.unwrap_or(e.energy),
+        stable: f.stable,
+        may_flutter: f.may_flutter,
+        shape_stable: e.stability.stable,
+        share_to_buckling: e.stability.share_to_buckling.filter(|m| m.is_finite()),
+        mode_in_words: if e.stability.mode.is_empty() {
+            String::new()
+        } else {
+            mode_in_words(chain, &e.stability.mode)
+        },
+        singular: degenerate(chain, problem, f),
+        found_by_spread_starts: f.hits,
+        stiffness_n_per_mm: stiffness,
+        stiffness_n_m_rad: std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)])),
+        force_n: e.wrench.force().into(),
+        moment_n_m: e.wrench.moment().into(),
+        position_mm: (e.tip.translation.vector * 1e3).into(),
+        rotation_vector_deg: e.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
+        coordinates: chain.values(&e.coordinates),
+    }
+}
+
+/// Whether an equilibrium is at a limit, locked, or one of a family that moves for nothing.
+///
+/// The search calls an equilibrium singular by the condition of its equations, which is bad already
+/// where a chain is nearly stretched out and its forces are large. Here the two causes are looked at
+/// apart: a held direction in which the chain is locked (its joints move the tool there 1e-4 times
+/// less than elsewhere: within 0.006 degrees of the straight line), or a motion that needs no force.
+pub(crate) fn degenerate(
+    chain: &SerialChain,
+    problem: &ChainProblem<'_>,
+    f: &FoundEquilibrium,
+) -> bool {
+    if !f.singular {
+        return false;
+    }
+    let e = &f.equilibrium;
+    let length = chain.chain.scale().length;
+    let Ok(criterion) = shape_criterion(problem, e, length) else {
+        return true;
+    };
+    if !criterion.matrix.is_empty() {
+        let modes = criterion.matrix.symmetric_eigen();
+        let most = modes.eigenvalues.amax();
+        let free = (0..modes.eigenvalues.len())
+            .filter(|&k| modes.eigenvalues[k].abs() < 1e-7 * most)
+            // A hinge at a free end turns alone and for nothing: that is no limit.
+            .any(|k| (&criterion.basis * modes.eigenvectors.column(k)).amax() < 1.0 - 1e-6);
+        if free {
+            return true;
+        }
+    }
+    // Motions of the end in the held directions: those that the chain can make somewhere, and here.
+    let end = &problem.end;
+    let held: Vec<usize> = (0..6)
+        .filter(|&k| end.prescribed[k] == Prescribed::Pose)
+        .collect();
+    let turn = turn_matrix(&end.axes).transpose();
+    let turn = DMatrix::from_fn(held.len(), 6, |i, j| turn[(held[i], j)]);
+    let sizes = |motions: DMatrix<f64>| kinetostat::SingularValues::of(&(&turn * motions)).values;
+    if held.is_empty() {
+        return false;
+    }
+    let anywhere = sizes(chain.movable());
+    let rank = anywhere.iter().filter(|s| **s > 1e-6 * anywhere[0]).count();
+    let kinematics = Kinematics::new(
+        problem.chain,
+        &problem.base,
+        &e.coordinates,
+        &problem.commands,
+        false,
+    );
+    let mut here = kinematics.jacobian(problem.chain.tip());
+    for mut column in here.column_iter_mut() {
+        column.rows_mut(0, 3).unscale_mut(length);
+        let size = column.norm();
+        if size > 0.0 {
+            column.unscale_mut(size);
+        }
+    }
+    let here = sizes(DMatrix::from_fn(6, here.ncols(), |i, j| here[(i, j)]));
+    rank > 0 && here.get(rank - 1).is_none_or(|s| *s < 1e-4 * here[0])
+}
+
+/// Smallest principal stiffness that is not free, N/mm.
+fn softest(directions: &[Direction]) -> f64 {
+    directions
+        .iter()
+        .filter(|d| d.kind != DirectionKind::Free)
+        .map(|d| 1e-3 * d.stiffness_n_per_m)
+        .fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,290 @@
+//! All faults of a job file in one run: what is wrong is taken out of the file and the rest is read
+//! again, until nothing is left to say.
+
+use std::ops::Range;
+use std::path::Path;
+
+use kinetostat_model::exact;
+use serde_spanned::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::command_line::ProgramArgs;
+use crate::files::input::Files;
+use crate::job::format::Job;
+use crate::job::machine::machine;
+use crate::job::setting::{JobFile, WritingFlags, setting};
+use crate::job::source::Source;
+use crate::program::solve;
+use crate::ui::failure::{Answer, Code, Failure};
+
+/// More faults than this are not looked for.
+const MOST: usize = 100;
+
+/// What a run along a program is asked: enough to read everything that its job file says.
+pub(crate) struct Asked<'a> {
+    pub(crate) job: Option<&'a Path>,
+    pub(crate) model: Option<&'a str>,
+    pub(crate) program: &'a ProgramArgs,
+    pub(crate) writing: WritingFlags<'a>,
+}
+
+/// The failure of a run, or all faults of its job file if there are more.
+pub(crate) fn with_all_others(files: &Files, asked: &Asked<'_>, first: Failure) -> Failure {
+    match asked.job {
+        Some(path) if first.code == Code::WrongInput => {
+            all(files, path, asked, &first).unwrap_or(first)
+        }
+        _ => first,
+    }
+}
+
+fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option<Failure> {
+    let text = files.job(path).ok()?;
+    let name = path.display().to_string();
+    let source = Source {
+        file: &name,
+        text: &text,
+    };
+    let mut tree = DeTable::parse(&text).ok()?;
+    let mut found = Vec::new();
+    let mut taken = Vec::new();
+    // What has the wrong form: unknown keys, words for numbers, numbers that are none.
+    for span in source.not_finite(&tree) {
+        add(&mut found, source.endless(span.clone()));
+        take(tree.get_mut(), span, &mut taken);
+    }
+    while read(&tree)
+        .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found, &mut taken))
+    {}
+    // What has no meaning: each part of the question as far as it can be read.
+    if let Ok(job) = read(&tree)
+        && let Err(failure) = Job::version(source, &job)
+    {
+        add(&mut found, failure);
+    }
+    let parts: [Part<'_>; 3] = [
+        &|job| setting(files, Some(job), asked.program, &asked.writing).map(drop),
+        &|job| {
+            let mut inputs = Vec::new();
+            machine(files, Some(job), asked.model, asked.program, &mut inputs).map(drop)
+        },
+        &|job| {
+            // Without a model that can be read: tool, placement and load all the same.
+            let mut job = job.clone();
+            job.job.deviation.clear();
+            let mut inputs = Vec::new();
+            machine(
+                files,
+                Some(&job),
+                Some("orthoglide"),
+                asked.program,
+                &mut inputs,
+            )
+            .map(drop)
+        },
+    ];
+    for part in parts {
+        for _ in 0..MOST {
+            let Ok(job) = read(&tree) else {
+                break;
+            };
+            let job = JobFile {
+                path: path.to_owned(),
+                text: text.clone(),
+                job,
+            };
+            let Err(failure) = part(&job) else { break };
+            if failure.code != Code::WrongInput {
+                break;
+            }
+            let Some(span) = failure.place.clone() else {
+                add(&mut found, failure);
+                break;
+            };
+            if !follows(&span, &taken) {
+                add(&mut found, failure);
+            }
+            if !take(tree.get_mut(), span, &mut taken) {
+                break;
+            }
+        }
+    }
+    // The program's own faults, where everything that says how to read it is right.
+    if let Ok(job) = JobFile::read(files, path)
+        && let Ok(setting) = setting(files, Some(&job), asked.program, &asked.writing)
+        && let Err(failure) = solve::read_program(&setting)
+    {
+        add(&mut found, failure);
+    }
+    add(&mut found, first.clone());
+    // In the order of the file; what has no line there comes last.
+    found.sort_by_key(|f| f.place.as_ref().map_or(usize::MAX, |span| span.start));
+    Some(Failure::together(found))
+}
+
+fn read(tree: &Spanned<DeTable<'_>>) -> Result<Job, toml::de::Error> {
+    exact(toml::de::Deserializer::from(tree.clone()))
+}
+
+/// Whether a place holds something that was taken out with a message of its own: what is missing there,
+/// or left over, follows from that.
+fn follows(place: &Range<usize>, taken: &[(String, Range<usize>)]) -> bool {
+    taken.iter().any(|(_, span)| holds(place, span))
+}
+
+fn add(found: &mut Vec<Failure>, failure: Failure) {
+    // A message of several faults holds those that were found before.
+    if !found
+        .iter()
+        .any(|known| failure.plain.contains(&known.plain))
+    {
+        found.push(failure);
+    }
+}
+
+/// Notes what the reader does not accept and takes it out, or puts in what is missing; false where
+/// that leads nowhere.
+fn put_right(
+    source: &Source<'_>,
+    tree: &mut Spanned<DeTable<'_>>,
+    error: &toml::de::Error,
+    found: &mut Vec<Failure>,
+    taken: &mut Vec<(String, Range<usize>)>,
+) -> bool {
+    let span = error.span().unwrap_or(0..0);
+    let missing = Source::missing(error);
+    // What was taken out above with a message of its own is not missing.
+    let was_there = match &missing {
+        Some(missing) => taken
+            .iter()
+            .any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place))),
+        None => follows(&span, taken),
+    };
+    if !was_there {
+        let before = found.len();
+        add(found, source.content(error));
+        if found.len() == before || before >= MOST {
+            return false;
+        }
+    }
+    if let Some(key) = missing {
+        // Version 1, and any number for a number.
+        let Ok(value) = DeValue::parse("1") else {
+            return false;
+        };
+        let key = Spanned::new(span.clone(), key.into());
+        let at = table_of(tree.get_mut(), &span);
+        let table = match at {
+            Some(table) => table,
+            None => tree.get_mut(),
+        };
+        return table.insert(key, value).is_none();
+    }
+    take(tree.get_mut(), span, taken)
+}
+
+/// Takes out what stands at a place and notes it, and the table that lacks it now; false where nothing is there.
+fn take(
+    table: &mut DeTable<'_>,
+    span: Range<usize>,
+    taken: &mut Vec<(String, Range<usize>)>,
+) -> bool {
+    let around = around(table, &span);
+    let Some(key) = take_out(table, &span) else {
+        return false;
+    };
+    // The place of a table under a header is the header: what is taken from it lies elsewhere.
+    taken.extend(around.map(|table| (String::new(), table)));
+    taken.push((key, span));
+    true
+}
+
+/// The place of the innermost table with an entry that a place lies in; none for the whole file.
+fn around(table: &DeTable<'_>, span: &Range<usize>) -> Option<Range<usize>> {
+    let tables = table.values().flat_map(|value| match value.get_ref() {
+        DeValue::Array(list) => list.iter().collect(),
+        _ => vec![value],
+    });
+    for value in tables {
+        let DeValue::Table(inner) = value.get_ref() else {
+            continue;
+        };
+        if let Some(found) = around(inner, span) {
+            return Some(found);
+        }
+        let mut entries = inner.iter();
+        if entries.any(|(key, value)| holds(&key.span(), span) || holds(&value.span(), span)) {
+            return Some(value.span());
+        }
+    }
+    None
+}
+
+fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {
+    outer.start <= inner.start && inner.end <= outer.end && !outer.is_empty()
+}
+
+/// Reads a part of the question from a job.
+type Part<'a> = &'a dyn Fn(&JobFile) -> Answer<()>;
+
+/// Takes out the innermost entry that a place lies in, and tells its key; none if there is no such entry.
+fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> Option<String> {
+    let mut own = None;
+    for (key, value) in table.iter_mut() {
+        let mine = holds(&key.span(), span) || holds(&value.span(), span);
+        if mine {
+            own = Some(key.clone());
+        }
+        match value.get_mut() {
+            DeValue::Table(inner) => {
+                let taken = take_out(inner, span);
+                if taken.is_some() {
+                    return taken;
+                }
+            }
+            DeValue::Array(list) => {
+                let mut whole = None;
+                for (i, entry) in list.iter_mut().enumerate() {
+                    let place = entry.span();
+                    if let DeValue::Table(inner) = entry.get_mut() {
+                        let taken = take_out(inner, span);
+                        if taken.is_some() {
+                            return taken;
+                        }
+                        if holds(&place, span) {
+                            whole = Some(i);
+                        }
+                    }
+                }
+                if let Some(i) = whole {
+                    let others = list.iter().enumerate().filter(|(other, _)| *other != i);
+                    *list = others.map(|(_, entry)| entry.clone()).collect();
+                    // An entry of a list has no key.
+                    return Some(String::new());
+                }
+            }
+            _ => {}
+        }
+    }
+    let key = own?;
+    table.remove(&key).map(|_| key.get_ref().to_string())
+}
+
+/// The table that is written at a place.
+fn table_of<'a, 't>(
+    table: &'a mut DeTable<'t>,
+    span: &Range<usize>,
+) -> Option<&'a mut DeTable<'t>> {
+    for (_, value) in table.iter_mut() {
+        let place = value.span();
+        if let DeValue::Table(inner) = value.get_mut() {
+            if place == *span {
+                return Some(inner);
+            }
+            if let Some(found) = table_of(inner, span) {
+                return Some(found);
+            }
+        }
+    }
+    None
+}
