@@ -20,6 +20,7 @@ mod job;
 mod machine;
 mod map;
 mod model;
+mod options;
 mod place;
 mod program;
 mod reproduce;
@@ -29,10 +30,12 @@ mod ui;
 
 use std::process::ExitCode;
 
-use clap::Parser;
 use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 
-use crate::command_line::{Cli, Command, no_number, plain_numbers};
+use crate::command_line::negative_numbers::{no_number, plain_numbers};
+use crate::command_line::{Cli, Command};
+use crate::files::journal;
 use crate::ui::failure::{self, Answer, Code};
 use crate::ui::{progress, screen};
 
@@ -53,7 +56,7 @@ fn main() -> ExitCode {
             };
         }
     };
-    progress::catch_interrupts();
+    progress::catch_interrupts(journal::remove_temporary);
     match run(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -77,7 +80,7 @@ fn run(command: Command) -> Answer<()> {
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Model(args) => model::run(&args),
-        Command::Completions(args) => shell::completions(&args),
-        Command::Man(args) => shell::man(&args),
+        Command::Completions(args) => shell::completions(&args, Cli::command()),
+        Command::Man(args) => shell::man(&args, Cli::command()),
     }
 }

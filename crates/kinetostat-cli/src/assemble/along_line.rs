@@ -11,13 +11,13 @@ use serde::Serialize;
 use crate::assemble::answer::solve;
 use crate::assemble::arguments::{AssembleArgs, Component};
 use crate::assemble::query::Question;
-use crate::job::machine::short;
-use crate::job::setting::vector;
+use crate::options::vector;
 use crate::place::orientation;
-use crate::program::points_table::digits;
-use crate::program::summary;
+use crate::ui::csv_cell::digits;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{columns, fixed, triple, wrapped};
+use crate::ui::layout::{columns, wrapped};
+use crate::ui::numbers::{fixed, short, triple};
+use crate::ui::warnings;
 
 /// More points are a slip of the pen.
 const MOST_POINTS: usize = 100_000;
@@ -335,6 +335,6 @@ pub(crate) fn in_words(question: &Question, a: &AlongLine) -> String {
         rows.push(row);
     }
     out.push_str(&columns(&rows, 2));
-    out.push_str(&summary::warnings(&a.warnings));
+    out.push_str(&warnings::warnings(&a.warnings));
     out
 }

@@ -7,8 +7,8 @@ use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
 use crate::assemble::query::Question;
-use crate::deflect::PlaceAsked;
-use crate::end_condition::chain::unit_of;
+use crate::machine::units::unit_of;
+use crate::place::query::PlaceAsked;
 use crate::ui::failure::Answer;
 
 /// The answer, stable names with units.

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Args, ValueEnum};
 
-use crate::command_line::{EXIT_CODES, PlaceArgs, number, whole};
+use crate::options::{EXIT_CODES, number, whole};
+use crate::place::arguments::PlaceArgs;
 
 /// What assembly with errors locks in: shifts, internal forces, springs
 ///

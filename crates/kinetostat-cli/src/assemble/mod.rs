@@ -4,14 +4,15 @@ mod along_line;
 mod answer;
 pub(crate) mod arguments;
 mod query;
+mod table;
 mod text;
 
 use crate::assemble::answer::answer;
 use crate::assemble::arguments::AssembleArgs;
 use crate::assemble::query::question;
-use crate::files::output::{Existing, Outputs};
-use crate::program::solve;
+use crate::files::output::{self, Existing, Outputs};
 use crate::ui::failure::Answer;
+use crate::ui::json;
 use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
@@ -34,7 +35,7 @@ pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
             }
             (
                 along_line::in_words(&question, &a),
-                solve::json(&a)?,
+                json::json(&a)?,
                 along_line::csv(&a)?,
             )
         }
@@ -42,8 +43,8 @@ pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
             let a = answer(&question)?;
             (
                 text::in_words(&question, &a, args.all),
-                solve::json(&a)?,
-                text::csv(&a)?,
+                json::json(&a)?,
+                table::csv(&a)?,
             )
         }
     };
@@ -51,7 +52,7 @@ pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
         outputs.fill(index, &table)?;
     }
     let paths = outputs.commit()?;
-    let text = format!("{text}{}", solve::written(&paths));
+    let text = format!("{text}{}", output::written(&paths));
     if args.json {
         screen::print(Stream::Err, &text)?;
         return screen::print_bytes(json.as_bytes());

@@ -10,15 +10,21 @@ use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::command_line::ProgramArgs;
 use crate::files::input::Files;
 use crate::files::output::may_be_written;
 use crate::job::all_faults::{Asked, with_all_others};
-use crate::job::machine::{machine, no_potential, of_model, short};
-use crate::job::setting::{JobFile, Setting, Targets, WritingFlags, setting};
-use crate::program::{solve, summary};
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::job_file::JobFile;
+use crate::job::machine::machine;
+use crate::job::program;
+use crate::job::setting::{Setting, setting};
+use crate::job::targets::Targets;
+use crate::machine::model_warnings::{no_potential, of_model};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{self, Stream, item, listed, triple, wrapped};
+use crate::ui::layout::{item, listed, wrapped};
+use crate::ui::numbers::{short, triple};
+use crate::ui::screen::{self, Stream};
+use crate::ui::{json, warnings};
 
 /// What a job says, stable names with units.
 #[derive(Serialize)]
@@ -85,7 +91,7 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
     let text = in_words(&found);
     if json {
         screen::print(Stream::Err, &text)?;
-        screen::print_bytes(solve::json(&found)?.as_bytes())?;
+        screen::print_bytes(json::json(&found)?.as_bytes())?;
     } else {
         screen::print(Stream::Out, &text)?;
     }
@@ -102,7 +108,7 @@ fn findings(files: &Files, path: &Path, flags: &ProgramArgs) -> Answer<JobFindin
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
     let (machine, model) = machine(files, Some(&job), None, flags, &mut setting.inputs)?;
-    let (program, motion) = solve::read_program(&setting)?;
+    let (program, motion) = program::read_program(&setting)?;
     let mut warnings: Vec<Warning> = of_model(&model).collect();
     warnings.extend(no_potential(&model.mechanism));
     warnings.extend(job.odd_angles());
@@ -275,10 +281,10 @@ fn in_words(f: &JobFindings) -> String {
         })
         .collect();
     out.push_str(&format!("\nOutputs\n{}", listed(&rows, 2)));
-    out.push_str(&summary::warnings(&f.warnings));
+    out.push_str(&warnings::warnings(&f.warnings));
     out.push_str(&format!(
         "\nNext\n  kinetostat compensate {}\n",
-        crate::ui::failure::safe(&f.job)
+        crate::ui::safe_text::safe(&f.job)
     ));
     out
 }

@@ -17,12 +17,15 @@ use kinetostat_program::{
 use serde::Serialize;
 
 use crate::files::input::Files;
-use crate::files::output::{Existing, Outputs};
+use crate::files::output::{self, Existing, Outputs};
+use crate::job::program;
 use crate::job::setting::Setting;
-use crate::program::{solve, summary};
+use crate::program::report;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::layout::{columns, wrapped};
 use crate::ui::progress::Progress;
-use crate::ui::screen::{self, Stream, columns, wrapped};
+use crate::ui::screen::{self, Stream};
+use crate::ui::{fault_list, json, warnings};
 
 /// Result of a program corrected from a table.
 #[derive(Serialize)]
@@ -74,10 +77,11 @@ pub(crate) fn from_map(
             FAULTS_OF_A_TABLE => "or more places of the table",
             _ => "places of the table",
         };
-        let message = solve::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
+        let message =
+            fault_list::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
         Failure::input(message).within(&map.display().to_string())
     })?;
-    let (program, path) = solve::read_program(setting)?;
+    let (program, path) = program::read_program(setting)?;
     let mut inputs = setting.inputs.clone();
     inputs.push(map.to_owned());
     let mut outputs = Outputs::new(existing, inputs);
@@ -153,22 +157,22 @@ pub(crate) fn from_map(
         warnings,
     };
     if let Some(index) = json_out {
-        outputs.fill(index, solve::json(&result)?.as_bytes())?;
+        outputs.fill(index, json::json(&result)?.as_bytes())?;
     }
     if let Some(index) = out {
         outputs.fill(index, &written.bytes)?;
     }
     let paths = outputs.commit()?;
     let mut text = words(&result);
-    text.push_str(&summary::warnings(&result.warnings));
-    text.push_str(&solve::written(&paths));
+    text.push_str(&warnings::warnings(&result.warnings));
+    text.push_str(&output::written(&paths));
     if to_screen {
         screen::print(Stream::Err, &text)?;
-        screen::print_bytes(solve::json(&result)?.as_bytes())?;
+        screen::print_bytes(json::json(&result)?.as_bytes())?;
     } else {
         screen::print(Stream::Out, &text)?;
     }
-    solve::judged(&result.tolerance, result.program)
+    report::judged(&result.tolerance, result.program)
 }
 
 /// A table so many times as wide as the program, and no smaller than this (mm), may have its nodes in micrometres.

@@ -1,5 +1,6 @@
 //! `kinetostat compensate`: a program that cuts where it should.
 
+pub(crate) mod arguments;
 mod correction_table;
 
 use std::path::{Path, PathBuf};
@@ -7,16 +8,23 @@ use std::path::{Path, PathBuf};
 use kinetostat_machining::number::counted;
 use kinetostat_program::{Program, interpret};
 
-use crate::command_line::CompensateArgs;
+use crate::compensate::arguments::CompensateArgs;
 use crate::files::input::Files;
-use crate::files::output::{Existing, Outputs};
+use crate::files::output::{self, Existing, Outputs};
 use crate::job::all_faults::{Asked, with_all_others};
-use crate::job::machine::{machine, no_potential, of_model, with_smells};
-use crate::job::setting::{JobFile, Setting, WritingFlags, setting};
-use crate::program::solve::{self, Aim, Files as Targets, tell};
-use crate::program::summary;
+use crate::job::arguments::WritingFlags;
+use crate::job::job_file::JobFile;
+use crate::job::machine::machine;
+use crate::job::program;
+use crate::job::setting::{Setting, setting};
+use crate::machine::model_warnings::{no_potential, of_model, with_smells};
+use crate::program::aim::Aim;
+use crate::program::outputs::Files as Targets;
+use crate::program::report::{self, tell};
+use crate::program::{solve, summary};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{self, Stream, wrapped};
+use crate::ui::layout::wrapped;
+use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     job_after_json(&mut args);
@@ -67,7 +75,7 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
         &mut setting.inputs,
     )?;
     // A program that cannot be read is told before outputs are looked at.
-    solve::read_program(&setting)?;
+    program::read_program(&setting)?;
     let mut targets = Targets::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
     let mut run = solve::solve(
         Aim::Compensate,
@@ -87,10 +95,10 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
     let text = format!(
         "{}{}{note}",
         summary::of_run(&run.result),
-        solve::written(&paths)
+        output::written(&paths)
     );
     tell(&text, to_screen.then_some(&run.result))?;
-    solve::judged(&run.result.tolerance, &run.result.question.program)
+    report::judged(&run.result.tolerance, &run.result.question.program)
 }
 
 fn flags(args: &CompensateArgs) -> WritingFlags<'_> {
@@ -145,6 +153,6 @@ fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
         outputs.fill(index, program.bytes())?;
     }
     let paths = outputs.commit()?;
-    text.push_str(&solve::written(&paths));
+    text.push_str(&output::written(&paths));
     screen::print(Stream::Out, &text)
 }

@@ -10,11 +10,13 @@ use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::curve::query::{Holding, Measure, Question};
+use crate::curve::query::{Measure, Question};
 use crate::curve::rotation::Turns;
-use crate::deflect::PlaceAsked;
-use crate::end_condition::chain::{CoordinateName, SerialChain, mode_in_words};
-use crate::equilibria::answer::degenerate;
+use crate::end_condition::chain::{SerialChain, mode_in_words};
+use crate::end_condition::coordinates::CoordinateName;
+use crate::end_condition::degenerate::degenerate;
+use crate::end_condition::holding::Holding;
+use crate::place::query::PlaceAsked;
 use crate::ui::background::Stage;
 use crate::ui::failure::{Answer, Failure};
 
@@ -72,7 +74,7 @@ impl CurveAnswer {
                 WarningCode::LargeDisplacement,
                 format!(
                     "the tool goes {} times as far as the machine is long: its springs are stretched beyond all sense; check the range and its unit",
-                    crate::ui::screen::number(farthest / (1e3 * length), 2)
+                    crate::ui::numbers::number(farthest / (1e3 * length), 2)
                 ),
             ));
         }
@@ -330,7 +332,7 @@ pub(crate) fn solve(
             settings.conjugate_range = (-limit, limit);
             warnings.push(Warning::new(WarningCode::CurveEnds, format!(
                 "the chain is stretched out and locked at the start: the load grows there without any displacement. The curve was kept within {} {word} both ways; --force-limits LOW HIGH sets other limits",
-                crate::ui::screen::number(limit, 3)
+                crate::ui::numbers::number(limit, 3)
             )));
         }
         curves = follow(&problem, &q.parameter, &start, value, &settings)?;
@@ -472,7 +474,7 @@ fn not_there(q: &Question, there: &ChainProblem<'_>, error: kinetostat::Error) -
     };
     Failure::unanswered(format!(
         "{error}; nothing loads the chain: its tool may be out of reach where the curve starts, {} {unit} from the commanded place. Start nearer to that place",
-        crate::ui::screen::number(q.shown(q.start()), 6)
+        crate::ui::numbers::number(q.shown(q.start()), 6)
     ))
 }
 

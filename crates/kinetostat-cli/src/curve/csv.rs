@@ -1,14 +1,8 @@
-//! All points of a curve, or all equilibria, as a table: units in the header, full precision.
+//! All points of a curve as a table.
 
 use crate::curve::answer::{CurveAnswer, PointAnswer};
-use crate::end_condition::chain::CoordinateName;
-use crate::equilibria::answer::EquilibriaAnswer;
-use crate::ui::failure::{Answer, Failure};
-
-const WRENCH_AND_PLACE: [&str; 12] = [
-    "fx_n", "fy_n", "fz_n", "mx_n_m", "my_n_m", "mz_n_m", "x_mm", "y_mm", "z_mm", "rx_deg",
-    "ry_deg", "rz_deg",
-];
+use crate::end_condition::table::{WRENCH_AND_PLACE, cell, column, written, yes};
+use crate::ui::failure::Answer;
 
 pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
     let word = |name: &str, unit: &str| {
@@ -91,85 +85,4 @@ pub(crate) fn of_curve(a: &CurveAnswer) -> Answer<Vec<u8>> {
         ));
     }
     written(&rows)
-}
-
-pub(crate) fn of_equilibria(a: &EquilibriaAnswer) -> Answer<Vec<u8>> {
-    let mut header: Vec<String> = [
-        "number",
-        "energy_j",
-        "stable",
-        "may_flutter",
-        "shape_stable",
-        "share_to_buckling",
-        "singular",
-        "found_by_spread_starts",
-        "stiffness_n_per_mm",
-    ]
-    .map(String::from)
-    .to_vec();
-    header.extend(WRENCH_AND_PLACE.map(String::from));
-    header.extend(a.coordinates.iter().map(column));
-    let mut rows = vec![header];
-    for e in &a.equilibria {
-        let mut row = vec![
-            e.number.to_string(),
-            cell(e.energy_j),
-            yes(e.stable),
-            yes(e.may_flutter),
-            yes(e.shape_stable),
-            e.share_to_buckling.map_or_else(String::new, cell),
-            yes(e.singular),
-            e.found_by_spread_starts.to_string(),
-            cell(e.stiffness_n_per_mm),
-        ];
-        row.extend(
-            [
-                e.force_n,
-                e.moment_n_m,
-                e.position_mm,
-                e.rotation_vector_deg,
-            ]
-            .iter()
-            .flatten()
-            .map(|x| cell(*x)),
-        );
-        row.extend(e.coordinates.iter().map(|x| cell(*x)));
-        rows.push(row);
-    }
-    written(&rows)
-}
-
-fn column(c: &CoordinateName) -> String {
-    let name = format!("{}_{}", c.name, c.unit);
-    // A spreadsheet would take it for a formula.
-    if name.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        format!("'{name}")
-    } else {
-        name
-    }
-}
-
-/// A number that reads back to the same bits; empty where there is none.
-fn cell(x: f64) -> String {
-    if x.is_finite() {
-        x.to_string()
-    } else {
-        String::new()
-    }
-}
-
-fn yes(is: bool) -> String {
-    if is { "yes" } else { "no" }.to_owned()
-}
-
-fn written(rows: &[Vec<String>]) -> Answer<Vec<u8>> {
-    let failed =
-        |error: csv::Error| Failure::input(format!("the table cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(row).map_err(failed)?;
-    }
-    writer
-        .into_inner()
-        .map_err(|error| failed(csv::Error::from(error.into_error())))
 }

@@ -1,133 +1,20 @@
 //! The curve of a machine of several limbs or platforms: its tool is moved or loaded, all limbs follow.
 
 use kinetostat::{
-    BranchEnd, CurveSettings, DirectionKind, EndCondition, MachinePath, Mechanism,
-    MechanismEquilibrium, NearSingularity, PathPoint, PathSpecial, PathSpecialKind, Pose, Posture,
+    BranchEnd, CurveSettings, EndCondition, MachinePath, PathPoint, PathSpecial, PathSpecialKind,
 };
 use kinetostat_machining::{Warning, WarningCode};
-use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::curve::answer::{
     BranchAnswer, CurveAnswer, Found, JumpAnswer, NamedPoint, PointAnswer, Units, grows, letter,
 };
-use crate::curve::arguments::{CurveArgs, EndArgs};
-use crate::curve::query::{Measure, Question, no_nodes};
-use crate::deflect::PlaceAsked;
-use crate::end_condition::chain::{CoordinateName, Moves, coordinates_of, outline_of, values_of};
-use crate::place::query::{Followed, Spot};
+use crate::curve::arguments::CurveArgs;
+use crate::curve::query::{Measure, Question};
+use crate::end_condition::loads::refuse_nodes;
+use crate::end_condition::machine::Machine;
+use crate::place::query::PlaceAsked;
 use crate::ui::background::Stage;
 use crate::ui::failure::{Answer, Failure};
-
-/// A machine commanded for a place.
-pub(crate) struct Machine {
-    mechanism: Mechanism,
-    target: Pose,
-    /// Commands, where the place is given by them.
-    joints: Option<Vec<f64>>,
-    followed: Option<Followed>,
-    pub(crate) moves: Moves,
-}
-
-impl Machine {
-    pub(crate) fn of(spot: &Spot) -> Answer<Self> {
-        let posture = spot.posture()?;
-        let own = posture.stiffness()?;
-        let rigid: Vec<DVector<f64>> = own
-            .directions
-            .iter()
-            .filter(|d| d.kind == DirectionKind::Rigid)
-            .map(|d| {
-                let unit = |i: usize| if i < 3 { 1.0 } else { own.length };
-                DVector::from_fn(6, |i, _| d.twist.0[i] * unit(i)).normalize()
-            })
-            .collect();
-        Ok(Self {
-            moves: Moves {
-                subject: "machine",
-                place: spot.target,
-                basis: without(&rigid),
-                length: own.length,
-            },
-            mechanism: spot.mechanism.clone(),
-            target: spot.target,
-            joints: spot.joints.clone(),
-            followed: spot.followed.clone(),
-        })
-    }
-
-    /// Commanded for its place.
-    pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
-        let m = &self.mechanism;
-        Ok(match (&self.joints, &self.followed) {
-            (Some(joints), _) => m.posture_at(joints)?,
-            (None, Some(f)) => m.posture_from_joints(&self.target, f.limbs.clone())?,
-            (None, None) => m.posture(&self.target)?,
-        })
-    }
-
-    /// Coordinates of all limbs, one limb after the other.
-    pub(crate) fn coordinates(&self, posture: &Posture<'_>) -> Vec<CoordinateName> {
-        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
-        limbs
-            .flat_map(|(limb, joints)| {
-                coordinates_of(&limb.actual, &joints.commands)
-                    .into_iter()
-                    .map(|c| CoordinateName {
-                        name: format!("{}: {}", limb.name, c.name),
-                        ..c
-                    })
-            })
-            .collect()
-    }
-
-    /// Values of all coordinates, in their units.
-    pub(crate) fn values(&self, posture: &Posture<'_>, e: &MechanismEquilibrium) -> Vec<f64> {
-        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
-        limbs
-            .zip(&e.limbs)
-            .flat_map(|((limb, joints), own)| {
-                values_of(&limb.actual, &joints.commands, &own.coordinates)
-            })
-            .collect()
-    }
-
-    /// Every limb from its start to its end and back, one after the other, m.
-    pub(crate) fn outline(
-        &self,
-        posture: &Posture<'_>,
-        e: &MechanismEquilibrium,
-    ) -> Vec<Vector3<f64>> {
-        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
-        limbs
-            .zip(&e.limbs)
-            .flat_map(|((limb, joints), own)| {
-                let base = &e.state.platforms[limb.from];
-                let there = outline_of(&limb.actual, base, &joints.commands, &own.coordinates);
-                let back: Vec<_> = there.iter().rev().skip(1).copied().collect();
-                there.into_iter().chain(back)
-            })
-            .collect()
-    }
-
-    /// Singular postures within a distance (m).
-    pub(crate) fn near_singular(&self, posture: &Posture<'_>, within: f64) -> Answer<Vec<Warning>> {
-        let within = within.max(0.1 * self.moves.length);
-        let list = posture.near_singularities(within)?;
-        let told = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
-        Ok(list.iter().map(told).collect())
-    }
-}
-
-/// Everything across some directions (of length one, perhaps dependent), orthonormal columns.
-fn without(directions: &[DVector<f64>]) -> DMatrix<f64> {
-    let mut kept = DMatrix::<f64>::identity(6, 6);
-    for d in directions {
-        kept -= d * d.transpose();
-    }
-    let eigen = kept.symmetric_eigen();
-    let columns: Vec<_> = (0..6).filter(|&k| eigen.eigenvalues[k] > 0.5).collect();
-    eigen.eigenvectors.select_columns(&columns)
-}
 
 /// Options that are for chains.
 pub(crate) fn refuse(args: &CurveArgs) -> Answer<()> {
@@ -138,14 +25,6 @@ pub(crate) fn refuse(args: &CurveArgs) -> Answer<()> {
         ));
     }
     Ok(())
-}
-
-/// That forces on nodes are for chains.
-pub(crate) fn refuse_nodes(args: &EndArgs) -> Answer<()> {
-    match args.load.is_empty() {
-        true => Ok(()),
-        false => Err(no_nodes("--load")),
-    }
 }
 
 /// Follows the curve of a machine.

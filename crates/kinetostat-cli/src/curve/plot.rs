@@ -3,7 +3,7 @@
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 
 use crate::curve::answer::{CurveAnswer, NamedPoint, PointAnswer, kind_in_words};
-use crate::ui::screen::number;
+use crate::ui::numbers::number;
 
 /// How far a part of a branch holds.
 #[derive(Clone, Copy, PartialEq)]

@@ -4,8 +4,9 @@ use kinetostat::BranchEnd;
 use kinetostat_machining::number::{counted, share};
 
 use crate::curve::answer::{CriticalAnswer, CurveAnswer, NamedPoint, PointAnswer, kind_in_words};
-use crate::program::summary;
-use crate::ui::screen::{columns, item, number, wrapped};
+use crate::ui::layout::{columns, item, wrapped};
+use crate::ui::numbers::number;
+use crate::ui::warnings;
 
 /// More ends of branches than this are only counted.
 const MOST_ENDS: usize = 6;
@@ -32,7 +33,7 @@ pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
             0,
         ));
     }
-    out.push_str(&summary::warnings(&a.warnings));
+    out.push_str(&warnings::warnings(&a.warnings));
     out
 }
 

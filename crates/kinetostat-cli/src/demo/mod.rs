@@ -1,18 +1,26 @@
 //! `kinetostat demo`: a circular groove on a machine that bends and was not built quite right.
 
+pub(crate) mod arguments;
+
 use std::path::{Path, PathBuf};
 
 use kinetostat_model::preset_text;
 
-use crate::command_line::{DemoArgs, ProgramArgs};
+use crate::demo::arguments::DemoArgs;
 use crate::files::input::Files;
-use crate::files::output::{Existing, in_words};
+use crate::files::output::Existing;
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::job_file::JobFile;
 use crate::job::machine::machine;
-use crate::job::setting::{JobFile, WritingFlags, setting};
-use crate::program::solve::{self, Aim, Files as Targets, tell};
-use crate::program::summary;
-use crate::ui::failure::{Answer, Failure, safe};
-use crate::ui::screen::{listed, wrapped};
+use crate::job::setting::setting;
+use crate::program::aim::Aim;
+use crate::program::outputs::Files as Targets;
+use crate::program::report::{self, tell};
+use crate::program::{solve, summary};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::layout::{listed, wrapped};
+use crate::ui::safe_text::safe;
+use crate::ui::system_error::in_words;
 
 const PROGRAM: &str = "\
 (circular groove, radius 25 mm, depth 2 mm)
@@ -152,7 +160,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
     tell(&text, args.json.then_some(&run.result))?;
-    solve::judged(&run.result.tolerance, &run.result.question.program)
+    report::judged(&run.result.tolerance, &run.result.question.program)
 }
 
 fn next(out: &Path) -> String {

@@ -1,12 +1,11 @@
-//! The chain of a machine with one limb, commanded for a place, with everything that acts on it:
-//! what `curve` and `equilibria` ask about.
+//! The chain of a machine with one limb, commanded for a place, with everything that acts on it.
 
-use kinetostat::{
-    Chain, ChainProblem, EndCondition, Kinematics, Load, MotionKind, Pose, Role, Wrench,
-};
-use nalgebra::{DMatrix, Vector6};
-use serde::Serialize;
+use kinetostat::{Chain, ChainProblem, EndCondition, Kinematics, Load, MotionKind, Pose, Wrench};
+use nalgebra::DMatrix;
 
+use crate::end_condition::coordinates::{CoordinateName, coordinates_of, outline_of, values_of};
+use crate::end_condition::moves::Moves;
+use crate::machine::units::unit_of;
 use crate::place::query::Spot;
 use crate::ui::failure::{Answer, Failure};
 
@@ -99,7 +98,7 @@ impl SerialChain {
         let known = self.chain.nodes();
         let Some(node) = known.iter().position(|n| n == name) else {
             let names: Vec<&str> = known.iter().map(String::as_str).collect();
-            let near = crate::place::orientation::nearest(name, &names)
+            let near = crate::ui::spelling::nearest(name, &names)
                 .map_or_else(|| ".".to_owned(), |n| format!("; did you mean '{n}'?"));
             return Err(refuse(format!(
                 "the chain has no node '{name}'{near} It has: {}. A model file names one with {{ node = \"NAME\" }}",
@@ -190,127 +189,6 @@ impl SerialChain {
     }
 }
 
-/// Motions that the tool of a chain or a machine can make.
-#[derive(Clone, Debug)]
-pub(crate) struct Moves {
-    /// `chain` or `machine`.
-    pub(crate) subject: &'static str,
-    /// Where the tool is commanded to be.
-    pub(crate) place: Pose,
-    /// Columns of an orthonormal basis, translations as shares of the natural length.
-    pub(crate) basis: DMatrix<f64>,
-    /// Natural length, m.
-    pub(crate) length: f64,
-}
-
-impl Moves {
-    /// The part of a twist (m, rad; base axes) that the tool can make, as a share from 0 to 1.
-    pub(crate) fn share(&self, twist: &Vector6<f64>) -> f64 {
-        let unit = |i: usize| if i < 3 { 1.0 / self.length } else { 1.0 };
-        let scaled = Vector6::from_fn(|i, _| twist[i] * unit(i));
-        let size = scaled.norm();
-        if size == 0.0 {
-            return 1.0;
-        }
-        (self.basis.transpose() * scaled).norm() / size
-    }
-}
-
-/// What every coordinate of a chain is, for people and for tables.
-pub(crate) fn coordinates_of(chain: &Chain, commands: &[f64]) -> Vec<CoordinateName> {
-    let list = chain.coordinates().iter().enumerate();
-    list.map(|(i, c)| {
-        let actuator = chain
-            .actuators()
-            .iter()
-            .position(|a| a.coordinate == Some(i));
-        CoordinateName {
-            name: c.name.clone(),
-            kind: match (c.role, actuator) {
-                (Role::Passive, _) => "passive joint",
-                (Role::Spring, Some(_)) => "drive",
-                (Role::Spring, None) => "spring",
-            },
-            unit: match c.kind {
-                MotionKind::Revolute => "deg",
-                MotionKind::Prismatic => "mm",
-            },
-            command: actuator.map_or(0.0, |a| commands[a] * unit_of(c.kind)),
-        }
-    })
-    .collect()
-}
-
-/// Values of all coordinates of a chain in their units; of a drive the joint's whole position,
-/// command included.
-pub(crate) fn values_of(chain: &Chain, commands: &[f64], coordinates: &[f64]) -> Vec<f64> {
-    coordinates_of(chain, commands)
-        .iter()
-        .zip(chain.coordinates())
-        .zip(coordinates)
-        .map(|((name, c), x)| name.command + x * unit_of(c.kind))
-        .collect()
-}
-
-/// Places along a chain at a state, base to tip, m, without repetition.
-pub(crate) fn outline_of(
-    chain: &Chain,
-    base: &Pose,
-    commands: &[f64],
-    coordinates: &[f64],
-) -> Vec<nalgebra::Vector3<f64>> {
-    use kinetostat::Element;
-    let mut pose = *base;
-    let mut points = vec![pose.translation.vector];
-    for element in chain.elements() {
-        match element {
-            Element::Rigid(offset) => pose *= offset,
-            Element::Node(_) => {}
-            Element::Motion(motion) => {
-                let mut by = 0.0;
-                if let Some(d) = motion.coordinate {
-                    by += d.ratio * coordinates[d.index];
-                }
-                if let Some(d) = motion.command {
-                    by += d.ratio * commands[d.index];
-                }
-                pose *= match motion.kind {
-                    MotionKind::Revolute => Pose::rotation(motion.axis.into_inner() * by),
-                    MotionKind::Prismatic => {
-                        let t = motion.axis.into_inner() * by;
-                        Pose::translation(t.x, t.y, t.z)
-                    }
-                };
-            }
-        }
-        let here = pose.translation.vector;
-        let last = points.last().copied().unwrap_or_default();
-        if (here - last).norm() > 1e-9 * chain.scale().length {
-            points.push(here);
-        }
-    }
-    points
-}
-
-/// mm per m, or degrees per radian.
-pub(crate) fn unit_of(kind: MotionKind) -> f64 {
-    match kind {
-        MotionKind::Revolute => 1_f64.to_degrees(),
-        MotionKind::Prismatic => 1e3,
-    }
-}
-
-/// A coordinate of the chain.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct CoordinateName {
-    pub(crate) name: String,
-    /// passive joint, drive or spring.
-    pub(crate) kind: &'static str,
-    pub(crate) unit: &'static str,
-    /// Command of a drive, in its unit; 0 otherwise.
-    pub(crate) command: f64,
-}
-
 /// A motion of all coordinates in words: the joints that move most, each by how much while the
 /// largest turns by one degree (or slides by one millimetre, where nothing turns).
 pub(crate) fn mode_in_words(chain: &SerialChain, mode: &[f64]) -> String {
@@ -346,7 +224,7 @@ pub(crate) fn mode_in_words(chain: &SerialChain, mode: &[f64]) -> String {
                 MotionKind::Revolute => (by.abs().to_radians() * length, "deg"),
                 MotionKind::Prismatic => (by.abs(), "mm"),
             };
-            let shown = crate::ui::screen::fixed(by, 3);
+            let shown = crate::ui::numbers::fixed(by, 3);
             let something = shown.bytes().any(|b| (b'1'..=b'9').contains(&b));
             something.then(|| (size, format!("{} by {shown} {word}", c.name)))
         })

@@ -2,9 +2,10 @@
 
 use kinetostat::{DirectionKind, SearchSettings, SpreadSettings};
 
-use crate::curve::machine::Machine;
-use crate::deflect::PlaceAsked;
-use crate::equilibria::answer::{Coverage, EquilibriaAnswer, Question, ShapeAnswer};
+use crate::end_condition::machine::Machine;
+use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria::query::Question;
+use crate::place::query::PlaceAsked;
 use crate::ui::background::Stage;
 use crate::ui::failure::Answer;
 

@@ -3,9 +3,11 @@
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use nalgebra::Vector3;
 
-use crate::equilibria::answer::{EquilibriaAnswer, MOST_KNOWN, ShapeAnswer};
-use crate::program::summary;
-use crate::ui::screen::{WIDTH, columns, fixed, item, number, wrapped};
+use crate::equilibria::answer::{EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria::query::MOST_KNOWN;
+use crate::ui::layout::{WIDTH, columns, item, wrapped};
+use crate::ui::numbers::{fixed, number};
+use crate::ui::warnings;
 
 /// More equilibria than this are only counted on the screen.
 const MOST_SHOWN: usize = 20;
@@ -32,7 +34,7 @@ pub(crate) fn in_words(heading: &str, a: &EquilibriaAnswer) -> String {
     for line in completeness(a) {
         out.push_str(&item(&line));
     }
-    out.push_str(&summary::warnings(&a.warnings));
+    out.push_str(&warnings::warnings(&a.warnings));
     out
 }
 
@@ -68,7 +70,7 @@ fn table(a: &EquilibriaAnswer) -> String {
     let along = match a.stiffness_along {
         Some(d) => format!(
             "N/mm along {}",
-            crate::curve::query::axis_in_words(&Vector3::from(d))
+            crate::end_condition::holding::axis_in_words(&Vector3::from(d))
         ),
         None => "smallest principal, N/mm".to_owned(),
     };

@@ -16,8 +16,9 @@ use std::sync::Mutex;
 use serde::{Deserialize, Serialize};
 use tempfile::{NamedTempFile, TempPath};
 
-use crate::files::output::parent_of;
-use crate::ui::failure::safe;
+use crate::files::hash::{FNV1A, fnv1a};
+use crate::files::paths::parent_of;
+use crate::ui::safe_text::safe;
 
 /// Beginning of the names of all files that are not outputs.
 const OURS: &str = ".kinetostat-";
@@ -52,18 +53,8 @@ fn remember(path: &Path) {
 /// Length and FNV-1a check number of the bytes so far.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Contents {
-    bytes: u64,
-    fnv1a: u64,
-}
-
-/// FNV-1a of no bytes.
-pub(crate) const FNV1A: u64 = 0xcbf2_9ce4_8422_2325;
-
-/// FNV-1a of the bytes before, `hash`, and of these.
-pub(crate) fn fnv1a(hash: u64, bytes: &[u8]) -> u64 {
-    bytes.iter().fold(hash, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+    pub(crate) bytes: u64,
+    pub(crate) fnv1a: u64,
 }
 
 impl Default for Contents {
@@ -82,7 +73,7 @@ impl Contents {
     }
 
     /// Whether a file holds just these bytes.
-    fn are_in(self, path: &Path) -> bool {
+    pub(crate) fn are_in(self, path: &Path) -> bool {
         let same_length =
             fs::symlink_metadata(path).is_ok_and(|m| m.is_file() && m.len() == self.bytes);
         let Some(mut file) = same_length.then(|| File::open(path).ok()).flatten() else {
@@ -105,8 +96,8 @@ impl Contents {
 pub(crate) struct Entry {
     /// Its name if it lies beside the journal, else its whole path.
     #[serde(with = "any_path")]
-    path: PathBuf,
-    contents: Contents,
+    pub(crate) path: PathBuf,
+    pub(crate) contents: Contents,
 }
 
 /// Paths as text; those that are no UTF-8, which a disk may have and JSON has not, as their bytes.
@@ -153,7 +144,7 @@ impl Entry {
     }
 
     /// The same as seen from a directory.
-    fn seen_from(&self, directory: &Path) -> Self {
+    pub(crate) fn seen_from(&self, directory: &Path) -> Self {
         let whole = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let parent = whole(&parent_of(&self.path));
         let path = match self.path.file_name() {
@@ -171,9 +162,9 @@ impl Entry {
 /// The journal of this run in one directory.
 pub(crate) struct Journal {
     pub(crate) directory: PathBuf,
-    file: NamedTempFile,
-    name: String,
-    count: usize,
+    pub(crate) file: NamedTempFile,
+    pub(crate) name: String,
+    pub(crate) count: usize,
 }
 
 impl Journal {
@@ -208,7 +199,7 @@ impl Journal {
         ))
     }
 
-    fn next(&mut self, ending: &str) -> PathBuf {
+    pub(crate) fn next(&mut self, ending: &str) -> PathBuf {
         self.count += 1;
         self.directory
             .join(format!("{}-{}{ending}", self.name, self.count))

@@ -5,13 +5,16 @@
 
 use std::fs;
 use std::io::{ErrorKind, Write};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use crate::files::journal::{self, Contents, Entry, Journal};
+use crate::files::paths::{parent_of, same_bytes, same_file, same_place};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen;
+use crate::ui::safe_text::safe;
+use crate::ui::system_error::in_words;
+use crate::ui::{layout, screen};
 
 /// What to do about an output that exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,7 +175,7 @@ impl Outputs {
     }
 
     /// The journal of a directory; with the first output there, what dead runs left is put in order.
-    fn journal(&mut self, directory: &Path) -> std::io::Result<usize> {
+    pub(crate) fn journal(&mut self, directory: &Path) -> std::io::Result<usize> {
         let known = |j: &Journal| same_file(&j.directory, directory);
         if let Some(index) = self.journals.iter().position(known) {
             return Ok(index);
@@ -181,7 +184,7 @@ impl Outputs {
             // Text for people beside the answer: it is no reason to end.
             let _ = screen::print(
                 screen::Stream::Err,
-                &screen::wrapped(&format!("warning: {note}"), 0),
+                &layout::wrapped(&format!("warning: {note}"), 0),
             );
         }
         self.journals.push(Journal::begin(directory)?);
@@ -343,88 +346,16 @@ fn take_back(done: Vec<(PathBuf, Option<tempfile::TempPath>)>) {
     }
 }
 
-/// Whether two files hold the same, if both can be read.
-fn same_bytes(one: &Path, other: &Path) -> Option<bool> {
-    Some(fs::read(one).ok()? == fs::read(other).ok()?)
-}
-
-/// The directory of a file.
-pub(crate) fn parent_of(path: &Path) -> PathBuf {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
-        _ => PathBuf::from("."),
+/// Files that were written, one a line.
+pub(crate) fn written(paths: &[PathBuf]) -> String {
+    if paths.is_empty() {
+        return String::new();
     }
-}
-
-/// The same file under two names: links of either kind included.
-pub(crate) fn same_file(one: &Path, other: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        if let (Ok(a), Ok(b)) = (fs::metadata(one), fs::metadata(other)) {
-            return a.dev() == b.dev() && a.ino() == b.ino();
-        }
+    let mut out = String::from("\nWritten\n");
+    for path in paths {
+        out.push_str(&format!("  {}\n", safe(&path.display().to_string())));
     }
-    same_place(one, other)
-}
-
-/// The same name in the same directory, whether or not there is a file.
-fn same_place(one: &Path, other: &Path) -> bool {
-    let place = |path: &Path| {
-        let parent = fs::canonicalize(parent_of(path)).ok()?;
-        Some(parent.join(path.file_name()?))
-    };
-    match (place(one), place(other)) {
-        (Some(a), Some(b)) => a == b,
-        _ => false,
-    }
-}
-
-/// An output named by a job file: below the job's own directory and nowhere else.
-pub(crate) fn inside(root: &Path, written: &str) -> Result<PathBuf, String> {
-    let path = Path::new(written);
-    let plain = path
-        .components()
-        .all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
-    // A drive letter or a backslash means a place elsewhere on another system.
-    if !plain || written.contains('\\') || written.contains(':') || written.trim().is_empty() {
-        return Err(
-            "a job file writes only into its own directory and below: use a relative path without '..'; an option on the command line may name any place"
-                .into(),
-        );
-    }
-    let target = root.join(path);
-    let (Ok(root), Ok(parent)) = (fs::canonicalize(root), fs::canonicalize(parent_of(&target)))
-    else {
-        // A missing directory is told when the output is claimed.
-        return Ok(target);
-    };
-    if !parent.starts_with(&root) {
-        return Err(format!(
-            "a link leads out of the job's directory to '{}'",
-            parent.display()
-        ));
-    }
-    Ok(target)
-}
-
-/// An error of the system as a person would say it.
-pub(crate) fn in_words(error: &std::io::Error) -> String {
-    match error.kind() {
-        ErrorKind::NotFound => "there is no such file or directory".into(),
-        ErrorKind::PermissionDenied => "you may not write there; choose another place".into(),
-        ErrorKind::AlreadyExists => {
-            "it exists already; choose another name, or allow it with --force-overwrite".into()
-        }
-        ErrorKind::StorageFull => "the disk is full; free some space or choose another disk".into(),
-        ErrorKind::QuotaExceeded => "your share of the disk is used up".into(),
-        ErrorKind::ReadOnlyFilesystem => "the disk is read-only; choose another place".into(),
-        ErrorKind::FileTooLarge => "the file would be larger than is allowed here".into(),
-        ErrorKind::NotADirectory => "a part of the path is a file, not a directory".into(),
-        ErrorKind::IsADirectory => "it is a directory; name a file".into(),
-        ErrorKind::InvalidFilename => "the name is too long or not allowed here".into(),
-        _ => error.to_string(),
-    }
+    out
 }
 
 #[cfg(test)]
@@ -467,25 +398,5 @@ mod tests {
         outputs.fill(index, b"text").unwrap();
         drop(outputs);
         assert_eq!(fs::read_dir(here.path()).unwrap().count(), 0);
-    }
-
-    #[test]
-    fn a_job_stays_in_its_directory() {
-        let here = tempfile::tempdir().unwrap();
-        for good in ["a.ngc", "./a.ngc", "sub/a.ngc", "a b.ngc", "größer.ngc"] {
-            assert!(inside(here.path(), good).is_ok(), "{good}");
-        }
-        for bad in [
-            "../a",
-            "/a",
-            "sub/../../a",
-            "",
-            " ",
-            "C:\\a",
-            "\\\\server\\a",
-            "NUL:",
-        ] {
-            assert!(inside(here.path(), bad).is_err(), "{bad}");
-        }
     }
 }

@@ -14,11 +14,12 @@ use kinetostat_model::doubts_of_link_matrix;
 use nalgebra::{Matrix6, Rotation3, Vector3};
 use serde::Serialize;
 
-use crate::files::output::{Existing, Outputs};
+use crate::files::output::{self, Existing, Outputs};
 use crate::import::link_arguments::{DisplacementsArgs, MatrixArgs, MeshArgs, TableArgs};
-use crate::program::solve;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{self, Stream, item, listed, wrapped};
+use crate::ui::layout::{item, listed, wrapped};
+use crate::ui::screen::{self, Stream};
+use crate::ui::{json, numbers};
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
@@ -443,7 +444,7 @@ fn finish(
             zero_modes: told.zero_modes,
             notices: &told.notices,
         };
-        return screen::print_bytes(solve::json(&summary)?.as_bytes());
+        return screen::print_bytes(json::json(&summary)?.as_bytes());
     }
     if table.out.is_some() {
         return screen::print(Stream::Out, &text);
@@ -482,7 +483,7 @@ fn in_words(
     let k = in_n_mm(stiffness);
     let three = |from: usize| {
         (from..from + 3)
-            .map(|i| screen::number(k[(i, i)], 5))
+            .map(|i| numbers::number(k[(i, i)], 5))
             .collect::<Vec<_>>()
             .join(", ")
     };
@@ -498,7 +499,7 @@ fn in_words(
     ]);
     rows.push(vec![
         "natural length".into(),
-        format!("{} mm", screen::number(judged.natural_length * 1e3, 3)),
+        format!("{} mm", numbers::number(judged.natural_length * 1e3, 3)),
     ]);
     text.push_str(&listed(&rows, 2));
     if !told.notices.is_empty() {
@@ -508,7 +509,7 @@ fn in_words(
         }
     }
     if let Some(path) = out {
-        text.push_str(&solve::written(&[path.to_owned()]));
+        text.push_str(&output::written(&[path.to_owned()]));
     }
     text
 }

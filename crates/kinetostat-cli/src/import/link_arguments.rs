@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::command_line::{EXIT_CODES, number};
+use crate::options::{EXIT_CODES, number};
 
 const MATRIX_HELP: &str = "\
 Examples:

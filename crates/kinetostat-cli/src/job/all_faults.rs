@@ -8,13 +8,15 @@ use kinetostat_model::exact;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::command_line::ProgramArgs;
 use crate::files::input::Files;
+use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::format::Job;
+use crate::job::job_file::JobFile;
 use crate::job::machine::machine;
-use crate::job::setting::{JobFile, WritingFlags, setting};
+use crate::job::program;
+use crate::job::setting::setting;
 use crate::job::source::Source;
-use crate::program::solve;
+use crate::job::toml_tree::{holds, table_of, take};
 use crate::ui::failure::{Answer, Code, Failure};
 
 /// More faults than this are not looked for.
@@ -112,7 +114,7 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     // The program's own faults, where everything that says how to read it is right.
     if let Ok(job) = JobFile::read(files, path)
         && let Ok(setting) = setting(files, Some(&job), asked.program, &asked.writing)
-        && let Err(failure) = solve::read_program(&setting)
+        && let Err(failure) = program::read_program(&setting)
     {
         add(&mut found, failure);
     }
@@ -183,108 +185,5 @@ fn put_right(
     take(tree.get_mut(), span, taken)
 }
 
-/// Takes out what stands at a place and notes it, and the table that lacks it now; false where nothing is there.
-fn take(
-    table: &mut DeTable<'_>,
-    span: Range<usize>,
-    taken: &mut Vec<(String, Range<usize>)>,
-) -> bool {
-    let around = around(table, &span);
-    let Some(key) = take_out(table, &span) else {
-        return false;
-    };
-    // The place of a table under a header is the header: what is taken from it lies elsewhere.
-    taken.extend(around.map(|table| (String::new(), table)));
-    taken.push((key, span));
-    true
-}
-
-/// The place of the innermost table with an entry that a place lies in; none for the whole file.
-fn around(table: &DeTable<'_>, span: &Range<usize>) -> Option<Range<usize>> {
-    let tables = table.values().flat_map(|value| match value.get_ref() {
-        DeValue::Array(list) => list.iter().collect(),
-        _ => vec![value],
-    });
-    for value in tables {
-        let DeValue::Table(inner) = value.get_ref() else {
-            continue;
-        };
-        if let Some(found) = around(inner, span) {
-            return Some(found);
-        }
-        let mut entries = inner.iter();
-        if entries.any(|(key, value)| holds(&key.span(), span) || holds(&value.span(), span)) {
-            return Some(value.span());
-        }
-    }
-    None
-}
-
-fn holds(outer: &Range<usize>, inner: &Range<usize>) -> bool {
-    outer.start <= inner.start && inner.end <= outer.end && !outer.is_empty()
-}
-
 /// Reads a part of the question from a job.
 type Part<'a> = &'a dyn Fn(&JobFile) -> Answer<()>;
-
-/// Takes out the innermost entry that a place lies in, and tells its key; none if there is no such entry.
-fn take_out(table: &mut DeTable<'_>, span: &Range<usize>) -> Option<String> {
-    let mut own = None;
-    for (key, value) in table.iter_mut() {
-        let mine = holds(&key.span(), span) || holds(&value.span(), span);
-        if mine {
-            own = Some(key.clone());
-        }
-        match value.get_mut() {
-            DeValue::Table(inner) => {
-                let taken = take_out(inner, span);
-                if taken.is_some() {
-                    return taken;
-                }
-            }
-            DeValue::Array(list) => {
-                let mut whole = None;
-                for (i, entry) in list.iter_mut().enumerate() {
-                    let place = entry.span();
-                    if let DeValue::Table(inner) = entry.get_mut() {
-                        let taken = take_out(inner, span);
-                        if taken.is_some() {
-                            return taken;
-                        }
-                        if holds(&place, span) {
-                            whole = Some(i);
-                        }
-                    }
-                }
-                if let Some(i) = whole {
-                    let others = list.iter().enumerate().filter(|(other, _)| *other != i);
-                    *list = others.map(|(_, entry)| entry.clone()).collect();
-                    // An entry of a list has no key.
-                    return Some(String::new());
-                }
-            }
-            _ => {}
-        }
-    }
-    let key = own?;
-    table.remove(&key).map(|_| key.get_ref().to_string())
-}
-
-/// The table that is written at a place.
-fn table_of<'a, 't>(
-    table: &'a mut DeTable<'t>,
-    span: &Range<usize>,
-) -> Option<&'a mut DeTable<'t>> {
-    for (_, value) in table.iter_mut() {
-        let place = value.span();
-        if let DeValue::Table(inner) = value.get_mut() {
-            if place == *span {
-                return Some(inner);
-            }
-            if let Some(found) = table_of(inner, span) {
-                return Some(found);
-            }
-        }
-    }
-    None
-}

@@ -2,7 +2,7 @@
 
 use kinetostat_machining::{Limit, Limits};
 
-use crate::job::setting::JobFile;
+use crate::job::job_file::JobFile;
 use crate::ui::failure::{Answer, Failure};
 
 /// The limits of the job file, and over them those of the options.

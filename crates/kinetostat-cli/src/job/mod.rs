@@ -2,8 +2,18 @@
 //! program, placement, load, tolerances, limits and outputs.
 
 pub(crate) mod all_faults;
+pub(crate) mod arguments;
 pub(crate) mod format;
+pub(crate) mod job_file;
 mod limits;
+mod load;
 pub(crate) mod machine;
+mod placement;
+pub(crate) mod program;
+mod reading;
 pub(crate) mod setting;
 pub(crate) mod source;
+pub(crate) mod targets;
+mod toml_tree;
+mod tools;
+mod values;

@@ -5,10 +5,13 @@ use std::ops::Range;
 use kinetostat_model::{Problem, Severity, exact_toml};
 use serde::de::DeserializeOwned;
 use serde_spanned::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
-use crate::place::orientation::{CONVENTIONS, nearest};
-use crate::ui::failure::{Failure, safe};
+use crate::job::toml_tree::not_finite;
+use crate::place::orientation::CONVENTIONS;
+use crate::ui::failure::Failure;
+use crate::ui::safe_text::safe;
+use crate::ui::spelling::nearest;
 
 /// What is said of a mistake in a job file that is not of the usual kinds.
 const HELP: &str = "correct this value; `kinetostat help compensate` shows a whole job file";
@@ -74,7 +77,7 @@ impl Source<'_> {
         quoted(error.message(), "missing field ")
     }
 
-    fn syntax(&self, error: &toml::de::Error) -> Failure {
+    pub(crate) fn syntax(&self, error: &toml::de::Error) -> Failure {
         let reason = error.message().lines().collect::<Vec<_>>().join(", ");
         self.error(
             error.span().unwrap_or(0..0),
@@ -87,7 +90,7 @@ impl Source<'_> {
         self.wrong(error, HELP)
     }
 
-    fn wrong(&self, error: &toml::de::Error, help: &str) -> Failure {
+    pub(crate) fn wrong(&self, error: &toml::de::Error, help: &str) -> Failure {
         let message = error.message();
         let span = error.span().unwrap_or(0..0);
         if let Some(found) = quoted(message, "unknown field ") {
@@ -201,19 +204,5 @@ fn advice(found: &str, known: &[&str]) -> String {
     match nearest(found, known) {
         Some(near) => format!("did you mean '{near}'?"),
         None => format!("known here: {}", known.join(", ")),
-    }
-}
-
-fn not_finite(value: &Spanned<DeValue<'_>>, found: &mut Vec<Range<usize>>) {
-    match value.get_ref() {
-        DeValue::Float(f) => {
-            let number: f64 = f.as_str().replace('_', "").parse().unwrap_or(f64::NAN);
-            if !number.is_finite() {
-                found.push(value.span());
-            }
-        }
-        DeValue::Array(list) => list.iter().for_each(|v| not_finite(v, found)),
-        DeValue::Table(table) => table.values().for_each(|v| not_finite(v, found)),
-        _ => {}
     }
 }

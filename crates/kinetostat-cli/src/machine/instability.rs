@@ -5,8 +5,7 @@ use kinetostat::{LimbPosture, MechanismEquilibrium, Posture};
 use kinetostat_machining::number as formatter;
 use nalgebra::{DMatrix, Matrix6};
 
-use crate::check::assumptions::NOTICEABLE;
-use crate::ui::screen::number;
+use crate::ui::numbers::number;
 
 /// From this share of the way on, a load is near buckling.
 const NEAR: f64 = 0.5;
@@ -213,3 +212,6 @@ fn condensed(posture: &Posture<'_>, loaded: &MechanismEquilibrium) -> Option<f64
     let share = 1.0 - kept.symmetric_eigenvalues().min();
     share.is_finite().then_some(share)
 }
+
+/// From this share of the way to buckling on the stiffness changes noticeably.
+pub(crate) const NOTICEABLE: f64 = 0.1;

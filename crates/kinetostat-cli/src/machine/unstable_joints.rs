@@ -4,7 +4,7 @@ use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, OvercomeSpring, Po
 use kinetostat_model::Model;
 use serde::Serialize;
 
-use crate::ui::screen::number;
+use crate::ui::numbers::number;
 
 /// A joint whose spring the loads beat.
 #[derive(Serialize)]

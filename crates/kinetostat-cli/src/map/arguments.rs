@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::command_line::{number, whole};
+use crate::options::{number, whole};
 
 /// How stiff is the machine all over its workspace
 ///
@@ -12,7 +12,7 @@ use crate::command_line::{number, whole};
 /// where soft; under a force, how far the tool goes and whether the machine stays stable. Places
 /// that cannot be reached are counted. Memory does not grow with the grid.
 #[derive(Debug, Args)]
-#[command(after_help = crate::command_line::EXIT_CODES, after_long_help = HELP)]
+#[command(after_help = crate::options::EXIT_CODES, after_long_help = HELP)]
 pub(crate) struct MapArgs {
     /// Preset or model file
     #[arg(value_name = "MODEL")]

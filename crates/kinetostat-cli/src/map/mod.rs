@@ -2,38 +2,28 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod picture;
+mod query;
 mod text;
 
 use kinetostat::Wrench;
-use kinetostat_machining::{
-    Grid, MapPlace, MapTask, PlaceState, Warning, large_load, map, straight_tool,
-};
-use kinetostat_report::{Cell, Plot, PlotLine, Section};
-use nalgebra::Vector3;
+use kinetostat_machining::{MapPlace, MapTask, Warning, large_load, map, straight_tool};
+use kinetostat_report::Cell;
 
 use crate::files::input::Files;
-use crate::files::output::{Existing, Outputs};
-use crate::job::machine::{deviations_in_words, no_potential, of_model, short};
-use crate::job::setting::vector;
+use crate::files::output::{self, Existing, Outputs};
+use crate::machine::model_warnings::{deviations_in_words, no_potential, of_model};
 use crate::map::answer::{Figures, MapAnswer, Places};
 use crate::map::arguments::{MapArgs, Quantity};
+use crate::map::picture::Picture;
+use crate::map::query::{grid, load};
 use crate::map::text::Columns;
 use crate::place::orientation;
-use crate::program::solve;
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::{load_triple, short};
 use crate::ui::progress::Progress;
-use crate::ui::screen::{self, Stream, load_triple};
-
-/// More places are a slip of the pen: their table would fill a disk.
-const MOST_PLACES: usize = 100_000_000;
-
-/// Places along an axis unless said otherwise.
-const USUAL: usize = 21;
-
-/// Most cells of a drawing along an axis; a finer grid is thinned.
-const MOST_CELLS: usize = 400;
-
-const AXES: [&str; 3] = ["x", "y", "z"];
+use crate::ui::screen::{self, Stream};
+use crate::ui::{json, threads};
 
 pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let (model, path) = Files::default().model(&args.model, std::path::Path::new(""))?;
@@ -76,7 +66,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let plot = args.plot.as_ref().map(|p| outputs.claim("plot", p));
     let plot = plot.transpose()?;
     let work = || solve(&task, &mut outputs, csv, picture);
-    let (figures, picture) = solve::in_threads(args.threads, work)??;
+    let (figures, picture) = threads::in_threads(args.threads, work)??;
     if figures.places.with_figures() == 0 {
         let p = &figures.places;
         if p.no_answer > 0 {
@@ -128,10 +118,10 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     }
     let paths = outputs.commit()?;
     let text = text::in_words(&answer, &rotation);
-    let text = format!("{text}{}", solve::written(&paths));
+    let text = format!("{text}{}", output::written(&paths));
     if args.json {
         screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(solve::json(&answer)?.as_bytes());
+        return screen::print_bytes(json::json(&answer)?.as_bytes());
     }
     screen::print(Stream::Out, &text)
 }
@@ -194,227 +184,4 @@ fn solve(
         outputs.complete(index)?;
     }
     Ok((figures, picture))
-}
-
-fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
-    let mut grid = Grid {
-        from_mm: home_mm,
-        to_mm: home_mm,
-        counts: [1; 3],
-    };
-    let asked = [&args.x, &args.y, &args.z];
-    if asked.iter().all(|a| a.is_none()) {
-        return Err(Failure::input(
-            "a map needs places; give at least one of --x, --y and --z, as in --x -100 100 21 (from, to in mm, how many)",
-        ));
-    }
-    for (k, values) in asked.into_iter().enumerate() {
-        let Some(values) = values else { continue };
-        let name = AXES[k];
-        if values.iter().take(2).any(|x| x.abs() > 1e7) {
-            return Err(Failure::input(format!(
-                "--{name} leads more than 10 km away; coordinates are in mm"
-            )));
-        }
-        (grid.from_mm[k], grid.to_mm[k], grid.counts[k]) = match values[..] {
-            [at] => (at, at, 1),
-            [from, to] if from == to => (from, to, 1),
-            [from, to] => (from, to, USUAL),
-            [from, to, n] if n.fract() == 0.0 && n >= 1.0 && n <= MOST_PLACES as f64 => {
-                if (n == 1.0) != (from == to) {
-                    return Err(Failure::input(format!(
-                        "--{name} {from} {to} {n}: two places or more lie between different ends, one place where they are the same"
-                    )));
-                }
-                (from, to, n as usize)
-            }
-            _ => {
-                return Err(Failure::input(format!(
-                    "--{name}: write one position, or from, to (mm) and a whole number of places, as in --{name} -100 100 21"
-                )));
-            }
-        };
-    }
-    if grid.len() > MOST_PLACES {
-        return Err(Failure::input(format!(
-            "the grid has {} places; {MOST_PLACES} are the most",
-            grid.len()
-        )));
-    }
-    Ok(grid)
-}
-
-fn load(args: &MapArgs) -> Answer<Option<Wrench>> {
-    if args.force.is_none() && args.moment.is_none() {
-        return Ok(None);
-    }
-    let part = |name: &str, values: &Option<Vec<f64>>| match values {
-        Some(v) => vector(name, v),
-        None => Ok(Vector3::zeros()),
-    };
-    let (force, moment) = (
-        part("--force", &args.force)?,
-        part("--moment", &args.moment)?,
-    );
-    Ok(Some(Wrench::new(force, moment)))
-}
-
-/// What is drawn: a section of the grid, or a curve along its only axis. Its size is bounded.
-#[derive(Clone)]
-struct Picture {
-    show: Quantity,
-    /// Horizontal and vertical axis.
-    axes: [usize; 2],
-    /// Every so many places along them.
-    strides: [usize; 2],
-    /// Numbers of the places along them.
-    places: [Vec<usize>; 2],
-    /// Axis across and the number of the places there.
-    across: (usize, usize),
-    grid: Grid,
-    cells: Vec<Cell>,
-    /// Something is drawn.
-    wanted: bool,
-}
-
-impl Picture {
-    fn new(args: &MapArgs, grid: &Grid) -> Answer<Self> {
-        let across = across(args.section.as_deref(), grid)?;
-        let axes = match across.0 {
-            0 => [1, 2],
-            1 => [0, 2],
-            _ => [0, 1],
-        };
-        let strides = axes.map(|a| grid.counts[a].div_ceil(MOST_CELLS));
-        let places = [0, 1].map(|k| {
-            (0..grid.counts[axes[k]])
-                .step_by(strides[k])
-                .collect::<Vec<_>>()
-        });
-        Ok(Self {
-            show: args.show,
-            axes,
-            strides,
-            cells: vec![Cell::Value(f64::NAN); places[0].len() * places[1].len()],
-            places,
-            across,
-            grid: *grid,
-            wanted: args.plot.is_some(),
-        })
-    }
-
-    /// The cell of a place and its number, if it lies in the section.
-    fn cell(&self, place: &MapPlace) -> Option<(usize, Cell)> {
-        if !self.wanted || place.index[self.across.0] != self.across.1 {
-            return None;
-        }
-        let [a, b] = [0, 1].map(|k| {
-            let own = place.index[self.axes[k]];
-            own.is_multiple_of(self.strides[k])
-                .then_some(own / self.strides[k])
-        });
-        let at = a? + b? * self.places[0].len();
-        let cell = match place.state {
-            PlaceState::Unreachable => Cell::Other(0),
-            PlaceState::OutsideLimits => Cell::Other(1),
-            PlaceState::Unstable | PlaceState::Unanswered => Cell::Other(2),
-            PlaceState::Regular | PlaceState::Singular => Cell::Value(self.show.of(place)),
-        };
-        Some((at, cell))
-    }
-
-    fn along(&self, k: usize) -> Vec<f64> {
-        let axis = self.axes[k];
-        let places = self.places[k].iter();
-        places.map(|i| self.grid.position_mm(axis, *i)).collect()
-    }
-
-    fn svg(&self, a: &MapAnswer) -> String {
-        let fixed: Vec<String> = (0..3)
-            .filter(|k| self.grid.counts[*k] == 1 || *k == self.across.0)
-            .map(|k| {
-                let index = if k == self.across.0 { self.across.1 } else { 0 };
-                let at = self.grid.position_mm(k, index);
-                format!("{} = {} mm", AXES[k], short(at))
-            })
-            .collect();
-        let under = match a.loaded {
-            true => format!(
-                "; force {} N, moment {} N m on the tool",
-                load_triple(a.force_n),
-                load_triple(a.moment_n_m)
-            ),
-            false => "; no load".to_owned(),
-        };
-        let tool = match a.tool.starts_with("none") {
-            true => "; no tool".to_owned(),
-            false => format!("; tool {}", a.tool),
-        };
-        let title = format!(
-            "{}: {} at {}{under}{tool}",
-            a.model,
-            self.show.in_words(),
-            fixed.join(", ")
-        );
-        let label = |k: usize| format!("{}, mm", AXES[self.axes[k]]);
-        let value_label = format!("{}, {}", self.show.in_words(), self.show.unit());
-        let single = (0..2).find(|k| self.places[*k].len() == 1);
-        if let Some(single) = single {
-            let values = self.cells.iter().map(|c| match c {
-                Cell::Value(x) => *x,
-                Cell::Other(_) => f64::NAN,
-            });
-            let points = self.along(1 - single).into_iter().zip(values).collect();
-            return Plot {
-                title,
-                x_label: label(1 - single),
-                y_label: value_label,
-                lines: vec![PlotLine {
-                    points,
-                    ..PlotLine::default()
-                }],
-                marks: Vec::new(),
-            }
-            .svg();
-        }
-        Section {
-            title,
-            x_label: label(0),
-            y_label: label(1),
-            value_label,
-            x: self.along(0),
-            y: self.along(1),
-            cells: self.cells.clone(),
-            others: vec![
-                "cannot be reached".into(),
-                "outside limits".into(),
-                "not stable".into(),
-            ],
-        }
-        .svg()
-    }
-}
-
-/// The axis across the section and the number of the places in it.
-fn across(section: Option<&str>, grid: &Grid) -> Answer<(usize, usize)> {
-    let Some(text) = section else {
-        // Across an axis with one place, or else across z.
-        let axis = (0..3).rev().find(|k| grid.counts[*k] == 1).unwrap_or(2);
-        return Ok((axis, (grid.counts[axis] - 1) / 2));
-    };
-    let refuse = || {
-        Failure::input(format!(
-            "--section '{text}': write the axis across the section and where it is cut in mm, as in z=150"
-        ))
-    };
-    let (name, value) = text.split_once('=').ok_or_else(refuse)?;
-    let axis = AXES.iter().position(|a| *a == name.trim().to_lowercase());
-    let axis = axis.ok_or_else(refuse)?;
-    let value: f64 = value.trim().parse().map_err(|_| refuse())?;
-    let far = |i: usize| (grid.position_mm(axis, i) - value).abs();
-    let nearest = (0..grid.counts[axis]).min_by(|a, b| far(*a).total_cmp(&far(*b)));
-    nearest
-        .filter(|_| value.is_finite())
-        .map(|i| (axis, i))
-        .ok_or_else(refuse)
 }

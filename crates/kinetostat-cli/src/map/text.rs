@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{MapPlace, PlaceState};
 
-use crate::job::machine::short;
 use crate::map::answer::{Extreme, FigureAnswer, MapAnswer};
 use crate::place::orientation;
-use crate::program::points_table::{decimals, digits};
-use crate::program::summary;
-use crate::ui::screen::{columns, load_triple, number, triple, wrapped};
+use crate::ui::csv_cell::{decimals, digits};
+use crate::ui::layout::{columns, wrapped};
+use crate::ui::numbers::{load_triple, number, short, triple};
+use crate::ui::warnings;
 
 /// Which columns a table has besides stiffness.
 #[derive(Clone, Copy)]
@@ -126,7 +126,7 @@ pub(crate) fn in_words(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64>) 
     out.push_str(&figures(a));
     out.push_str("\nPlaces\n");
     out.push_str(&places(a));
-    out.push_str(&summary::warnings(&a.warnings));
+    out.push_str(&warnings::warnings(&a.warnings));
     out
 }
 
@@ -172,7 +172,7 @@ fn row(figure: &FigureAnswer) -> Vec<String> {
 
 /// A tenth of a millimetre is enough to find a place.
 fn shorter(value: f64) -> String {
-    let text = crate::ui::screen::fixed(value, 1);
+    let text = crate::ui::numbers::fixed(value, 1);
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 

@@ -7,12 +7,14 @@ use kinetostat_model::Model;
 use serde::Serialize;
 
 use crate::files::input::Files;
-use crate::job::machine::short;
+use crate::machine::units::unit;
 use crate::model::compare_fit::{Fit, Mapping, Side};
-use crate::place::joints::{self, JointValue, unit};
-use crate::program::solve;
+use crate::place::joints::{self, JointValue};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{self, Stream, columns, fixed, item, number, triple, wrapped};
+use crate::ui::json;
+use crate::ui::layout::{self, columns, item, wrapped};
+use crate::ui::numbers::{fixed, number, short, triple};
+use crate::ui::screen::{self, Stream};
 
 /// Below this share of the machine's size two models are the same.
 const SAME: f64 = 1e-7;
@@ -94,7 +96,7 @@ pub(crate) fn run(a: &str, b: &str, json: bool) -> Answer<()> {
     let text = in_words(&answer);
     if json {
         screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(solve::json(&answer)?.as_bytes());
+        return screen::print_bytes(json::json(&answer)?.as_bytes());
     }
     screen::print(Stream::Out, &text)
 }
@@ -334,7 +336,7 @@ fn in_words(c: &Comparison) -> String {
             format!("{sign}{}{offset}", j.a),
         ]);
     }
-    out.push_str(&screen::listed(&rows, 2));
+    out.push_str(&layout::listed(&rows, 2));
     if let (Some(a), Some(b)) = (&c.stiffness_a_n_per_mm, &c.stiffness_b_n_per_mm) {
         let ratio = b[0] / a[0];
         let words = if (ratio - 1.0).abs() < 1e-6 {

@@ -6,15 +6,16 @@ use clap::{Args, ValueEnum};
 use kinetostat::{Direction, DirectionKind, MotionKind, Posture, Share, Twist, moved};
 use kinetostat_report::{Drawing, Magnified, Moved, Placed, View};
 
-use crate::command_line::{EXIT_CODES, PlaceArgs, number};
 use crate::files::input::Files;
-use crate::files::output::{Existing, Outputs};
-use crate::job::machine::short;
+use crate::files::output::{self, Existing, Outputs};
+use crate::machine::principal_directions::motion_in_words;
+use crate::options::{EXIT_CODES, number};
+use crate::place::arguments::PlaceArgs;
 use crate::place::query::{Spot, spot};
-use crate::program::solve;
-use crate::stiffness::motion_in_words;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{self, Stream, fixed, load_triple, triple, wrapped};
+use crate::ui::layout::wrapped;
+use crate::ui::numbers::{self, fixed, load_triple, short, triple};
+use crate::ui::screen::{self, Stream};
 
 /// A drawing of a machine (SVG), and of how it moves or bends
 ///
@@ -36,7 +37,7 @@ pub(crate) struct DrawArgs {
     #[arg(long, value_enum, value_name = "VIEW")]
     view: Option<ViewWord>,
     /// Draw the motion in the N-th softest direction of the tool; 1 is a free one, if there is any
-    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "1", allow_negative_numbers = true, value_parser = crate::command_line::whole, conflicts_with_all = ["force", "moment", "scale"])]
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "1", allow_negative_numbers = true, value_parser = crate::options::whole, conflicts_with_all = ["force", "moment", "scale"])]
     motion: Option<usize>,
     /// Draw the machine under this force on the tool's tip, N (0 0 0: under its own weight)
     #[arg(long, alias = "load", num_args = 3, value_names = ["FX", "FY", "FZ"], allow_negative_numbers = true, value_parser = number)]
@@ -133,28 +134,14 @@ pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
     if !text.is_empty() {
         said.push_str(&wrapped(&text, 0));
     }
-    said.push_str(&crate::program::summary::warnings(&spot.warnings));
+    said.push_str(&crate::ui::warnings::warnings(&spot.warnings));
     let Some(target) = target else {
         screen::print(Stream::Err, &said)?;
         return screen::print_bytes(svg.as_bytes());
     };
     outputs.fill(target, svg.as_bytes())?;
-    said.push_str(&solve::written(&outputs.commit()?));
+    said.push_str(&output::written(&outputs.commit()?));
     screen::print(Stream::Out, &said)
-}
-
-/// What to draw of a model, as the end of what `check` says.
-pub(crate) fn next(source: &str, free: bool) -> String {
-    let model = source.strip_prefix("preset ").unwrap_or(source);
-    let mut out = format!(
-        "\nNext\n  kinetostat model draw {model} --out drawing.svg\n      what it looks like\n"
-    );
-    if free {
-        out.push_str(&format!(
-            "  kinetostat model draw {model} --motion --out free.svg\n      how it moves freely\n"
-        ));
-    }
-    out
 }
 
 fn title(spot: &Spot) -> String {
@@ -194,7 +181,7 @@ fn motion(posture: &Posture<'_>, rank: usize) -> Answer<(Moved, String)> {
         DirectionKind::Free => "free direction: the tool".to_owned(),
         _ => format!(
             "direction {rank} of {count} by principal stiffness ({} N/mm): the tool",
-            screen::number(1e-3 * direction.stiffness_n_per_m, 3)
+            numbers::number(1e-3 * direction.stiffness_n_per_m, 3)
         ),
     };
     let words = format!("{kind} {}", motion_in_words(&direction));

@@ -1,14 +1,16 @@
 //! `kinetostat model`: presets and the format of model files.
 
+pub(crate) mod arguments;
 mod compare;
 mod compare_fit;
-pub(crate) mod draw;
+mod draw;
 
 use kinetostat_model::{Model, PresetKind, json_schema, preset_names, preset_text};
 
-use crate::command_line::{ModelAction, ModelArgs};
+use crate::model::arguments::{ModelAction, ModelArgs};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{self, Stream, listed};
+use crate::ui::layout::{self, listed};
+use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &ModelArgs) -> Answer<()> {
     match &args.action {
@@ -37,7 +39,7 @@ fn list() -> String {
         out.push_str(&format!("{}\n", kind.heading()));
         for preset in of_kind() {
             out.push_str(&format!("  {}\n", preset.name));
-            out.push_str(&screen::wrapped(preset.description, 6));
+            out.push_str(&layout::wrapped(preset.description, 6));
         }
         out.push('\n');
     }

@@ -6,10 +6,12 @@ use kinetostat_model::schema::ControllerUnit;
 use kinetostat_model::{Controller, Model};
 use serde::Serialize;
 
-use crate::command_line::PlaceArgs;
-use crate::place::orientation::nearest;
+use crate::machine::units::unit;
+use crate::place::arguments::PlaceArgs;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{fixed, wrapped};
+use crate::ui::layout::wrapped;
+use crate::ui::numbers::fixed;
+use crate::ui::spelling::nearest;
 
 /// A joint or an axis and where it stands.
 #[derive(Clone, Debug, Serialize)]
@@ -17,14 +19,6 @@ pub(crate) struct JointValue {
     pub(crate) name: String,
     pub(crate) value: f64,
     pub(crate) unit: &'static str,
-}
-
-/// Unit in which a joint is shown, and m or rad in one of it.
-pub(crate) fn unit(kind: MotionKind) -> (&'static str, f64) {
-    match kind {
-        MotionKind::Prismatic => ("mm", 1e-3),
-        MotionKind::Revolute => ("deg", std::f64::consts::PI / 180.0),
-    }
 }
 
 /// Kinds of all actuators, in the order of their names.

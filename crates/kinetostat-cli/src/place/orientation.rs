@@ -6,6 +6,7 @@ use kinetostat_model::schema::Placement;
 use nalgebra::UnitQuaternion;
 
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::spelling::nearest;
 
 pub(crate) const CONVENTIONS: [&str; 9] = [
     "rotation_vector_deg",
@@ -114,19 +115,7 @@ pub(crate) fn in_words(q: &UnitQuaternion<f64>) -> String {
     } else {
         format!(
             "turned from the base by the rotation vector {} deg",
-            crate::ui::screen::triple(v.into(), |x| crate::ui::screen::fixed(x, 4))
+            crate::ui::numbers::triple(v.into(), |x| crate::ui::numbers::fixed(x, 4))
         )
     }
-}
-
-/// The known word nearest to a slip of the pen.
-pub(crate) fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
-    known
-        .iter()
-        .map(|k| (strsim::damerau_levenshtein(given, k), *k))
-        .filter(|(distance, k)| {
-            *distance <= (k.chars().count().max(given.chars().count()) / 3).max(1)
-        })
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, k)| k)
 }

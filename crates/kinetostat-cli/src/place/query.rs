@@ -2,25 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat::{LimbPosture, Mechanism, Pose, Posture, Wrench};
-use kinetostat_machining::number::{apart, mean_length};
+use kinetostat::{Mechanism, Pose, Posture, Wrench};
 use kinetostat_machining::{
-    NearSingular, Warning, WarningCode, large_load, natural_length, near_singular, odd_tool_length,
-    straight_tool,
+    NearSingular, Warning, large_load, near_singular, odd_tool_length, straight_tool,
 };
 use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
+use serde::Serialize;
 
-use crate::command_line::PlaceArgs;
-use crate::deflect::PlaceAsked;
 use crate::files::input::Files;
-use crate::job::machine::{deviations_in_words, of_model, short};
-use crate::job::setting::vector;
+use crate::machine::model_warnings::{deviations_in_words, of_model};
 use crate::machine::unstable_joints::load_names;
+use crate::options::vector;
+use crate::place::arguments::PlaceArgs;
 use crate::place::joints::{self, JointValue};
 use crate::place::orientation;
+use crate::place::reachable::{Followed, followed, reachable};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{triple, wrapped};
+use crate::ui::layout::wrapped;
+use crate::ui::numbers::{short, triple};
 
 /// Everything about one place.
 pub(crate) struct Spot {
@@ -44,13 +44,6 @@ pub(crate) struct Spot {
     pub(crate) inputs: Vec<PathBuf>,
     pub(crate) deviations: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
-}
-
-/// A place whose orientation follows.
-#[derive(Clone, Debug)]
-pub(crate) struct Followed {
-    pub(crate) limbs: Vec<LimbPosture>,
-    pub(crate) turned_deg: f64,
 }
 
 pub(crate) fn spot(
@@ -161,91 +154,6 @@ fn own_loads(model: &Model) -> Vec<String> {
     between.chain(of_limbs).collect()
 }
 
-/// The pose at the position of `target`, or at the nearest one where only its digits keep the machine
-/// from it, whose orientation is nearest to that of `target`.
-fn followed(
-    m: &Mechanism,
-    target: &Pose,
-    asked: bool,
-    warnings: &mut Vec<Warning>,
-) -> Answer<(Pose, Option<Followed>)> {
-    let rotation = &target.rotation;
-    let posture = match m.posture_following(&target.translation.vector, rotation) {
-        Err(kinetostat::Error::Unreachable {
-            distance_m,
-            nearest,
-            ..
-        }) if distance_m <= ROUNDED * natural_length(m) => {
-            warnings.push(nearest_used(format!(
-                "the machine cannot take this place exactly; the nearest is used, {} away: {}",
-                mean_length(1e3 * distance_m),
-                pose_in_words(&nearest)
-            )));
-            m.posture_following(&nearest.translation.vector, rotation)?
-        }
-        answer => answer?,
-    };
-    let pose = *posture.target();
-    let turned_deg = pose.rotation.angle_to(rotation).to_degrees();
-    warnings.push(orientation::follows(turned_deg, asked, false));
-    let limbs = posture.limbs().to_vec();
-    Ok((pose, Some(Followed { limbs, turned_deg })))
-}
-
-fn nearest_used(said: String) -> Warning {
-    Warning::new(WarningCode::NearestPlace, said)
-}
-
-/// Share of the natural length by which an asked pose may miss what the machine can take.
-const ROUNDED: f64 = 1e-6;
-
-/// How far the nearest pose is looked for where a place cannot be reached, in natural lengths.
-const AROUND: f64 = 0.1;
-
-/// The place, or the nearest one that the machine can take where only the digits of the place keep it
-/// from that; a place that cannot be reached is refused with the nearest pose.
-fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<Warning>) -> Answer<Pose> {
-    let error = match m.posture(&target) {
-        Err(error @ kinetostat::Error::Unreachable { .. }) => error,
-        _ => return Ok(target),
-    };
-    let length = natural_length(m);
-    let Some(nearest) = m.nearest_reachable(&target, AROUND * length) else {
-        return Err(error.into());
-    };
-    let off = kinetostat::pose_residual(&nearest, &target);
-    let (shift, turn) = (off.linear().norm(), off.angular().norm());
-    if shift.max(length * turn) <= ROUNDED * length {
-        warnings.push(nearest_used(format!(
-            "the machine cannot take this place exactly; the nearest is used, {} away: {}",
-            apart(1e3 * shift, turn.to_degrees()),
-            pose_in_words(&nearest)
-        )));
-        return Ok(nearest);
-    }
-    Err(kinetostat::Error::Unreachable {
-        place: m.name().to_owned(),
-        distance_m: shift,
-        angle_rad: turn,
-        nearest: Box::new(nearest),
-    }
-    .into())
-}
-
-/// A pose to copy: `position (0, 760, 0) mm, rotation vector (0, 0, 53.13) deg`.
-pub(crate) fn pose_in_words(pose: &Pose) -> String {
-    let clean = |x: f64| (x * 1e6).round() / 1e6 + 0.0;
-    format!(
-        "position {} mm, rotation vector {} deg",
-        triple((pose.translation.vector * 1e3).into(), |x| clean(x)
-            .to_string()),
-        triple(
-            pose.rotation.scaled_axis().map(f64::to_degrees).into(),
-            |x| clean(x).to_string()
-        )
-    )
-}
-
 impl Spot {
     /// The machine commanded for the place, within the limits of its actuators.
     pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
@@ -254,7 +162,7 @@ impl Spot {
         Ok(posture)
     }
 
-    fn standing(&self) -> kinetostat::Result<Posture<'_>> {
+    pub(crate) fn standing(&self) -> kinetostat::Result<Posture<'_>> {
         self.standing_in(&self.mechanism)
     }
 
@@ -325,4 +233,16 @@ impl Spot {
         out.push('\n');
         out
     }
+}
+
+/// Where it was asked.
+#[derive(Serialize)]
+pub(crate) struct PlaceAsked {
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rotation_vector_deg: [f64; 3],
+    /// Where the orientation follows: how far the tool has turned from the one it is kept near to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) tool_turn_deg: Option<f64>,
+    pub(crate) axes: &'static str,
+    pub(crate) reference_point: &'static str,
 }

@@ -3,10 +3,10 @@
 
 use std::collections::BTreeSet;
 
-use kinetostat_machining::number::{Rounding, fixed, significant, without_zeros};
 use kinetostat_machining::{PointKind, PointResult, Question, thinned};
 use kinetostat_model::Controller;
 
+use crate::ui::csv_cell::{decimals, digits};
 use crate::ui::failure::{Answer, Failure};
 
 /// Points whose lines are in memory at a time.
@@ -140,27 +140,8 @@ fn distinct(names: Vec<String>) -> Vec<String> {
         .collect()
 }
 
-/// At most so many decimals, without zeros at the end.
-pub(crate) fn decimals(value: f64, most: usize) -> String {
-    if !value.is_finite() {
-        return String::new();
-    }
-    short(fixed(value, most))
-}
-
 fn size([x, y, z]: &[f64; 3]) -> f64 {
     x.hypot(*y).hypot(*z)
-}
-
-pub(crate) fn digits(value: f64, count: usize) -> String {
-    if !value.is_finite() {
-        return String::new();
-    }
-    short(significant(value, count, Rounding::Nearest))
-}
-
-fn short(text: String) -> String {
-    without_zeros(&text).to_owned()
 }
 
 /// Decimals: 1 nm for errors and corrections (the rounding of a program is 100 nm), 100 nm for places,
@@ -243,15 +224,6 @@ fn bytes(writer: csv::Writer<Vec<u8>>) -> Answer<Vec<u8>> {
     written.map_err(|error| failed(csv::Error::from(error.into_error())))
 }
 
-/// A text that a spreadsheet would take for a formula is led by an apostrophe.
-pub(crate) fn text(cell: &str) -> String {
-    if cell.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        format!("'{cell}")
-    } else {
-        cell.to_owned()
-    }
-}
-
 fn failed(error: csv::Error) -> Failure {
     Failure::input(format!("the table of points cannot be made: {error}"))
 }
@@ -266,14 +238,5 @@ mod tests {
         assert_eq!(one_word("=1+1"), "_1_1");
         let names = ["a_b", "a_b", "a_b_2", "c"].map(String::from).to_vec();
         assert_eq!(distinct(names), ["a_b", "a_b_2", "a_b_2_2", "c"]);
-    }
-
-    #[test]
-    fn digits_mean_something() {
-        assert_eq!(decimals(-0.124_806_510_474_640_73, 6), "-0.124807");
-        assert_eq!(decimals(100.0, 4), "100");
-        assert_eq!(decimals(-1e-9, 6), "0");
-        assert_eq!(decimals(f64::NAN, 6), "");
-        assert_eq!(digits(323.827_824, 5), "323.83");
     }
 }

@@ -1,160 +1,18 @@
-//! A run along a program, from question to files: shared by `compensate`, `deflect` and `demo`.
-
-use std::collections::BTreeMap;
-use std::fmt::Display;
-use std::path::PathBuf;
+//! The machine solved along a program, from the job to the run: shared by `compensate`, `deflect` and `demo`.
 
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
-    Bounds, LoadAlongPath, Run, RunResult, Task, ToleranceVerdict, Tool, Warning, WarningCode,
-    analyse, compensate_program, load_in_words, origin_in_metres,
+    Bounds, LoadAlongPath, Run, Task, Tool, Warning, WarningCode, analyse, compensate_program,
+    load_in_words, origin_in_metres,
 };
-use kinetostat_model::Model;
-use kinetostat_program::{Path as ToolPath, Program, faults, interpret};
 
-use crate::files::output::{Existing, Outputs};
 use crate::job::machine::Machine;
-use crate::job::setting::{Setting, Targets};
-use crate::program::points_table::{self, Listing};
+use crate::job::program::read_program;
+use crate::job::setting::Setting;
+use crate::program::aim::Aim;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::progress::Progress;
-use crate::ui::screen::{self, Stream};
-
-/// What a run writes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Aim {
-    Analyse,
-    Compensate,
-}
-
-/// Claimed outputs of a run by what they hold.
-pub(crate) struct Files {
-    pub(crate) outputs: Outputs,
-    program: Option<usize>,
-    report: Option<usize>,
-    json: Option<usize>,
-    points: Option<usize>,
-    listing: Listing,
-}
-
-impl Files {
-    /// Claims every target before the long work begins.
-    pub(crate) fn claim(
-        aim: Aim,
-        targets: &Targets,
-        existing: Existing,
-        inputs: &[PathBuf],
-    ) -> Answer<Self> {
-        let mut outputs = Outputs::new(existing, inputs.to_vec());
-        let mut claim = |what, target: &Option<PathBuf>| {
-            target
-                .as_deref()
-                .map(|path| outputs.claim(what, path))
-                .transpose()
-        };
-        let program = match aim {
-            Aim::Compensate => claim("compensated program", &targets.program)?,
-            Aim::Analyse => None,
-        };
-        Ok(Self {
-            program,
-            report: claim("report", &targets.report)?,
-            json: claim("result", &targets.json)?,
-            points: claim("table of points", &targets.points)?,
-            listing: Listing::default(),
-            outputs,
-        })
-    }
-
-    /// How points are listed.
-    pub(crate) fn list(&mut self, all: bool, model: &Model) {
-        self.listing = Listing {
-            all,
-            controller: model.controller.clone(),
-        };
-    }
-
-    /// What a person should know about the files.
-    pub(crate) fn note(&self, run: &Run) -> String {
-        self.points
-            .and_then(|_| points_table::note(&run.result.question, &run.points, &self.listing))
-            .map_or_else(String::new, |note| {
-                format!("\n{}", screen::wrapped(&note, 2))
-            })
-    }
-
-    /// Writes a run beside its targets; nothing is in place yet.
-    pub(crate) fn fill(&mut self, run: &Run) -> Answer<()> {
-        if let (Some(index), Some(written)) = (self.program, &run.written) {
-            self.outputs.fill(index, &written.bytes)?;
-        }
-        if let Some(index) = self.json {
-            self.outputs.fill(index, json(&run.result)?.as_bytes())?;
-        }
-        if let Some(index) = self.points {
-            let outputs = &mut self.outputs;
-            points_table::table(&run.result.question, &run.points, &self.listing, |bytes| {
-                outputs.append(index, bytes)
-            })?;
-            outputs.complete(index)?;
-        }
-        if let Some(index) = self.report {
-            let page = kinetostat_report::html_of_run(run)
-                .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
-            self.outputs.fill(index, page.as_bytes())?;
-        }
-        Ok(())
-    }
-}
-
-/// Reads and interprets a program.
-pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
-    let read = Program::read(setting.program.clone()).and_then(|program| {
-        let path = interpret(&program, &setting.reading)?;
-        Ok((program, path))
-    });
-    read.map_err(|error| {
-        let all = faults(setting.program.clone(), &setting.reading);
-        let message = faults_in_words("lines", &error, &all, |fault| fault.reason.as_str());
-        Failure::input(message).within(&setting.program_name)
-    })
-}
-
-/// Faults of one reason that are listed; further ones are counted.
-const FAULTS_OF_A_REASON: usize = 3;
-
-/// Faults listed in all.
-const FAULTS_SHOWN: usize = 40;
-
-/// All faults of a file in the order of its lines, or the only one.
-pub(crate) fn faults_in_words<'f, F: Display>(
-    places: &str,
-    first: &F,
-    all: &'f [F],
-    reason: impl Fn(&'f F) -> &'f str,
-) -> String {
-    if all.len() < 2 {
-        return first.to_string();
-    }
-    let mut text = format!("{} {places} are refused:", all.len());
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    let mut shown = 0;
-    for fault in all {
-        let count = counts.entry(reason(fault)).or_default();
-        *count += 1;
-        if *count <= FAULTS_OF_A_REASON && shown < FAULTS_SHOWN {
-            shown += 1;
-            text.push_str(&format!("\n  {fault}"));
-        }
-    }
-    if shown < all.len() {
-        text.push_str(&format!(
-            "\n  and {} more, most for the same reasons as above",
-            all.len() - shown
-        ));
-    }
-    text
-}
+use crate::ui::threads::in_threads;
 
 /// The tools of a job, where it names several.
 pub(crate) fn tools(machine: &Machine) -> Vec<Tool<'_>> {
@@ -267,67 +125,4 @@ pub(crate) fn solve(
         )));
     }
     Ok(run)
-}
-
-/// Runs `work` on a number of threads.
-pub(crate) fn in_threads<R: Send>(
-    threads: Option<usize>,
-    work: impl FnOnce() -> R + Send,
-) -> Answer<R> {
-    let Some(count) = threads else {
-        return Ok(work());
-    };
-    if !(1..=1024).contains(&count) {
-        return Err(Failure::input(format!(
-            "--threads {count}: 1 to 1024 threads can be used"
-        )));
-    }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(count)
-        .build()
-        .map_err(|error| Failure::input(format!("{count} threads cannot be started: {error}")))?;
-    Ok(pool.install(work))
-}
-
-/// A result as JSON with a final newline.
-pub(crate) fn json<T: serde::Serialize>(value: &T) -> Answer<String> {
-    let mut text = serde_json::to_string_pretty(value).map_err(|error| {
-        Failure::input(format!("the result cannot be written as JSON: {error}"))
-    })?;
-    text.push('\n');
-    Ok(text)
-}
-
-/// A written program that misses its tolerance has an exit code of its own; files are in place.
-pub(crate) fn judged(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> {
-    match tolerance.missed_in_words() {
-        Some(text) => Err(Failure::tolerance_missed(text).within(program)),
-        None => Ok(()),
-    }
-}
-
-/// Where the text for people goes, and the JSON on the standard output if it is wanted there.
-pub(crate) fn tell(text: &str, result: Option<&RunResult>) -> Answer<()> {
-    match result {
-        Some(result) => {
-            screen::print(Stream::Err, text)?;
-            screen::print_bytes(json(result)?.as_bytes())
-        }
-        None => screen::print(Stream::Out, text),
-    }
-}
-
-/// Files that were written, one a line.
-pub(crate) fn written(paths: &[PathBuf]) -> String {
-    if paths.is_empty() {
-        return String::new();
-    }
-    let mut out = String::from("\nWritten\n");
-    for path in paths {
-        out.push_str(&format!(
-            "  {}\n",
-            crate::ui::failure::safe(&path.display().to_string())
-        ));
-    }
-    out
 }

@@ -5,7 +5,9 @@ use kinetostat_machining::number::{
 };
 use kinetostat_machining::{Figures, PointResult, RunResult};
 
-use crate::ui::screen::{columns, fixed, item, triple, wrapped};
+use crate::ui::layout::{columns, wrapped};
+use crate::ui::numbers::{fixed, triple};
+use crate::ui::warnings::warnings;
 
 /// The result of a run for a person.
 pub(crate) fn of_run(result: &RunResult) -> String {
@@ -199,29 +201,4 @@ fn worst(result: &RunResult) -> String {
         ]);
     }
     format!("\n{}", columns(&rows, 2))
-}
-
-/// Warnings as a list, or nothing.
-pub(crate) fn warnings<W: std::fmt::Display>(list: &[W]) -> String {
-    const SHOWN: usize = 8;
-    if list.is_empty() {
-        return String::new();
-    }
-    let mut out = format!(
-        "\n{}\n",
-        match list.len() {
-            1 => "Warning".to_owned(),
-            n => format!("{n} warnings"),
-        }
-    );
-    for warning in list.iter().take(SHOWN) {
-        out.push_str(&item(&warning.to_string()));
-    }
-    if list.len() > SHOWN {
-        out.push_str(&format!(
-            "  and {} more; the report and the JSON have them all\n",
-            list.len() - SHOWN
-        ));
-    }
-    out
 }

@@ -1,24 +1,21 @@
 //! `kinetostat completions` and `kinetostat man`.
 
+pub(crate) mod arguments;
+
 use std::path::Path;
 
-use clap::CommandFactory;
-
-use crate::command_line::{Cli, CompletionsArgs, ManArgs};
-use crate::files::output::{Existing, Outputs};
-use crate::program::solve::written;
+use crate::files::output::{Existing, Outputs, written};
+use crate::shell::arguments::{CompletionsArgs, ManArgs};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::screen::{self, Stream};
 
-pub(crate) fn completions(args: &CompletionsArgs) -> Answer<()> {
-    let mut command = Cli::command();
+pub(crate) fn completions(args: &CompletionsArgs, mut command: clap::Command) -> Answer<()> {
     let mut bytes = Vec::new();
     clap_complete::generate(args.shell, &mut command, "kinetostat", &mut bytes);
     screen::print_bytes(&bytes)
 }
 
-pub(crate) fn man(args: &ManArgs) -> Answer<()> {
-    let mut root = Cli::command();
+pub(crate) fn man(args: &ManArgs, mut root: clap::Command) -> Answer<()> {
     root.build();
     let page = |command: &clap::Command| -> Answer<Vec<u8>> {
         let mut bytes = Vec::new();

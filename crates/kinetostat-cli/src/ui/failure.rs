@@ -8,7 +8,8 @@ use kinetostat_machining::number::apart;
 use kinetostat_model::{ModelError, shortened};
 use kinetostat_program::WriteError;
 
-use crate::place::query::pose_in_words;
+use crate::ui::numbers::pose_in_words;
+use crate::ui::safe_text::safe;
 
 /// Exit codes, as in the table of `kinetostat --help`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -171,18 +172,4 @@ impl From<kinetostat::Error> for Failure {
             Self::input(message)
         }
     }
-}
-
-/// Text of files and names made safe for a terminal: control characters other than line ends are
-/// replaced, so that a comment cannot move the cursor or change colours.
-pub(crate) fn safe(text: &str) -> String {
-    text.chars()
-        .map(|c| match c {
-            '\n' => c,
-            '\t' => ' ',
-            '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
-            c if c.is_control() => '\u{fffd}',
-            c => c,
-        })
-        .collect()
 }

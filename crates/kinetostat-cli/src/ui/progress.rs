@@ -8,7 +8,6 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinetostat_machining::Watch;
 use kinetostat_program::Monitor;
 
-use crate::files::journal::remove_temporary;
 use crate::ui::failure::{Code, Failure, STOPPED};
 use crate::ui::screen;
 
@@ -19,8 +18,8 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Ctrl-C asks the work to stop. What does not look, a single place or a drawing, is ended a second
 /// later, after removing temporary files.
-pub(crate) fn catch_interrupts() {
-    let handler = || {
+pub(crate) fn catch_interrupts(remove_temporary: fn()) {
+    let handler = move || {
         STOP.store(true, Ordering::SeqCst);
         std::thread::sleep(PATIENCE);
         remove_temporary();

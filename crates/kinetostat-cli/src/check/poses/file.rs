@@ -13,8 +13,9 @@ use crate::check::poses::fit::Jogged;
 use crate::files::input::Files;
 use crate::job::source::Source;
 use crate::place::joints::{Named, quantity};
-use crate::place::orientation::{self, CONVENTIONS, nearest};
+use crate::place::orientation::{self, CONVENTIONS};
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::spelling::nearest;
 
 /// More rows are not jogged by hand.
 const MOST: usize = 10_000;

@@ -15,11 +15,13 @@ use crate::check::poses::fit::{
     Axis, Coupling, Explained, Explanation, Forward, Frame, Gap, Jogged, Tolerance, explain, left,
 };
 use crate::files::input::Files;
-use crate::job::machine::short;
-use crate::place::joints::{self, Named, unit};
-use crate::program::solve;
+use crate::machine::units::unit;
+use crate::place::joints::{self, Named};
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::screen::{self, Stream, columns, fixed, item, triple, wrapped};
+use crate::ui::json;
+use crate::ui::layout::{columns, item, wrapped};
+use crate::ui::numbers::{fixed, short, triple};
+use crate::ui::screen::{self, Stream};
 
 /// Explanations shown where several fit.
 const SHOWN: usize = 6;
@@ -136,7 +138,7 @@ pub(crate) fn run(
     let text = in_words(&answer, rows.len());
     if json {
         screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(solve::json(&answer)?.as_bytes());
+        return screen::print_bytes(json::json(&answer)?.as_bytes());
     }
     screen::print(Stream::Out, &text)
 }

@@ -3,11 +3,12 @@
 use kinetostat_model::Model;
 use serde_json::Value;
 
-use crate::check::home::home_in_words;
-use crate::check::limbs::{LimbFinding, limb_in_words, load_in_words};
-use crate::check::{Findings, assumptions};
-use crate::job::machine::short;
-use crate::ui::screen::{item, number, triple, wrapped};
+use crate::check::model::assumptions;
+use crate::check::model::findings::Findings;
+use crate::check::model::home_text::home_in_words;
+use crate::check::model::limbs::{LimbFinding, limb_in_words, load_in_words};
+use crate::ui::layout::{item, wrapped};
+use crate::ui::numbers::{number, short, triple};
 
 pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String {
     let mut out = wrapped(&format!("{} ({})", f.model, f.model_source), 0);
@@ -40,7 +41,7 @@ pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String
         }
         out.push_str(&item(&text));
     }
-    out.push_str(&crate::check::frames::in_words(&f.frames));
+    out.push_str(&crate::check::model::frames::in_words(&f.frames));
     for group in alike(&f.limbs) {
         let [first, rest @ ..] = group.as_slice() else {
             continue;
@@ -92,15 +93,12 @@ pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String
         out.push_str("\nAt home\n");
         out.push_str(&item(&format!("nothing can be solved: {problem}")));
     }
-    out.push_str(&crate::program::summary::warnings(&f.warnings));
+    out.push_str(&crate::ui::warnings::warnings(&f.warnings));
     if f.warnings.is_empty() {
         out.push_str("\nNothing looks wrong in the file.\n");
     }
     if let Some(home) = &f.home {
-        out.push_str(&crate::model::draw::next(
-            &f.model_source,
-            home.stiffness_rank < 6,
-        ));
+        out.push_str(&next(&f.model_source, home.stiffness_rank < 6));
     }
     out
 }
@@ -146,4 +144,18 @@ fn rounded(value: Value) -> Value {
         Value::Object(map) => map.into_iter().map(|(k, v)| (k, rounded(v))).collect(),
         other => other,
     }
+}
+
+/// What to draw of a model, as the end of what `check` says.
+pub(crate) fn next(source: &str, free: bool) -> String {
+    let model = source.strip_prefix("preset ").unwrap_or(source);
+    let mut out = format!(
+        "\nNext\n  kinetostat model draw {model} --out drawing.svg\n      what it looks like\n"
+    );
+    if free {
+        out.push_str(&format!(
+            "  kinetostat model draw {model} --motion --out free.svg\n      how it moves freely\n"
+        ));
+    }
+    out
 }

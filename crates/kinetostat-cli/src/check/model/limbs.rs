@@ -6,8 +6,8 @@ use kinetostat_model::Model;
 use kinetostat_model::schema::{Convention, Element};
 use serde::Serialize;
 
-use crate::job::machine::short;
-use crate::ui::screen::{self, number, wrapped};
+use crate::ui::layout::{self, wrapped};
+use crate::ui::numbers::{number, short};
 
 #[derive(Serialize)]
 pub(crate) struct LimbFinding {
@@ -190,7 +190,7 @@ pub(crate) fn limb_in_words(l: &LimbFinding) -> String {
             ),
         ]);
     }
-    let mut out = screen::listed(&rows, 2);
+    let mut out = layout::listed(&rows, 2);
     let list = |names: &[String]| {
         if names.is_empty() {
             "none".to_owned()

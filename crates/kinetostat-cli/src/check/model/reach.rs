@@ -7,8 +7,8 @@ use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::job::machine::short;
-use crate::ui::screen::{item, number, triple};
+use crate::ui::layout::item;
+use crate::ui::numbers::{number, short, triple};
 
 /// Reach of a machine.
 #[derive(Serialize)]
@@ -303,7 +303,7 @@ fn around_home(home: &Posture<'_>) -> ReachFinding {
     };
     let (ways, free) = rayon::join(
         || (0..6).into_par_iter().map(way).collect::<Vec<_>>(),
-        || follows.then(|| crate::check::reach_commands::search(m).ok()),
+        || follows.then(|| crate::check::model::reach_commands::search(m).ok()),
     );
     let free = free.flatten();
     for (way, (far, end)) in ways.into_iter().enumerate() {

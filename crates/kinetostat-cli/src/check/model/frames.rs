@@ -6,9 +6,10 @@ use kinetostat_model::Model;
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::job::machine::short;
-use crate::place::joints::{self, JointValue, unit};
-use crate::ui::screen::{fixed, item, triple, wrapped};
+use crate::machine::units::unit;
+use crate::place::joints::{self, JointValue};
+use crate::ui::layout::{item, wrapped};
+use crate::ui::numbers::{fixed, short, triple};
 
 /// More actuators than this are not listed one by one.
 const MOST: usize = 40;

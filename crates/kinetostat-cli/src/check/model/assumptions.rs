@@ -8,9 +8,9 @@ use kinetostat_machining::{
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
-use crate::job::machine::short;
-use crate::machine::instability::Nearness;
-use crate::ui::screen::{fixed, item, load_triple, number, triple};
+use crate::machine::instability::{NOTICEABLE, Nearness};
+use crate::ui::layout::item;
+use crate::ui::numbers::{fixed, load_triple, number, short, triple};
 
 /// Size of the load that is assumed if none is given, N.
 const REFERENCE_N: f64 = 1000.0;
@@ -21,9 +21,6 @@ const SMALL: f64 = 0.01;
 
 /// From here on the load is not even tried.
 const TOO_MUCH: f64 = 0.2;
-
-/// From this share of the way to buckling on the stiffness changes noticeably.
-pub(crate) const NOTICEABLE: f64 = 0.1;
 
 /// What was found about the assumptions, at home.
 #[derive(Serialize)]
@@ -125,7 +122,7 @@ fn yields(block: &Matrix3<f64>, nothing: f64) -> Option<Yields> {
 }
 
 impl AssumptionsFinding {
-    fn scale(&mut self, rest: &MechanismEquilibrium) {
+    pub(crate) fn scale(&mut self, rest: &MechanismEquilibrium) {
         let c = rest.compliance().springs;
         // Motions along free directions are not told by it.
         if rest.platform.free == 0 {
@@ -158,7 +155,7 @@ impl AssumptionsFinding {
             .map(|[softest, _]| softest * SMALL * self.natural_length_mm);
     }
 
-    fn without_load(&mut self) {
+    pub(crate) fn without_load(&mut self) {
         let share = self.share_without_load;
         if share < 1e-12 {
             return;
@@ -185,7 +182,7 @@ impl AssumptionsFinding {
     }
 
     /// The worst of the reference loads, and the machine under it.
-    fn under(
+    pub(crate) fn under(
         &mut self,
         posture: &Posture<'_>,
         rest: &MechanismEquilibrium,
@@ -284,10 +281,11 @@ impl AssumptionsFinding {
         let (moved, case, loaded) = worst?;
         if force.is_some() {
             let far = loaded.displacement.linear().norm();
-            let folds = crate::deflect::folds(far, posture.mechanism().size());
+            let folds =
+                crate::machine::displacement_warnings::folds(far, posture.mechanism().size());
             self.warnings.extend(folds);
             if let Ok(Some(limit)) = posture.snaps_on_the_way(rest, &loaded) {
-                let snaps = crate::deflect::snaps(&limit);
+                let snaps = crate::machine::displacement_warnings::snaps(&limit);
                 self.in_words.push(snaps.message.clone());
                 self.warnings.push(snaps);
             }
@@ -296,7 +294,7 @@ impl AssumptionsFinding {
         Some(loaded)
     }
 
-    fn too_much(&mut self, case: &Vector3<f64>, told: f64) {
+    pub(crate) fn too_much(&mut self, case: &Vector3<f64>, told: f64) {
         let share = 1e3 * told / self.natural_length_mm;
         self.reference_force_n = Some((*case).into());
         self.in_words.push(format!(
@@ -307,7 +305,7 @@ impl AssumptionsFinding {
         ));
     }
 
-    fn small(&mut self, share: f64, case: &Vector3<f64>) {
+    pub(crate) fn small(&mut self, share: f64, case: &Vector3<f64>) {
         let limit = self.small_up_to_n.map_or_else(String::new, |n| {
             format!(
                 "; that reaches 1 % at about {} N in the softest direction",
@@ -333,7 +331,7 @@ impl AssumptionsFinding {
 
     /// How near to buckling: under the load, if there is one and it is carried, and without it where
     /// there is none or that is worse.
-    fn buckling(
+    pub(crate) fn buckling(
         &mut self,
         posture: &Posture<'_>,
         rest: &MechanismEquilibrium,
@@ -368,7 +366,7 @@ impl AssumptionsFinding {
         }
     }
 
-    fn singular(&mut self, length: f64) {
+    pub(crate) fn singular(&mut self, length: f64) {
         match &self.near_singularity {
             Some(near) => {
                 self.in_words.push(near.in_words.clone());

@@ -1,0 +1,122 @@
+//! A machine of several limbs or platforms, commanded for a place.
+
+use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, NearSingularity, Pose, Posture};
+use kinetostat_machining::{Warning, WarningCode};
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use crate::end_condition::coordinates::{CoordinateName, coordinates_of, outline_of, values_of};
+use crate::end_condition::moves::Moves;
+use crate::place::query::Spot;
+use crate::place::reachable::Followed;
+use crate::ui::failure::Answer;
+
+/// A machine commanded for a place.
+pub(crate) struct Machine {
+    pub(crate) mechanism: Mechanism,
+    pub(crate) target: Pose,
+    /// Commands, where the place is given by them.
+    pub(crate) joints: Option<Vec<f64>>,
+    pub(crate) followed: Option<Followed>,
+    pub(crate) moves: Moves,
+}
+
+impl Machine {
+    pub(crate) fn of(spot: &Spot) -> Answer<Self> {
+        let posture = spot.posture()?;
+        let own = posture.stiffness()?;
+        let rigid: Vec<DVector<f64>> = own
+            .directions
+            .iter()
+            .filter(|d| d.kind == DirectionKind::Rigid)
+            .map(|d| {
+                let unit = |i: usize| if i < 3 { 1.0 } else { own.length };
+                DVector::from_fn(6, |i, _| d.twist.0[i] * unit(i)).normalize()
+            })
+            .collect();
+        Ok(Self {
+            moves: Moves {
+                subject: "machine",
+                place: spot.target,
+                basis: without(&rigid),
+                length: own.length,
+            },
+            mechanism: spot.mechanism.clone(),
+            target: spot.target,
+            joints: spot.joints.clone(),
+            followed: spot.followed.clone(),
+        })
+    }
+
+    /// Commanded for its place.
+    pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
+        let m = &self.mechanism;
+        Ok(match (&self.joints, &self.followed) {
+            (Some(joints), _) => m.posture_at(joints)?,
+            (None, Some(f)) => m.posture_from_joints(&self.target, f.limbs.clone())?,
+            (None, None) => m.posture(&self.target)?,
+        })
+    }
+
+    /// Coordinates of all limbs, one limb after the other.
+    pub(crate) fn coordinates(&self, posture: &Posture<'_>) -> Vec<CoordinateName> {
+        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
+        limbs
+            .flat_map(|(limb, joints)| {
+                coordinates_of(&limb.actual, &joints.commands)
+                    .into_iter()
+                    .map(|c| CoordinateName {
+                        name: format!("{}: {}", limb.name, c.name),
+                        ..c
+                    })
+            })
+            .collect()
+    }
+
+    /// Values of all coordinates, in their units.
+    pub(crate) fn values(&self, posture: &Posture<'_>, e: &MechanismEquilibrium) -> Vec<f64> {
+        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
+        limbs
+            .zip(&e.limbs)
+            .flat_map(|((limb, joints), own)| {
+                values_of(&limb.actual, &joints.commands, &own.coordinates)
+            })
+            .collect()
+    }
+
+    /// Every limb from its start to its end and back, one after the other, m.
+    pub(crate) fn outline(
+        &self,
+        posture: &Posture<'_>,
+        e: &MechanismEquilibrium,
+    ) -> Vec<Vector3<f64>> {
+        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
+        limbs
+            .zip(&e.limbs)
+            .flat_map(|((limb, joints), own)| {
+                let base = &e.state.platforms[limb.from];
+                let there = outline_of(&limb.actual, base, &joints.commands, &own.coordinates);
+                let back: Vec<_> = there.iter().rev().skip(1).copied().collect();
+                there.into_iter().chain(back)
+            })
+            .collect()
+    }
+
+    /// Singular postures within a distance (m).
+    pub(crate) fn near_singular(&self, posture: &Posture<'_>, within: f64) -> Answer<Vec<Warning>> {
+        let within = within.max(0.1 * self.moves.length);
+        let list = posture.near_singularities(within)?;
+        let told = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
+        Ok(list.iter().map(told).collect())
+    }
+}
+
+/// Everything across some directions (of length one, perhaps dependent), orthonormal columns.
+fn without(directions: &[DVector<f64>]) -> DMatrix<f64> {
+    let mut kept = DMatrix::<f64>::identity(6, 6);
+    for d in directions {
+        kept -= d * d.transpose();
+    }
+    let eigen = kept.symmetric_eigen();
+    let columns: Vec<_> = (0..6).filter(|&k| eigen.eigenvalues[k] > 0.5).collect();
+    eigen.eigenvectors.select_columns(&columns)
+}
