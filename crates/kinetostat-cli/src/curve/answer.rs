@@ -3,18 +3,19 @@
 
 use kinetostat::{
     Bounds, BranchEnd, ChainProblem, CriticalLoad, CurvePoint, CurveSettings, Curves, Judged,
-    Parameter, Pose, Role, SearchSettings, Settings, Special, SpecialKind, Twist, Wrench,
-    critical_load_factor, equilibria, follow, moved, solve_chain,
+    Parameter, Pose, SearchSettings, Settings, Special, SpecialKind, Wrench, critical_load_factor,
+    equilibria, follow, solve_chain,
 };
+use kinetostat_analysis::degenerate::is_degenerate;
+use kinetostat_analysis::rotation::ContinuousRotation;
+use kinetostat_analysis::serial_chain::{SerialChain, problem_at};
 use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::curve::query::{Measure, Question};
-use crate::curve::rotation::Turns;
-use crate::end_condition::chain::{SerialChain, mode_in_words};
+use crate::end_condition::chain::{coordinates, mode_in_words, values};
 use crate::end_condition::coordinates::CoordinateName;
-use crate::end_condition::degenerate::degenerate;
 use crate::end_condition::holding::Holding;
 use crate::place::query::PlaceAsked;
 use crate::ui::background::Stage;
@@ -265,27 +266,6 @@ pub(crate) fn letter(index: usize) -> String {
     }
 }
 
-/// The problem with its end moved along the curve's displacement.
-fn at<'a>(problem: &ChainProblem<'a>, parameter: &Parameter, value: f64) -> ChainProblem<'a> {
-    let mut there = problem.clone();
-    match parameter {
-        Parameter::Displacement(twist) => {
-            there.end.pose = moved(&problem.end.pose, &Twist(twist.0 * value));
-        }
-        Parameter::Load(pattern) => {
-            there.end.wrench = problem.end.wrench + pattern.end * value;
-            // Loads on nodes are dead forces: the options allow no others.
-            there.loads.extend(pattern.loads.iter().map(|l| match l {
-                kinetostat::Load::Dead { node, wrench } => {
-                    kinetostat::Load::dead(*node, *wrench * value)
-                }
-                other => other.clone(),
-            }));
-        }
-    }
-    there
-}
-
 /// Follows the curve of a chain.
 pub(crate) fn solve(
     chain: &SerialChain,
@@ -306,7 +286,7 @@ pub(crate) fn solve(
     }
     let value = q.start();
     stage.is("looking for the equilibrium at the start");
-    let there = at(&problem, &q.parameter, value);
+    let there = problem_at(&problem, &q.parameter, value);
     let start =
         solve_chain(&there, &Settings::default()).map_err(|error| not_there(q, &there, error))?;
     stage.is("following the curve");
@@ -342,7 +322,7 @@ pub(crate) fn solve(
         values.dedup();
         for v in values {
             stage.is("searching for shapes off the curve");
-            let there = at(&problem, &q.parameter, v);
+            let there = problem_at(&problem, &q.parameter, v);
             let bounds = Bounds::of(&chain.chain);
             let all = equilibria(&there, &bounds, &SearchSettings::default())?;
             if !all.settled {
@@ -356,7 +336,7 @@ pub(crate) fn solve(
             }
             for found in &all.found {
                 stage.is("following the curve through another shape");
-                if degenerate(chain, &there, found) {
+                if is_degenerate(chain, &there, found) {
                     continue;
                 }
                 if let Err(error) = curves.add(&found.equilibrium, v) {
@@ -377,15 +357,15 @@ pub(crate) fn solve(
     };
     stage.is("looking where the jumps land");
     let jumps = curves.jumps()?;
-    let turns = match q.measure {
-        Measure::Moment(_) if q.by_load() => Turns::of(&curves, &start.tip, value),
-        _ => Turns::none(),
+    let rotation = match q.measure {
+        Measure::Moment(_) if q.by_load() => ContinuousRotation::of(&curves, &start.tip, value),
+        _ => ContinuousRotation::none(),
     };
     let view = View {
         chain,
         q,
         curves: &curves,
-        turns,
+        rotation,
     };
     let (named, jumps) = view.named((value, conjugate), &jumps);
     stage.is("looking for the critical load");
@@ -442,7 +422,7 @@ pub(crate) fn solve(
         question: q.words.clone(),
         tool_held: q.holding.clone(),
         grows: grows(q),
-        coordinates: chain.coordinates(),
+        coordinates: coordinates(chain),
         named_points: named,
         jumps,
         critical_loads: critical,
@@ -614,7 +594,7 @@ struct View<'v> {
     chain: &'v SerialChain,
     q: &'v Question,
     curves: &'v Curves<'v>,
-    turns: Turns,
+    rotation: ContinuousRotation,
 }
 
 impl View<'_> {
@@ -632,7 +612,7 @@ impl View<'_> {
             energy: e.energy,
             wrench: e.wrench,
             tip: e.tip,
-            coordinates: self.chain.values(&e.coordinates),
+            coordinates: values(self.chain, &e.coordinates),
         }
         .answer(self.q, self.about(more))
     }
@@ -646,40 +626,6 @@ impl View<'_> {
             }
             Parameter::Displacement(_) => 0.0,
         }
-    }
-
-    /// Number of the branch that comes nearest to a point, from 1.
-    fn branch_of(&self, p: &CurvePoint) -> usize {
-        let x = &p.equilibrium.coordinates;
-        let coordinates = self.chain.chain.coordinates();
-        let length = self.chain.chain.scale().length;
-        let distance = |other: &CurvePoint| {
-            x.iter()
-                .zip(&other.equilibrium.coordinates)
-                .zip(coordinates)
-                .map(|((a, b), c)| {
-                    let d = a - b;
-                    match (c.kind, c.role) {
-                        (kinetostat::MotionKind::Prismatic, _) => (d / length).powi(2),
-                        (_, Role::Passive) => {
-                            let turn = std::f64::consts::TAU;
-                            (d - turn * (d / turn).round()).powi(2)
-                        }
-                        _ => d * d,
-                    }
-                })
-                .sum::<f64>()
-        };
-        let mut best = (f64::INFINITY, 0);
-        for (k, branch) in self.curves.branches.iter().enumerate() {
-            for point in &branch.points {
-                let d = distance(point);
-                if d < best.0 {
-                    best = (d, k);
-                }
-            }
-        }
-        best.1 + 1
     }
 
     fn named(
@@ -718,7 +664,7 @@ impl View<'_> {
                     mode_in_words(self.chain, mode)
                 },
                 limits,
-                point: self.point(p, &self.turns.at(self.curves, p)),
+                point: self.point(p, &self.rotation.at(self.curves, p)),
             });
             name
         };
@@ -753,7 +699,7 @@ impl View<'_> {
                     add(
                         "landing",
                         format!("where the jump from {from} {under} may land"),
-                        vec![self.branch_of(p)],
+                        vec![self.chain.nearest_branch(self.curves, p) + 1],
                         p,
                         &[],
                         [false; 2],
@@ -808,7 +754,7 @@ impl View<'_> {
                     .points
                     .iter()
                     .enumerate()
-                    .map(|(i, p)| self.point(p, &self.turns.of_point(self.curves, k, i)))
+                    .map(|(i, p)| self.point(p, &self.rotation.of_point(self.curves, k, i)))
                     .collect(),
             })
             .collect()

@@ -7,13 +7,14 @@ mod csv;
 mod machine;
 mod plot;
 mod query;
-mod rotation;
 mod text;
+
+use kinetostat_analysis::serial_chain::is_serial_chain;
 
 use crate::curve::answer::CurveAnswer;
 use crate::curve::arguments::CurveArgs;
 use crate::curve::query::question;
-use crate::end_condition::chain::{is_chain, serial_chain};
+use crate::end_condition::chain::{moves_of, serial_chain};
 use crate::end_condition::command::{Asked, Shown, Work, follow};
 use crate::end_condition::loads::with_loads;
 use crate::end_condition::machine::Machine;
@@ -29,9 +30,9 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
     };
     let about = |spot: &Spot| -> Answer<Work<CurveAnswer>> {
         let length = spot.mechanism.size();
-        if is_chain(spot) {
+        if is_serial_chain(&spot.mechanism) {
             let chain = with_loads(serial_chain(spot)?, &args.end)?;
-            let q = question(&chain.moves(), Some(&chain), args)?;
+            let q = question(&moves_of(&chain), Some(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
                 answer::solve(&chain, &q, place, names, stage).map(|a| a.judged(length))
             }))

@@ -1,10 +1,11 @@
 //! What `curve` is asked, from its options: what grows, how far, and what acts besides.
 
 use kinetostat::{EndCondition, Load, LoadPattern, Parameter, Twist, Wrench};
+use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::{Vector3, Vector6};
 
 use crate::curve::arguments::CurveArgs;
-use crate::end_condition::chain::SerialChain;
+use crate::end_condition::chain::node_force;
 use crate::end_condition::holding::{Driven, Holding, axis_in_words, holding};
 use crate::end_condition::loads::{constant, constant_in_words, no_nodes, wrench};
 use crate::end_condition::moves::Moves;
@@ -230,7 +231,7 @@ fn load_pattern(
     let mut loads = Vec::new();
     for text in &args.grow {
         match chain {
-            Some(chain) => loads.push(chain.node_force("--grow", text)?),
+            Some(chain) => loads.push(node_force(chain, "--grow", text)?),
             None => return Err(no_nodes("--grow")),
         }
     }
@@ -284,9 +285,9 @@ fn load_pattern(
     let holding = holding(moves, &args.end, &moves.place, constant, false, None)?;
     holding.accepts("the growing load", &end)?;
     // Work of the wrench on the motions that the chain can make, moments at the natural length.
-    let length = moves.length;
+    let length = moves.directions.length;
     let pull = Vector6::from_fn(|i, _| if i < 3 { end.0[i] * length } else { end.0[i] });
-    if loads.is_empty() && (moves.basis.transpose() * pull).norm() < 1e-9 * pull.norm() {
+    if loads.is_empty() && (moves.directions.basis.transpose() * pull).norm() < 1e-9 * pull.norm() {
         return Err(Failure::input(format!(
             "the growing load does nothing: the {} is rigid in {}, where it acts. Choose another direction",
             moves.subject,

@@ -1,11 +1,12 @@
 //! The answer at one place, stable names with units.
 
 use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture};
+use kinetostat_analysis::instability::InstabilityShares;
 use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
 
 use crate::machine::displacement_warnings::folds;
-use crate::machine::instability::Nearness;
+use crate::machine::instability;
 use crate::machine::principal_directions::motion_in_words;
 use crate::machine::unstable_joints::{Overcome, overcome};
 use crate::place::joints::JointValue;
@@ -128,14 +129,14 @@ pub(crate) fn answer(
             ),
         ));
     }
-    let nearness = Nearness::of(posture, loaded);
+    let shares = InstabilityShares::of(posture, loaded);
     if !loaded.stable() {
         warnings.push(Warning::new(
             WarningCode::NotStable,
             "the machine does NOT stay in its shape under this load",
         ));
-    } else if nearness.near() {
-        let said = nearness.in_words(true);
+    } else if shares.is_near_buckling() {
+        let said = instability::in_words(&shares, true);
         warnings.push(Warning::new(WarningCode::NearBuckling, said));
     }
     warnings.extend(folds(1e-3 * shift.norm(), spot.mechanism.size()));
@@ -189,8 +190,8 @@ pub(crate) fn answer(
             .collect(),
         platform_stable: loaded.platform.stable,
         platform_may_flutter: loaded.platform.may_flutter,
-        share_to_instability_of_free_machine: nearness.free,
-        free_beyond_limbs: nearness.free_beyond_limbs(),
+        share_to_instability_of_free_machine: shares.free,
+        free_beyond_limbs: shares.free_beyond_limbs(),
         snapped,
         shapes_stable: loaded.shapes_stable(),
         stable: loaded.stable(),

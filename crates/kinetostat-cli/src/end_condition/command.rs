@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use kinetostat_analysis::serial_chain::is_serial_chain;
 use kinetostat_machining::Warning;
 use serde::Serialize;
 
 use crate::end_condition::arguments::CurveOutputs;
-use crate::end_condition::chain::is_chain;
 use crate::files::input::Files;
 use crate::files::output::{self, Existing, Outputs};
 use crate::place::arguments::PlaceArgs;
@@ -60,7 +60,7 @@ pub(crate) fn follow<A: Serialize + Send + 'static>(
     ];
     let mut answer = interruptible(move |stage| work(place, names, stage))?;
     warnings(&mut answer).extend(spot.warnings.iter().cloned());
-    if is_chain(&spot) {
+    if is_serial_chain(&spot.mechanism) {
         // Of a machine the answer says it itself, as far as it is moved.
         warnings(&mut answer).extend(spot.near_singular().map(|n| n.warning()));
     }

@@ -144,10 +144,10 @@ pub(crate) fn holding(
     };
     let turn = turn_matrix(&axes);
     let rigid: [bool; 6] =
-        std::array::from_fn(|k| moves.share(&turn.column(k).into_owned()) < 1e-6);
+        std::array::from_fn(|k| moves.directions.share(&turn.column(k).into_owned()) < 1e-6);
     if let Some(d) = driven {
         let twist = d.twist();
-        if moves.share(&twist) < 1.0 - 1e-6 {
+        if moves.directions.share(&twist) < 1.0 - 1e-6 {
             return Err(Failure::input(format!(
                 "the tool cannot be moved {}: the {} is rigid {}. Choose a direction in which it can move",
                 d.in_words(),

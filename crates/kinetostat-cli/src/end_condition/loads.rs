@@ -1,10 +1,11 @@
 //! What acts on the tool and on nodes all the time.
 
 use kinetostat::Wrench;
+use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::Vector3;
 
 use crate::end_condition::arguments::EndArgs;
-use crate::end_condition::chain::SerialChain;
+use crate::end_condition::chain::node_force;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 
@@ -45,7 +46,7 @@ pub(crate) fn no_nodes(option: &str) -> Failure {
 /// Adds the forces on nodes that act all the time.
 pub(crate) fn with_loads(mut chain: SerialChain, args: &EndArgs) -> Answer<SerialChain> {
     for text in &args.load {
-        let load = chain.node_force("--load", text)?;
+        let load = node_force(&chain, "--load", text)?;
         chain.loads.push(load);
     }
     Ok(chain)

@@ -1,10 +1,12 @@
 //! A machine of several limbs or platforms, commanded for a place.
 
-use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, NearSingularity, Pose, Posture};
+use kinetostat::{Mechanism, MechanismEquilibrium, NearSingularity, Pose, Posture};
+use kinetostat_analysis::movable::MovableDirections;
+use kinetostat_analysis::outline::chain_outline;
 use kinetostat_machining::{Warning, WarningCode};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::Vector3;
 
-use crate::end_condition::coordinates::{CoordinateName, coordinates_of, outline_of, values_of};
+use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_of};
 use crate::end_condition::moves::Moves;
 use crate::place::query::Spot;
 use crate::place::reachable::Followed;
@@ -23,22 +25,11 @@ pub(crate) struct Machine {
 impl Machine {
     pub(crate) fn of(spot: &Spot) -> Answer<Self> {
         let posture = spot.posture()?;
-        let own = posture.stiffness()?;
-        let rigid: Vec<DVector<f64>> = own
-            .directions
-            .iter()
-            .filter(|d| d.kind == DirectionKind::Rigid)
-            .map(|d| {
-                let unit = |i: usize| if i < 3 { 1.0 } else { own.length };
-                DVector::from_fn(6, |i, _| d.twist.0[i] * unit(i)).normalize()
-            })
-            .collect();
         Ok(Self {
             moves: Moves {
                 subject: "machine",
                 place: spot.target,
-                basis: without(&rigid),
-                length: own.length,
+                directions: MovableDirections::of(&posture)?,
             },
             mechanism: spot.mechanism.clone(),
             target: spot.target,
@@ -94,7 +85,7 @@ impl Machine {
             .zip(&e.limbs)
             .flat_map(|((limb, joints), own)| {
                 let base = &e.state.platforms[limb.from];
-                let there = outline_of(&limb.actual, base, &joints.commands, &own.coordinates);
+                let there = chain_outline(&limb.actual, base, &joints.commands, &own.coordinates);
                 let back: Vec<_> = there.iter().rev().skip(1).copied().collect();
                 there.into_iter().chain(back)
             })
@@ -103,20 +94,9 @@ impl Machine {
 
     /// Singular postures within a distance (m).
     pub(crate) fn near_singular(&self, posture: &Posture<'_>, within: f64) -> Answer<Vec<Warning>> {
-        let within = within.max(0.1 * self.moves.length);
+        let within = within.max(0.1 * self.moves.directions.length);
         let list = posture.near_singularities(within)?;
         let told = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
         Ok(list.iter().map(told).collect())
     }
-}
-
-/// Everything across some directions (of length one, perhaps dependent), orthonormal columns.
-fn without(directions: &[DVector<f64>]) -> DMatrix<f64> {
-    let mut kept = DMatrix::<f64>::identity(6, 6);
-    for d in directions {
-        kept -= d * d.transpose();
-    }
-    let eigen = kept.symmetric_eigen();
-    let columns: Vec<_> = (0..6).filter(|&k| eigen.eigenvalues[k] > 0.5).collect();
-    eigen.eigenvectors.select_columns(&columns)
 }

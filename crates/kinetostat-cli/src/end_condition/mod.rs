@@ -5,7 +5,6 @@ pub(crate) mod arguments;
 pub(crate) mod chain;
 pub(crate) mod command;
 pub(crate) mod coordinates;
-pub(crate) mod degenerate;
 pub(crate) mod holding;
 pub(crate) mod loads;
 pub(crate) mod machine;

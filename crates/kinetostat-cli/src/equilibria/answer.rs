@@ -2,13 +2,15 @@
 //! the list is.
 
 use kinetostat::{Bounds, ChainProblem, Direction, DirectionKind, FoundEquilibrium, equilibria};
+use kinetostat_analysis::degenerate::is_degenerate;
+use kinetostat_analysis::outline::chain_outline;
+use kinetostat_analysis::serial_chain::SerialChain;
 use kinetostat_machining::Warning;
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::end_condition::chain::{SerialChain, mode_in_words};
+use crate::end_condition::chain::{coordinates, mode_in_words, values};
 use crate::end_condition::coordinates::CoordinateName;
-use crate::end_condition::degenerate::degenerate;
 use crate::end_condition::holding::Holding;
 use crate::equilibria::query::Question;
 use crate::place::query::PlaceAsked;
@@ -97,7 +99,14 @@ pub(crate) fn solve(
     let outlines = found
         .found
         .iter()
-        .map(|f| chain.outline(&f.equilibrium.coordinates))
+        .map(|f| {
+            chain_outline(
+                &chain.chain,
+                &chain.base,
+                &chain.commands,
+                &f.equilibrium.coordinates,
+            )
+        })
         .collect();
     let conservative = found.found.iter().all(|f| f.equilibrium.conservative);
     let [model, model_source, tool] = spot;
@@ -111,7 +120,7 @@ pub(crate) fn solve(
         question: q.words.clone(),
         tool_held: q.holding.clone(),
         stiffness_along: q.along.map(Into::into),
-        coordinates: chain.coordinates(),
+        coordinates: coordinates(chain),
         equilibria: found
             .found
             .iter()
@@ -158,7 +167,7 @@ fn shape(
         } else {
             mode_in_words(chain, &e.stability.mode)
         },
-        singular: degenerate(chain, problem, f),
+        singular: is_degenerate(chain, problem, f),
         found_by_spread_starts: f.hits,
         stiffness_n_per_mm: stiffness,
         stiffness_n_m_rad: std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)])),
@@ -166,7 +175,7 @@ fn shape(
         moment_n_m: e.wrench.moment().into(),
         position_mm: (e.tip.translation.vector * 1e3).into(),
         rotation_vector_deg: e.tip.rotation.scaled_axis().map(f64::to_degrees).into(),
-        coordinates: chain.values(&e.coordinates),
+        coordinates: values(chain, &e.coordinates),
     }
 }
 

@@ -7,7 +7,9 @@ mod machine;
 mod query;
 mod text;
 
-use crate::end_condition::chain::{is_chain, serial_chain};
+use kinetostat_analysis::serial_chain::is_serial_chain;
+
+use crate::end_condition::chain::{moves_of, serial_chain};
 use crate::end_condition::command::{Asked, Shown, Work, follow};
 use crate::end_condition::loads::{refuse_nodes, with_loads};
 use crate::end_condition::machine::Machine;
@@ -25,9 +27,9 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
         outputs: &args.outputs,
     };
     let about = |spot: &Spot| -> Answer<Work<EquilibriaAnswer>> {
-        if is_chain(spot) {
+        if is_serial_chain(&spot.mechanism) {
             let chain = with_loads(serial_chain(spot)?, &args.end)?;
-            let q = question(&chain.moves(), args)?;
+            let q = question(&moves_of(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
                 answer::solve(&chain, &q, place, names, stage)
             }))

@@ -37,7 +37,7 @@ pub(crate) fn question(moves: &Moves, args: &EquilibriaArgs) -> Answer<Question>
     let displaced = args.displaced_mm.is_some() || args.turned_deg.is_some();
     let twist = Twist::new(shift * 1e-3, turn.map(f64::to_radians));
     let subject = moves.subject;
-    if twist.0.amax() > 0.0 && moves.share(&twist.0) < 1.0 - 1e-6 {
+    if twist.0.amax() > 0.0 && moves.directions.share(&twist.0) < 1.0 - 1e-6 {
         return Err(Failure::input(format!(
             "the tool cannot be held there: the {subject} cannot move its end that way (a planar {subject} stays in its plane). Leave out the part of --displaced-mm and --turned-deg across it",
         )));

@@ -2,22 +2,20 @@
 
 use std::path::Path;
 
-use kinetostat::{Mechanism, MotionKind, Pose, Role, shift_matrix, turn_matrix, unloaded_tip};
+use kinetostat::{Mechanism, Pose};
+use kinetostat_analysis::comparison;
+use kinetostat_analysis::comparison::{ActuatorCounts, ComparisonError, Mapping};
 use kinetostat_model::Model;
 use serde::Serialize;
 
 use crate::files::input::Files;
 use crate::machine::units::unit;
-use crate::model::compare_fit::{Fit, Mapping, Side};
 use crate::place::joints::{self, JointValue};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::{self, columns, item, wrapped};
 use crate::ui::numbers::{fixed, number, short, triple};
 use crate::ui::screen::{self, Stream};
-
-/// Below this share of the machine's size two models are the same.
-const SAME: f64 = 1e-7;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -103,101 +101,62 @@ pub(crate) fn run(a: &str, b: &str, json: bool) -> Answer<()> {
 
 fn compare(one: &Model, other: &Model, a: &str, b: &str) -> Answer<Comparison> {
     let (m, n) = (&one.mechanism, &other.mechanism);
-    let kinds = joints::kinds(m);
-    if kinds.is_empty() {
-        return Err(Failure::input(format!("{a} has no actuator")));
-    }
-    if kinds != joints::kinds(n) {
-        let list = |m: &Mechanism| {
-            let kinds = joints::kinds(m);
-            let slides = kinds
-                .iter()
-                .filter(|k| **k == MotionKind::Prismatic)
-                .count();
-            format!(
-                "{} that slide and {} that turn",
-                slides,
-                kinds.len() - slides
-            )
-        };
-        return Err(Failure::input(format!(
-            "the actuators differ, or their order: {a} has {}, {b} has {}; only machines of the same joints in the same order can be mapped on each other",
-            list(m),
-            list(n)
-        )));
-    }
-    let quick = product(m) && product(n);
-    let length = m.size().max(1e-3);
-    let forward = |m: &Mechanism, q: &[f64]| match product(m) {
-        true => plain(m, q),
-        false => m.posture_at(q).ok().map(|p| *p.target()),
-    };
-    let (forward_a, forward_b) = (|q: &[f64]| forward(m, q), |q: &[f64]| forward(n, q));
-    let postures = postures(m, &kinds, length, if quick { 24 } else { 6 });
-    let found: Vec<(Vec<f64>, Pose)> = postures
-        .into_iter()
-        .filter_map(|q| forward_a(&q).map(|pose| (q, pose)))
-        .collect();
-    if found.len() < 3 {
-        return Err(Failure::unanswered(format!(
-            "{a}: its loops close at too few postures around home to compare them"
-        )));
-    }
-    let (postures, targets): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-    let fit = Fit {
-        a: Side {
-            forward: &forward_a,
-        },
-        b: Side {
-            forward: &forward_b,
-        },
-        kinds: &kinds,
-        postures: &postures,
-        targets,
-        length,
-        same: SAME,
-        quick,
-    };
-    let best = fit.run().ok_or_else(|| {
-        Failure::unanswered(format!(
-            "{b} cannot stand where {a} stands, with no sign of its joints"
-        ))
-    })?;
-    let same = best.left.0.max(length * best.left.1) < SAME * length;
-    // Home may be singular, or one of the two rigid.
-    let home = joints::home(m);
-    let stiffness = std::iter::once(&home)
-        .chain(postures.iter().take(3))
-        .filter(|_| same)
-        .find_map(|q| Some((q.clone(), stiffness(m, n, &best, q)?)));
+    let found = comparison::compare(m, n).map_err(|error| cannot_be_compared(&error, a, b))?;
+    let best = &found.mapping;
+    let (distance, angle) = best.largest_difference;
     Ok(Comparison {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         a: a.to_owned(),
         b: b.to_owned(),
-        same,
-        joints: maps(m, n, &best, &kinds),
+        same: found.same,
+        joints: maps(m, n, best),
         base: FrameMap::new(&best.base),
         tool: FrameMap::new(&best.tool),
-        left_mm: best.left.0 * 1e3,
-        left_deg: best.left.1.to_degrees(),
-        postures: postures.len(),
-        stiffness_at: stiffness
+        left_mm: distance * 1e3,
+        left_deg: angle.to_degrees(),
+        postures: found.postures,
+        stiffness_at: found
+            .stiffness
             .as_ref()
-            .map(|(q, _)| joints::of_model(m, q))
+            .map(|s| joints::of_model(m, &s.commands))
             .unwrap_or_default(),
-        stiffness_a_n_per_mm: stiffness.as_ref().map(|(_, s)| s.0),
-        stiffness_b_n_per_mm: stiffness.as_ref().map(|(_, s)| s.1),
+        stiffness_a_n_per_mm: found.stiffness.as_ref().map(|s| s.a_n_per_mm),
+        stiffness_b_n_per_mm: found.stiffness.as_ref().map(|s| s.b_n_per_mm),
     })
 }
 
-fn maps(m: &Mechanism, n: &Mechanism, best: &Mapping, kinds: &[MotionKind]) -> Vec<JointMap> {
+fn cannot_be_compared(error: &ComparisonError, a: &str, b: &str) -> Failure {
+    let list = |counts: &ActuatorCounts| {
+        format!(
+            "{} that slide and {} that turn",
+            counts.prismatic, counts.revolute
+        )
+    };
+    match error {
+        ComparisonError::NoActuator => Failure::input(format!("{a} has no actuator")),
+        ComparisonError::DifferentActuators { a: of_a, b: of_b } => Failure::input(format!(
+            "the actuators differ, or their order: {a} has {}, {b} has {}; only machines of the same joints in the same order can be mapped on each other",
+            list(of_a),
+            list(of_b)
+        )),
+        ComparisonError::TooFewPostures => Failure::unanswered(format!(
+            "{a}: its loops close at too few postures around home to compare them"
+        )),
+        ComparisonError::NoMapping => Failure::unanswered(format!(
+            "{b} cannot stand where {a} stands, with no sign of its joints"
+        )),
+        other => Failure::unanswered(other),
+    }
+}
+
+fn maps(m: &Mechanism, n: &Mechanism, best: &Mapping) -> Vec<JointMap> {
     let names = m.actuator_names().into_iter().zip(n.actuator_names());
-    let numbers = best.signs.iter().zip(&best.offsets).zip(kinds);
+    let numbers = best.signs.iter().zip(&best.offsets).zip(joints::kinds(m));
     names
         .zip(numbers)
         .map(|((a, b), ((sign, offset), kind))| {
-            let (unit, size) = unit(*kind);
+            let (unit, size) = unit(kind);
             let offset = offset / size;
             JointMap {
                 a,
@@ -208,79 +167,6 @@ fn maps(m: &Mechanism, n: &Mechanism, best: &Mapping, kinds: &[MotionKind]) -> V
             }
         })
         .collect()
-}
-
-fn product(m: &Mechanism) -> bool {
-    m.limbs().len() == 1 && m.limbs()[0].nominal.indices_of(Role::Passive).is_empty()
-}
-
-fn plain(m: &Mechanism, q: &[f64]) -> Option<Pose> {
-    let limb = &m.limbs()[0];
-    let base = &m.platforms()[limb.from].home;
-    let tip = unloaded_tip(&limb.nominal, base, &limb.nominal.home_coordinates(), q);
-    Some(tip * limb.platform_from_tip.inverse())
-}
-
-/// Irregular postures around home: a serial arm in all its range, a parallel machine near home.
-fn postures(m: &Mechanism, kinds: &[MotionKind], length: f64, count: usize) -> Vec<Vec<f64>> {
-    let home = joints::home(m);
-    let limits = m
-        .limbs()
-        .iter()
-        .flat_map(|l| l.nominal.actuators().iter().map(|a| a.limits));
-    let limits: Vec<Option<(f64, f64)>> = limits.collect();
-    let wide = product(m);
-    (0..count)
-        .map(|k| {
-            (0..kinds.len())
-                .map(|i| {
-                    // Golden ratio's multiples, one sequence per joint.
-                    let share = ((k * kinds.len() + i + 1) as f64 * 0.618_033_988_75
-                        + 0.377 * i as f64)
-                        .fract()
-                        - 0.5;
-                    let reach = match (kinds[i], wide) {
-                        (MotionKind::Revolute, true) => 3.0,
-                        (MotionKind::Revolute, false) => 0.2,
-                        (MotionKind::Prismatic, true) => length,
-                        (MotionKind::Prismatic, false) => 0.1 * length,
-                    };
-                    let value = home[i] + share * reach;
-                    match limits[i] {
-                        Some((low, high)) => value.clamp(low, high),
-                        None => value,
-                    }
-                })
-                .collect()
-        })
-        .collect()
-}
-
-/// Stiffness against a force with joints of A at `q`, seen at A's tool, softest first, N/mm.
-fn stiffness(
-    m: &Mechanism,
-    n: &Mechanism,
-    best: &Mapping,
-    q: &[f64],
-) -> Option<([f64; 3], [f64; 3])> {
-    let (one, other) = (m.posture_at(q).ok()?, n.posture_at(&best.joints(q)).ok()?);
-    let compliance = |k: kinetostat::UnloadedStiffness| {
-        (k.rank() == 6).then(|| k.cartesian.compliance()).flatten()
-    };
-    let a = compliance(one.stiffness().ok()?)?;
-    let b = compliance(other.stiffness().ok()?)?;
-    // To A's axes, then from B's tool to A's.
-    let turn = turn_matrix(&best.base.rotation.to_rotation_matrix());
-    let arm = one.target().translation.vector - (best.base * other.target()).translation.vector;
-    let shift = shift_matrix(&arm);
-    let b = shift * turn * b * turn.transpose() * shift.transpose();
-    let sizes = |c: &nalgebra::Matrix6<f64>| {
-        let block = c.fixed_view::<3, 3>(0, 0).into_owned();
-        let mut values: Vec<f64> = block.symmetric_eigenvalues().iter().copied().collect();
-        values.sort_by(|x, y| y.total_cmp(x));
-        (values[2] > 1e-9 * values[0]).then(|| [0, 1, 2].map(|i| 1e-3 / values[i]))
-    };
-    Some((sizes(&a)?, sizes(&b)?))
 }
 
 fn in_words(c: &Comparison) -> String {

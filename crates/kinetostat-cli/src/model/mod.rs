@@ -2,7 +2,6 @@
 
 pub(crate) mod arguments;
 mod compare;
-mod compare_fit;
 mod draw;
 
 use kinetostat_model::{Model, PresetKind, json_schema, preset_names, preset_text};

@@ -1,26 +1,22 @@
 //! The assumptions of the method, looked at: are deflections small, is a load near buckling, is a
 //! singular posture near.
 
-use kinetostat::{Error, MechanismEquilibrium, Posture, Wrench};
+use kinetostat::{Error, MechanismEquilibrium, Posture};
+use kinetostat_analysis::instability::{InstabilityShares, NOTICEABLE};
+use kinetostat_analysis::push_stiffness::{PushStiffness, PushStiffnesses};
+use kinetostat_analysis::reference_load::{
+    CarriedLoad, LoadOutcome, SMALL, reference_forces, under_forces,
+};
 use kinetostat_machining::{
     NEAR_SINGULAR, NearSingular, Warning, WarningCode, natural_length, near_singular,
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::machine::instability::{NOTICEABLE, Nearness};
+use crate::machine::displacement_warnings::{folds, snaps};
+use crate::machine::instability;
 use crate::ui::layout::item;
 use crate::ui::numbers::{fixed, load_triple, number, short, triple};
-
-/// Size of the load that is assumed if none is given, N.
-const REFERENCE_N: f64 = 1000.0;
-
-/// A deflection by this share of the natural length is small: the unloaded stiffness is then off
-/// by about as much.
-const SMALL: f64 = 0.01;
-
-/// From here on the load is not even tried.
-const TOO_MUCH: f64 = 0.2;
 
 /// What was found about the assumptions, at home.
 #[derive(Serialize)]
@@ -95,53 +91,23 @@ pub(crate) fn assumptions(
     found
 }
 
-/// Compliances below this share of the largest, rotations at the natural length, are rounding.
-const NO_MOTION: f64 = 1e-12;
-
-/// What a push of one kind does to the tool.
-enum Yields {
-    /// Stiffnesses, the softest and the stiffest, N/m or N m/rad.
-    Along([f64; 2]),
-    /// Some push moves it the other way, so that no stiffness says how far it yields.
-    Against,
-}
-
-/// What a block of a compliance says of the motion along a push; parts up to `nothing` are rounding.
-fn yields(block: &Matrix3<f64>, nothing: f64) -> Option<Yields> {
-    // Along the push acts the symmetric part alone; loads without a potential leave another.
-    let values = (0.5 * (block + block.transpose())).symmetric_eigenvalues();
-    let nothing = nothing.max(1e-9 * values.amax());
-    if values.min() < -nothing {
-        return Some(Yields::Against);
-    }
-    let moving = values.iter().copied().filter(|x| *x > nothing);
-    let least = moving.fold(f64::INFINITY, f64::min);
-    least
-        .is_finite()
-        .then(|| Yields::Along([1.0 / values.max(), 1.0 / least]))
-}
-
 impl AssumptionsFinding {
-    pub(crate) fn scale(&mut self, rest: &MechanismEquilibrium) {
+    fn scale(&mut self, rest: &MechanismEquilibrium) {
         let c = rest.compliance().springs;
         // Motions along free directions are not told by it.
         if rest.platform.free == 0 {
-            let force: Matrix3<f64> = c.fixed_view::<3, 3>(0, 0).into_owned();
-            let moment: Matrix3<f64> = c.fixed_view::<3, 3>(3, 3).into_owned();
-            // One block beside which the other is rounding has no motion at all.
-            let arm = rest.length.powi(2);
-            let nothing = NO_MOTION * force.amax().max(moment.amax() * arm);
+            let stiffness = PushStiffnesses::of(&c, rest.length);
             let mut against = Vec::new();
-            match yields(&force, nothing) {
-                Some(Yields::Along(range)) => {
+            match stiffness.force {
+                Some(PushStiffness::Along(range)) => {
                     self.against_force_n_per_mm = Some(range.map(|k| 1e-3 * k));
                 }
-                Some(Yields::Against) => against.push("force"),
+                Some(PushStiffness::Against) => against.push("force"),
                 None => {}
             }
-            match yields(&moment, nothing / arm) {
-                Some(Yields::Along(range)) => self.against_moment_n_m_per_rad = Some(range),
-                Some(Yields::Against) => against.push("moment"),
+            match stiffness.moment {
+                Some(PushStiffness::Along(range)) => self.against_moment_n_m_per_rad = Some(range),
+                Some(PushStiffness::Against) => against.push("moment"),
                 None => {}
             }
             self.in_words.extend(against.iter().map(|push| {
@@ -155,7 +121,7 @@ impl AssumptionsFinding {
             .map(|[softest, _]| softest * SMALL * self.natural_length_mm);
     }
 
-    pub(crate) fn without_load(&mut self) {
+    fn without_load(&mut self) {
         let share = self.share_without_load;
         if share < 1e-12 {
             return;
@@ -182,119 +148,116 @@ impl AssumptionsFinding {
     }
 
     /// The worst of the reference loads, and the machine under it.
-    pub(crate) fn under(
+    fn under(
         &mut self,
         posture: &Posture<'_>,
         rest: &MechanismEquilibrium,
         force: Option<Vector3<f64>>,
     ) -> Option<MechanismEquilibrium> {
-        let cases = match force {
-            Some(force) => vec![force],
-            None => (0..6)
-                .map(|k| {
-                    let sign = if k % 2 == 0 {
-                        REFERENCE_N
-                    } else {
-                        -REFERENCE_N
-                    };
-                    Vector3::ith(k / 2, sign)
-                })
-                .collect(),
-        };
-        let compliance = rest.compliance();
-        let linear = |force: &Vector3<f64>| -> Vector3<f64> {
-            compliance.springs.fixed_view::<3, 3>(0, 0) * force
-        };
-        let length = 1e-3 * self.natural_length_mm;
-        let mut worst: Option<(f64, Vector3<f64>, MechanismEquilibrium)> = None;
+        let forces = force.map_or_else(reference_forces, |force| vec![force]);
+        let mut worst: Option<(Vector3<f64>, CarriedLoad)> = None;
         let mut free = Vec::new();
-        let mut jumps: Option<Vector3<f64>> = None;
-        for case in cases {
-            let told = linear(&case);
-            // What was asked for is answered by what `deflect` finds, whatever first order says.
-            if force.is_none() && told.norm() > TOO_MUCH * length {
-                self.too_much(&case, told.norm());
-                return None;
-            }
-            let loaded = match posture.deflected_by(&Wrench::new(case, Vector3::zeros())) {
-                Ok(loaded) => loaded,
-                Err(Error::FreeDirection { .. }) => {
-                    free.push(case);
-                    continue;
+        let mut unstable: Option<Vector3<f64>> = None;
+        // What was asked for is answered by what `deflect` finds, whatever first order says.
+        for (case, outcome) in under_forces(posture, rest, &forces, force.is_none()) {
+            match outcome {
+                LoadOutcome::TooMuch(first_order) => {
+                    self.too_much(&case, first_order);
+                    return None;
                 }
-                Err(error) => {
-                    let said = format!(
-                        "a load of {} N has no equilibrium that could be found: {error}",
-                        load_triple(case.into())
-                    );
-                    if force.is_some() {
-                        self.reference_force_n = Some(case.into());
-                        let none = Warning::new(WarningCode::NoEquilibrium, said.clone());
-                        self.warnings.insert(0, none);
-                        self.in_words.insert(0, said);
-                    } else {
-                        self.in_words.push(said);
+                LoadOutcome::Free => free.push(case),
+                LoadOutcome::NoEquilibrium(error) => {
+                    self.no_equilibrium(&case, &error, force.is_some());
+                }
+                LoadOutcome::Carried(load) => {
+                    if !load.state.stable() {
+                        unstable = unstable.or(Some(case));
                     }
-                    continue;
+                    if worst.as_ref().is_none_or(|(_, w)| load.moved > w.moved) {
+                        self.carried(&case, &load);
+                        worst = Some((case, *load));
+                    }
                 }
-            };
-            if !loaded.stable() {
-                jumps = jumps.or(Some(case));
-            }
-            let moved = loaded.displacement.linear() - rest.displacement.linear();
-            if worst
-                .as_ref()
-                .is_none_or(|(most, _, _)| moved.norm() > *most)
-            {
-                let error = (moved - told).norm() / moved.norm().max(1e-15);
-                self.reference_force_n = Some(case.into());
-                self.reference_deflection_mm = Some(1e3 * moved.norm());
-                self.reference_stable = Some(loaded.stable());
-                self.linear_error_percent = Some(100.0 * error);
-                worst = Some((moved.norm(), case, loaded));
             }
         }
-        if !free.is_empty() {
-            let list: Vec<String> = free.iter().map(|f| triple((*f).into(), short)).collect();
-            let said = format!(
-                "nothing carries a load of {} N: it pushes in a free direction",
-                list.join(" or ")
-            );
-            if force.is_some() {
-                self.warnings
-                    .push(Warning::new(WarningCode::FreeDirection, said.clone()));
-            }
-            self.in_words.push(said);
-        }
-        if let Some(case) = jumps {
-            let said = format!(
-                "under a load of {} N on the tool the machine does NOT stay in its shape: NOT STABLE; see `kinetostat deflect`",
-                load_triple(case.into())
-            );
-            // What moves freely is not meant to carry the example load.
-            if free.is_empty() {
-                let first = Warning::new(WarningCode::NotStable, said.clone());
-                self.warnings.insert(0, first);
-            }
-            self.in_words.insert(0, said);
-        }
-        let (moved, case, loaded) = worst?;
+        self.free_directions(&free, force.is_some());
+        self.not_stable(unstable, free.is_empty());
+        let (case, load) = worst?;
         if force.is_some() {
-            let far = loaded.displacement.linear().norm();
-            let folds =
-                crate::machine::displacement_warnings::folds(far, posture.mechanism().size());
-            self.warnings.extend(folds);
-            if let Ok(Some(limit)) = posture.snaps_on_the_way(rest, &loaded) {
-                let snaps = crate::machine::displacement_warnings::snaps(&limit);
-                self.in_words.push(snaps.message.clone());
-                self.warnings.push(snaps);
-            }
+            self.large_displacement(posture, rest, &load.state);
         }
-        self.small(moved / length, &case);
-        Some(loaded)
+        self.small(load.moved / (1e-3 * self.natural_length_mm), &case);
+        Some(load.state)
     }
 
-    pub(crate) fn too_much(&mut self, case: &Vector3<f64>, told: f64) {
+    fn carried(&mut self, case: &Vector3<f64>, load: &CarriedLoad) {
+        self.reference_force_n = Some((*case).into());
+        self.reference_deflection_mm = Some(1e3 * load.moved);
+        self.reference_stable = Some(load.state.stable());
+        self.linear_error_percent = Some(100.0 * load.linear_error);
+    }
+
+    fn no_equilibrium(&mut self, case: &Vector3<f64>, error: &Error, force_given: bool) {
+        let said = format!(
+            "a load of {} N has no equilibrium that could be found: {error}",
+            load_triple((*case).into())
+        );
+        if force_given {
+            self.reference_force_n = Some((*case).into());
+            let none = Warning::new(WarningCode::NoEquilibrium, said.clone());
+            self.warnings.insert(0, none);
+            self.in_words.insert(0, said);
+        } else {
+            self.in_words.push(said);
+        }
+    }
+
+    fn free_directions(&mut self, free: &[Vector3<f64>], force_given: bool) {
+        if free.is_empty() {
+            return;
+        }
+        let list: Vec<String> = free.iter().map(|f| triple((*f).into(), short)).collect();
+        let said = format!(
+            "nothing carries a load of {} N: it pushes in a free direction",
+            list.join(" or ")
+        );
+        if force_given {
+            self.warnings
+                .push(Warning::new(WarningCode::FreeDirection, said.clone()));
+        }
+        self.in_words.push(said);
+    }
+
+    fn not_stable(&mut self, unstable: Option<Vector3<f64>>, all_carried: bool) {
+        let Some(case) = unstable else { return };
+        let said = format!(
+            "under a load of {} N on the tool the machine does NOT stay in its shape: NOT STABLE; see `kinetostat deflect`",
+            load_triple(case.into())
+        );
+        // What moves freely is not meant to carry the example load.
+        if all_carried {
+            let first = Warning::new(WarningCode::NotStable, said.clone());
+            self.warnings.insert(0, first);
+        }
+        self.in_words.insert(0, said);
+    }
+
+    fn large_displacement(
+        &mut self,
+        posture: &Posture<'_>,
+        rest: &MechanismEquilibrium,
+        loaded: &MechanismEquilibrium,
+    ) {
+        let far = loaded.displacement.linear().norm();
+        self.warnings.extend(folds(far, posture.mechanism().size()));
+        if let Ok(Some(limit)) = posture.snaps_on_the_way(rest, loaded) {
+            let snaps = snaps(&limit);
+            self.in_words.push(snaps.message.clone());
+            self.warnings.push(snaps);
+        }
+    }
+
+    fn too_much(&mut self, case: &Vector3<f64>, told: f64) {
         let share = 1e3 * told / self.natural_length_mm;
         self.reference_force_n = Some((*case).into());
         self.in_words.push(format!(
@@ -305,7 +268,7 @@ impl AssumptionsFinding {
         ));
     }
 
-    pub(crate) fn small(&mut self, share: f64, case: &Vector3<f64>) {
+    fn small(&mut self, share: f64, case: &Vector3<f64>) {
         let limit = self.small_up_to_n.map_or_else(String::new, |n| {
             format!(
                 "; that reaches 1 % at about {} N in the softest direction",
@@ -331,34 +294,36 @@ impl AssumptionsFinding {
 
     /// How near to buckling: under the load, if there is one and it is carried, and without it where
     /// there is none or that is worse.
-    pub(crate) fn buckling(
+    fn buckling(
         &mut self,
         posture: &Posture<'_>,
         rest: &MechanismEquilibrium,
         loaded: Option<&MechanismEquilibrium>,
         force_given: bool,
     ) {
-        let at_rest = Nearness::of(posture, rest);
-        let under = loaded.map(|e| Nearness::of(posture, e));
+        let at_rest = InstabilityShares::of(posture, rest);
+        let under = loaded.map(|e| InstabilityShares::of(posture, e));
         let judged = under.as_ref().or((!force_given).then_some(&at_rest));
         if let Some(judged) = judged {
-            self.largest_share_to_buckling = judged.limb.map(|l| l.0);
-            self.largest_share_of_euler_load = judged.of_euler_load();
+            self.largest_share_to_buckling = judged.limb.map(|l| l.share);
+            self.largest_share_of_euler_load = judged.link.map(|l| l.share);
             self.largest_share_to_instability_of_free_machine = judged.free;
         }
-        let worse =
-            at_rest.most() > NOTICEABLE && under.as_ref().is_none_or(|u| at_rest.most() > u.most());
+        let worse = at_rest.largest() > NOTICEABLE
+            && under
+                .as_ref()
+                .is_none_or(|u| at_rest.largest() > u.largest());
         let states = [
             (Some(&at_rest).filter(|_| under.is_none() || worse), false),
             (under.as_ref(), true),
         ];
         for (state, under_load) in states {
             let Some(state) = state else { continue };
-            let said = state.in_words(under_load);
-            if state.near() {
+            let said = instability::in_words(state, under_load);
+            if state.is_near_buckling() {
                 self.warnings
                     .push(Warning::new(WarningCode::NearBuckling, said.clone()));
-            } else if state.may_flutter() {
+            } else if state.state().may_flutter() {
                 self.warnings
                     .push(Warning::new(WarningCode::NoPotential, said.clone()));
             }
@@ -366,7 +331,7 @@ impl AssumptionsFinding {
         }
     }
 
-    pub(crate) fn singular(&mut self, length: f64) {
+    fn singular(&mut self, length: f64) {
         match &self.near_singularity {
             Some(near) => {
                 self.in_words.push(near.in_words.clone());

@@ -10,7 +10,7 @@ use crate::check::model::assumptions::AssumptionsFinding;
 use crate::check::model::frames::{Frames, frames};
 use crate::check::model::home::{HomeFinding, at_home};
 use crate::check::model::limbs::{LimbFinding, LoadFinding, limb, platform_loads};
-use crate::check::model::reach::ReachFinding;
+use crate::check::model::reach::{ReachFinding, reach_from};
 use crate::machine::model_warnings::{deviations_in_words, of_model};
 use crate::machine::unstable_joints::load_names;
 use crate::ui::numbers::pose_in_words;
@@ -76,7 +76,7 @@ pub(crate) fn findings(model: &Model, source: String, force: Option<Vector3<f64>
         Ok((home, assumptions)) => (Some(home), Some(assumptions), None),
         Err(reason) => (None, None, Some(reason)),
     };
-    let reach = posture.as_ref().ok().map(crate::check::model::reach::reach);
+    let reach = posture.as_ref().ok().map(reach_from);
     let mut warnings: Vec<Warning> = of_model(model).collect();
     if home_problem.is_some() {
         warnings.push(Warning::new(

@@ -1,7 +1,8 @@
 //! Frames and directions in words: where base and tool are and how their axes point, where the machine
 //! stands with all joints at zero, and which way it moves for a positive joint.
 
-use kinetostat::{Mechanism, Pose, Twist, pose_residual};
+use kinetostat::{Mechanism, Pose, Twist};
+use kinetostat_analysis::joint_motion::{actuator_twist, point_on_axis};
 use kinetostat_model::Model;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -162,12 +163,12 @@ fn directions(m: &Mechanism, home: &Pose, commands: &[f64]) -> Vec<JointDirectio
     let values = joints::of_model(m, commands);
     let each = values.into_iter().zip(joints::kinds(m)).enumerate();
     each.map(|(i, (joint, kind))| {
-        let twist = motion(m, commands, i);
+        let twist = actuator_twist(m, commands, i);
         let size = unit(kind).1;
         let through = twist
             .as_ref()
             .filter(|_| m.limbs().len() == 1)
-            .and_then(|t| axis_through(home, t));
+            .and_then(|t| point_on_axis(home, t));
         JointDirection {
             in_words: match &twist {
                 Some(twist) => in_words_of(&senses, twist, through.as_ref()),
@@ -184,30 +185,6 @@ fn directions(m: &Mechanism, home: &Pose, commands: &[f64]) -> Vec<JointDirectio
         }
     })
     .collect()
-}
-
-/// Motion of the tool per m or rad of one actuator.
-fn motion(m: &Mechanism, commands: &[f64], index: usize) -> Option<Twist> {
-    let step = 1e-4;
-    let at = |by: f64| {
-        let mut moved = commands.to_vec();
-        moved[index] += by;
-        m.posture_at(&moved).ok().map(|p| *p.target())
-    };
-    let twist = pose_residual(&at(step)?, &at(-step)?);
-    Some(Twist(twist.0 / (2.0 * step)))
-}
-
-/// The point nearest to the base's origin on the axis of a pure rotation.
-fn axis_through(tool: &Pose, twist: &Twist) -> Option<Vector3<f64>> {
-    let (v, w) = (twist.linear(), twist.angular());
-    let turn = w.norm();
-    if turn < 1e-6 || v.dot(&w).abs() > 1e-6 * turn * (v.norm() + turn) {
-        return None;
-    }
-    let axis = w / turn;
-    let point = tool.translation.vector + w.cross(&v) / (turn * turn);
-    Some(point - axis * axis.dot(&point))
 }
 
 fn in_words_of(senses: &Senses, twist: &Twist, through: Option<&Vector3<f64>>) -> String {

@@ -1,7 +1,8 @@
 //! A machine at home: mobility, what holds it, what its own loads do.
 
-use kinetostat::{Kinematics, Mechanism, MechanismEquilibrium, Posture, Role, Wrench};
-use nalgebra::{DMatrix, Vector3};
+use kinetostat::{Mechanism, MechanismEquilibrium, Posture, Wrench};
+use kinetostat_analysis::limb_motions::{directions_held_by_limb, redundant_actuators};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::check::model::assumptions::{AssumptionsFinding, assumptions};
@@ -66,7 +67,7 @@ pub(crate) fn at_home(
             .redundant_passive_joints
             .clone_from(&k.redundant_passive);
         found.stiffness_rank = Some(k.rank);
-        found.constrained_directions = alone(m, posture, i);
+        found.constrained_directions = directions_held_by_limb(posture, i);
     }
     let mobility = posture.mobility().ncols();
     let correctable = posture.correctable();
@@ -89,7 +90,11 @@ pub(crate) fn at_home(
             .collect(),
         redundant_motions: posture.redundancy(),
         redundant_actuators: (0..limbs.len())
-            .flat_map(|i| redundant_actuators(m, posture, i))
+            .flat_map(|i| {
+                let limb = &m.limbs()[i];
+                let names = redundant_actuators(posture, i).into_iter();
+                names.map(move |a| format!("{}: {}", limb.name, limb.nominal.actuators()[a].name))
+            })
             .collect(),
         redundant_passive_joints: limbs
             .iter()
@@ -134,56 +139,6 @@ fn fight(words: &str) -> String {
     limbs.collect::<Vec<_>>().join(", against ")
 }
 
-/// Actuators of a limb that can move while both its ends stay, its passive joints following.
-fn redundant_actuators(m: &Mechanism, posture: &Posture<'_>, index: usize) -> Vec<String> {
-    let limb = &m.limbs()[index];
-    let (chain, joints) = (&limb.nominal, &posture.limbs()[index]);
-    let base = &posture.platforms()[limb.from];
-    let k = Kinematics::new(chain, base, &joints.coordinates, &joints.commands, false);
-    let all = k.jacobian(chain.tip());
-    let n = chain.coordinate_count();
-    let length = chain.scale().length;
-    let passive = chain.indices_of(Role::Passive).into_iter();
-    let own = (0..chain.actuators().len()).map(|a| n + a);
-    let columns: Vec<usize> = own.chain(passive).collect();
-    let count = columns.len();
-    if count == 0 {
-        return Vec::new();
-    }
-    let a = DMatrix::from_fn(6, count, |i, j| {
-        all[(i, columns[j])] * if i < 3 { 1.0 } else { length }
-    });
-    // Motions that leave the end where it is are the zero directions of the square.
-    let eigen = (a.transpose() * &a).symmetric_eigen();
-    let zero = 1e-12 * eigen.eigenvalues.amax();
-    let moves = |joint: usize| {
-        (0..count)
-            .filter(|&k| eigen.eigenvalues[k].abs() <= zero)
-            .any(|k| eigen.eigenvectors[(joint, k)].abs() > 1e-6)
-    };
-    let actuators = chain.actuators().iter().enumerate();
-    actuators
-        .filter(|(i, _)| moves(*i))
-        .map(|(_, a)| format!("{}: {}", limb.name, a.name))
-        .collect()
-}
-
 fn largest(e: &MechanismEquilibrium, size: impl Fn(&Wrench) -> f64) -> f64 {
     e.limbs.iter().map(|l| size(&l.wrench)).fold(0.0, f64::max)
-}
-
-/// Directions of the tool that one limb alone leaves no motion in, links taken as rigid.
-fn alone(m: &Mechanism, posture: &Posture<'_>, index: usize) -> Option<usize> {
-    let mut builder = Mechanism::builder(m.name());
-    for platform in m.platforms().iter().skip(1) {
-        builder.platform(platform.clone());
-    }
-    if m.platforms().len() != 2 {
-        return None;
-    }
-    let single = builder.limb(m.limbs()[index].clone()).build().ok()?;
-    let own = single
-        .posture_from_joints(posture.target(), vec![posture.limbs()[index].clone()])
-        .ok()?;
-    Some(6 - own.mobility().ncols())
 }

@@ -7,5 +7,4 @@ mod home;
 mod home_text;
 mod limbs;
 mod reach;
-mod reach_commands;
 pub(crate) mod text;

@@ -1,15 +1,15 @@
-//! Files of jogged poses: a table (CSV) or TOML. Units and conventions are in the names of the columns.
+//! Files of measured poses: a table (CSV) or TOML. Units and conventions are in the names of the columns.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use kinetostat::MotionKind;
+use kinetostat_analysis::measured_poses::MeasuredPose;
 use kinetostat_model::schema::Placement;
 use nalgebra::Vector3;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::check::poses::fit::Jogged;
 use crate::files::input::Files;
 use crate::job::source::Source;
 use crate::place::joints::{Named, quantity};
@@ -17,7 +17,7 @@ use crate::place::orientation::{self, CONVENTIONS};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::spelling::nearest;
 
-/// More rows are not jogged by hand.
+/// More rows are not measured by hand.
 const MOST: usize = 10_000;
 
 /// A row and where it stands.
@@ -25,7 +25,7 @@ const MOST: usize = 10_000;
 pub(crate) struct PoseRow {
     pub(crate) name: String,
     pub(crate) line: usize,
-    pub(crate) jogged: Jogged,
+    pub(crate) measured: MeasuredPose,
 }
 
 pub(crate) fn read(files: &Files, path: &Path, names: &[Named]) -> Answer<Vec<PoseRow>> {
@@ -283,7 +283,7 @@ fn cells(
     Ok(PoseRow {
         name,
         line: 0,
-        jogged: Jogged {
+        measured: MeasuredPose {
             joints,
             position,
             rotation,
@@ -370,7 +370,7 @@ fn from_toml(file: &str, text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
                 .clone()
                 .unwrap_or_else(|| (number + 1).to_string()),
             line: 1 + text[..entry.span().start].matches('\n').count(),
-            jogged: Jogged {
+            measured: MeasuredPose {
                 joints,
                 position: pose.translation.vector,
                 rotation: (bare != Placement::default()).then_some(pose.rotation),

@@ -7,22 +7,26 @@ use kinetostat::{CurvePoint, Curves, Pose};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// Continuous rotation vectors of the tool from where the curve starts, base axes, rad.
-pub(crate) struct Turns {
+#[derive(Clone, Debug)]
+pub struct ContinuousRotation {
     start: UnitQuaternion<f64>,
     /// Of every point of every branch; empty where no rotation is shown.
     branches: Vec<Vec<Vector3<f64>>>,
 }
 
-impl Turns {
-    pub(crate) fn none() -> Self {
+impl ContinuousRotation {
+    /// No rotation: everything it is asked for is zero.
+    #[must_use]
+    pub fn none() -> Self {
         Self {
             start: UnitQuaternion::identity(),
             branches: Vec::new(),
         }
     }
 
-    /// `value`: the parameter at the start, where the tool is at `start`.
-    pub(crate) fn of(curves: &Curves<'_>, start: &Pose, value: f64) -> Self {
+    /// Of all branches. `value`: the parameter at the start, where the tool is at `start`.
+    #[must_use]
+    pub fn of(curves: &Curves<'_>, start: &Pose, value: f64) -> Self {
         let mut turns = Self {
             start: start.rotation,
             branches: Vec::new(),
@@ -81,7 +85,8 @@ impl Turns {
 
     /// What the continuous rotation vector of point `i` of branch `k` has more than the one within
     /// half a turn; zero where no rotation is shown.
-    pub(crate) fn of_point(&self, curves: &Curves<'_>, k: usize, i: usize) -> Vector3<f64> {
+    #[must_use]
+    pub fn of_point(&self, curves: &Curves<'_>, k: usize, i: usize) -> Vector3<f64> {
         let whole = self.branches.get(k).and_then(|list| list.get(i));
         let point = curves.branches.get(k).and_then(|b| b.points.get(i));
         match (whole, point) {
@@ -91,7 +96,8 @@ impl Turns {
     }
 
     /// The same for any equilibrium.
-    pub(crate) fn at(&self, curves: &Curves<'_>, p: &CurvePoint) -> Vector3<f64> {
+    #[must_use]
+    pub fn at(&self, curves: &Curves<'_>, p: &CurvePoint) -> Vector3<f64> {
         if self.branches.is_empty() {
             return Vector3::zeros();
         }

@@ -7,42 +7,19 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::{MotionKind, Pose, Twist, moved, pose_residual};
-use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3, Vector6};
+use kinetostat::{MotionKind, Pose, SingularValues, Twist, moved, pose_residual};
+use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, Vector6};
 
-/// A machine as this module sees it.
-pub(crate) struct Side<'a> {
-    /// Tool in the base for commands in m and rad.
-    pub(crate) forward: &'a dyn Fn(&[f64]) -> Option<Pose>,
-}
+use crate::comparison::mapping::Mapping;
 
-/// How `b` has to be taken to be `a`.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Mapping {
-    /// -1 or 1 for each joint.
-    pub(crate) signs: Vec<f64>,
-    /// m or rad, added to `b`'s joint.
-    pub(crate) offsets: Vec<f64>,
-    /// Base of `a` from base of `b`.
-    pub(crate) base: Pose,
-    /// Tool of `b` from tool of `a`.
-    pub(crate) tool: Pose,
-    /// Largest difference left over all postures, m and rad.
-    pub(crate) left: (f64, f64),
-}
-
-impl Mapping {
-    pub(crate) fn joints(&self, a: &[f64]) -> Vec<f64> {
-        let both = self.signs.iter().zip(&self.offsets);
-        both.zip(a).map(|((s, o), q)| s * q + o).collect()
-    }
-}
+/// The tool in the base for commands in m and rad.
+type Forward<'a> = dyn Fn(&[f64]) -> Option<Pose> + 'a;
 
 /// The question: two sides, the kinds of their joints, postures of `a`, and the length that makes
 /// angles comparable.
 pub(crate) struct Fit<'a> {
-    pub(crate) a: Side<'a>,
-    pub(crate) b: Side<'a>,
+    pub(crate) a: &'a Forward<'a>,
+    pub(crate) b: &'a Forward<'a>,
     pub(crate) kinds: &'a [MotionKind],
     pub(crate) postures: &'a [Vec<f64>],
     /// Tool of `a` at those postures.
@@ -69,7 +46,7 @@ impl Fit<'_> {
                 offsets: vec![0.0; count],
                 base: Pose::identity(),
                 tool: Pose::identity(),
-                left: (f64::INFINITY, f64::INFINITY),
+                largest_difference: (f64::INFINITY, f64::INFINITY),
             });
             if let Some(size) = self.size(&start) {
                 rough.push((size, start));
@@ -81,7 +58,7 @@ impl Fit<'_> {
         let mut others: Vec<Mapping> = Vec::new();
         let mut same: Vec<Mapping> = Vec::new();
         for (_, start) in rough.into_iter().take(kept) {
-            let found = match self.with_left(start.clone()) {
+            let found = match self.with_difference(start.clone()) {
                 Some(exact) if self.is_same(&exact) => Some(exact),
                 _ => self.refined(start),
             };
@@ -95,7 +72,7 @@ impl Fit<'_> {
             }
         }
         let plain = same.into_iter().map(|m| self.plainest(m));
-        if let Some(plain) = plain.min_by_key(changes) {
+        if let Some(plain) = plain.min_by_key(Mapping::changes) {
             return Some(plain);
         }
         // Of those that miss by about the same, the one that reverses least.
@@ -114,7 +91,9 @@ impl Fit<'_> {
     }
 
     fn rank(&self, m: &Mapping) -> f64 {
-        m.left.0.max(self.length * m.left.1)
+        m.largest_difference
+            .0
+            .max(self.length * m.largest_difference.1)
     }
 
     /// The same mapping with as few frames moved as possible: what the first joint does to the base,
@@ -123,9 +102,9 @@ impl Fit<'_> {
         let last = full.offsets.len() - 1;
         let zero = vec![0.0; last + 1];
         let (Some(a), Some(b), Some(there)) = (
-            self.axes(&self.a, &zero),
-            self.axes(&self.b, &full.offsets),
-            (self.b.forward)(&full.offsets),
+            self.axes(self.a, &zero),
+            self.axes(self.b, &full.offsets),
+            (self.b)(&full.offsets),
         ) else {
             return full;
         };
@@ -150,12 +129,12 @@ impl Fit<'_> {
         by_both.tool = Pose::identity();
         let tried = [by_both, by_first, by_last];
         let fits = tried.into_iter().filter_map(|m| {
-            let m = self.with_left(self.reduced(m))?;
+            let m = self.with_difference(self.reduced(m))?;
             self.is_same(&m).then_some(m)
         });
         let full = self.reduced(full);
-        match fits.min_by_key(changes) {
-            Some(plain) if changes(&plain) < changes(&full) => plain,
+        match fits.min_by_key(Mapping::changes) {
+            Some(plain) if plain.changes() < full.changes() => plain,
             _ => full,
         }
     }
@@ -171,10 +150,10 @@ impl Fit<'_> {
     }
 
     /// Differences over all postures, balanced.
-    fn miss(&self, m: &Mapping) -> Option<DVector<f64>> {
+    fn residual(&self, m: &Mapping) -> Option<DVector<f64>> {
         let mut all = Vec::with_capacity(6 * self.postures.len());
         for (q, a) in self.postures.iter().zip(&self.targets) {
-            let b = m.base * (self.b.forward)(&m.joints(q))? * m.tool;
+            let b = m.base * (self.b)(&m.joints(q))? * m.tool;
             let gap = pose_residual(a, &b);
             all.extend(gap.linear().iter());
             all.extend(gap.angular().iter().map(|x| self.length * x));
@@ -183,27 +162,27 @@ impl Fit<'_> {
     }
 
     fn size(&self, m: &Mapping) -> Option<f64> {
-        self.miss(m).map(|v| v.norm())
+        self.residual(m).map(|v| v.norm())
     }
 
-    fn with_left(&self, mut m: Mapping) -> Option<Mapping> {
-        let miss = self.miss(&m)?;
+    fn with_difference(&self, mut m: Mapping) -> Option<Mapping> {
+        let residual = self.residual(&m)?;
         let mut left = (0.0_f64, 0.0_f64);
-        for gap in miss.as_slice().chunks(6) {
+        for gap in residual.as_slice().chunks(6) {
             let size = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
             left.0 = left.0.max(size(&gap[..3]));
             left.1 = left.1.max(size(&gap[3..]) / self.length);
         }
-        m.left = left;
+        m.largest_difference = left;
         Some(m)
     }
 
     /// Least squares by Gauss and Newton with damping.
     fn refined(&self, mut at: Mapping) -> Option<Mapping> {
-        let mut miss = self.miss(&at)?;
+        let mut residual = self.residual(&at)?;
         let mut damping = 1e-6;
         for _ in 0..if self.quick { 40 } else { 8 } {
-            let before = miss.norm();
+            let before = residual.norm();
             if before < 1e-13 * self.length {
                 break;
             }
@@ -211,8 +190,8 @@ impl Fit<'_> {
             let h = 1e-6;
             let mut columns = Vec::with_capacity(count);
             for k in 0..count {
-                let up = self.miss(&self.changed(&at, k, h))?;
-                let down = self.miss(&self.changed(&at, k, -h))?;
+                let up = self.residual(&self.changed(&at, k, h))?;
+                let down = self.residual(&self.changed(&at, k, -h))?;
                 columns.push((up - down) / (2.0 * h));
             }
             if columns.is_empty() {
@@ -220,7 +199,7 @@ impl Fit<'_> {
             }
             let jacobian = DMatrix::from_columns(&columns);
             let normal = jacobian.transpose() * &jacobian;
-            let gradient = jacobian.transpose() * &miss;
+            let gradient = jacobian.transpose() * &residual;
             let scale = normal.diagonal().max().max(f64::MIN_POSITIVE);
             let mut better = false;
             for _ in 0..12 {
@@ -236,9 +215,9 @@ impl Fit<'_> {
                 for k in 0..count {
                     trial = self.changed(&trial, k, -step[k]);
                 }
-                match self.miss(&trial) {
+                match self.residual(&trial) {
                     Some(next) if next.norm() < before => {
-                        (at, miss) = (trial, next);
+                        (at, residual) = (trial, next);
                         damping = (damping * 0.1).max(1e-14);
                         better = true;
                         break;
@@ -246,11 +225,11 @@ impl Fit<'_> {
                     _ => damping *= 10.0,
                 }
             }
-            if !better || miss.norm() > (1.0 - 1e-6) * before {
+            if !better || residual.norm() > (1.0 - 1e-6) * before {
                 break;
             }
         }
-        self.with_left(self.reduced(at))
+        self.with_difference(self.reduced(at))
     }
 
     /// Joints whose offsets no frame can take over.
@@ -276,15 +255,15 @@ impl Fit<'_> {
     }
 
     /// Directions and points of all joint axes at a posture, in the base.
-    fn axes(&self, side: &Side<'_>, q: &[f64]) -> Option<Vec<(Vector3<f64>, Vector3<f64>)>> {
+    fn axes(&self, forward: &Forward<'_>, q: &[f64]) -> Option<Vec<(Vector3<f64>, Vector3<f64>)>> {
         let h = 1e-5;
-        let tool = (side.forward)(q)?;
+        let tool = forward(q)?;
         (0..q.len())
             .map(|i| {
                 let at = |by: f64| {
                     let mut moved = q.to_vec();
                     moved[i] += by;
-                    (side.forward)(&moved)
+                    forward(&moved)
                 };
                 let twist = Twist(pose_residual(&at(h)?, &at(-h)?).0 / (2.0 * h));
                 let (v, w) = (twist.linear(), twist.angular());
@@ -303,15 +282,15 @@ impl Fit<'_> {
     fn laid(&self, signs: &[f64]) -> Option<Mapping> {
         let count = self.kinds.len();
         let zero = vec![0.0; count];
-        let a = self.axes(&self.a, &zero)?;
+        let a = self.axes(self.a, &zero)?;
         let mut offsets = vec![0.0; count];
-        let first = self.axes(&self.b, &offsets)?;
+        let first = self.axes(self.b, &offsets)?;
         let mut turn = UnitQuaternion::rotation_between(&(first[0].0 * signs[0]), &a[0].0)
             .unwrap_or_else(|| half_turn(&a[0].0));
         // Which rotation is still open: about this axis of `a`, by this joint (none: by the base).
         let mut open: Option<(usize, Option<usize>)> = Some((0, None));
         for j in 1..count {
-            let b = self.axes(&self.b, &offsets)?;
+            let b = self.axes(self.b, &offsets)?;
             if let Some((axis, owner)) = open {
                 let u = a[axis].0;
                 let square = |v: Vector3<f64>| v - u * u.dot(&v);
@@ -341,29 +320,29 @@ impl Fit<'_> {
             offsets,
             base: Pose::from_parts(Vector3::zeros().into(), turn),
             tool: Pose::identity(),
-            left: (f64::INFINITY, f64::INFINITY),
+            largest_difference: (f64::INFINITY, f64::INFINITY),
         };
         // The base's place from the axes, then the tool from a posture.
         mapping.base.translation.vector = self.shift(&mapping, &a)?;
         let q = self.postures.first()?;
-        let there = mapping.base * (self.b.forward)(&mapping.joints(q))?;
+        let there = mapping.base * (self.b)(&mapping.joints(q))?;
         mapping.tool = there.inverse() * self.targets.first()?;
         Some(mapping)
     }
 
     /// Translation of the base that brings the axes that turn nearest to each other.
     fn shift(&self, m: &Mapping, a: &[(Vector3<f64>, Vector3<f64>)]) -> Option<Vector3<f64>> {
-        let b = self.axes(&self.b, &m.offsets)?;
-        let mut matrix = nalgebra::Matrix3::zeros();
+        let b = self.axes(self.b, &m.offsets)?;
+        let mut matrix = Matrix3::zeros();
         let mut right = Vector3::zeros();
         for i in (0..a.len()).filter(|&i| self.kinds[i] == MotionKind::Revolute) {
             let u = a[i].0;
-            let square = nalgebra::Matrix3::identity() - u * u.transpose();
+            let square = Matrix3::identity() - u * u.transpose();
             matrix += square;
             right += square * (a[i].1 - m.base.rotation * b[i].1);
         }
-        let right = nalgebra::DVector::from_column_slice(right.as_slice());
-        let shift = kinetostat::SingularValues::of(&matrix).shortest(&right, 1e-9);
+        let right = DVector::from_column_slice(right.as_slice());
+        let shift = SingularValues::of(&matrix).shortest(&right, 1e-9);
         Some(Vector3::new(shift[0], shift[1], shift[2]))
     }
 }
@@ -376,16 +355,6 @@ fn half_turn(v: &Vector3<f64>) -> UnitQuaternion<f64> {
         Vector3::y()
     };
     UnitQuaternion::from_scaled_axis(v.cross(&helper).normalize() * std::f64::consts::PI)
-}
-
-/// Fewer reversed joints, moved zeros and frames are plainer.
-fn changes(m: &Mapping) -> usize {
-    let frame =
-        |p: &Pose| usize::from(p.translation.vector.norm() > 1e-7 || p.rotation.angle() > 1e-7) * 3;
-    2 * m.signs.iter().filter(|s| **s < 0.0).count()
-        + m.offsets.iter().filter(|o| o.abs() > 1e-7).count()
-        + frame(&m.base)
-        + frame(&m.tool)
 }
 
 /// All patterns of up to ten joints, the fewest reversed first; else none, one and all.

@@ -4,36 +4,27 @@
 use kinetostat::{Mechanism, MotionKind};
 use nalgebra::Vector3;
 
+use crate::reach::ReachError;
+
 /// What the search found, m.
-pub(crate) struct Found {
-    /// Farthest from the base's origin.
-    pub(crate) from_base: f64,
-    /// Smallest and largest coordinates of the tool's origin.
-    pub(crate) span: [Vector3<f64>; 2],
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CommandReach {
+    /// Farthest that the tool's origin gets from the base's origin.
+    pub from_base: f64,
+    /// Smallest and largest coordinates of the tool's origin, base axes.
+    pub span: [Vector3<f64>; 2],
 }
 
 /// Most postures that are solved.
 const MOST: usize = 400;
 
 /// The commands are spread over their ranges first, then the best of them are pushed on, one
-/// actuator after the other; `Err` says what is not bounded.
-pub(crate) fn search(m: &Mechanism) -> Result<Found, String> {
-    let mut ranges = Vec::new();
-    for actuator in m.limbs().iter().flat_map(|l| l.nominal.actuators()) {
-        ranges.push(match (actuator.limits, actuator.kind) {
-            (Some(limits), _) => limits,
-            (None, MotionKind::Revolute) => (
-                actuator.home - std::f64::consts::PI,
-                actuator.home + std::f64::consts::PI,
-            ),
-            (None, MotionKind::Prismatic) => {
-                return Err(format!(
-                    "not bounded: the actuator '{}' slides without limits",
-                    actuator.name
-                ));
-            }
-        });
-    }
+/// actuator after the other. An actuator that turns without limits makes one turn.
+///
+/// # Errors
+/// An actuator slides without limits, or the loops do not close at home.
+pub fn reach_by_commands(m: &Mechanism) -> Result<CommandReach, ReachError> {
+    let ranges = ranges(m)?;
     let home: Vec<f64> = m
         .limbs()
         .iter()
@@ -44,7 +35,7 @@ pub(crate) fn search(m: &Mechanism) -> Result<Found, String> {
         Some(posture.target().translation.vector)
     };
     let Some(start) = tool(&home) else {
-        return Err("not searched: the loops do not close at home".to_owned());
+        return Err(ReachError::OpenLoops);
     };
     // What is to be large: the distance, and both ways along each axis.
     let value = |goal: usize, p: &Vector3<f64>| match goal {
@@ -64,20 +55,7 @@ pub(crate) fn search(m: &Mechanism) -> Result<Found, String> {
     };
     let mut solved = 0;
     for sample in 0..MOST / 4 {
-        let commands: Vec<f64> = ranges
-            .iter()
-            .enumerate()
-            .map(|(k, (low, high))| {
-                // A third of them on the limits, where the extremes mostly are.
-                let share = ((sample + 1) as f64 * (2.0 + k as f64).sqrt()).fract();
-                let share = match sample % 3 {
-                    0 => share.round(),
-                    _ => share,
-                };
-                low + share * (high - low)
-            })
-            .collect();
-        look(&commands, &mut best);
+        look(&spread(&ranges, sample), &mut best);
         solved += 1;
     }
     let mut step = 0.25;
@@ -99,11 +77,43 @@ pub(crate) fn search(m: &Mechanism) -> Result<Found, String> {
         step *= 0.5;
     }
     let end = |goal: usize| value(goal, &best[goal].1);
-    Ok(Found {
+    Ok(CommandReach {
         from_base: end(0),
         span: [
             Vector3::new(-end(2), -end(4), -end(6)),
             Vector3::new(end(1), end(3), end(5)),
         ],
     })
+}
+
+/// Ranges of all commands, m or rad.
+fn ranges(m: &Mechanism) -> Result<Vec<(f64, f64)>, ReachError> {
+    let turn = std::f64::consts::PI;
+    let actuators = m.limbs().iter().flat_map(|l| l.nominal.actuators());
+    actuators
+        .map(|actuator| match (actuator.limits, actuator.kind) {
+            (Some(limits), _) => Ok(limits),
+            (None, MotionKind::Revolute) => Ok((actuator.home - turn, actuator.home + turn)),
+            (None, MotionKind::Prismatic) => Err(ReachError::UnlimitedActuator {
+                actuator: actuator.name.clone(),
+            }),
+        })
+        .collect()
+}
+
+/// Commands spread over their ranges.
+fn spread(ranges: &[(f64, f64)], sample: usize) -> Vec<f64> {
+    ranges
+        .iter()
+        .enumerate()
+        .map(|(k, (low, high))| {
+            // A third of them on the limits, where the extremes mostly are.
+            let share = ((sample + 1) as f64 * (2.0 + k as f64).sqrt()).fract();
+            let share = match sample % 3 {
+                0 => share.round(),
+                _ => share,
+            };
+            low + share * (high - low)
+        })
+        .collect()
 }

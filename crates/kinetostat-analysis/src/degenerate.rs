@@ -1,11 +1,12 @@
 //! Equilibria at a limit, locked, or free to move.
 
 use kinetostat::{
-    ChainProblem, FoundEquilibrium, Kinematics, Prescribed, shape_criterion, turn_matrix,
+    ChainProblem, FoundEquilibrium, Kinematics, Prescribed, SingularValues, shape_criterion,
+    turn_matrix,
 };
 use nalgebra::DMatrix;
 
-use crate::end_condition::chain::SerialChain;
+use crate::serial_chain::SerialChain;
 
 /// Whether an equilibrium is at a limit, locked, or one of a family that moves for nothing.
 ///
@@ -13,7 +14,8 @@ use crate::end_condition::chain::SerialChain;
 /// where a chain is nearly stretched out and its forces are large. Here the two causes are looked at
 /// apart: a held direction in which the chain is locked (its joints move the tool there 1e-4 times
 /// less than elsewhere: within 0.006 degrees of the straight line), or a motion that needs no force.
-pub(crate) fn degenerate(
+#[must_use]
+pub fn is_degenerate(
     chain: &SerialChain,
     problem: &ChainProblem<'_>,
     f: &FoundEquilibrium,
@@ -44,11 +46,11 @@ pub(crate) fn degenerate(
         .collect();
     let turn = turn_matrix(&end.axes).transpose();
     let turn = DMatrix::from_fn(held.len(), 6, |i, j| turn[(held[i], j)]);
-    let sizes = |motions: DMatrix<f64>| kinetostat::SingularValues::of(&(&turn * motions)).values;
+    let sizes = |motions: DMatrix<f64>| SingularValues::of(&(&turn * motions)).values;
     if held.is_empty() {
         return false;
     }
-    let anywhere = sizes(chain.movable());
+    let anywhere = sizes(chain.movable().basis);
     let rank = anywhere.iter().filter(|s| **s > 1e-6 * anywhere[0]).count();
     let kinematics = Kinematics::new(
         problem.chain,
