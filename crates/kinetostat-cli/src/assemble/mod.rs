@@ -17,10 +17,7 @@ use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
     let question = question(args)?;
-    let existing = match args.force_overwrite {
-        true => Existing::Replace,
-        false => Existing::Refuse,
-    };
+    let existing = Existing::forced(args.force_overwrite);
     let mut outputs = Outputs::new(existing, question.spot.inputs.clone());
     let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
     let csv = csv.transpose()?;

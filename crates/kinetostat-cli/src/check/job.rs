@@ -23,7 +23,6 @@ use crate::machine::model_warnings::{no_potential, of_model};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
-use crate::ui::screen::{self, Stream};
 use crate::ui::{json, warnings};
 
 /// What a job says, stable names with units.
@@ -89,12 +88,7 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
         with_all_others(&files, &asked, failure)
     })?;
     let text = in_words(&found);
-    if json {
-        screen::print(Stream::Err, &text)?;
-        screen::print_bytes(json::json(&found)?.as_bytes())?;
-    } else {
-        screen::print(Stream::Out, &text)?;
-    }
+    json::print_answer(&text, &found, json)?;
     match found.ends.iter().filter(|e| !e.reached).count() {
         0 => Ok(()),
         n => Err(Failure::unanswered(format!(

@@ -15,7 +15,6 @@ use crate::job::format::looks_like_a_job;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
-use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let file = Path::new(&args.model);
@@ -43,9 +42,5 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let force = force.transpose()?;
     let findings = findings(&model, source, force);
     let text = in_words(&findings, &model, force.is_some());
-    if args.json {
-        screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(json::json(&findings)?.as_bytes());
-    }
-    screen::print(Stream::Out, &text)
+    json::print_answer(&text, &findings, args.json)
 }

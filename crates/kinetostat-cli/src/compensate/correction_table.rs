@@ -24,7 +24,6 @@ use crate::program::report;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::progress::Progress;
-use crate::ui::screen::{self, Stream};
 use crate::ui::{fault_list, json, warnings};
 
 /// Result of a program corrected from a table.
@@ -166,12 +165,7 @@ pub(crate) fn from_map(
     let mut text = words(&result);
     text.push_str(&warnings::warnings(&result.warnings));
     text.push_str(&output::written(&paths));
-    if to_screen {
-        screen::print(Stream::Err, &text)?;
-        screen::print_bytes(json::json(&result)?.as_bytes())?;
-    } else {
-        screen::print(Stream::Out, &text)?;
-    }
+    json::print_answer(&text, &result, to_screen)?;
     report::judged(&result.tolerance, result.program)
 }
 

@@ -53,11 +53,7 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
         .map(|path| JobFile::read(files, path))
         .transpose()?;
     let mut setting = setting(files, job.as_ref(), &args.run.program, &flags(args))?;
-    let existing = if args.run.program.force_overwrite {
-        Existing::Replace
-    } else {
-        Existing::Refuse
-    };
+    let existing = Existing::forced(args.run.program.force_overwrite);
     if args.no_compensation {
         return copy(&setting, existing);
     }

@@ -6,10 +6,11 @@ use kinetostat::{
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::curve::answer::{
-    BranchAnswer, CurveAnswer, Found, JumpAnswer, NamedPoint, PointAnswer, Units, grows, letter,
+    BranchAnswer, CurveAnswer, JumpAnswer, NamedPoint, PointAnswer, Units, grows, letter, reached,
 };
 use crate::curve::arguments::CurveArgs;
 use crate::curve::query::{Measure, Question};
+use crate::curve::state::Found;
 use crate::end_condition::loads::refuse_nodes;
 use crate::end_condition::machine::Machine;
 use crate::place::query::PlaceAsked;
@@ -97,9 +98,7 @@ pub(crate) fn solve(
         subject: q.holding.subject,
         units: Units::of(q),
         asked: (q.shown(q.range.0), q.shown(q.range.1)),
-        reached: own.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        }),
+        reached: reached(own),
     })
 }
 

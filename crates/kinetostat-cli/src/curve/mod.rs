@@ -3,10 +3,14 @@
 
 mod answer;
 pub(crate) mod arguments;
+mod chain;
+mod chain_points;
+mod critical;
 mod csv;
 mod machine;
 mod plot;
 mod query;
+mod state;
 mod text;
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
@@ -34,7 +38,7 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
             let chain = with_loads(serial_chain(spot)?, &args.end)?;
             let q = question(&moves_of(&chain), Some(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
-                answer::solve(&chain, &q, place, names, stage).map(|a| a.judged(length))
+                chain::solve(&chain, &q, place, names, stage).map(|a| a.judged(length))
             }))
         } else {
             machine::refuse(args)?;

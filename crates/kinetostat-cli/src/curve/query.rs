@@ -145,51 +145,8 @@ pub(crate) fn question(
         question.force_limits = Some(ends("--force-limits", limits)?);
     }
     match (&args.direction, &args.about, &args.factor) {
-        (Some(direction), None, None) => {
-            let range = args.displacement_mm.as_ref().ok_or_else(|| {
-                Failure::input(
-                    "how far? --direction needs --displacement-mm FROM TO, as in --displacement-mm 0 20",
-                )
-            })?;
-            let (low, high) = ends("--displacement-mm", range)?;
-            question.range = (1e-3 * low, 1e-3 * high);
-            question.measure = Measure::Force(1.0);
-            let driven = Driven {
-                axis: unit("--direction", direction)?,
-                turns: false,
-            };
-            question.words = format!(
-                "The tool is pushed along {} from {} to {} mm; the force is what pushes it that way.",
-                axis_in_words(&driven.axis),
-                short(low),
-                short(high)
-            );
-            question.driven = Some(driven);
-        }
-        (None, Some(about), None) => {
-            let range = args.turn_deg.as_ref().ok_or_else(|| {
-                Failure::input("how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5")
-            })?;
-            let (low, high) = ends("--turn-deg", range)?;
-            if low < -180.0 || high > 180.0 {
-                return Err(Failure::input(
-                    "--turn-deg: the tool can be turned by -180 to 180 degrees",
-                ));
-            }
-            question.range = (low.to_radians(), high.to_radians());
-            question.measure = Measure::Moment(1.0);
-            let driven = Driven {
-                axis: unit("--about", about)?,
-                turns: true,
-            };
-            question.words = format!(
-                "The tool is turned about {} from {} to {} deg; the moment is what turns it that way.",
-                axis_in_words(&driven.axis),
-                short(low),
-                short(high)
-            );
-            question.driven = Some(driven);
-        }
+        (Some(direction), None, None) => pushed(&mut question, direction, args)?,
+        (None, Some(about), None) => turned(&mut question, about, args)?,
         (None, None, Some(range)) => question.range = ends("--factor", range)?,
         _ => {
             return Err(Failure::input(
@@ -214,6 +171,57 @@ pub(crate) fn question(
     question.words.push_str(&question.holding.in_words());
     question.words.push_str(&constant_in_words(&args.end));
     Ok(question)
+}
+
+/// The tool is pushed along a direction.
+fn pushed(question: &mut Question, direction: &[f64], args: &CurveArgs) -> Answer<()> {
+    let range = args.displacement_mm.as_ref().ok_or_else(|| {
+        Failure::input(
+            "how far? --direction needs --displacement-mm FROM TO, as in --displacement-mm 0 20",
+        )
+    })?;
+    let (low, high) = ends("--displacement-mm", range)?;
+    question.range = (1e-3 * low, 1e-3 * high);
+    question.measure = Measure::Force(1.0);
+    let driven = Driven {
+        axis: unit("--direction", direction)?,
+        turns: false,
+    };
+    question.words = format!(
+        "The tool is pushed along {} from {} to {} mm; the force is what pushes it that way.",
+        axis_in_words(&driven.axis),
+        short(low),
+        short(high)
+    );
+    question.driven = Some(driven);
+    Ok(())
+}
+
+/// The tool is turned about a direction.
+fn turned(question: &mut Question, about: &[f64], args: &CurveArgs) -> Answer<()> {
+    let range = args.turn_deg.as_ref().ok_or_else(|| {
+        Failure::input("how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5")
+    })?;
+    let (low, high) = ends("--turn-deg", range)?;
+    if low < -180.0 || high > 180.0 {
+        return Err(Failure::input(
+            "--turn-deg: the tool can be turned by -180 to 180 degrees",
+        ));
+    }
+    question.range = (low.to_radians(), high.to_radians());
+    question.measure = Measure::Moment(1.0);
+    let driven = Driven {
+        axis: unit("--about", about)?,
+        turns: true,
+    };
+    question.words = format!(
+        "The tool is turned about {} from {} to {} deg; the moment is what turns it that way.",
+        axis_in_words(&driven.axis),
+        short(low),
+        short(high)
+    );
+    question.driven = Some(driven);
+    Ok(())
 }
 
 /// The growing load of the options.

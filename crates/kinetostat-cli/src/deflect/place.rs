@@ -6,15 +6,13 @@ use kinetostat::Wrench;
 
 use crate::deflect::answer::answer;
 use crate::deflect::arguments::DeflectArgs;
-use crate::deflect::program::existing;
 use crate::deflect::text::in_words;
 use crate::files::input::Files;
-use crate::files::output::{self, Outputs};
+use crate::files::output::{self, Existing, Outputs};
 use crate::machine::displacement_warnings::snaps;
 use crate::place::query::spot;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
-use crate::ui::screen::{self, Stream};
 
 /// Why nothing is told of a place where the machine's own loads find no equilibrium.
 fn without_load(error: kinetostat::Error) -> Failure {
@@ -54,16 +52,16 @@ pub(crate) fn at_place(args: &DeflectArgs) -> Answer<()> {
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     let mut paths = Vec::new();
     if let Some(path) = args.json.as_deref().filter(|_| !to_screen) {
-        let mut outputs = Outputs::new(existing(args), spot.inputs.clone());
+        let mut outputs = Outputs::new(
+            Existing::forced(args.program.force_overwrite),
+            spot.inputs.clone(),
+        );
         let index = outputs.claim("result", path)?;
         outputs.fill(index, json::json(&answer)?.as_bytes())?;
         paths = outputs.commit()?;
     }
-    if to_screen {
-        screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(json::json(&answer)?.as_bytes());
-    }
-    screen::print(Stream::Out, &format!("{text}{}", output::written(&paths)))
+    let text = format!("{text}{}", output::written(&paths));
+    json::print_answer(&text, &answer, to_screen)
 }
 
 /// Options that say something about a program are not dropped silently.

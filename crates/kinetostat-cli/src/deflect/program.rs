@@ -33,7 +33,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     chosen.report.clone_from(&args.program.report);
     chosen.points.clone_from(&args.program.points);
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
-    let existing = existing(args);
+    let existing = Existing::forced(args.program.force_overwrite);
     let (machine, model) = machine(
         &files,
         job.as_ref(),
@@ -60,12 +60,4 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     );
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     tell(&text, to_screen.then_some(&run.result))
-}
-
-pub(crate) fn existing(args: &DeflectArgs) -> Existing {
-    if args.program.force_overwrite {
-        Existing::Replace
-    } else {
-        Existing::Refuse
-    }
 }

@@ -14,7 +14,6 @@ use crate::place::query::{PlaceAsked, Spot, spot};
 use crate::ui::background::{Stage, interruptible};
 use crate::ui::failure::Answer;
 use crate::ui::json;
-use crate::ui::screen::{self, Stream};
 
 /// What `curve` and `equilibria` are asked alike.
 pub(crate) struct Asked<'a> {
@@ -80,11 +79,7 @@ struct Targets {
 impl Targets {
     /// Claims every target before the long work begins.
     fn claim(args: &CurveOutputs, inputs: &[std::path::PathBuf]) -> Answer<Self> {
-        let existing = if args.force_overwrite {
-            Existing::Replace
-        } else {
-            Existing::Refuse
-        };
+        let existing = Existing::forced(args.force_overwrite);
         let mut outputs = Outputs::new(existing, inputs.to_vec());
         let to_screen = args.json.as_deref() == Some(Path::new("-"));
         let mut claim =
@@ -112,10 +107,6 @@ impl Targets {
         }
         let paths = self.outputs.commit()?;
         let text = format!("{}{}", shown.text, output::written(&paths));
-        if self.to_screen {
-            screen::print(Stream::Err, &text)?;
-            return screen::print_bytes(json::json(answer)?.as_bytes());
-        }
-        screen::print(Stream::Out, &text)
+        json::print_answer(&text, answer, self.to_screen)
     }
 }

@@ -27,6 +27,16 @@ pub(crate) enum Existing {
     KeepSame,
 }
 
+impl Existing {
+    /// What an option `--force-overwrite` says.
+    pub(crate) fn forced(force_overwrite: bool) -> Self {
+        match force_overwrite {
+            true => Self::Replace,
+            false => Self::Refuse,
+        }
+    }
+}
+
 /// A target that has been found writable, with its temporary file.
 struct Claimed {
     what: &'static str,

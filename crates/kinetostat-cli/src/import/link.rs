@@ -404,10 +404,7 @@ fn finish(
     };
     let assumption = (!told.assumption.is_empty()).then(|| told.assumption.join("; "));
     let toml = stiffness_table(&name, stiffness, source, assumption.as_deref());
-    let existing = match table.force_overwrite {
-        true => Existing::Replace,
-        false => Existing::Refuse,
-    };
+    let existing = Existing::forced(table.force_overwrite);
     let mut outputs = Outputs::new(existing, inputs);
     if let Some(path) = &table.out {
         let index = outputs.claim("table", path)?;

@@ -60,10 +60,7 @@ pub(crate) fn urdf(args: &UrdfArgs) -> Answer<()> {
     inputs.extend(args.link_section.clone());
     let text = read_text("URDF file", &args.file)?;
     let options = options(args, &mut inputs)?;
-    let existing = match args.force_overwrite {
-        true => Existing::Replace,
-        false => Existing::Refuse,
-    };
+    let existing = Existing::forced(args.force_overwrite);
     let mut outputs = Outputs::new(existing, inputs);
     let claimed = match &args.out {
         Some(path) => Some(outputs.claim("model file", path)?),

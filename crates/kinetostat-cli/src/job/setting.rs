@@ -41,25 +41,64 @@ pub(crate) fn setting(
     writing: &WritingFlags<'_>,
 ) -> Answer<Setting> {
     let mut inputs: Vec<PathBuf> = job.iter().map(|j| j.path.clone()).collect();
-    let path = match (&flags.program, job.and_then(|j| j.job.program.as_ref())) {
-        (Some(path), _) => path.clone(),
-        (None, Some(written)) => job
-            .map(JobFile::base)
-            .unwrap_or_default()
-            .join(written.get_ref()),
-        (None, None) => {
-            return Err(Failure::input(match job {
-                Some(j) => format!(
-                    "the job file '{}' names no program; write  program = \"part.ngc\"  at its top, or give --program FILE",
-                    j.path.display()
-                ),
-                None => "no program is named; give a job file, or --program FILE".to_owned(),
-            }));
-        }
-    };
+    let path = program_path(job, flags)?;
     inputs.push(path.clone());
     let reading = reading(job, flags)?;
     let limits = limits(job, &flags.limits)?;
+    let (mut write, stated) = tolerances(job, flags, writing)?;
+    let header = job.and_then(|j| j.job.output.header).unwrap_or(true);
+    write.header = (header && !writing.no_header).then(Vec::new);
+    let max_blocks_per_second = chosen(
+        job,
+        ("--max-blocks-per-second", writing.max_blocks_per_second),
+        job.and_then(|j| j.job.tolerances.max_blocks_per_second.as_ref()),
+        above_zero,
+    )?;
+    let program_name = path.file_name().map_or_else(
+        || path.display().to_string(),
+        |n| n.to_string_lossy().into_owned(),
+    );
+    let targets = targets(job, flags, writing, &path)?;
+    // The last, so that nothing else is hidden by a program that is not there.
+    let program = files.bytes("program", &path)?;
+    Ok(Setting {
+        program_file: origin::file("program", &path, &program),
+        job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
+        program,
+        program_name,
+        reading,
+        writing: write,
+        max_blocks_per_second,
+        limits,
+        stated,
+        targets,
+        inputs,
+    })
+}
+
+fn program_path(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<PathBuf> {
+    match (&flags.program, job.and_then(|j| j.job.program.as_ref())) {
+        (Some(path), _) => Ok(path.clone()),
+        (None, Some(written)) => Ok(job
+            .map(JobFile::base)
+            .unwrap_or_default()
+            .join(written.get_ref())),
+        (None, None) => Err(Failure::input(match job {
+            Some(j) => format!(
+                "the job file '{}' names no program; write  program = \"part.ngc\"  at its top, or give --program FILE",
+                j.path.display()
+            ),
+            None => "no program is named; give a job file, or --program FILE".to_owned(),
+        })),
+    }
+}
+
+/// How the program is written, and whether the tolerances of path and chords were stated.
+fn tolerances(
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    writing: &WritingFlags<'_>,
+) -> Answer<(WriteOptions, [bool; 2])> {
     let tolerances = job.map(|j| j.job.tolerances.clone()).unwrap_or_default();
     let mut write = WriteOptions {
         again: writing.again,
@@ -110,32 +149,5 @@ pub(crate) fn setting(
             }
         },
     )?;
-    let header = job.and_then(|j| j.job.output.header).unwrap_or(true);
-    write.header = (header && !writing.no_header).then(Vec::new);
-    let max_blocks_per_second = chosen(
-        job,
-        ("--max-blocks-per-second", writing.max_blocks_per_second),
-        tolerances.max_blocks_per_second.as_ref(),
-        above_zero,
-    )?;
-    let program_name = path.file_name().map_or_else(
-        || path.display().to_string(),
-        |n| n.to_string_lossy().into_owned(),
-    );
-    let targets = targets(job, flags, writing, &path)?;
-    // The last, so that nothing else is hidden by a program that is not there.
-    let program = files.bytes("program", &path)?;
-    Ok(Setting {
-        program_file: origin::file("program", &path, &program),
-        job_file: job.map(|j| origin::file("job", &j.path, j.text.as_bytes())),
-        program,
-        program_name,
-        reading,
-        writing: write,
-        max_blocks_per_second,
-        limits,
-        stated: [path_mm.is_some(), chord_mm.is_some()],
-        targets,
-        inputs,
-    })
+    Ok((write, [path_mm.is_some(), chord_mm.is_some()]))
 }

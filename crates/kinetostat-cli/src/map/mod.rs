@@ -22,7 +22,6 @@ use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{load_triple, short};
 use crate::ui::progress::Progress;
-use crate::ui::screen::{self, Stream};
 use crate::ui::{json, threads};
 
 pub(crate) fn run(args: &MapArgs) -> Answer<()> {
@@ -56,10 +55,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         orientation_follows: follows,
         load,
     };
-    let existing = match args.force_overwrite {
-        true => Existing::Replace,
-        false => Existing::Refuse,
-    };
+    let existing = Existing::forced(args.force_overwrite);
     let mut outputs = Outputs::new(existing, path.iter().cloned().collect());
     let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
     let csv = csv.transpose()?;
@@ -67,21 +63,8 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let plot = plot.transpose()?;
     let work = || solve(&task, &mut outputs, csv, picture);
     let (figures, picture) = threads::in_threads(args.threads, work)??;
-    if figures.places.with_figures() == 0 {
-        let p = &figures.places;
-        if p.no_answer > 0 {
-            return Err(no_equilibrium(&task, p));
-        }
-        return Err(Failure::unanswered(format!(
-            "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
-            match p.asked {
-                1 => "cannot be put at the place".to_owned(),
-                n => format!("can be put at none of the {n} places"),
-            },
-            orientation::in_words(&rotation),
-            p.unreachable,
-            p.outside_limits
-        )));
+    if let Some(failure) = without_figures(&task, &figures.places) {
+        return Err(failure);
     }
     let mut warnings: Vec<Warning> = of_model(&model).collect();
     warnings.extend(no_potential(&model.mechanism));
@@ -119,11 +102,27 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let paths = outputs.commit()?;
     let text = text::in_words(&answer, &rotation);
     let text = format!("{text}{}", output::written(&paths));
-    if args.json {
-        screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(json::json(&answer)?.as_bytes());
+    json::print_answer(&text, &answer, args.json)
+}
+
+/// Why there is nothing to show, if no place has figures.
+fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Failure> {
+    if places.with_figures() > 0 {
+        return None;
     }
-    screen::print(Stream::Out, &text)
+    if places.no_answer > 0 {
+        return Some(no_equilibrium(task, places));
+    }
+    Some(Failure::unanswered(format!(
+        "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
+        match places.asked {
+            1 => "cannot be put at the place".to_owned(),
+            n => format!("can be put at none of the {n} places"),
+        },
+        orientation::in_words(&task.orientation),
+        places.unreachable,
+        places.outside_limits
+    )))
 }
 
 /// No place has an answer, and places are within reach: the load is the reason.

@@ -15,7 +15,6 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::{self, columns, item, wrapped};
 use crate::ui::numbers::{fixed, number, short, triple};
-use crate::ui::screen::{self, Stream};
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -92,11 +91,7 @@ pub(crate) fn run(a: &str, b: &str, json: bool) -> Answer<()> {
     let (one, other) = (read(a)?, read(b)?);
     let answer = compare(&one, &other, a, b)?;
     let text = in_words(&answer);
-    if json {
-        screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(json::json(&answer)?.as_bytes());
-    }
-    screen::print(Stream::Out, &text)
+    json::print_answer(&text, &answer, json)
 }
 
 fn compare(one: &Model, other: &Model, a: &str, b: &str) -> Answer<Comparison> {

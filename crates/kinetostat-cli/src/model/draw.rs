@@ -96,11 +96,7 @@ pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
         args.force.as_deref(),
         args.moment.as_deref(),
     )?;
-    let existing = if args.force_overwrite {
-        Existing::Replace
-    } else {
-        Existing::Refuse
-    };
+    let existing = Existing::forced(args.force_overwrite);
     let mut outputs = Outputs::new(existing, spot.inputs.clone());
     let target = args.out.as_deref();
     let target = target

@@ -3,7 +3,7 @@
 use kinetostat_machining::{RunResult, ToleranceVerdict};
 
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::json::json;
+use crate::ui::json::print_answer;
 use crate::ui::screen::{self, Stream};
 
 /// A written program that misses its tolerance has an exit code of its own; files are in place.
@@ -17,10 +17,7 @@ pub(crate) fn judged(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> 
 /// Where the text for people goes, and the JSON on the standard output if it is wanted there.
 pub(crate) fn tell(text: &str, result: Option<&RunResult>) -> Answer<()> {
     match result {
-        Some(result) => {
-            screen::print(Stream::Err, text)?;
-            screen::print_bytes(json(result)?.as_bytes())
-        }
+        Some(result) => print_answer(text, result, true),
         None => screen::print(Stream::Out, text),
     }
 }

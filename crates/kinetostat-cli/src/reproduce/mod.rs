@@ -15,7 +15,6 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::wrapped;
 use crate::ui::progress::Progress;
-use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
     if let Some(id) = &args.id
@@ -23,11 +22,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
     {
         return Err(unknown(id));
     }
-    let existing = if args.force_overwrite {
-        Existing::Replace
-    } else {
-        Existing::Refuse
-    };
+    let existing = Existing::forced(args.force_overwrite);
     let mut outputs = Outputs::new(existing, Vec::new());
     let page = match &args.html {
         Some(path) => Some(outputs.claim("page", path)?),
@@ -47,11 +42,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
     for path in &written {
         text.push_str(&format!("\nPage with the figures: {}\n", path.display()));
     }
-    if args.json {
-        screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(json::json(&entries)?.as_bytes());
-    }
-    screen::print(Stream::Out, &text)
+    json::print_answer(&text, &entries, args.json)
 }
 
 pub(crate) fn computed(id: Option<&str>) -> Answer<Vec<Entry>> {

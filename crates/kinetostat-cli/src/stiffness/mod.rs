@@ -13,7 +13,6 @@ use crate::stiffness::arguments::StiffnessArgs;
 use crate::stiffness::text::in_words;
 use crate::ui::failure::Answer;
 use crate::ui::json;
-use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
     let spot = spot(
@@ -57,9 +56,5 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         answer
     };
     let text = in_words(&spot, &answer);
-    if args.json {
-        screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(json::json(&answer)?.as_bytes());
-    }
-    screen::print(Stream::Out, &text)
+    json::print_answer(&text, &answer, args.json)
 }

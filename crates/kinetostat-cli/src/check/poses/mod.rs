@@ -16,7 +16,6 @@ use crate::check::poses::text::in_words;
 use crate::files::input::Files;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
-use crate::ui::screen::{self, Stream};
 
 /// The model and where it came from, for one file of poses.
 pub(crate) fn run(
@@ -39,9 +38,5 @@ pub(crate) fn run(
     };
     let answer = compare(model, source, file, &names, &rows, tolerance, tolerance_mm)?;
     let text = in_words(&answer);
-    if json {
-        screen::print(Stream::Err, &text)?;
-        return screen::print_bytes(json::json(&answer)?.as_bytes());
-    }
-    screen::print(Stream::Out, &text)
+    json::print_answer(&text, &answer, json)
 }

@@ -22,6 +22,13 @@ pub(crate) fn in_words(a: &PoseComparison) -> String {
         0,
     );
     out.push('\n');
+    out.push_str(&table(a));
+    out.push('\n');
+    out.push_str(&verdict(a));
+    out
+}
+
+fn table(a: &PoseComparison) -> String {
     let mut rows = vec![
         [
             "pose",
@@ -43,20 +50,23 @@ pub(crate) fn in_words(a: &PoseComparison) -> String {
                 .map_or_else(|| "-".to_owned(), |x| fixed(x, 3)),
         ]);
     }
-    out.push_str(&columns(&rows, 2));
-    out.push('\n');
+    columns(&rows, 2)
+}
+
+/// Whether the model agrees, and what explains it if not.
+fn verdict(a: &PoseComparison) -> String {
     let within = format!(
         "{} mm and {} deg",
         joints::plain(a.tolerance_mm),
         joints::plain(a.tolerance_deg)
     );
     if a.agrees {
-        out.push_str(&wrapped(
+        return wrapped(
             &format!("The model agrees with all of them within {within}."),
             0,
-        ));
-        return out;
+        );
     }
+    let mut out = String::new();
     match a.explanations.as_slice() {
         [] => {
             out.push_str(&wrapped(
