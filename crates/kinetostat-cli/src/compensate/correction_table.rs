@@ -69,17 +69,7 @@ pub(crate) fn from_map(
             "--map writes no --report and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
         ));
     }
-    let bytes = files.bytes("map", map)?;
-    let field = CorrectionMap::read(&bytes).map_err(|first| {
-        let all = CorrectionMap::faults(&bytes, FAULTS_OF_A_TABLE);
-        let places = match all.len() {
-            FAULTS_OF_A_TABLE => "or more places of the table",
-            _ => "places of the table",
-        };
-        let message =
-            fault_list::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
-        Failure::input(message).within(&map.display().to_string())
-    })?;
+    let field = read_table(files, map)?;
     let (program, path) = program::read_program(setting)?;
     let mut inputs = setting.inputs.clone();
     inputs.push(map.to_owned());
@@ -118,26 +108,13 @@ pub(crate) fn from_map(
     let check =
         verify_written(&program, &path, written, &setting.reading, &writing).map_err(refuse)?;
     progress.finish();
-    let mut warnings = of_program(&path, Some(&a.warnings));
     let unchanged = written.bytes == program.bytes();
     let farthest = match unchanged {
         true => &against.before,
         false => &against.after,
     };
     let tolerance = of_table(farthest, against.allowed_mm, a);
-    let (largest_mm, largest_line) = made.largest_correction;
-    let odd = odd_correction(
-        &setting.limits,
-        largest_mm,
-        largest_line,
-        writing.tolerance_mm,
-    );
-    // What was left out was to be corrected all the same.
-    let nothing_left_out =
-        |w: &Warning| tolerance.held == Some(true) || w.code != WarningCode::SmallCorrection;
-    warnings.extend(odd.filter(nothing_left_out));
-    warnings.extend(wide_table(&path, &field));
-    warnings.extend(odd_tolerances(&writing));
+    let warnings = warnings_of(setting, &path, &field, &made, &tolerance, &writing);
     let result = MapResult {
         schema: RESULT_SCHEMA,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -167,6 +144,46 @@ pub(crate) fn from_map(
     text.push_str(&output::written(&paths));
     json::print_answer(&text, &result, to_screen)?;
     report::judged(&result.tolerance, result.program)
+}
+
+/// The table of corrections; of a faulty one all faults.
+fn read_table(files: &Files, map: &Path) -> Answer<CorrectionMap> {
+    let bytes = files.bytes("map", map)?;
+    CorrectionMap::read(&bytes).map_err(|first| {
+        let all = CorrectionMap::faults(&bytes, FAULTS_OF_A_TABLE);
+        let places = match all.len() {
+            FAULTS_OF_A_TABLE => "or more places of the table",
+            _ => "places of the table",
+        };
+        let message =
+            fault_list::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
+        Failure::input(message).within(&map.display().to_string())
+    })
+}
+
+fn warnings_of(
+    setting: &Setting,
+    path: &ToolPath,
+    field: &CorrectionMap,
+    made: &Made,
+    tolerance: &ToleranceVerdict,
+    writing: &WriteOptions,
+) -> Vec<Warning> {
+    let mut warnings = of_program(path, Some(&made.written.accounting.warnings));
+    let (largest_mm, largest_line) = made.largest_correction;
+    let odd = odd_correction(
+        &setting.limits,
+        largest_mm,
+        largest_line,
+        writing.tolerance_mm,
+    );
+    // What was left out was to be corrected all the same.
+    let nothing_left_out =
+        |w: &Warning| tolerance.held == Some(true) || w.code != WarningCode::SmallCorrection;
+    warnings.extend(odd.filter(nothing_left_out));
+    warnings.extend(wide_table(path, field));
+    warnings.extend(odd_tolerances(writing));
+    warnings
 }
 
 /// A table so many times as wide as the program, and no smaller than this (mm), may have its nodes in micrometres.

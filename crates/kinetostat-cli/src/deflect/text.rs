@@ -24,6 +24,30 @@ pub(crate) fn in_words(spot: &Spot, a: &Deflection) -> String {
         2,
     ));
     out.push('\n');
+    out.push_str(&vectors(a));
+    out.push('\n');
+    out.push_str(&actuators(a));
+    out.push_str(&joints::in_words("On the pendant", &a.pendant));
+    out.push_str(&stability(a));
+    out.push_str(&links(a));
+    out.push_str(&internal(a));
+    // Newton's corrections fall faster and faster; where they do not, something is singular nearby.
+    if let Some(rate) = a.rate_observed.filter(|rate| *rate > SLOW) {
+        out.push('\n');
+        out.push_str(&wrapped(
+            &format!(
+                "The iteration ended slowly, its last correction {} of the one before: a limit of the load or a change of shape is near.",
+                number(rate, 2)
+            ),
+            2,
+        ));
+    }
+    out.push_str(&warnings::warnings(&a.warnings));
+    out
+}
+
+/// Load and displacement, component by component.
+fn vectors(a: &Deflection) -> String {
     let row = |name: &str, v: [f64; 3], decimals: usize, unit: &str| {
         let mut cells = vec![format!("{name}, {unit}")];
         let most = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -35,7 +59,7 @@ pub(crate) fn in_words(spot: &Spot, a: &Deflection) -> String {
         }));
         cells
     };
-    out.push_str(&columns(
+    columns(
         &[
             ["base axes", "x", "y", "z"].map(str::to_owned).to_vec(),
             row("force on the tool", a.force_n, 3, "N"),
@@ -44,8 +68,10 @@ pub(crate) fn in_words(spot: &Spot, a: &Deflection) -> String {
             row("rotation vector", a.rotation_vector_deg, 6, "deg"),
         ],
         2,
-    ));
-    out.push('\n');
+    )
+}
+
+fn actuators(a: &Deflection) -> String {
     let mut rows = vec![
         ["actuator", "command", "", "force", ""]
             .map(str::to_owned)
@@ -61,15 +87,44 @@ pub(crate) fn in_words(spot: &Spot, a: &Deflection) -> String {
         ]);
     }
     match a.actuators.as_slice() {
-        [] => out.push_str("The machine has no actuators.\n"),
-        _ => out.push_str(&columns(&rows, 2)),
+        [] => "The machine has no actuators.\n".to_owned(),
+        _ => columns(&rows, 2),
     }
-    out.push_str(&joints::in_words("On the pendant", &a.pendant));
-    out.push_str("\nStability\n");
+}
+
+/// Limbs, platform, and the whole with its tool free.
+fn stability(a: &Deflection) -> String {
+    let mut out = String::from("\nStability\n");
     for limb in &a.limbs {
         out.push_str(&layout::item(&limb_in_words(limb)));
     }
-    let platform = if a.platform_may_flutter {
+    out.push_str(&layout::item(&platform(a)));
+    if let Some(share) = a.free_beyond_limbs.filter(|_| a.stable) {
+        let of = match a.snapped {
+            true => "this equilibrium behind the snap, with the tool free,",
+            false => "the machine with its tool free",
+        };
+        out.push_str(&layout::item(&format!(
+            "{of} is {} % of the way to {}",
+            number(100.0 * share, 3),
+            way_to(a.conservative)
+        )));
+    }
+    for joint in &a.overcome_joints {
+        out.push_str(&layout::item(&joint.in_words()));
+    }
+    if !a.conservative {
+        out.push_str(&layout::item(&format!(
+            "not conservative: {}; where the symmetric part of the stiffness is positive, nothing goes away, whatever the masses are; beyond, something goes away for all masses where the determinant is negative or that part is negative in every motion; flutter depends on masses and damping",
+            a.not_conservative_because.join(", ")
+        )));
+    }
+    out
+}
+
+/// Whether the platform stays where it is.
+fn platform(a: &Deflection) -> String {
+    if a.platform_may_flutter {
         let ways = match a.negative_directions.as_slice() {
             [] => String::new(),
             list => format!(
@@ -101,43 +156,7 @@ pub(crate) fn in_words(spot: &Spot, a: &Deflection) -> String {
             ),
             false => "the platform stays; no force moves it".to_owned(),
         }
-    };
-    out.push_str(&layout::item(&platform));
-    if let Some(share) = a.free_beyond_limbs.filter(|_| a.stable) {
-        let of = match a.snapped {
-            true => "this equilibrium behind the snap, with the tool free,",
-            false => "the machine with its tool free",
-        };
-        out.push_str(&layout::item(&format!(
-            "{of} is {} % of the way to {}",
-            number(100.0 * share, 3),
-            way_to(a.conservative)
-        )));
     }
-    for joint in &a.overcome_joints {
-        out.push_str(&layout::item(&joint.in_words()));
-    }
-    if !a.conservative {
-        out.push_str(&layout::item(&format!(
-            "not conservative: {}; where the symmetric part of the stiffness is positive, nothing goes away, whatever the masses are; beyond, something goes away for all masses where the determinant is negative or that part is negative in every motion; flutter depends on masses and damping",
-            a.not_conservative_because.join(", ")
-        )));
-    }
-    out.push_str(&links(a));
-    out.push_str(&internal(a));
-    // Newton's corrections fall faster and faster; where they do not, something is singular nearby.
-    if let Some(rate) = a.rate_observed.filter(|rate| *rate > SLOW) {
-        out.push('\n');
-        out.push_str(&wrapped(
-            &format!(
-                "The iteration ended slowly, its last correction {} of the one before: a limit of the load or a change of shape is near.",
-                number(rate, 2)
-            ),
-            2,
-        ));
-    }
-    out.push_str(&warnings::warnings(&a.warnings));
-    out
 }
 
 /// Where a share of the way leads: without a potential only the bound is known below which all is well

@@ -25,96 +25,9 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
     )));
     out.push_str(&fights(&h.over_constraints));
     out.push_str(&redundant(h));
-    let all_rigid = h
-        .principal_directions
-        .iter()
-        .all(|p| p.kind == DirectionKind::Rigid);
-    out.push_str(&item(&match h.stiffness_rank {
-        6 if all_rigid => {
-            "rank 6: the tool is held in all directions, rigidly: the model has no springs there"
-                .to_owned()
-        }
-        6 => "rank 6: springs hold the tool in all directions".to_owned(),
-        rank => format!(
-            "rank {rank}: no spring holds the tool in {} of 6 directions (see the table below)",
-            6 - rank
-        ),
-    }));
-    out.push_str(&item(&if h.mobility > h.actuators {
-        format!(
-            "{} of these motions no actuator holds",
-            h.mobility - h.actuators
-        )
-    } else {
-        format!(
-            "the machine can correct by itself: {}",
-            match h.correctable_directions.as_slice() {
-                [] => "nothing".to_owned(),
-                list => list.join(", "),
-            }
-        )
-    }));
-    let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
-    let causes: Vec<&str> = [
-        ("its deviations", !f.deviations.is_empty()),
-        ("its own weight", f.mass_kg > 0.0),
-        (
-            "the loads on its limbs",
-            f.limbs.iter().any(|l| !l.loads.is_empty()),
-        ),
-        ("the loads on its platforms", !f.loads.is_empty()),
-        (
-            "its preloads",
-            f.limbs.iter().any(|l| !l.preloaded_springs.is_empty()),
-        ),
-    ]
-    .into_iter()
-    .filter_map(|(cause, acts)| acts.then_some(cause))
-    .collect();
-    let cause = match causes.as_slice() {
-        [] => "without load".to_owned(),
-        ["its own weight"] => "under its own weight".to_owned(),
-        ["its deviations"] => "by its deviations, without load".to_owned(),
-        causes => format!("by {}", causes.join(" and ")),
-    };
-    let moved = shift.iter().chain(&turn).any(|x| x.abs() > 1e-9);
-    if moved {
-        let mut text = format!(
-            "{cause} the tool is shifted by {} mm and turned by {} deg",
-            triple(shift, |x| fixed(x, 5)),
-            triple(turn, |x| fixed(x, 5)),
-        );
-        if f.limbs.len() > 1 {
-            text.push_str(&format!(
-                "; inside, up to {} N and {} N m act on the limbs' ends",
-                fixed(h.largest_internal_force_n, 3),
-                fixed(h.largest_internal_moment_n_m, 4),
-            ));
-        }
-        out.push_str(&item(&text));
-    } else {
-        out.push_str(&item("without load the tool is where it is commanded"));
-    }
-    out.push_str(&item(&match (h.stable, h.largest_share_to_buckling) {
-        (true, _) if h.may_flutter => {
-            "it does not go away, but may swing with growing amplitude (flutter), which depends on its masses".to_owned()
-        }
-        (true, Some(mu)) if mu.abs() > 1e-9 && h.stiffness_rank == 6 => {
-            format!(
-                "stable; largest share of the way to buckling {}",
-                formatter::share(mu)
-            )
-        }
-        (true, _) if h.stiffness_rank < 6 => format!(
-            "stable where it is held; {} of 6 directions are free",
-            6 - h.stiffness_rank
-        ),
-        (true, _) => "stable".to_owned(),
-        (false, _) if h.shapes_stable => {
-            "NOT STABLE: the limbs keep their shapes, but the tool does not stay".to_owned()
-        }
-        (false, _) => "NOT STABLE: it would jump to another shape".to_owned(),
-    }));
+    out.push_str(&held(h));
+    out.push_str(&item(&at_rest(f, h)));
+    out.push_str(&item(&stability(h)));
     for joint in &h.overcome_joints {
         out.push_str(&item(&joint.in_words()));
     }
@@ -146,6 +59,113 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
             .for_each(|p| out.push_str(&what_moves(p)));
     }
     out
+}
+
+/// What springs hold, and what the actuators can correct.
+fn held(h: &HomeFinding) -> String {
+    let mut out = String::new();
+    let all_rigid = h
+        .principal_directions
+        .iter()
+        .all(|p| p.kind == DirectionKind::Rigid);
+    out.push_str(&item(&match h.stiffness_rank {
+        6 if all_rigid => {
+            "rank 6: the tool is held in all directions, rigidly: the model has no springs there"
+                .to_owned()
+        }
+        6 => "rank 6: springs hold the tool in all directions".to_owned(),
+        rank => format!(
+            "rank {rank}: no spring holds the tool in {} of 6 directions (see the table below)",
+            6 - rank
+        ),
+    }));
+    out.push_str(&item(&if h.mobility > h.actuators {
+        format!(
+            "{} of these motions no actuator holds",
+            h.mobility - h.actuators
+        )
+    } else {
+        format!(
+            "the machine can correct by itself: {}",
+            match h.correctable_directions.as_slice() {
+                [] => "nothing".to_owned(),
+                list => list.join(", "),
+            }
+        )
+    }));
+    out
+}
+
+/// Where the tool is without a load on it.
+fn at_rest(f: &Findings, h: &HomeFinding) -> String {
+    let (shift, turn) = (h.shift_without_load_mm, h.rotation_without_load_deg);
+    let moved = shift.iter().chain(&turn).any(|x| x.abs() > 1e-9);
+    if !moved {
+        return "without load the tool is where it is commanded".to_owned();
+    }
+    let mut text = format!(
+        "{} the tool is shifted by {} mm and turned by {} deg",
+        causes(f),
+        triple(shift, |x| fixed(x, 5)),
+        triple(turn, |x| fixed(x, 5)),
+    );
+    if f.limbs.len() > 1 {
+        text.push_str(&format!(
+            "; inside, up to {} N and {} N m act on the limbs' ends",
+            fixed(h.largest_internal_force_n, 3),
+            fixed(h.largest_internal_moment_n_m, 4),
+        ));
+    }
+    text
+}
+
+/// What moves the tool without a load on it.
+fn causes(f: &Findings) -> String {
+    let causes: Vec<&str> = [
+        ("its deviations", !f.deviations.is_empty()),
+        ("its own weight", f.mass_kg > 0.0),
+        (
+            "the loads on its limbs",
+            f.limbs.iter().any(|l| !l.loads.is_empty()),
+        ),
+        ("the loads on its platforms", !f.loads.is_empty()),
+        (
+            "its preloads",
+            f.limbs.iter().any(|l| !l.preloaded_springs.is_empty()),
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(cause, acts)| acts.then_some(cause))
+    .collect();
+    match causes.as_slice() {
+        [] => "without load".to_owned(),
+        ["its own weight"] => "under its own weight".to_owned(),
+        ["its deviations"] => "by its deviations, without load".to_owned(),
+        causes => format!("by {}", causes.join(" and ")),
+    }
+}
+
+fn stability(h: &HomeFinding) -> String {
+    match (h.stable, h.largest_share_to_buckling) {
+        (true, _) if h.may_flutter => {
+            "it does not go away, but may swing with growing amplitude (flutter), which depends on its masses".to_owned()
+        }
+        (true, Some(mu)) if mu.abs() > 1e-9 && h.stiffness_rank == 6 => {
+            format!(
+                "stable; largest share of the way to buckling {}",
+                formatter::share(mu)
+            )
+        }
+        (true, _) if h.stiffness_rank < 6 => format!(
+            "stable where it is held; {} of 6 directions are free",
+            6 - h.stiffness_rank
+        ),
+        (true, _) => "stable".to_owned(),
+        (false, _) if h.shapes_stable => {
+            "NOT STABLE: the limbs keep their shapes, but the tool does not stay".to_owned()
+        }
+        (false, _) => "NOT STABLE: it would jump to another shape".to_owned(),
+    }
 }
 
 /// Most sets of wrenches shown; the JSON has all.
