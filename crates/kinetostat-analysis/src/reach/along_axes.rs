@@ -7,8 +7,8 @@ use kinetostat_machining::natural_length;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
-use crate::reach::ReachError;
 use crate::reach::by_commands::{CommandReach, reach_by_commands};
+use crate::reach::error::ReachError;
 
 /// How far the tool gets from home by inverse kinematics, within the limits of the actuators.
 #[derive(Clone, Debug, PartialEq)]

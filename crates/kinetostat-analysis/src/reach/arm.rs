@@ -3,7 +3,7 @@
 use kinetostat::{Drive, Element, Limb, Mechanism, MotionKind, Pose, Role};
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 
-use crate::reach::ReachError;
+use crate::reach::error::ReachError;
 
 /// How far an arm gets: the largest distances that a search over the ranges of its joints found. A joint that
 /// turns without limits makes one turn.

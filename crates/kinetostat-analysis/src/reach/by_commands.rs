@@ -4,7 +4,7 @@
 use kinetostat::{Mechanism, MotionKind};
 use nalgebra::Vector3;
 
-use crate::reach::ReachError;
+use crate::reach::error::ReachError;
 
 /// What the search found, m.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::assemble::answer::solve;
 use crate::assemble::arguments::{AssembleArgs, Component};
-use crate::assemble::query::Question;
+use crate::assemble::query::AssemblyQuery;
 use crate::options::vector;
 use crate::place::orientation;
 use crate::ui::csv_cell::digits;
@@ -77,8 +77,12 @@ fn at<'m>(
     }
 }
 
-pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> Answer<AlongLine> {
-    let spot = &question.spot;
+pub(crate) fn answer(
+    question: &AssemblyQuery,
+    line: &[f64],
+    args: &AssembleArgs,
+) -> Answer<AlongLine> {
+    let query = &question.query;
     let count = args.points.unwrap_or(41);
     if !(2..=MOST_POINTS).contains(&count) {
         return Err(Failure::input(format!(
@@ -94,13 +98,13 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
         ));
     }
     let mut points = Vec::with_capacity(count);
-    let follows = spot.mechanism.turns_as_it_moves();
+    let follows = query.mechanism.turns_as_it_moves();
     let mut turned = 0.0_f64;
     let (mut near, mut near_drawn): (Option<Posture<'_>>, Option<Posture<'_>>) = (None, None);
     for k in 0..count {
         let share = k as f64 / (count - 1) as f64;
         let place = from + (to - from) * share;
-        let target = Pose::from_parts((place * 1e-3).into(), spot.target.rotation);
+        let target = Pose::from_parts((place * 1e-3).into(), query.target.rotation);
         let located = |error: kinetostat::Error| {
             Failure::from(error).within(&format!(
                 "point {} of {count}, at {} mm",
@@ -108,13 +112,13 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
                 triple(place.into(), short)
             ))
         };
-        let posture = at(&spot.mechanism, &target, follows, near.as_ref()).map_err(located)?;
+        let posture = at(&query.mechanism, &target, follows, near.as_ref()).map_err(located)?;
         posture.within_limits().map_err(located)?;
         let drawn =
             at(&question.perfect, &target, follows, near_drawn.as_ref()).map_err(located)?;
         turned = turned.max(posture.target().rotation.angle_to(&target.rotation));
         near = Some(posture.clone());
-        let solved = solve(posture, &drawn, &spot.wrench).map_err(located)?;
+        let solved = solve(posture, &drawn, &query.wrench).map_err(located)?;
         near_drawn = Some(drawn);
         let mm = |e: &kinetostat::MechanismEquilibrium| e.displacement.linear() * 1e3;
         let [drawn, built] = &solved.rest;
@@ -144,7 +148,7 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
         });
     }
     let apart = |p: &Point| (Vector3::from(p.sum_mm) - Vector3::from(p.together_mm)).norm();
-    let mut warnings = spot.warnings.clone();
+    let mut warnings = query.warnings.clone();
     if follows {
         warnings.push(orientation::follows(turned.to_degrees(), false, true));
     }
@@ -161,14 +165,14 @@ pub(crate) fn answer(question: &Question, line: &[f64], args: &AssembleArgs) -> 
     Ok(AlongLine {
         schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: spot.name.clone(),
-        model_source: spot.source.clone(),
-        tool: spot.tool_words.clone(),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        tool: query.tool_words.clone(),
         from_mm: from.into(),
         to_mm: to.into(),
-        force_n: spot.wrench.force().into(),
-        moment_n_m: spot.wrench.moment().into(),
-        deviations: spot.deviations.clone(),
+        force_n: query.wrench.force().into(),
+        moment_n_m: query.wrench.moment().into(),
+        deviations: query.deviations.clone(),
         largest_superposition_error_mm: points.iter().map(apart).fold(0.0, f64::max),
         mean_superposition_error_mm: points.iter().map(apart).sum::<f64>() / count as f64,
         points,
@@ -283,7 +287,7 @@ pub(crate) fn csv(a: &AlongLine) -> Answer<Vec<u8>> {
 /// Eleven points are what a screen holds.
 const SHOWN: usize = 11;
 
-pub(crate) fn in_words(question: &Question, a: &AlongLine) -> String {
+pub(crate) fn in_words(question: &AssemblyQuery, a: &AlongLine) -> String {
     let mut out = wrapped(
         &format!(
             "{} ({}), from {} to {} mm in {}",
@@ -295,7 +299,7 @@ pub(crate) fn in_words(question: &Question, a: &AlongLine) -> String {
         ),
         0,
     );
-    for deviation in &question.spot.deviations {
+    for deviation in &question.query.deviations {
         out.push_str(&wrapped(deviation, 0));
     }
     let size = |of: fn(&Point) -> [f64; 3]| {

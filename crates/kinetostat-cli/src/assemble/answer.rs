@@ -6,9 +6,9 @@ use kinetostat::{
 use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
-use crate::assemble::query::Question;
+use crate::assemble::query::AssemblyQuery;
 use crate::machine::units::unit_of;
-use crate::place::query::PlaceAsked;
+use crate::place::query::PlaceAnswer;
 use crate::ui::failure::Answer;
 
 /// The answer, stable names with units.
@@ -19,7 +19,7 @@ pub(crate) struct Assembly {
     pub(crate) model: String,
     model_source: String,
     tool: String,
-    place: PlaceAsked,
+    place: PlaceAnswer,
     force_n: [f64; 3],
     moment_n_m: [f64; 3],
     pub(crate) deviations: Vec<String>,
@@ -195,16 +195,16 @@ impl Solved<'_> {
     }
 }
 
-pub(crate) fn answer(question: &Question) -> Answer<Assembly> {
-    let spot = &question.spot;
-    let posture = spot.posture()?;
-    let drawn = match &spot.followed {
-        Some(_) => spot.standing_in(&question.perfect)?,
-        None => question.perfect.posture(&spot.target)?,
+pub(crate) fn answer(question: &AssemblyQuery) -> Answer<Assembly> {
+    let query = &question.query;
+    let posture = query.posture()?;
+    let drawn = match &query.followed {
+        Some(_) => query.standing_in(&question.perfect)?,
+        None => question.perfect.posture(&query.target)?,
     };
     let over = posture.overconstraint();
-    let solved = solve(posture, &drawn, &spot.wrench)?;
-    let mechanism = &spot.mechanism;
+    let solved = solve(posture, &drawn, &query.wrench)?;
+    let mechanism = &query.mechanism;
     let length = solved.rest[1].length;
     let limbs: Vec<LimbAnswer> = (0..mechanism.limbs().len())
         .map(|i| limb(&solved, i, length))
@@ -219,7 +219,7 @@ pub(crate) fn answer(question: &Question) -> Answer<Assembly> {
     let largest = limbs.iter().map(|l| l.strain_n).fold(NOTHING_N, f64::max);
     let most = limbs.iter().find(|l| l.strain_n > (1.0 - 1e-6) * largest);
     let ends = solved.loaded.as_ref().map_or(built, |[_, built]| built);
-    let mut warnings = spot.warnings.clone();
+    let mut warnings = query.warnings.clone();
     if !ends.stable() {
         warnings.push(Warning::new(
             WarningCode::NotStable,
@@ -229,13 +229,13 @@ pub(crate) fn answer(question: &Question) -> Answer<Assembly> {
     Ok(Assembly {
         schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: spot.name.clone(),
-        model_source: spot.source.clone(),
-        tool: spot.tool_words.clone(),
-        place: spot.asked(),
-        force_n: spot.wrench.force().into(),
-        moment_n_m: spot.wrench.moment().into(),
-        deviations: spot.deviations.clone(),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        tool: query.tool_words.clone(),
+        place: query.answer(),
+        force_n: query.wrench.force().into(),
+        moment_n_m: query.wrench.moment().into(),
+        deviations: query.deviations.clone(),
         over_constraint: directions(&over, &solved.posture),
         most_strained_limb: most.map(|l| l.name.clone()),
         platforms: platforms(&solved),

@@ -9,16 +9,16 @@ mod text;
 
 use crate::assemble::answer::answer;
 use crate::assemble::arguments::AssembleArgs;
-use crate::assemble::query::question;
-use crate::files::output::{self, Existing, Outputs};
+use crate::assemble::query::assembly_query;
+use crate::files::outputs::{self, Existing, Outputs};
 use crate::ui::failure::Answer;
 use crate::ui::json;
 use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
-    let question = question(args)?;
+    let question = assembly_query(args)?;
     let existing = Existing::forced(args.force_overwrite);
-    let mut outputs = Outputs::new(existing, question.spot.inputs.clone());
+    let mut outputs = Outputs::new(existing, question.query.inputs.clone());
     let csv = args.csv.as_ref().map(|p| outputs.claim("table", p));
     let csv = csv.transpose()?;
     let plot = args.plot.as_ref().map(|p| outputs.claim("plot", p));
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
         outputs.fill(index, &table)?;
     }
     let paths = outputs.commit()?;
-    let text = format!("{text}{}", output::written(&paths));
+    let text = format!("{text}{}", outputs::written(&paths));
     if args.json {
         screen::print(Stream::Err, &text)?;
         return screen::print_bytes(json.as_bytes());

@@ -6,18 +6,18 @@ use kinetostat_model::Model;
 use kinetostat_model::schema::{Axis, AxisName, Deviation, Placement};
 
 use crate::assemble::arguments::AssembleArgs;
-use crate::files::input::Files;
-use crate::place::query::{Spot, spot_of};
+use crate::files::input_files::InputFiles;
+use crate::place::query::{PlaceQuery, place_query_of};
 use crate::ui::failure::{Answer, Failure};
 
 /// What is asked, and the machine without its deviations.
-pub(crate) struct Question {
-    pub(crate) spot: Spot,
+pub(crate) struct AssemblyQuery {
+    pub(crate) query: PlaceQuery,
     pub(crate) perfect: Mechanism,
 }
 
-pub(crate) fn question(args: &AssembleArgs) -> Answer<Question> {
-    let files = Files::default();
+pub(crate) fn assembly_query(args: &AssembleArgs) -> Answer<AssemblyQuery> {
+    let files = InputFiles::default();
     let (mut model, path) = files.model(&args.model, std::path::Path::new(""))?;
     for text in &args.deviation {
         let refuse = |reason: &str| Failure::input(format!("--deviation '{text}': {reason}"));
@@ -34,7 +34,7 @@ pub(crate) fn question(args: &AssembleArgs) -> Answer<Question> {
     }
     let tool = straight_tool(1e-3 * args.tool_length_mm.unwrap_or(0.0));
     let perfect = model.without_deviations()?.mechanism.with_tool(&tool);
-    let spot = spot_of(
+    let query = place_query_of(
         &model,
         path,
         &args.model,
@@ -43,7 +43,7 @@ pub(crate) fn question(args: &AssembleArgs) -> Answer<Question> {
         args.force.as_deref(),
         args.moment.as_deref(),
     )?;
-    Ok(Question { spot, perfect })
+    Ok(AssemblyQuery { query, perfect })
 }
 
 /// `LIMB:AT:WHAT` as deviations of one limb, or of all.

@@ -1,7 +1,7 @@
 //! What assembly locked in, in words and as a table.
 
 use crate::assemble::answer::Assembly;
-use crate::assemble::query::Question;
+use crate::assemble::query::AssemblyQuery;
 use crate::assemble::table::{Row, decimals, rows};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, load_triple, number};
@@ -11,8 +11,8 @@ use crate::ui::warnings;
 const SHOWN: usize = 12;
 
 /// The question, one sentence, and tables.
-pub(crate) fn in_words(question: &Question, a: &Assembly, all: bool) -> String {
-    let mut out = question.spot.heading();
+pub(crate) fn in_words(question: &AssemblyQuery, a: &Assembly, all: bool) -> String {
+    let mut out = question.query.heading();
     out.push_str(&wrapped(&verdict(a), 2));
     out.push_str("\nOver-constraint\n");
     out.push_str(&over_constraint(a));
@@ -22,8 +22,8 @@ pub(crate) fn in_words(question: &Question, a: &Assembly, all: bool) -> String {
         out.push_str(&wrapped(
             &format!(
                 "The load: force {} N and moment {} N m on the tool. 'of errors' is the share of the deviations: as built less as drawn.",
-                load_triple(question.spot.wrench.force().into()),
-                load_triple(question.spot.wrench.moment().into())
+                load_triple(question.query.wrench.force().into()),
+                load_triple(question.query.wrench.moment().into())
             ),
             0,
         ));

@@ -10,16 +10,15 @@ use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::files::input::Files;
-use crate::files::output::may_be_written;
-use crate::job::all_faults::{Asked, with_all_others};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::may_be_written;
+use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine;
-use crate::job::program;
+use crate::job::machine::machine_setup;
+use crate::job::output_paths::OutputPaths;
 use crate::job::setting::{Setting, setting};
-use crate::job::targets::Targets;
-use crate::machine::model_warnings::{no_potential, of_model};
+use crate::job::{program, run_warnings};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
 use crate::ui::numbers::{short, triple};
@@ -76,16 +75,16 @@ struct OutputFinding {
 }
 
 pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
-    let files = Files::default();
+    let files = InputFiles::default();
     let flags = ProgramArgs::default();
     let found = findings(&files, path, &flags).map_err(|failure| {
-        let asked = Asked {
+        let query = RunQuery {
             job: Some(path),
             model: None,
             program: &flags,
             writing: WritingFlags::default(),
         };
-        with_all_others(&files, &asked, failure)
+        with_all_others(&files, &query, failure)
     })?;
     let text = in_words(&found);
     json::print_answer(&text, &found, json)?;
@@ -98,14 +97,12 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
     }
 }
 
-fn findings(files: &Files, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
+fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
     let job = JobFile::read(files, path)?;
     let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
-    let (machine, model) = machine(files, Some(&job), None, flags, &mut setting.inputs)?;
+    let (machine, model) = machine_setup(files, Some(&job), None, flags, &mut setting.inputs)?;
     let (program, motion) = program::read_program(&setting)?;
-    let mut warnings: Vec<Warning> = of_model(&model).collect();
-    warnings.extend(no_potential(&model.mechanism));
-    warnings.extend(job.odd_angles());
+    let mut warnings = run_warnings::of_run(&model, Some(&job));
     warnings.extend(kinetostat_machining::of_program(&motion, None));
     warnings.extend(kinetostat_machining::origin_in_metres(
         &machine.mechanism,
@@ -200,7 +197,7 @@ fn outputs_can_be(setting: &Setting) -> Answer<()> {
     Ok(())
 }
 
-fn outputs(targets: &Targets) -> Vec<OutputFinding> {
+fn outputs(targets: &OutputPaths) -> Vec<OutputFinding> {
     targets
         .named()
         .map(|(what, path)| OutputFinding {

@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::check::arguments::CheckArgs;
 use crate::check::model::findings::findings;
 use crate::check::model::text::in_words;
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::job::format::looks_like_a_job;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
@@ -19,7 +19,7 @@ use crate::ui::json;
 pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let file = Path::new(&args.model);
     let is_job = file.is_file()
-        && Files::default()
+        && InputFiles::default()
             .job(file)
             .is_ok_and(|text| looks_like_a_job(&text));
     if is_job {
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
         }
         return job::run(file, args.json);
     }
-    let (model, path) = Files::default().model(&args.model, Path::new(""))?;
+    let (model, path) = InputFiles::default().model(&args.model, Path::new(""))?;
     let source = match path {
         Some(_) => args.model.clone(),
         None => format!("preset {}", args.model),

@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn plain_numbers_keep_their_value_and_words_stay() {
-        let told = |word: &str| {
+        let reported = |word: &str| {
             let words = plain_numbers(["k".into(), word.into()].into_iter());
             words[1].to_str().expect("text").to_owned()
         };
@@ -241,7 +241,7 @@ mod tests {
             "-0.1e1",
             "-123.456e-7",
         ] {
-            let plain = told(written);
+            let plain = reported(written);
             let [a, b]: [f64; 2] = [written, &plain].map(|t| t.parse().expect("a number"));
             assert_eq!(a.to_bits(), b.to_bits(), "{written}");
             assert!(!plain.contains(['e', 'E']), "{plain}");
@@ -249,7 +249,7 @@ mod tests {
         for word in [
             "-e", "--at", "-1e999", "-inf", "5e3", "--e5", "-5", "file-1e5",
         ] {
-            assert_eq!(told(word), word);
+            assert_eq!(reported(word), word);
         }
         let after = plain_numbers(["--".into(), "-1e3".into()].into_iter());
         assert_eq!(after[1], "-1e3");

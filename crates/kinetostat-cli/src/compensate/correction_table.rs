@@ -16,8 +16,8 @@ use kinetostat_program::{
 };
 use serde::Serialize;
 
-use crate::files::input::Files;
-use crate::files::output::{self, Existing, Outputs};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
 use crate::job::program;
 use crate::job::setting::Setting;
 use crate::program::report;
@@ -57,7 +57,7 @@ struct MapResult<'a> {
 const FAULTS_OF_A_TABLE: usize = 1000;
 
 pub(crate) fn from_map(
-    files: &Files,
+    files: &InputFiles,
     map: &Path,
     setting: &Setting,
     existing: Existing,
@@ -141,13 +141,13 @@ pub(crate) fn from_map(
     let paths = outputs.commit()?;
     let mut text = words(&result);
     text.push_str(&warnings::warnings(&result.warnings));
-    text.push_str(&output::written(&paths));
+    text.push_str(&outputs::written(&paths));
     json::print_answer(&text, &result, to_screen)?;
-    report::judged(&result.tolerance, result.program)
+    report::refuse_missed_tolerance(&result.tolerance, result.program)
 }
 
 /// The table of corrections; of a faulty one all faults.
-fn read_table(files: &Files, map: &Path) -> Answer<CorrectionMap> {
+fn read_table(files: &InputFiles, map: &Path) -> Answer<CorrectionMap> {
     let bytes = files.bytes("map", map)?;
     CorrectionMap::read(&bytes).map_err(|first| {
         let all = CorrectionMap::faults(&bytes, FAULTS_OF_A_TABLE);

@@ -9,28 +9,27 @@ use kinetostat_machining::number::counted;
 use kinetostat_program::{Program, interpret};
 
 use crate::compensate::arguments::CompensateArgs;
-use crate::files::input::Files;
-use crate::files::output::{self, Existing, Outputs};
-use crate::job::all_faults::{Asked, with_all_others};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
+use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::WritingFlags;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine;
-use crate::job::program;
+use crate::job::machine::machine_setup;
 use crate::job::setting::{Setting, setting};
-use crate::machine::model_warnings::{no_potential, of_model, with_smells};
+use crate::job::{program, run_warnings};
+use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
-use crate::program::outputs::Files as Targets;
-use crate::program::report::{self, tell};
-use crate::program::{solve, summary};
+use crate::program::outputs::RunOutputs;
+use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
 use crate::ui::screen::{self, Stream};
 
 pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
     job_after_json(&mut args);
-    let files = Files::default();
+    let files = InputFiles::default();
     compensate(&files, &args).map_err(|failure| {
-        let asked = Asked {
+        let query = RunQuery {
             // A table and a copy need no machine: not all of the job is read for them.
             job: args
                 .run
@@ -41,11 +40,11 @@ pub(crate) fn run(mut args: CompensateArgs) -> Answer<()> {
             program: &args.run.program,
             writing: flags(&args),
         };
-        with_all_others(&files, &asked, failure)
+        with_all_others(&files, &query, failure)
     })
 }
 
-fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
+fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
     let job = args
         .run
         .job
@@ -63,7 +62,7 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
         setting.reading.tools = None;
         return correction_table::from_map(files, map, &setting, existing, to_screen);
     }
-    let (machine, model) = machine(
+    let (machine, model) = machine_setup(
         files,
         job.as_ref(),
         args.run.model.as_deref(),
@@ -72,29 +71,29 @@ fn compensate(files: &Files, args: &CompensateArgs) -> Answer<()> {
     )?;
     // A program that cannot be read is told before outputs are looked at.
     program::read_program(&setting)?;
-    let mut targets = Targets::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
+    let mut outputs =
+        RunOutputs::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;
     let mut run = solve::solve(
         Aim::Compensate,
         &machine,
         &setting,
         args.run.program.threads,
     )
-    .map_err(|failure| with_smells(failure, &model))?;
-    run.result.warnings.extend(of_model(&model));
-    run.result.warnings.extend(no_potential(&model.mechanism));
-    let odd = job.iter().flat_map(|job| job.odd_angles());
-    run.result.warnings.extend(odd);
-    targets.list(args.run.program.all_points, &model);
-    targets.fill(&run)?;
-    let note = targets.note(&run);
-    let paths = targets.outputs.commit()?;
+    .map_err(|failure| with_model_warning(failure, &model))?;
+    run.result
+        .warnings
+        .extend(run_warnings::of_run(&model, job.as_ref()));
+    outputs.list(args.run.program.all_points, &model);
+    outputs.fill(&run)?;
+    let note = outputs.note(&run);
+    let paths = outputs.files.commit()?;
     let text = format!(
         "{}{}{note}",
         summary::of_run(&run.result),
-        output::written(&paths)
+        outputs::written(&paths)
     );
-    tell(&text, to_screen.then_some(&run.result))?;
-    report::judged(&run.result.tolerance, &run.result.question.program)
+    report::print_run(&text, to_screen.then_some(&run.result))?;
+    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.question.program)
 }
 
 fn flags(args: &CompensateArgs) -> WritingFlags<'_> {
@@ -149,6 +148,6 @@ fn copy(setting: &Setting, existing: Existing) -> Answer<()> {
         outputs.fill(index, program.bytes())?;
     }
     let paths = outputs.commit()?;
-    text.push_str(&output::written(&paths));
+    text.push_str(&outputs::written(&paths));
     screen::print(Stream::Out, &text)
 }

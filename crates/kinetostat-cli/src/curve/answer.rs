@@ -6,10 +6,10 @@ use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::curve::query::{Measure, Question};
+use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
-use crate::place::query::PlaceAsked;
+use crate::place::query::PlaceAnswer;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -19,7 +19,7 @@ pub(crate) struct CurveAnswer {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) tool: String,
-    pub(crate) place: PlaceAsked,
+    pub(crate) place: PlaceAnswer,
     pub(crate) question: String,
     pub(crate) tool_held: Holding,
     /// What grows: displacement, rotation or load.
@@ -52,7 +52,7 @@ const STRETCHED: f64 = 2.5;
 
 impl CurveAnswer {
     /// With a warning where the tool goes further than a machine of this length (m) can.
-    pub(crate) fn judged(mut self, length: f64) -> Self {
+    pub(crate) fn with_stretch_warning(mut self, length: f64) -> Self {
         let points = self.branches.iter().flat_map(|b| &b.points);
         let places = points.map(|p| Vector3::from(p.position_mm));
         let start = self.branches.first().and_then(|b| b.points.first());
@@ -84,7 +84,7 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub(crate) fn of(question: &Question) -> Self {
+    pub(crate) fn of(question: &CurveQuery) -> Self {
         match question.measure {
             Measure::Force(_) => Self {
                 displacement: "displacement",
@@ -264,7 +264,7 @@ pub(crate) fn reached(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// What grows, by name.
-pub(crate) fn grows(q: &Question) -> &'static str {
+pub(crate) fn grows(q: &CurveQuery) -> &'static str {
     match (q.by_load(), q.measure) {
         (true, _) => "load",
         (false, Measure::Moment(_)) => "rotation",

@@ -12,9 +12,9 @@ use kinetostat_machining::{Warning, WarningCode};
 use crate::curve::answer::{BranchAnswer, CurveAnswer, Units, grows, reached};
 use crate::curve::chain_points::View;
 use crate::curve::critical::critical_loads;
-use crate::curve::query::{Measure, Question};
+use crate::curve::query::{CurveQuery, Measure};
 use crate::end_condition::chain::coordinates;
-use crate::place::query::PlaceAsked;
+use crate::place::query::PlaceAnswer;
 use crate::ui::background::Stage;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::number;
@@ -22,9 +22,9 @@ use crate::ui::numbers::number;
 /// Follows the curve of a chain.
 pub(crate) fn solve(
     chain: &SerialChain,
-    q: &Question,
-    place: PlaceAsked,
-    spot: [String; 3],
+    q: &CurveQuery,
+    place: PlaceAnswer,
+    names: [String; 3],
     stage: &Stage,
 ) -> Answer<CurveAnswer> {
     let problem = chain.problem(q.holding.end.clone());
@@ -68,7 +68,7 @@ pub(crate) fn solve(
     warnings.extend(of_missing_branches(&curves, q));
     warnings.dedup();
     let own = curves.branches.first().map_or(&[][..], |b| &b.points);
-    let [model, model_source, tool] = spot;
+    let [model, model_source, tool] = names;
     Ok(CurveAnswer {
         schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -94,7 +94,7 @@ pub(crate) fn solve(
     })
 }
 
-fn settings(q: &Question) -> CurveSettings {
+fn settings(q: &CurveQuery) -> CurveSettings {
     let mut settings = CurveSettings::within(q.range.0, q.range.1);
     settings.branches = q.branches;
     settings.points = q.points;
@@ -111,7 +111,7 @@ fn settings(q: &Question) -> CurveSettings {
 /// of the force nothing would.
 fn widen_for_locked(
     chain: &SerialChain,
-    q: &Question,
+    q: &CurveQuery,
     value: f64,
     settings: &mut CurveSettings,
 ) -> Option<Warning> {
@@ -145,7 +145,7 @@ fn widen_for_locked(
 /// Searches for shapes at the start and at both ends of the range, and follows those that no branch holds.
 fn add_shapes_off_the_curve(
     chain: &SerialChain,
-    q: &Question,
+    q: &CurveQuery,
     problem: &ChainProblem<'_>,
     curves: &mut Curves<'_>,
     stage: &Stage,
@@ -187,7 +187,7 @@ fn add_shapes_off_the_curve(
 }
 
 /// Why branches end where they were not asked to.
-fn of_ends(branches: &[BranchAnswer], q: &Question) -> Vec<Warning> {
+fn of_ends(branches: &[BranchAnswer], q: &CurveQuery) -> Vec<Warning> {
     let ends = branches
         .iter()
         .flat_map(|b| b.ends.map(|end| (b.number, end)));
@@ -209,7 +209,7 @@ fn of_ends(branches: &[BranchAnswer], q: &Question) -> Vec<Warning> {
 }
 
 /// Branches that cross and were not followed.
-fn of_missing_branches(curves: &Curves<'_>, q: &Question) -> Vec<Warning> {
+fn of_missing_branches(curves: &Curves<'_>, q: &CurveQuery) -> Vec<Warning> {
     let lost = curves.specials.iter().filter(|s| s.lost_branch);
     let lost = lost.map(|special| {
         Warning::new(
@@ -233,7 +233,7 @@ fn of_missing_branches(curves: &Curves<'_>, q: &Question) -> Vec<Warning> {
 }
 
 /// Why there is no equilibrium at the start.
-fn not_there(q: &Question, there: &ChainProblem<'_>, error: kinetostat::Error) -> Failure {
+fn not_there(q: &CurveQuery, there: &ChainProblem<'_>, error: kinetostat::Error) -> Failure {
     let loaded = !there.loads.is_empty() || there.end.wrench.0.amax() > 0.0;
     if q.by_load() || loaded || !matches!(error, kinetostat::Error::NotConverged { .. }) {
         return error.into();

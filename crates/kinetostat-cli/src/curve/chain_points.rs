@@ -6,14 +6,14 @@ use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::Vector3;
 
 use crate::curve::answer::{BranchAnswer, JumpAnswer, NamedPoint, PointAnswer, kind_name, letter};
-use crate::curve::query::Question;
-use crate::curve::state::Found;
+use crate::curve::query::CurveQuery;
+use crate::curve::state::CurveState;
 use crate::end_condition::chain::{mode_in_words, values};
 
 /// Curves as they are shown.
 pub(crate) struct View<'v> {
     pub(crate) chain: &'v SerialChain,
-    pub(crate) q: &'v Question,
+    pub(crate) q: &'v CurveQuery,
     pub(crate) curves: &'v Curves<'v>,
     pub(crate) rotation: ContinuousRotation,
 }
@@ -23,7 +23,7 @@ impl View<'_> {
     /// that grows, rad.
     pub(crate) fn point(&self, p: &CurvePoint, more: &Vector3<f64>) -> PointAnswer {
         let e = &p.equilibrium;
-        Found {
+        CurveState {
             parameter: p.parameter,
             conjugate: p.conjugate,
             slope: p.slope,

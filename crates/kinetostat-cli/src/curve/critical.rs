@@ -6,13 +6,13 @@ use kinetostat::{
 use kinetostat_analysis::serial_chain::SerialChain;
 
 use crate::curve::answer::{CriticalAnswer, kind_name};
-use crate::curve::query::Question;
+use crate::curve::query::CurveQuery;
 use crate::end_condition::chain::mode_in_words;
 use crate::ui::failure::Answer;
 
 pub(crate) fn critical_loads(
     chain: &SerialChain,
-    q: &Question,
+    q: &CurveQuery,
     problem: &ChainProblem<'_>,
     settings: &CurveSettings,
 ) -> Answer<Vec<CriticalAnswer>> {

@@ -9,11 +9,11 @@ use crate::curve::answer::{
     BranchAnswer, CurveAnswer, JumpAnswer, NamedPoint, PointAnswer, Units, grows, letter, reached,
 };
 use crate::curve::arguments::CurveArgs;
-use crate::curve::query::{Measure, Question};
-use crate::curve::state::Found;
+use crate::curve::query::{CurveQuery, Measure};
+use crate::curve::state::CurveState;
 use crate::end_condition::loads::refuse_nodes;
-use crate::end_condition::machine::Machine;
-use crate::place::query::PlaceAsked;
+use crate::end_condition::machine::CommandedMachine;
+use crate::place::query::PlaceAnswer;
 use crate::ui::background::Stage;
 use crate::ui::failure::{Answer, Failure};
 
@@ -30,10 +30,10 @@ pub(crate) fn refuse(args: &CurveArgs) -> Answer<()> {
 
 /// Follows the curve of a machine.
 pub(crate) fn solve(
-    machine: &Machine,
-    q: &Question,
-    place: PlaceAsked,
-    spot: [String; 3],
+    machine: &CommandedMachine,
+    q: &CurveQuery,
+    place: PlaceAnswer,
+    names: [String; 3],
     stage: &Stage,
 ) -> Answer<CurveAnswer> {
     let posture = machine.posture()?;
@@ -54,7 +54,7 @@ pub(crate) fn solve(
     let path = posture.path(&q.parameter, end, &settings)?;
     let point = |p: &PathPoint| -> PointAnswer {
         let e = &p.equilibrium;
-        Found {
+        CurveState {
             parameter: p.parameter,
             conjugate: p.conjugate,
             slope: p.slope,
@@ -71,7 +71,7 @@ pub(crate) fn solve(
     let (named_points, jumps) = named(&path, &point);
     warnings.extend(of_ends(&path, q));
     let own = path.points.iter().map(|p| q.shown(p.parameter));
-    let [model, model_source, tool] = spot;
+    let [model, model_source, tool] = names;
     Ok(CurveAnswer {
         schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -103,7 +103,7 @@ pub(crate) fn solve(
 }
 
 /// Why a path ends where it was not asked to.
-fn of_ends(path: &MachinePath, q: &Question) -> Vec<Warning> {
+fn of_ends(path: &MachinePath, q: &CurveQuery) -> Vec<Warning> {
     let mut list: Vec<Warning> = Vec::new();
     for end in path.ends {
         let said = match end {

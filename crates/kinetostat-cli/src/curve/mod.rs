@@ -17,40 +17,42 @@ use kinetostat_analysis::serial_chain::is_serial_chain;
 
 use crate::curve::answer::CurveAnswer;
 use crate::curve::arguments::CurveArgs;
-use crate::curve::query::question;
+use crate::curve::query::curve_query;
+use crate::end_condition::answering::{CommandQuery, Shown, Work, answer_query};
 use crate::end_condition::chain::{moves_of, serial_chain};
-use crate::end_condition::command::{Asked, Shown, Work, follow};
 use crate::end_condition::loads::with_loads;
-use crate::end_condition::machine::Machine;
-use crate::place::query::Spot;
+use crate::end_condition::machine::CommandedMachine;
+use crate::place::query::PlaceQuery;
 use crate::ui::failure::Answer;
 
 pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
-    let asked = Asked {
+    let command = CommandQuery {
         model: &args.model,
         place: &args.place,
         tool_length_mm: args.tool_length_mm,
         outputs: &args.outputs,
     };
-    let about = |spot: &Spot| -> Answer<Work<CurveAnswer>> {
-        let length = spot.mechanism.size();
-        if is_serial_chain(&spot.mechanism) {
-            let chain = with_loads(serial_chain(spot)?, &args.end)?;
-            let q = question(&moves_of(&chain), Some(&chain), args)?;
+    let about = |query: &PlaceQuery| -> Answer<Work<CurveAnswer>> {
+        let length = query.mechanism.size();
+        if is_serial_chain(&query.mechanism) {
+            let chain = with_loads(serial_chain(query)?, &args.end)?;
+            let q = curve_query(&moves_of(&chain), Some(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
-                chain::solve(&chain, &q, place, names, stage).map(|a| a.judged(length))
+                chain::solve(&chain, &q, place, names, stage)
+                    .map(|a| a.with_stretch_warning(length))
             }))
         } else {
             machine::refuse(args)?;
-            let machine = Machine::of(spot)?;
-            let q = question(&machine.moves, None, args)?;
+            let machine = CommandedMachine::of(query)?;
+            let q = curve_query(&machine.moves, None, args)?;
             Ok(Box::new(move |place, names, stage| {
-                machine::solve(&machine, &q, place, names, stage).map(|a| a.judged(length))
+                machine::solve(&machine, &q, place, names, stage)
+                    .map(|a| a.with_stretch_warning(length))
             }))
         }
     };
-    follow(
-        &asked,
+    answer_query(
+        &command,
         about,
         |answer| &mut answer.warnings,
         |heading, answer| {

@@ -26,7 +26,7 @@ pub(crate) enum Measure {
 
 /// A question of `curve`.
 #[derive(Clone, Debug)]
-pub(crate) struct Question {
+pub(crate) struct CurveQuery {
     pub(crate) holding: Holding,
     pub(crate) parameter: Parameter,
     pub(crate) driven: Option<Driven>,
@@ -42,7 +42,7 @@ pub(crate) struct Question {
     pub(crate) words: String,
 }
 
-impl Question {
+impl CurveQuery {
     pub(crate) fn by_load(&self) -> bool {
         matches!(self.parameter, Parameter::Load(_))
     }
@@ -104,11 +104,11 @@ fn given_triple(v: [f64; 3]) -> String {
 }
 
 /// The question of `curve`. `chain`: for forces on its nodes; a machine has none here.
-pub(crate) fn question(
+pub(crate) fn curve_query(
     moves: &Moves,
     chain: Option<&SerialChain>,
     args: &CurveArgs,
-) -> Answer<Question> {
+) -> Answer<CurveQuery> {
     let constant = constant(&args.end)?;
     let place = moves.place;
     let counts = [
@@ -122,7 +122,7 @@ pub(crate) fn question(
             )));
         }
     }
-    let mut question = Question {
+    let mut question = CurveQuery {
         holding: Holding {
             subject: moves.subject,
             held: Vec::new(),
@@ -174,7 +174,7 @@ pub(crate) fn question(
 }
 
 /// The tool is pushed along a direction.
-fn pushed(question: &mut Question, direction: &[f64], args: &CurveArgs) -> Answer<()> {
+fn pushed(question: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.displacement_mm.as_ref().ok_or_else(|| {
         Failure::input(
             "how far? --direction needs --displacement-mm FROM TO, as in --displacement-mm 0 20",
@@ -198,7 +198,7 @@ fn pushed(question: &mut Question, direction: &[f64], args: &CurveArgs) -> Answe
 }
 
 /// The tool is turned about a direction.
-fn turned(question: &mut Question, about: &[f64], args: &CurveArgs) -> Answer<()> {
+fn turned(question: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<()> {
     let range = args.turn_deg.as_ref().ok_or_else(|| {
         Failure::input("how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5")
     })?;
@@ -226,7 +226,7 @@ fn turned(question: &mut Question, about: &[f64], args: &CurveArgs) -> Answer<()
 
 /// The growing load of the options.
 fn load_pattern(
-    question: &mut Question,
+    question: &mut CurveQuery,
     moves: &Moves,
     chain: Option<&SerialChain>,
     args: &CurveArgs,

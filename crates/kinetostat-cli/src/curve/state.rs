@@ -3,10 +3,10 @@
 use kinetostat::{Pose, Wrench};
 
 use crate::curve::answer::PointAnswer;
-use crate::curve::query::{Measure, Question};
+use crate::curve::query::{CurveQuery, Measure};
 
 /// An equilibrium on a curve of a chain or a machine, SI.
-pub(crate) struct Found {
+pub(crate) struct CurveState {
     pub(crate) parameter: f64,
     pub(crate) conjugate: f64,
     pub(crate) slope: f64,
@@ -21,9 +21,9 @@ pub(crate) struct Found {
     pub(crate) coordinates: Vec<f64>,
 }
 
-impl Found {
+impl CurveState {
     /// In the units of the question. `turned`: whole turns of the tool about the growing moment, rad.
-    pub(crate) fn answer(self, q: &Question, turned: f64) -> PointAnswer {
+    pub(crate) fn answer(self, q: &CurveQuery, turned: f64) -> PointAnswer {
         let by_load = q.by_load();
         let p = &self;
         let [displacement, load, slope] = match (q.measure, by_load) {

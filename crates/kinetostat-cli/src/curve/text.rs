@@ -281,10 +281,10 @@ fn ends(a: &CurveAnswer) -> String {
     }
     let why = |p: &NamedPoint| p.in_words.split_once(": ").map(|w| w.1.to_owned());
     let mut out = String::new();
-    let mut told: Vec<Option<String>> = Vec::new();
+    let mut reported: Vec<Option<String>> = Vec::new();
     for p in &ends {
         let reason = why(p);
-        if told.contains(&reason) {
+        if reported.contains(&reason) {
             continue;
         }
         let names: Vec<&str> = ends
@@ -303,7 +303,7 @@ fn ends(a: &CurveAnswer) -> String {
             reason.as_deref().unwrap_or_default()
         );
         out.push_str(&item(&text));
-        told.push(reason);
+        reported.push(reason);
     }
     out
 }

@@ -8,9 +8,9 @@ use serde::Serialize;
 use crate::machine::displacement_warnings::folds;
 use crate::machine::instability;
 use crate::machine::principal_directions::motion_in_words;
-use crate::machine::unstable_joints::{Overcome, overcome};
+use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};
 use crate::place::joints::JointValue;
-use crate::place::query::{PlaceAsked, Spot};
+use crate::place::query::{PlaceAnswer, PlaceQuery};
 
 /// The answer at one place, stable names with units.
 #[derive(Serialize)]
@@ -20,7 +20,7 @@ pub(crate) struct Deflection {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) tool: String,
-    pub(crate) place: PlaceAsked,
+    pub(crate) place: PlaceAnswer,
     pub(crate) force_n: [f64; 3],
     pub(crate) moment_n_m: [f64; 3],
     pub(crate) displacement_mm: [f64; 3],
@@ -55,7 +55,7 @@ pub(crate) struct Deflection {
     /// Both.
     pub(crate) stable: bool,
     /// Joints whose springs the loads beat; empty where it is stable.
-    pub(crate) overcome_joints: Vec<Overcome>,
+    pub(crate) overcome_joints: Vec<UnstableJoint>,
     /// All loads have a potential; if not, see the reasons.
     pub(crate) conservative: bool,
     pub(crate) not_conservative_because: Vec<String>,
@@ -109,7 +109,7 @@ pub(crate) struct LinkAnswer {
 }
 
 pub(crate) fn answer(
-    spot: &Spot,
+    query: &PlaceQuery,
     posture: &Posture<'_>,
     loaded: &MechanismEquilibrium,
     rest: &MechanismEquilibrium,
@@ -117,8 +117,8 @@ pub(crate) fn answer(
 ) -> Deflection {
     let shift = loaded.displacement.linear() * 1e3;
     let turn = loaded.displacement.angular().map(f64::to_degrees);
-    let mut warnings = spot.warnings.clone();
-    let near_singularity = spot.near_singular();
+    let mut warnings = query.warnings.clone();
+    let near_singularity = query.near_singular();
     warnings.extend(near_singularity.iter().map(NearSingular::warning));
     if loaded.platform.free > 0 {
         warnings.push(Warning::new(
@@ -139,22 +139,22 @@ pub(crate) fn answer(
         let said = instability::in_words(&shares, true);
         warnings.push(Warning::new(WarningCode::NearBuckling, said));
     }
-    warnings.extend(folds(1e-3 * shift.norm(), spot.mechanism.size()));
+    warnings.extend(folds(1e-3 * shift.norm(), query.mechanism.size()));
     Deflection {
         schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: spot.name.clone(),
-        model_source: spot.source.clone(),
-        tool: spot.tool_words.clone(),
-        place: spot.asked(),
-        force_n: spot.wrench.force().into(),
-        moment_n_m: spot.wrench.moment().into(),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        tool: query.tool_words.clone(),
+        place: query.answer(),
+        force_n: query.wrench.force().into(),
+        moment_n_m: query.wrench.moment().into(),
         displacement_mm: shift.into(),
         displacement_size_mm: shift.norm(),
         rotation_vector_deg: turn.into(),
         rotation_size_deg: turn.norm(),
-        actuators: actuators(&spot.mechanism, posture, &loaded.actuator_forces()),
-        pendant: spot.on_pendant(posture),
+        actuators: actuators(&query.mechanism, posture, &loaded.actuator_forces()),
+        pendant: query.on_pendant(posture),
         limbs: loaded
             .limbs
             .iter()
@@ -195,7 +195,7 @@ pub(crate) fn answer(
         snapped,
         shapes_stable: loaded.shapes_stable(),
         stable: loaded.stable(),
-        overcome_joints: overcome(posture, loaded, &spot.load_names),
+        overcome_joints: unstable_joints(posture, loaded, &query.load_names),
         conservative: loaded.conservative,
         not_conservative_because: not_conservative(loaded),
         energy_j: loaded.energy,

@@ -11,8 +11,8 @@ use std::path::Path;
 use crate::deflect::arguments::DeflectArgs;
 use crate::deflect::place::at_place;
 use crate::deflect::program::along_program;
-use crate::files::input::Files;
-use crate::job::all_faults::{Asked, with_all_others};
+use crate::files::input_files::InputFiles;
+use crate::job::all_faults::{RunQuery, with_all_others};
 use crate::job::arguments::WritingFlags;
 use crate::job::format::looks_like_a_job;
 use crate::ui::failure::{Answer, Failure};
@@ -21,7 +21,7 @@ pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
     let subject = Path::new(&args.subject);
     let is_job = !args.place.given()
         && subject.is_file()
-        && Files::default()
+        && InputFiles::default()
             .job(subject)
             .is_ok_and(|t| looks_like_a_job(&t));
     if is_job || args.program.program.is_some() {
@@ -31,13 +31,13 @@ pub(crate) fn run(args: DeflectArgs) -> Answer<()> {
             ));
         }
         return along_program(&args, is_job).map_err(|failure| {
-            let asked = Asked {
+            let query = RunQuery {
                 job: is_job.then_some(subject),
                 model: None,
                 program: &args.program,
                 writing: WritingFlags::default(),
             };
-            with_all_others(&Files::default(), &asked, failure)
+            with_all_others(&InputFiles::default(), &query, failure)
         });
     }
     at_place(&args)

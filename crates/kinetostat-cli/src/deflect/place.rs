@@ -7,10 +7,10 @@ use kinetostat::Wrench;
 use crate::deflect::answer::answer;
 use crate::deflect::arguments::DeflectArgs;
 use crate::deflect::text::in_words;
-use crate::files::input::Files;
-use crate::files::output::{self, Existing, Outputs};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::displacement_warnings::snaps;
-use crate::place::query::spot;
+use crate::place::query::place_query;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 
@@ -32,8 +32,8 @@ fn without_load(error: kinetostat::Error) -> Failure {
 
 pub(crate) fn at_place(args: &DeflectArgs) -> Answer<()> {
     refuse_program_flags(args)?;
-    let files = Files::default();
-    let spot = spot(
+    let files = InputFiles::default();
+    let query = place_query(
         &files,
         &args.subject,
         &args.place,
@@ -41,26 +41,26 @@ pub(crate) fn at_place(args: &DeflectArgs) -> Answer<()> {
         args.program.force.as_deref(),
         args.program.moment.as_deref(),
     )?;
-    let posture = spot.posture()?;
+    let posture = query.posture()?;
     let rest = posture.deflected_by(&Wrench::zero());
     let rest = rest.map_err(without_load)?;
-    let loaded = posture.deflected_by(&spot.wrench)?;
+    let loaded = posture.deflected_by(&query.wrench)?;
     let limit = posture.snaps_on_the_way(&rest, &loaded)?;
-    let mut answer = answer(&spot, &posture, &loaded, &rest, limit.is_some());
+    let mut answer = answer(&query, &posture, &loaded, &rest, limit.is_some());
     answer.warnings.extend(limit.as_ref().map(snaps));
-    let text = in_words(&spot, &answer);
+    let text = in_words(&query, &answer);
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     let mut paths = Vec::new();
     if let Some(path) = args.json.as_deref().filter(|_| !to_screen) {
         let mut outputs = Outputs::new(
             Existing::forced(args.program.force_overwrite),
-            spot.inputs.clone(),
+            query.inputs.clone(),
         );
         let index = outputs.claim("result", path)?;
         outputs.fill(index, json::json(&answer)?.as_bytes())?;
         paths = outputs.commit()?;
     }
-    let text = format!("{text}{}", output::written(&paths));
+    let text = format!("{text}{}", outputs::written(&paths));
     json::print_answer(&text, &answer, to_screen)
 }
 

@@ -3,22 +3,21 @@
 use std::path::Path;
 
 use crate::deflect::arguments::DeflectArgs;
-use crate::files::input::Files;
-use crate::files::output::{self, Existing};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing};
 use crate::job::arguments::WritingFlags;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine;
-use crate::job::program;
+use crate::job::machine::machine_setup;
 use crate::job::setting::setting;
-use crate::machine::model_warnings::{no_potential, of_model, with_smells};
+use crate::job::{program, run_warnings};
+use crate::machine::model_warnings::with_model_warning;
 use crate::program::aim::Aim;
-use crate::program::outputs::Files as Targets;
-use crate::program::report::tell;
-use crate::program::{solve, summary};
+use crate::program::outputs::RunOutputs;
+use crate::program::{report, solve, summary};
 use crate::ui::failure::Answer;
 
 pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
-    let files = Files::default();
+    let files = InputFiles::default();
     let job = is_job
         .then(|| JobFile::read(&files, Path::new(&args.subject)))
         .transpose()?;
@@ -34,7 +33,7 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
     chosen.points.clone_from(&args.program.points);
     chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
     let existing = Existing::forced(args.program.force_overwrite);
-    let (machine, model) = machine(
+    let (machine, model) = machine_setup(
         &files,
         job.as_ref(),
         named,
@@ -42,22 +41,21 @@ pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
         &mut setting.inputs,
     )?;
     program::read_program(&setting)?;
-    let mut targets = Targets::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
+    let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
     let mut run = solve::solve(Aim::Analyse, &machine, &setting, args.program.threads)
-        .map_err(|failure| with_smells(failure, &model))?;
-    run.result.warnings.extend(of_model(&model));
-    run.result.warnings.extend(no_potential(&model.mechanism));
-    let odd = job.iter().flat_map(|job| job.odd_angles());
-    run.result.warnings.extend(odd);
-    targets.list(args.program.all_points, &model);
-    targets.fill(&run)?;
-    let note = targets.note(&run);
-    let paths = targets.outputs.commit()?;
+        .map_err(|failure| with_model_warning(failure, &model))?;
+    run.result
+        .warnings
+        .extend(run_warnings::of_run(&model, job.as_ref()));
+    outputs.list(args.program.all_points, &model);
+    outputs.fill(&run)?;
+    let note = outputs.note(&run);
+    let paths = outputs.files.commit()?;
     let text = format!(
         "{}{}{note}",
         summary::of_run(&run.result),
-        output::written(&paths)
+        outputs::written(&paths)
     );
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
-    tell(&text, to_screen.then_some(&run.result))
+    report::print_run(&text, to_screen.then_some(&run.result))
 }

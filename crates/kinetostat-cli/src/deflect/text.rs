@@ -3,9 +3,9 @@
 use kinetostat_machining::number as formatter;
 
 use crate::deflect::answer::{Deflection, LimbAnswer};
-use crate::machine::instability::way_to;
+use crate::machine::instability::leads_to;
 use crate::place::joints;
-use crate::place::query::Spot;
+use crate::place::query::PlaceQuery;
 use crate::ui::layout::{self, columns, wrapped};
 use crate::ui::numbers::{fixed, number, triple};
 use crate::ui::warnings;
@@ -13,8 +13,8 @@ use crate::ui::warnings;
 /// From this rate of the last corrections on, an iteration is slow.
 const SLOW: f64 = 0.2;
 
-pub(crate) fn in_words(spot: &Spot, a: &Deflection) -> String {
-    let mut out = spot.heading();
+pub(crate) fn in_words(query: &PlaceQuery, a: &Deflection) -> String {
+    let mut out = query.heading();
     out.push_str(&wrapped(
         &format!(
             "The tool's tip moves by {} and turns by {}.",
@@ -107,7 +107,7 @@ fn stability(a: &Deflection) -> String {
         out.push_str(&layout::item(&format!(
             "{of} is {} % of the way to {}",
             number(100.0 * share, 3),
-            way_to(a.conservative)
+            leads_to(a.conservative)
         )));
     }
     for joint in &a.overcome_joints {

@@ -7,16 +7,15 @@ use std::path::{Path, PathBuf};
 use kinetostat_model::preset_text;
 
 use crate::demo::arguments::DemoArgs;
-use crate::files::input::Files;
-use crate::files::output::Existing;
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::Existing;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine;
+use crate::job::machine::machine_setup;
 use crate::job::setting::setting;
 use crate::program::aim::Aim;
-use crate::program::outputs::Files as Targets;
-use crate::program::report::{self, tell};
-use crate::program::{solve, summary};
+use crate::program::outputs::RunOutputs;
+use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::safe_text::safe;
@@ -125,7 +124,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
         ("job file", at("job.toml"), JOB),
         ("program", at("original.ngc"), PROGRAM),
     ];
-    let mut files = Files::default();
+    let mut files = InputFiles::default();
     for (_, path, text) in &sources {
         files.insert(path.clone(), *text);
     }
@@ -133,7 +132,7 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     let job = JobFile::read(&files, &at("job.toml"))?;
     let mut setting = setting(&files, Some(&job), &flags, &WritingFlags::default())?;
     let mut inputs = Vec::new();
-    let (machine, model) = machine(&files, Some(&job), None, &flags, &mut inputs)?;
+    let (machine, model) = machine_setup(&files, Some(&job), None, &flags, &mut inputs)?;
     // The demo's own inputs are written together with its results.
     setting.inputs.clear();
     let existing = if args.force_overwrite {
@@ -141,17 +140,17 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     } else {
         Existing::KeepSame
     };
-    let mut targets = Targets::claim(Aim::Compensate, &setting.targets, existing, &[])?;
+    let mut outputs = RunOutputs::claim(Aim::Compensate, &setting.targets, existing, &[])?;
     for (what, path, text) in &sources {
-        let index = targets.outputs.claim(what, path)?;
-        targets.outputs.fill(index, text.as_bytes())?;
+        let index = outputs.files.claim(what, path)?;
+        outputs.files.fill(index, text.as_bytes())?;
     }
     let mut run = solve::solve(Aim::Compensate, &machine, &setting, args.threads)?;
     // The demo may run again on another day and finds its own files.
     run.result.question.date = None;
-    targets.list(false, &model);
-    targets.fill(&run)?;
-    targets.outputs.commit()?;
+    outputs.list(false, &model);
+    outputs.fill(&run)?;
+    outputs.files.commit()?;
     let mut text = wrapped(
         "An Orthoglide mills a circular groove, radius 25 mm. Its links bend under the milling force (215 N to the right of the feed, -10 N along it, -25 N along z), and each of its legs was assembled one degree askew.",
         0,
@@ -159,8 +158,8 @@ fn in_directory(args: &DemoArgs) -> Answer<()> {
     text.push('\n');
     text.push_str(&summary::of_run(&run.result));
     text.push_str(&next(&args.out));
-    tell(&text, args.json.then_some(&run.result))?;
-    report::judged(&run.result.tolerance, &run.result.question.program)
+    report::print_run(&text, args.json.then_some(&run.result))?;
+    report::refuse_missed_tolerance(&run.result.tolerance, &run.result.question.program)
 }
 
 fn next(out: &Path) -> String {

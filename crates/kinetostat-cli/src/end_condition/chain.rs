@@ -7,12 +7,12 @@ use nalgebra::Vector3;
 use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_of};
 use crate::end_condition::moves::Moves;
 use crate::machine::units::unit_of;
-use crate::place::query::Spot;
+use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
 
 /// The chain of a machine that is one, commanded for a place.
-pub(crate) fn serial_chain(spot: &Spot) -> Answer<SerialChain> {
-    Ok(SerialChain::of(&spot.posture()?, spot.target)?)
+pub(crate) fn serial_chain(query: &PlaceQuery) -> Answer<SerialChain> {
+    Ok(SerialChain::of(&query.posture()?, query.target)?)
 }
 
 /// Where the end of a chain can go.

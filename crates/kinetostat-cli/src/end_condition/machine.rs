@@ -8,12 +8,12 @@ use nalgebra::Vector3;
 
 use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_of};
 use crate::end_condition::moves::Moves;
-use crate::place::query::Spot;
+use crate::place::query::PlaceQuery;
 use crate::place::reachable::Followed;
 use crate::ui::failure::Answer;
 
 /// A machine commanded for a place.
-pub(crate) struct Machine {
+pub(crate) struct CommandedMachine {
     pub(crate) mechanism: Mechanism,
     pub(crate) target: Pose,
     /// Commands, where the place is given by them.
@@ -22,19 +22,19 @@ pub(crate) struct Machine {
     pub(crate) moves: Moves,
 }
 
-impl Machine {
-    pub(crate) fn of(spot: &Spot) -> Answer<Self> {
-        let posture = spot.posture()?;
+impl CommandedMachine {
+    pub(crate) fn of(query: &PlaceQuery) -> Answer<Self> {
+        let posture = query.posture()?;
         Ok(Self {
             moves: Moves {
                 subject: "machine",
-                place: spot.target,
+                place: query.target,
                 directions: MovableDirections::of(&posture)?,
             },
-            mechanism: spot.mechanism.clone(),
-            target: spot.target,
-            joints: spot.joints.clone(),
-            followed: spot.followed.clone(),
+            mechanism: query.mechanism.clone(),
+            target: query.target,
+            joints: query.joints.clone(),
+            followed: query.followed.clone(),
         })
     }
 
@@ -96,7 +96,7 @@ impl Machine {
     pub(crate) fn near_singular(&self, posture: &Posture<'_>, within: f64) -> Answer<Vec<Warning>> {
         let within = within.max(0.1 * self.moves.directions.length);
         let list = posture.near_singularities(within)?;
-        let told = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
-        Ok(list.iter().map(told).collect())
+        let reported = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
+        Ok(list.iter().map(reported).collect())
     }
 }

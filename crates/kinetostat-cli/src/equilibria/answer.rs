@@ -12,8 +12,8 @@ use serde::Serialize;
 use crate::end_condition::chain::{coordinates, mode_in_words, values};
 use crate::end_condition::coordinates::CoordinateName;
 use crate::end_condition::holding::Holding;
-use crate::equilibria::query::Question;
-use crate::place::query::PlaceAsked;
+use crate::equilibria::query::EquilibriaQuery;
+use crate::place::query::PlaceAnswer;
 use crate::ui::background::Stage;
 use crate::ui::failure::Answer;
 
@@ -25,7 +25,7 @@ pub(crate) struct EquilibriaAnswer {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) tool: String,
-    pub(crate) place: PlaceAsked,
+    pub(crate) place: PlaceAnswer,
     pub(crate) question: String,
     pub(crate) tool_held: Holding,
     /// Direction of `stiffness_n_per_mm`; null: the principal one with the smallest stiffness.
@@ -88,9 +88,9 @@ pub(crate) struct Coverage {
 /// Finds all equilibria.
 pub(crate) fn solve(
     chain: &SerialChain,
-    q: &Question,
-    place: PlaceAsked,
-    spot: [String; 3],
+    q: &EquilibriaQuery,
+    place: PlaceAnswer,
+    names: [String; 3],
     stage: &Stage,
 ) -> Answer<EquilibriaAnswer> {
     stage.is("searching for equilibria");
@@ -109,7 +109,7 @@ pub(crate) fn solve(
         })
         .collect();
     let conservative = found.found.iter().all(|f| f.equilibrium.conservative);
-    let [model, model_source, tool] = spot;
+    let [model, model_source, tool] = names;
     Ok(EquilibriaAnswer {
         schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
@@ -144,7 +144,7 @@ pub(crate) fn solve(
 
 fn shape(
     chain: &SerialChain,
-    q: &Question,
+    q: &EquilibriaQuery,
     problem: &ChainProblem<'_>,
     number: usize,
     f: &FoundEquilibrium,

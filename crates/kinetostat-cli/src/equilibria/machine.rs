@@ -2,19 +2,19 @@
 
 use kinetostat::{DirectionKind, SearchSettings, SpreadSettings};
 
-use crate::end_condition::machine::Machine;
+use crate::end_condition::machine::CommandedMachine;
 use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
-use crate::equilibria::query::Question;
-use crate::place::query::PlaceAsked;
+use crate::equilibria::query::EquilibriaQuery;
+use crate::place::query::PlaceAnswer;
 use crate::ui::background::Stage;
 use crate::ui::failure::Answer;
 
 /// Finds the equilibria.
 pub(crate) fn solve(
-    machine: &Machine,
-    q: &Question,
-    place: PlaceAsked,
-    spot: [String; 3],
+    machine: &CommandedMachine,
+    q: &EquilibriaQuery,
+    place: PlaceAnswer,
+    names: [String; 3],
     stage: &Stage,
 ) -> Answer<EquilibriaAnswer> {
     let posture = machine.posture()?;
@@ -65,7 +65,7 @@ pub(crate) fn solve(
             }
         })
         .collect();
-    let [model, model_source, tool] = spot;
+    let [model, model_source, tool] = names;
     Ok(EquilibriaAnswer {
         schema: 3,
         kinetostat_version: env!("CARGO_PKG_VERSION"),

@@ -9,41 +9,41 @@ mod text;
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 
+use crate::end_condition::answering::{CommandQuery, Shown, Work, answer_query};
 use crate::end_condition::chain::{moves_of, serial_chain};
-use crate::end_condition::command::{Asked, Shown, Work, follow};
 use crate::end_condition::loads::{refuse_nodes, with_loads};
-use crate::end_condition::machine::Machine;
+use crate::end_condition::machine::CommandedMachine;
 use crate::equilibria::answer::EquilibriaAnswer;
 use crate::equilibria::arguments::EquilibriaArgs;
-use crate::equilibria::query::question;
-use crate::place::query::Spot;
+use crate::equilibria::query::equilibria_query;
+use crate::place::query::PlaceQuery;
 use crate::ui::failure::Answer;
 
 pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
-    let asked = Asked {
+    let command = CommandQuery {
         model: &args.model,
         place: &args.place,
         tool_length_mm: args.tool_length_mm,
         outputs: &args.outputs,
     };
-    let about = |spot: &Spot| -> Answer<Work<EquilibriaAnswer>> {
-        if is_serial_chain(&spot.mechanism) {
-            let chain = with_loads(serial_chain(spot)?, &args.end)?;
-            let q = question(&moves_of(&chain), args)?;
+    let about = |query: &PlaceQuery| -> Answer<Work<EquilibriaAnswer>> {
+        if is_serial_chain(&query.mechanism) {
+            let chain = with_loads(serial_chain(query)?, &args.end)?;
+            let q = equilibria_query(&moves_of(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
                 answer::solve(&chain, &q, place, names, stage)
             }))
         } else {
             refuse_nodes(&args.end)?;
-            let machine = Machine::of(spot)?;
-            let q = question(&machine.moves, args)?;
+            let machine = CommandedMachine::of(query)?;
+            let q = equilibria_query(&machine.moves, args)?;
             Ok(Box::new(move |place, names, stage| {
                 machine::solve(&machine, &q, place, names, stage)
             }))
         }
     };
-    follow(
-        &asked,
+    answer_query(
+        &command,
         about,
         |answer| &mut answer.warnings,
         |heading, answer| {

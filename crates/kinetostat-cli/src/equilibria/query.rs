@@ -12,7 +12,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::{load_triple, short, triple};
 
 /// A question of `equilibria`.
-pub(crate) struct Question {
+pub(crate) struct EquilibriaQuery {
     pub(crate) end: EndCondition,
     pub(crate) holding: Holding,
     pub(crate) settings: SearchSettings,
@@ -21,7 +21,7 @@ pub(crate) struct Question {
     pub(crate) words: String,
 }
 
-pub(crate) fn question(moves: &Moves, args: &EquilibriaArgs) -> Answer<Question> {
+pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<EquilibriaQuery> {
     let acting = wrench(
         ("--force", args.force.as_deref()),
         ("--moment", args.moment.as_deref()),
@@ -87,7 +87,7 @@ pub(crate) fn question(moves: &Moves, args: &EquilibriaArgs) -> Answer<Question>
     words.push(' ');
     words.push_str(&held.in_words());
     words.push_str(&constant_in_words(&args.end));
-    Ok(Question {
+    Ok(EquilibriaQuery {
         end: held.end.clone(),
         holding: held,
         settings,

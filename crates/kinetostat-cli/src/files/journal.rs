@@ -314,8 +314,8 @@ pub(crate) fn tidy(directory: &Path) -> Vec<String> {
         }
         let Some(journal) = journal else { continue };
         match apart(directory, journal) {
-            Some(told) => notes.push(format!(
-                "{told} (this is said until it is settled; '{}' can be removed then)",
+            Some(reported) => notes.push(format!(
+                "{reported} (this is said until it is settled; '{}' can be removed then)",
                 safe(&path.display().to_string())
             )),
             None => drop(fs::remove_file(&path)),

@@ -2,8 +2,8 @@
 //! writes, all of them or none.
 
 pub(crate) mod hash;
-pub(crate) mod input;
+pub(crate) mod input_files;
 pub(crate) mod journal;
 pub(crate) mod origin;
-pub(crate) mod output;
+pub(crate) mod outputs;
 pub(crate) mod paths;

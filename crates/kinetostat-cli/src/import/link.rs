@@ -14,7 +14,7 @@ use kinetostat_model::doubts_of_link_matrix;
 use nalgebra::{Matrix6, Rotation3, Vector3};
 use serde::Serialize;
 
-use crate::files::output::{self, Existing, Outputs};
+use crate::files::outputs::{self, Existing, Outputs};
 use crate::import::link_arguments::{DisplacementsArgs, MatrixArgs, MeshArgs, TableArgs};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{item, listed, wrapped};
@@ -50,7 +50,7 @@ struct Summary<'a> {
 
 /// What is told of a link besides its matrix.
 #[derive(Default)]
-struct Told {
+struct Remarks {
     rows: Vec<[String; 2]>,
     notices: Vec<String>,
     assumption: Vec<String>,
@@ -60,7 +60,7 @@ struct Told {
     zero_modes: Option<usize>,
 }
 
-impl Told {
+impl Remarks {
     fn row(&mut self, what: &str, value: impl Into<String>) {
         self.rows.push([what.to_owned(), value.into()]);
     }
@@ -70,16 +70,23 @@ pub(crate) fn matrix(args: &MatrixArgs) -> Answer<()> {
     let mut inputs = vec![args.file.clone()];
     inputs.extend(args.dofs.clone());
     inputs.extend(args.mesh.nodes.clone());
-    let mut told = Told::default();
+    let mut remarks = Remarks::default();
     let (stiffness, source) = match &args.interface {
-        None => plain(args, &mut told)?,
-        Some(interface) => reduced(args, interface, &mut told)?,
+        None => plain(args, &mut remarks)?,
+        Some(interface) => reduced(args, interface, &mut remarks)?,
     };
-    finish(&args.file, &args.table, inputs, &stiffness, &source, told)
+    finish(
+        &args.file,
+        &args.table,
+        inputs,
+        &stiffness,
+        &source,
+        remarks,
+    )
 }
 
 /// A 6 x 6 as the file has it.
-fn plain(args: &MatrixArgs, told: &mut Told) -> Answer<(Matrix6<f64>, String)> {
+fn plain(args: &MatrixArgs, remarks: &mut Remarks) -> Answer<(Matrix6<f64>, String)> {
     let text = Text::read(&args.file)?;
     if args.mesh.x_axis.is_some() || args.mesh.y_axis.is_some() || args.mesh.nodes.is_some() {
         return Err(Failure::input(
@@ -105,7 +112,7 @@ fn plain(args: &MatrixArgs, told: &mut Told) -> Answer<(Matrix6<f64>, String)> {
             return Err(error.into());
         }
     };
-    told.row(
+    remarks.row(
         "read",
         if read.was_compliance {
             "6 x 6 compliance, inverted"
@@ -113,21 +120,21 @@ fn plain(args: &MatrixArgs, told: &mut Told) -> Answer<(Matrix6<f64>, String)> {
             "6 x 6 stiffness"
         },
     );
-    told.row("units", read.units.name);
+    remarks.row("units", read.units.name);
     let raw = judge(&read.stiffness, f64::INFINITY).antisymmetric_share;
     let mut stiffness = read.at_link_end();
     if raw.is_finite() && (raw <= SYMMETRIC_TO || args.symmetrise) {
         stiffness = symmetrised(&stiffness);
-        symmetry(raw, args.symmetrise, told);
+        symmetry(raw, args.symmetrise, remarks);
     }
     let source = read.source.unwrap_or_else(|| file_name(&args.file));
     Ok((stiffness, source))
 }
 
-fn symmetry(share: f64, said: bool, told: &mut Told) {
-    told.asymmetry = Some(share);
+fn symmetry(share: f64, said: bool, remarks: &mut Remarks) {
+    remarks.asymmetry = Some(share);
     if said && share > SYMMETRIC_TO {
-        told.assumption.push(format!(
+        remarks.assumption.push(format!(
             "symmetric part of a matrix whose anti-symmetric share was {}",
             formatter::short(share)
         ));
@@ -135,7 +142,11 @@ fn symmetry(share: f64, said: bool, told: &mut Told) {
 }
 
 /// A matrix of many degrees of freedom, condensed to one interface.
-fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matrix6<f64>, String)> {
+fn reduced(
+    args: &MatrixArgs,
+    interface: &str,
+    remarks: &mut Remarks,
+) -> Answer<(Matrix6<f64>, String)> {
     let units = needed_units(&args.mesh)?;
     let text = Text::read(&args.file)?;
     let companion = args.dofs.as_deref().map(Text::read).transpose()?;
@@ -166,7 +177,7 @@ fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matri
             formatter::short(share)
         )));
     }
-    symmetry(share, args.symmetrise, told);
+    symmetry(share, args.symmetrise, remarks);
     let free = free_test(&element, &nodes, units);
     if question.fixed.is_empty() && free.is_free() && free.resistance.iter().any(Option::is_some) {
         return Err(Failure::input(format!(
@@ -175,7 +186,7 @@ fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matri
         )));
     }
     let found = condense(&element, &nodes, &question)?;
-    tell_reduction(&element, &found, &free, &question, told);
+    remark_reduction(&element, &found, &free, &question, remarks);
     let end = found.end * 1e3;
     let source = format!(
         "{} ({}), end at {:.3}, {:.3}, {:.3} mm of its mesh, interface {}",
@@ -192,15 +203,15 @@ fn reduced(args: &MatrixArgs, interface: &str, told: &mut Told) -> Answer<(Matri
     Ok((found.stiffness, source))
 }
 
-fn tell_reduction(
+fn remark_reduction(
     element: &Superelement,
     found: &Condensed,
     free: &FreeTest,
     question: &Question,
-    told: &mut Told,
+    remarks: &mut Remarks,
 ) {
     let [tied, fixed, inside] = found.counts;
-    told.row(
+    remarks.row(
         "read",
         format!(
             "{}, {} degrees of freedom",
@@ -208,7 +219,7 @@ fn tell_reduction(
             element.dofs.len()
         ),
     );
-    told.row(
+    remarks.row(
         "condensed",
         match question.tie {
             Tie::Rigid => format!("{tied} tied to the end, {fixed} fixed, {inside} inside"),
@@ -217,14 +228,14 @@ fn tell_reduction(
             }
         },
     );
-    told.row("rigid body", free.words());
+    remarks.row("rigid body", free.words());
     let end = found.end * 1e3;
-    told.row(
+    remarks.row(
         "end, mm",
         format!("{:.3}, {:.3}, {:.3}", end.x, end.y, end.z),
     );
     if found.rank.rank == 6 {
-        told.row(
+        remarks.row(
             "interface",
             format!(
                 "{:.1} mm in size, condition {:.1}",
@@ -233,19 +244,20 @@ fn tell_reduction(
             ),
         );
     }
-    told.zero_modes = free.zero_modes;
+    remarks.zero_modes = free.zero_modes;
     if free.negative_modes.is_some_and(|n| n > 0) {
-        told.notices
+        remarks
+            .notices
             .push("the whole matrix has negative modes: was it taken under a load?".into());
     }
     if !question.fixed.is_empty() && fixed > 0 && !free.is_free() {
-        told.notices.push(
+        remarks.notices.push(
             "the body is held by more than the fixed interface: a support was left in the model, or the program did not condense (ccx 2.20 writes its *SUBSTRUCTURE like that: take the .sti of *FREQUENCY, SOLVER=MATRIXSTORAGE)"
                 .into(),
         );
     }
     if found.least_pivot < 1e-9 {
-        told.notices.push(format!(
+        remarks.notices.push(format!(
             "a part inside is nearly free (pivot {}): look for loose parts and hinges",
             formatter::short(found.least_pivot)
         ));
@@ -269,10 +281,10 @@ pub(crate) fn displacements(args: &DisplacementsArgs) -> Answer<()> {
     let end = metres(&args.end_mm);
     let found = identify(text.name(), &cases, &end)?;
     let turn = kinetostat::turn_matrix(&axes(&args.mesh)?);
-    let mut told = Told::default();
-    tell_experiments(&found, &cases, &mut told);
+    let mut remarks = Remarks::default();
+    remark_experiments(&found, &cases, &mut remarks);
     let stiffness = if args.filter {
-        told.assumption.push(format!(
+        remarks.assumption.push(format!(
             "{} of 15 couplings of the compliance, less than twice their deviation, taken for zero",
             found.insignificant.len()
         ));
@@ -287,7 +299,7 @@ pub(crate) fn displacements(args: &DisplacementsArgs) -> Answer<()> {
     };
     // Deviations do not turn like the matrix: they are told in the mesh's axes only.
     let unturned = (turn - Matrix6::identity()).norm() < 1e-12;
-    told.deviation = unturned.then_some(found.stiffness_deviation);
+    remarks.deviation = unturned.then_some(found.stiffness_deviation);
     let stiffness = symmetrised(&(turn.transpose() * stiffness * turn));
     let at = end * 1e3;
     let source = format!(
@@ -299,11 +311,22 @@ pub(crate) fn displacements(args: &DisplacementsArgs) -> Answer<()> {
         at.y,
         at.z
     );
-    finish(&args.file, &args.table, inputs, &stiffness, &source, told)
+    finish(
+        &args.file,
+        &args.table,
+        inputs,
+        &stiffness,
+        &source,
+        remarks,
+    )
 }
 
-fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], told: &mut Told) {
-    told.row(
+fn remark_experiments(
+    found: &Identified,
+    cases: &[kinetostat_links::LoadCase],
+    remarks: &mut Remarks,
+) {
+    remarks.row(
         "load cases",
         cases
             .iter()
@@ -311,7 +334,7 @@ fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], to
             .collect::<Vec<_>>()
             .join(", "),
     );
-    told.row(
+    remarks.row(
         "interface",
         format!(
             "{:.1} mm in size, rank {} of 6, condition {:.1}",
@@ -326,7 +349,7 @@ fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], to
         .zip(cases)
         .max_by(|a, b| a.0.not_rigid.total_cmp(&b.0.not_rigid));
     if let Some((fit, case)) = worst {
-        told.row(
+        remarks.row(
             "no rigid motion",
             format!(
                 "at most {} of the displacements (case {}, {} per component)",
@@ -336,7 +359,7 @@ fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], to
             ),
         );
     }
-    told.row(
+    remarks.row(
         "anti-symmetric",
         format!(
             "{} of the compliance; the residuals explain {}",
@@ -352,7 +375,7 @@ fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], to
             )
         })
         .fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
-    told.row(
+    remarks.row(
         "least sure",
         format!(
             "{}: {:.2} % standard deviation",
@@ -366,12 +389,12 @@ fn tell_experiments(found: &Identified, cases: &[kinetostat_links::LoadCase], to
             .filter(|p| !found.insignificant.contains(p))
             .map(|(i, j)| format!("{}-{}", DIRECTIONS[j], DIRECTIONS[i]))
             .collect();
-        told.row("couplings", kept.join(", "));
+        remarks.row("couplings", kept.join(", "));
     }
-    told.asymmetry = Some(found.antisymmetric_share);
-    told.explained = Some(found.explained_share);
-    told.notices.extend(found.notices.iter().cloned());
-    told.assumption.push(format!(
+    remarks.asymmetry = Some(found.antisymmetric_share);
+    remarks.explained = Some(found.explained_share);
+    remarks.notices.extend(found.notices.iter().cloned());
+    remarks.assumption.push(format!(
         "symmetric part of the compliance taken, its anti-symmetric share was {}",
         formatter::short(found.antisymmetric_share)
     ));
@@ -384,17 +407,18 @@ fn finish(
     inputs: Vec<PathBuf>,
     stiffness: &Matrix6<f64>,
     source: &str,
-    mut told: Told,
+    mut remarks: Remarks,
 ) -> Answer<()> {
     let judged = judge(stiffness, SYMMETRIC_TO);
     refuse_what_is_none(file, &judged)?;
     let doubts = doubts_of_link_matrix(stiffness, None);
     for finding in &judged.findings {
-        told.notices
+        remarks
+            .notices
             .push(format!("{}; {}", finding.message, finding.help));
     }
     for (message, help) in doubts {
-        told.notices.push(format!("{message}; {help}"));
+        remarks.notices.push(format!("{message}; {help}"));
     }
     let name = match &table.name {
         Some(name) => name.clone(),
@@ -402,7 +426,7 @@ fn finish(
             .file_stem()
             .map_or_else(|| "link".into(), |s| s.to_string_lossy().into_owned()),
     };
-    let assumption = (!told.assumption.is_empty()).then(|| told.assumption.join("; "));
+    let assumption = (!remarks.assumption.is_empty()).then(|| remarks.assumption.join("; "));
     let toml = stiffness_table(&name, stiffness, source, assumption.as_deref());
     let existing = Existing::forced(table.force_overwrite);
     let mut outputs = Outputs::new(existing, inputs);
@@ -411,13 +435,13 @@ fn finish(
         outputs.fill(index, toml.as_bytes())?;
         outputs.commit()?;
     }
-    let share = told.asymmetry.unwrap_or(judged.antisymmetric_share);
+    let share = remarks.asymmetry.unwrap_or(judged.antisymmetric_share);
     let text = in_words(
         &name,
         &judged,
         stiffness,
         share,
-        &told,
+        &remarks,
         table.out.as_deref(),
     );
     if table.json {
@@ -433,13 +457,13 @@ fn finish(
             output: table.out.as_ref().map(|p| p.display().to_string()),
             name: &name,
             stiffness_n_mm_rad: rows(stiffness),
-            deviation_n_mm_rad: told.deviation.as_ref().map(rows),
+            deviation_n_mm_rad: remarks.deviation.as_ref().map(rows),
             rank: judged.rank,
             antisymmetric_share: share,
-            explained_share: told.explained,
+            explained_share: remarks.explained,
             natural_length_mm: judged.natural_length * 1e3,
-            zero_modes: told.zero_modes,
-            notices: &told.notices,
+            zero_modes: remarks.zero_modes,
+            notices: &remarks.notices,
         };
         return screen::print_bytes(json::json(&summary)?.as_bytes());
     }
@@ -472,11 +496,11 @@ fn in_words(
     judged: &Judgement,
     stiffness: &Matrix6<f64>,
     share: f64,
-    told: &Told,
+    remarks: &Remarks,
     out: Option<&Path>,
 ) -> String {
     let mut text = wrapped(&format!("Stiffness of the link '{name}' at its end"), 0);
-    let mut rows: Vec<Vec<String>> = told.rows.iter().map(|r| r.to_vec()).collect();
+    let mut rows: Vec<Vec<String>> = remarks.rows.iter().map(|r| r.to_vec()).collect();
     let k = in_n_mm(stiffness);
     let three = |from: usize| {
         (from..from + 3)
@@ -499,14 +523,14 @@ fn in_words(
         format!("{} mm", numbers::number(judged.natural_length * 1e3, 3)),
     ]);
     text.push_str(&listed(&rows, 2));
-    if !told.notices.is_empty() {
+    if !remarks.notices.is_empty() {
         text.push_str("\nNotices\n");
-        for notice in &told.notices {
+        for notice in &remarks.notices {
             text.push_str(&item(notice));
         }
     }
     if let Some(path) = out {
-        text.push_str(&output::written(&[path.to_owned()]));
+        text.push_str(&outputs::written(&[path.to_owned()]));
     }
     text
 }

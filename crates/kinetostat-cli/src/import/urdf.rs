@@ -9,7 +9,7 @@ use kinetostat_import::{
 };
 use serde::Serialize;
 
-use crate::files::output::{Existing, Outputs};
+use crate::files::outputs::{Existing, Outputs};
 use crate::import::arguments::UrdfArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
@@ -71,20 +71,20 @@ pub(crate) fn urdf(args: &UrdfArgs) -> Answer<()> {
         outputs.fill(index, imported.toml.as_bytes())?;
         outputs.commit()?;
     }
-    let told = in_words(
+    let text = in_words(
         &imported,
         &args.file.display().to_string(),
         args.out.as_deref(),
     );
     if args.json {
-        screen::print(Stream::Err, &told)?;
+        screen::print(Stream::Err, &text)?;
         return screen::print_bytes(json::json(&summary(&imported, args))?.as_bytes());
     }
     if args.out.is_some() {
-        return screen::print(Stream::Out, &told);
+        return screen::print(Stream::Out, &text);
     }
     // The model itself is the result.
-    screen::print(Stream::Err, &told)?;
+    screen::print(Stream::Err, &text)?;
     screen::print_bytes(imported.toml.as_bytes())
 }
 

@@ -8,11 +8,11 @@ use kinetostat_model::exact;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::format::Job;
 use crate::job::job_file::JobFile;
-use crate::job::machine::machine;
+use crate::job::machine::machine_setup;
 use crate::job::program;
 use crate::job::setting::setting;
 use crate::job::source::Source;
@@ -23,7 +23,7 @@ use crate::ui::failure::{Answer, Code, Failure};
 const MOST: usize = 100;
 
 /// What a run along a program is asked: enough to read everything that its job file says.
-pub(crate) struct Asked<'a> {
+pub(crate) struct RunQuery<'a> {
     pub(crate) job: Option<&'a Path>,
     pub(crate) model: Option<&'a str>,
     pub(crate) program: &'a ProgramArgs,
@@ -31,16 +31,16 @@ pub(crate) struct Asked<'a> {
 }
 
 /// The failure of a run, or all faults of its job file if there are more.
-pub(crate) fn with_all_others(files: &Files, asked: &Asked<'_>, first: Failure) -> Failure {
-    match asked.job {
+pub(crate) fn with_all_others(files: &InputFiles, query: &RunQuery<'_>, first: Failure) -> Failure {
+    match query.job {
         Some(path) if first.code == Code::WrongInput => {
-            all(files, path, asked, &first).unwrap_or(first)
+            all(files, path, query, &first).unwrap_or(first)
         }
         _ => first,
     }
 }
 
-fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option<Failure> {
+fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -> Option<Failure> {
     let text = files.job(path).ok()?;
     let name = path.display().to_string();
     let source = Source {
@@ -52,7 +52,7 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     let mut taken = Vec::new();
     // What has the wrong form: unknown keys, words for numbers, numbers that are none.
     for span in source.not_finite(&tree) {
-        add(&mut found, source.endless(span.clone()));
+        add(&mut found, source.not_finite_number(span.clone()));
         take(tree.get_mut(), span, &mut taken);
     }
     while read(&tree)
@@ -65,21 +65,21 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
         add(&mut found, failure);
     }
     let parts: [Part<'_>; 3] = [
-        &|job| setting(files, Some(job), asked.program, &asked.writing).map(drop),
+        &|job| setting(files, Some(job), query.program, &query.writing).map(drop),
         &|job| {
             let mut inputs = Vec::new();
-            machine(files, Some(job), asked.model, asked.program, &mut inputs).map(drop)
+            machine_setup(files, Some(job), query.model, query.program, &mut inputs).map(drop)
         },
         &|job| {
             // Without a model that can be read: tool, placement and load all the same.
             let mut job = job.clone();
             job.job.deviation.clear();
             let mut inputs = Vec::new();
-            machine(
+            machine_setup(
                 files,
                 Some(&job),
                 Some("orthoglide"),
-                asked.program,
+                query.program,
                 &mut inputs,
             )
             .map(drop)
@@ -113,7 +113,7 @@ fn all(files: &Files, path: &Path, asked: &Asked<'_>, first: &Failure) -> Option
     }
     // The program's own faults, where everything that says how to read it is right.
     if let Ok(job) = JobFile::read(files, path)
-        && let Ok(setting) = setting(files, Some(&job), asked.program, &asked.writing)
+        && let Ok(setting) = setting(files, Some(&job), query.program, &query.writing)
         && let Err(failure) = program::read_program(&setting)
     {
         add(&mut found, failure);

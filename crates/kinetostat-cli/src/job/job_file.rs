@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use kinetostat_machining::{Warning, WarningCode};
 use serde_spanned::Spanned;
 
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::job::format::Job;
 use crate::job::source::Source;
 use crate::ui::failure::{Answer, Failure};
@@ -19,7 +19,7 @@ pub(crate) struct JobFile {
 }
 
 impl JobFile {
-    pub(crate) fn read(files: &Files, path: &Path) -> Answer<Self> {
+    pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Self> {
         let text = files.job(path)?;
         let name = path.display().to_string();
         let job = Job::read(Source {
@@ -34,14 +34,19 @@ impl JobFile {
     }
 
     /// Angles in it that were most likely written in the other unit.
-    pub(crate) fn odd_angles(&self) -> impl Iterator<Item = Warning> + '_ {
-        let line = |at: usize| 1 + self.text[..at].matches('\n').count();
+    pub(crate) fn odd_angles(&self) -> Vec<Warning> {
+        let file = self.path.display().to_string();
+        let source = Source {
+            file: &file,
+            text: &self.text,
+        };
         let found = kinetostat_model::odd_angles(&self.text).into_iter();
-        found.map(move |(span, message)| {
-            let line = line(span.start);
-            Warning::at_line(WarningCode::OddPlacement, line, message)
-                .of_file(self.path.display().to_string())
-        })
+        found
+            .map(|(span, message)| {
+                Warning::at_line(WarningCode::OddPlacement, source.line(span), message)
+                    .of_file(file.clone())
+            })
+            .collect()
     }
 
     /// Directory that the job's relative paths start from.

@@ -8,7 +8,7 @@ use kinetostat_model::Model;
 use kinetostat_program::WriteOptions;
 
 use crate::files::hash::{FNV1A, fnv1a};
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
@@ -22,7 +22,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::short;
 
 /// The machine with its tool, where the program lies, and what acts.
-pub(crate) struct Machine {
+pub(crate) struct MachineSetup {
     pub(crate) mechanism: Mechanism,
     pub(crate) placement: Placement,
     pub(crate) load: ProgramLoad,
@@ -38,13 +38,13 @@ pub(crate) struct Machine {
 }
 
 /// The machine, its tool, the placement and the load.
-pub(crate) fn machine(
-    files: &Files,
+pub(crate) fn machine_setup(
+    files: &InputFiles,
     job: Option<&JobFile>,
     flag_model: Option<&str>,
     flags: &ProgramArgs,
     inputs: &mut Vec<PathBuf>,
-) -> Answer<(Machine, Model)> {
+) -> Answer<(MachineSetup, Model)> {
     let table = job.and_then(|j| j.job.model.as_ref());
     let (named, base) = match (flag_model, table) {
         (Some(named), _) => (named.to_owned(), PathBuf::new()),
@@ -101,7 +101,7 @@ pub(crate) fn machine(
         ..Question::default()
     };
     Ok((
-        Machine {
+        MachineSetup {
             mechanism,
             placement,
             load,

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use kinetostat_machining::{FileRead, Limits};
 use kinetostat_program::{ReadOptions, WriteOptions};
 
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::files::origin;
 use crate::job::arguments::{ProgramArgs, WritingFlags};
 use crate::job::job_file::JobFile;
 use crate::job::limits::limits;
+use crate::job::output_paths::{OutputPaths, output_paths};
 use crate::job::reading::reading;
-use crate::job::targets::{Targets, targets};
 use crate::job::values::{above_zero, chosen, micrometres};
 use crate::ui::failure::{Answer, Failure};
 
@@ -28,14 +28,14 @@ pub(crate) struct Setting {
     pub(crate) limits: Limits,
     /// Whether the tolerances of path and chords were stated.
     pub(crate) stated: [bool; 2],
-    pub(crate) targets: Targets,
+    pub(crate) targets: OutputPaths,
     /// Files that were read: never overwritten.
     pub(crate) inputs: Vec<PathBuf>,
 }
 
 /// Reads the program and everything said about it.
 pub(crate) fn setting(
-    files: &Files,
+    files: &InputFiles,
     job: Option<&JobFile>,
     flags: &ProgramArgs,
     writing: &WritingFlags<'_>,
@@ -58,7 +58,7 @@ pub(crate) fn setting(
         || path.display().to_string(),
         |n| n.to_string_lossy().into_owned(),
     );
-    let targets = targets(job, flags, writing, &path)?;
+    let targets = output_paths(job, flags, writing, &path)?;
     // The last, so that nothing else is hidden by a program that is not there.
     let program = files.bytes("program", &path)?;
     Ok(Setting {

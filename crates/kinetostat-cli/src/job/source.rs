@@ -27,17 +27,27 @@ impl Source<'_> {
     /// An error at a place of the text.
     pub(crate) fn error(&self, span: Range<usize>, message: &str, help: &str) -> Failure {
         let [message, help] = [message, help].map(|t| safe(t).replace('\n', " "));
-        let problem = Problem::found(
-            Severity::Error,
-            self.file,
-            self.text,
-            span.clone(),
-            "",
-            [message, help],
-        );
+        let problem = self.problem(span.clone(), [message, help]);
         let plain = problem.rendered(false);
         let plain = plain.strip_prefix("error: ").unwrap_or(plain).to_owned();
         Failure::located(plain, problem.rendered(true).to_owned(), span)
+    }
+
+    /// The line that a place begins in, from 1.
+    pub(crate) fn line(&self, span: Range<usize>) -> usize {
+        let found = self.problem(span, [String::new(), String::new()]);
+        found.line.unwrap_or(1)
+    }
+
+    fn problem(&self, span: Range<usize>, [message, help]: [String; 2]) -> Problem {
+        Problem::found(
+            Severity::Error,
+            self.file,
+            self.text,
+            span,
+            "",
+            [message, help],
+        )
     }
 
     /// Reads a job file's TOML into a type; every mistake is told with its line and what to do.
@@ -49,7 +59,7 @@ impl Source<'_> {
     pub(crate) fn read_as<T: DeserializeOwned>(&self, help: &str) -> Result<T, Failure> {
         let tree = DeTable::parse(self.text).map_err(|error| self.syntax(&error))?;
         if let Some(span) = self.not_finite(&tree).into_iter().next() {
-            return Err(self.endless(span));
+            return Err(self.not_finite_number(span));
         }
         exact_toml(self.text).map_err(|error| self.wrong(&error, help))
     }
@@ -64,7 +74,7 @@ impl Source<'_> {
     }
 
     /// What is said of such a number.
-    pub(crate) fn endless(&self, span: Range<usize>) -> Failure {
+    pub(crate) fn not_finite_number(&self, span: Range<usize>) -> Failure {
         self.error(
             span,
             "this is no finite number",

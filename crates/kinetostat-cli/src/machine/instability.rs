@@ -13,7 +13,7 @@ pub(crate) fn in_words(shares: &InstabilityShares<'_>, under_load: bool) -> Stri
     let state = shares.state();
     let limb_leads_to = match shares.limb_is_conservative() {
         true => "buckling",
-        false => way_to(false),
+        false => leads_to(false),
     };
     let mut parts = Vec::new();
     match (shares.limb, under_load) {
@@ -46,7 +46,7 @@ pub(crate) fn in_words(shares: &InstabilityShares<'_>, under_load: bool) -> Stri
         let (nearest, to) = match (share > most, state.conservative) {
             (true, true) => (", which is nearest to instability,", String::new()),
             (false, true) => ("", String::new()),
-            (_, false) => ("", format!(" to {}", way_to(false))),
+            (_, false) => ("", format!(" to {}", leads_to(false))),
         };
         parts.push(format!(
             "the machine with its tool free{nearest} goes {} % of the way{to}",
@@ -74,7 +74,7 @@ pub(crate) fn in_words(shares: &InstabilityShares<'_>, under_load: bool) -> Stri
 }
 
 /// What a share is the share of the way to.
-pub(crate) fn way_to(conservative: bool) -> &'static str {
+pub(crate) fn leads_to(conservative: bool) -> &'static str {
     match conservative {
         true => "instability",
         false => "where its stiffness is no more positive in every motion",

@@ -7,11 +7,11 @@ use kinetostat_model::Model;
 use crate::ui::failure::Failure;
 
 /// A run that has no answer, with what smells in its model: that is most likely why.
-pub(crate) fn with_smells(failure: Failure, model: &Model) -> Failure {
-    let mut smells = of_model(model);
-    match smells.next() {
+pub(crate) fn with_model_warning(failure: Failure, model: &Model) -> Failure {
+    let mut warnings = of_model(model);
+    match warnings.next() {
         Some(first) => {
-            let more = match smells.count() {
+            let more = match warnings.count() {
                 0 => String::new(),
                 _ => "; `kinetostat check` says what else looks wrong".to_owned(),
             };

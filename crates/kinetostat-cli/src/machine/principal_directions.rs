@@ -18,12 +18,12 @@ pub(crate) struct Principal {
     /// The motion and what lets it happen: `turns about z by arm: q`.
     pub(crate) in_words: String,
     /// Joints and springs that move with it, the most first.
-    pub(crate) behind: Vec<Behind>,
+    pub(crate) behind: Vec<Participation>,
 }
 
 /// A joint or spring that moves while the tool moves in a direction.
 #[derive(Serialize)]
-pub(crate) struct Behind {
+pub(crate) struct Participation {
     pub(crate) name: String,
     pub(crate) role: Role,
     /// Its motion per mm of the direction's longest part.
@@ -65,7 +65,7 @@ pub(crate) fn principal(d: &Direction) -> Principal {
                     MotionKind::Prismatic => (1.0, "mm"),
                     MotionKind::Revolute => (1e-3 * 1_f64.to_degrees(), "deg"),
                 };
-                Behind {
+                Participation {
                     name: s.name.clone(),
                     role: s.role,
                     motion_per_mm: factor * s.motion,

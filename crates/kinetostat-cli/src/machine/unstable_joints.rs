@@ -8,7 +8,7 @@ use crate::ui::numbers::number;
 
 /// A joint whose spring the loads beat.
 #[derive(Serialize)]
-pub(crate) struct Overcome {
+pub(crate) struct UnstableJoint {
     pub(crate) limb: String,
     pub(crate) joint: String,
     /// Of all stiffnesses here: `N/m` or `N m/rad`.
@@ -17,12 +17,12 @@ pub(crate) struct Overcome {
     /// Of all loads on the limb together; negative, and more than the spring's.
     pub(crate) stiffness_by_loads: f64,
     /// The loads with a negative share, the worst first.
-    pub(crate) loads: Vec<OvercomingLoad>,
+    pub(crate) loads: Vec<DestabilisingLoad>,
 }
 
 /// A load's share.
 #[derive(Serialize)]
-pub(crate) struct OvercomingLoad {
+pub(crate) struct DestabilisingLoad {
     pub(crate) name: String,
     pub(crate) stiffness: f64,
 }
@@ -36,11 +36,11 @@ pub(crate) fn load_names(model: &Model) -> Vec<Vec<String>> {
 }
 
 /// The joints that run away at an equilibrium that is not stable; none where it is.
-pub(crate) fn overcome(
+pub(crate) fn unstable_joints(
     posture: &Posture<'_>,
     at: &MechanismEquilibrium,
     load_names: &[Vec<String>],
-) -> Vec<Overcome> {
+) -> Vec<UnstableJoint> {
     if at.stable() {
         return Vec::new();
     }
@@ -53,17 +53,17 @@ pub(crate) fn overcome(
         .collect()
 }
 
-fn written(m: &Mechanism, spring: &OvercomeSpring, load_names: &[Vec<String>]) -> Overcome {
+fn written(m: &Mechanism, spring: &OvercomeSpring, load_names: &[Vec<String>]) -> UnstableJoint {
     let names = load_names.get(spring.limb).map_or(&[][..], Vec::as_slice);
     let shares = names.iter().cloned().zip(spring.by_load.iter().copied());
     let weights = std::iter::once(("weight".to_owned(), spring.by_gravity));
-    let mut loads: Vec<OvercomingLoad> = shares
+    let mut loads: Vec<DestabilisingLoad> = shares
         .chain(weights)
         .filter(|(_, stiffness)| *stiffness < 0.0)
-        .map(|(name, stiffness)| OvercomingLoad { name, stiffness })
+        .map(|(name, stiffness)| DestabilisingLoad { name, stiffness })
         .collect();
     loads.sort_by(|a, b| a.stiffness.total_cmp(&b.stiffness));
-    Overcome {
+    UnstableJoint {
         limb: m.limbs()[spring.limb].name.clone(),
         joint: spring.coordinate.clone(),
         unit: match spring.kind {
@@ -76,7 +76,7 @@ fn written(m: &Mechanism, spring: &OvercomeSpring, load_names: &[Vec<String>]) -
     }
 }
 
-impl Overcome {
+impl UnstableJoint {
     /// One sentence.
     pub(crate) fn in_words(&self) -> String {
         let mut text = format!(

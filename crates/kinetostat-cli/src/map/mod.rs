@@ -10,8 +10,8 @@ use kinetostat::Wrench;
 use kinetostat_machining::{MapPlace, MapTask, Warning, large_load, map, straight_tool};
 use kinetostat_report::Cell;
 
-use crate::files::input::Files;
-use crate::files::output::{self, Existing, Outputs};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::model_warnings::{deviations_in_words, no_potential, of_model};
 use crate::map::answer::{Figures, MapAnswer, Places};
 use crate::map::arguments::{MapArgs, Quantity};
@@ -25,7 +25,7 @@ use crate::ui::progress::Progress;
 use crate::ui::{json, threads};
 
 pub(crate) fn run(args: &MapArgs) -> Answer<()> {
-    let (model, path) = Files::default().model(&args.model, std::path::Path::new(""))?;
+    let (model, path) = InputFiles::default().model(&args.model, std::path::Path::new(""))?;
     let length = args.tool_length_mm.unwrap_or(0.0);
     if length.abs() > 1e5 {
         return Err(Failure::input(format!(
@@ -101,7 +101,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     }
     let paths = outputs.commit()?;
     let text = text::in_words(&answer, &rotation);
-    let text = format!("{text}{}", output::written(&paths));
+    let text = format!("{text}{}", outputs::written(&paths));
     json::print_answer(&text, &answer, args.json)
 }
 

@@ -8,7 +8,7 @@ use kinetostat_analysis::comparison::{ActuatorCounts, ComparisonError, Mapping};
 use kinetostat_model::Model;
 use serde::Serialize;
 
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::machine::units::unit;
 use crate::place::joints::{self, JointValue};
 use crate::ui::failure::{Answer, Failure};
@@ -87,7 +87,11 @@ impl FrameMap {
 }
 
 pub(crate) fn run(a: &str, b: &str, json: bool) -> Answer<()> {
-    let read = |named: &str| Files::default().model(named, Path::new("")).map(|m| m.0);
+    let read = |named: &str| {
+        InputFiles::default()
+            .model(named, Path::new(""))
+            .map(|m| m.0)
+    };
     let (one, other) = (read(a)?, read(b)?);
     let answer = compare(&one, &other, a, b)?;
     let text = in_words(&answer);
@@ -208,8 +212,8 @@ fn in_words(c: &Comparison) -> String {
         let sign = if j.reversed { "-" } else { "" };
         let offset = match j.offset {
             0.0 => String::new(),
-            o if o < 0.0 => format!(" - {} {}", joints::plain(-o), j.unit),
-            o => format!(" + {} {}", joints::plain(o), j.unit),
+            o if o < 0.0 => format!(" - {} {}", short(-o), j.unit),
+            o => format!(" + {} {}", short(o), j.unit),
         };
         rows.push(vec![
             j.a.clone(),

@@ -6,12 +6,12 @@ use clap::{Args, ValueEnum};
 use kinetostat::{Direction, DirectionKind, MotionKind, Posture, Share, Twist, moved};
 use kinetostat_report::{Drawing, Magnified, Moved, Placed, View};
 
-use crate::files::input::Files;
-use crate::files::output::{self, Existing, Outputs};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::principal_directions::motion_in_words;
 use crate::options::{EXIT_CODES, number};
 use crate::place::arguments::PlaceArgs;
-use crate::place::query::{Spot, spot};
+use crate::place::query::{PlaceQuery, place_query};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
 use crate::ui::numbers::{self, fixed, load_triple, short, triple};
@@ -88,8 +88,8 @@ pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
             "--scale says how much larger a deflection is drawn, but there is none; give --force or --moment",
         ));
     }
-    let spot = spot(
-        &Files::default(),
+    let query = place_query(
+        &InputFiles::default(),
         &args.model,
         &args.place,
         args.tool_length_mm,
@@ -97,21 +97,21 @@ pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
         args.moment.as_deref(),
     )?;
     let existing = Existing::forced(args.force_overwrite);
-    let mut outputs = Outputs::new(existing, spot.inputs.clone());
+    let mut outputs = Outputs::new(existing, query.inputs.clone());
     let target = args.out.as_deref();
     let target = target
         .map(|path| outputs.claim("drawing", path))
         .transpose()?;
 
-    let posture = spot.posture()?;
-    let mut drawing = Drawing::of(&spot.mechanism, Placed::at(&posture));
+    let posture = query.posture()?;
+    let mut drawing = Drawing::of(&query.mechanism, Placed::at(&posture));
     drawing.view = args.view.map(|view| match view {
         ViewWord::Iso => View::Iso,
         ViewWord::Front => View::Front,
         ViewWord::Side => View::Side,
         ViewWord::Top => View::Top,
     });
-    drawing.title = title(&spot);
+    drawing.title = title(&query);
     let mut text = String::new();
     if let Some(rank) = args.motion {
         let (moved, words) = motion(&posture, rank)?;
@@ -119,37 +119,37 @@ pub(crate) fn run(args: &DrawArgs) -> Answer<()> {
         drawing.moved = Some(moved);
         text = words;
     } else if loaded {
-        let (moved, words) = deflection(&spot, &posture, args.scale)?;
+        let (moved, words) = deflection(&query, &posture, args.scale)?;
         drawing.note.clone_from(&words);
         drawing.moved = Some(moved);
-        drawing.applied = Some(spot.wrench);
+        drawing.applied = Some(query.wrench);
         text = words;
     }
     let (svg, _) = drawing.svg();
-    let mut said = spot.heading();
+    let mut said = query.heading();
     if !text.is_empty() {
         said.push_str(&wrapped(&text, 0));
     }
-    said.push_str(&crate::ui::warnings::warnings(&spot.warnings));
+    said.push_str(&crate::ui::warnings::warnings(&query.warnings));
     let Some(target) = target else {
         screen::print(Stream::Err, &said)?;
         return screen::print_bytes(svg.as_bytes());
     };
     outputs.fill(target, svg.as_bytes())?;
-    said.push_str(&output::written(&outputs.commit()?));
+    said.push_str(&outputs::written(&outputs.commit()?));
     screen::print(Stream::Out, &said)
 }
 
-fn title(spot: &Spot) -> String {
-    let at = spot.target.translation.vector * 1e3;
-    let place = if spot.at_home {
+fn title(query: &PlaceQuery) -> String {
+    let at = query.target.translation.vector * 1e3;
+    let place = if query.at_home {
         "at home, tool at"
     } else {
         "tool at"
     };
     format!(
         "{}, {place} {} mm",
-        spot.name,
+        query.name,
         triple(at.into(), |x| short((x * 10.0).round() / 10.0))
     )
 }
@@ -260,9 +260,13 @@ fn small_motion(
 }
 
 /// The machine as built under its loads, from where it was commanded.
-fn deflection(spot: &Spot, posture: &Posture<'_>, scale: Option<f64>) -> Answer<(Moved, String)> {
-    let e = posture.deflected_by(&spot.wrench)?;
-    let (force, moment) = (spot.wrench.force(), spot.wrench.moment());
+fn deflection(
+    query: &PlaceQuery,
+    posture: &Posture<'_>,
+    scale: Option<f64>,
+) -> Answer<(Moved, String)> {
+    let e = posture.deflected_by(&query.wrench)?;
+    let (force, moment) = (query.wrench.force(), query.wrench.moment());
     let mut parts = Vec::new();
     if force.norm() > 0.0 || moment.norm() == 0.0 {
         parts.push(format!("{} N", load_triple(force.into())));

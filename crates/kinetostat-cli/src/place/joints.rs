@@ -1,7 +1,6 @@
 //! Joint values on the command line and in answers: the model's, and what the pendant shows.
 
 use kinetostat::{Mechanism, MotionKind};
-use kinetostat_machining::number::without_zeros;
 use kinetostat_model::schema::ControllerUnit;
 use kinetostat_model::{Controller, Model};
 use serde::Serialize;
@@ -10,7 +9,7 @@ use crate::machine::units::unit;
 use crate::place::arguments::PlaceArgs;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::wrapped;
-use crate::ui::numbers::fixed;
+use crate::ui::numbers::short;
 use crate::ui::spelling::nearest;
 
 /// A joint or an axis and where it stands.
@@ -74,14 +73,9 @@ pub(crate) fn in_words(label: &str, values: &[JointValue]) -> String {
     }
     let list: Vec<String> = values
         .iter()
-        .map(|v| format!("{} {} {}", v.name, plain(v.value), v.unit))
+        .map(|v| format!("{} {} {}", v.name, short(v.value), v.unit))
         .collect();
     wrapped(&format!("{label}: {}", list.join(", ")), 0)
-}
-
-/// At most four decimals.
-pub(crate) fn plain(value: f64) -> String {
-    without_zeros(&fixed(value, 4)).to_owned()
 }
 
 /// Commands (m, rad) of `--joints` or `--pendant`; `None` if neither is given. What is not named

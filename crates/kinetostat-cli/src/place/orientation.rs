@@ -6,6 +6,7 @@ use kinetostat_model::schema::Placement;
 use nalgebra::UnitQuaternion;
 
 use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::short;
 use crate::ui::spelling::nearest;
 
 pub(crate) const CONVENTIONS: [&str; 9] = [
@@ -42,7 +43,7 @@ pub(crate) fn follows(turned_deg: f64, asked: bool, at_most: bool) -> Warning {
         WarningCode::OrientationFollows,
         format!(
             "{why}: the tool turns {by} {} deg from the orientation it is kept near to",
-            crate::place::joints::plain(turned_deg)
+            short(turned_deg)
         ),
     )
 }

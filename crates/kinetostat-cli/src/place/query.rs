@@ -10,7 +10,7 @@ use kinetostat_model::{Controller, Model};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::machine::model_warnings::{deviations_in_words, of_model};
 use crate::machine::unstable_joints::load_names;
 use crate::options::vector;
@@ -23,7 +23,7 @@ use crate::ui::layout::wrapped;
 use crate::ui::numbers::{short, triple};
 
 /// Everything about one place.
-pub(crate) struct Spot {
+pub(crate) struct PlaceQuery {
     pub(crate) name: String,
     pub(crate) source: String,
     pub(crate) tool_words: String,
@@ -46,28 +46,28 @@ pub(crate) struct Spot {
     pub(crate) warnings: Vec<Warning>,
 }
 
-pub(crate) fn spot(
-    files: &Files,
+pub(crate) fn place_query(
+    files: &InputFiles,
     model: &str,
     place: &PlaceArgs,
     tool_length_mm: Option<f64>,
     force: Option<&[f64]>,
     moment: Option<&[f64]>,
-) -> Answer<Spot> {
+) -> Answer<PlaceQuery> {
     let (read, path) = files.model(model, Path::new(""))?;
-    spot_of(&read, path, model, place, tool_length_mm, force, moment)
+    place_query_of(&read, path, model, place, tool_length_mm, force, moment)
 }
 
 /// The same for a model that was read already, under the name it was `asked` for.
-pub(crate) fn spot_of(
+pub(crate) fn place_query_of(
     read: &Model,
     path: Option<PathBuf>,
-    asked: &str,
+    named: &str,
     place: &PlaceArgs,
     tool_length_mm: Option<f64>,
     force: Option<&[f64]>,
     moment: Option<&[f64]>,
-) -> Answer<Spot> {
+) -> Answer<PlaceQuery> {
     let length = tool_length_mm.unwrap_or(0.0);
     if !length.is_finite() || length.abs() > 1e5 {
         return Err(Failure::input(format!(
@@ -114,11 +114,11 @@ pub(crate) fn spot_of(
     };
     let wrench = Wrench::new(load("--force", force)?, load("--moment", moment)?);
     warnings.extend(large_load(&wrench));
-    Ok(Spot {
+    Ok(PlaceQuery {
         name: read.name().to_owned(),
         source: match &path {
-            Some(_) => asked.to_owned(),
-            None => format!("preset {asked}"),
+            Some(_) => named.to_owned(),
+            None => format!("preset {named}"),
         },
         tool_words: if length == 0.0 {
             "none: the platform's own point".to_owned()
@@ -154,7 +154,7 @@ fn own_loads(model: &Model) -> Vec<String> {
     between.chain(of_limbs).collect()
 }
 
-impl Spot {
+impl PlaceQuery {
     /// The machine commanded for the place, within the limits of its actuators.
     pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
         let posture = self.standing()?;
@@ -188,8 +188,8 @@ impl Spot {
         joints::on_pendant(self.controller.as_ref(), &posture.commands())
     }
 
-    pub(crate) fn asked(&self) -> PlaceAsked {
-        PlaceAsked {
+    pub(crate) fn answer(&self) -> PlaceAnswer {
+        PlaceAnswer {
             position_mm: (self.target.translation.vector * 1e3).into(),
             rotation_vector_deg: self
                 .target
@@ -237,7 +237,7 @@ impl Spot {
 
 /// Where it was asked.
 #[derive(Serialize)]
-pub(crate) struct PlaceAsked {
+pub(crate) struct PlaceAnswer {
     pub(crate) position_mm: [f64; 3],
     pub(crate) rotation_vector_deg: [f64; 3],
     /// Where the orientation follows: how far the tool has turned from the one it is kept near to.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use kinetostat_machining::Run;
 use kinetostat_model::Model;
 
-use crate::files::output::{Existing, Outputs};
-use crate::job::targets::Targets;
+use crate::files::outputs::{Existing, Outputs};
+use crate::job::output_paths::OutputPaths;
 use crate::program::aim::Aim;
 use crate::program::points_table::{self, Listing};
 use crate::ui::failure::{Answer, Failure};
@@ -14,8 +14,8 @@ use crate::ui::json::json;
 use crate::ui::layout;
 
 /// Claimed outputs of a run by what they hold.
-pub(crate) struct Files {
-    pub(crate) outputs: Outputs,
+pub(crate) struct RunOutputs {
+    pub(crate) files: Outputs,
     pub(crate) program: Option<usize>,
     pub(crate) report: Option<usize>,
     pub(crate) json: Option<usize>,
@@ -23,11 +23,11 @@ pub(crate) struct Files {
     pub(crate) listing: Listing,
 }
 
-impl Files {
+impl RunOutputs {
     /// Claims every target before the long work begins.
     pub(crate) fn claim(
         aim: Aim,
-        targets: &Targets,
+        targets: &OutputPaths,
         existing: Existing,
         inputs: &[PathBuf],
     ) -> Answer<Self> {
@@ -48,7 +48,7 @@ impl Files {
             json: claim("result", &targets.json)?,
             points: claim("table of points", &targets.points)?,
             listing: Listing::default(),
-            outputs,
+            files: outputs,
         })
     }
 
@@ -72,13 +72,13 @@ impl Files {
     /// Writes a run beside its targets; nothing is in place yet.
     pub(crate) fn fill(&mut self, run: &Run) -> Answer<()> {
         if let (Some(index), Some(written)) = (self.program, &run.written) {
-            self.outputs.fill(index, &written.bytes)?;
+            self.files.fill(index, &written.bytes)?;
         }
         if let Some(index) = self.json {
-            self.outputs.fill(index, json(&run.result)?.as_bytes())?;
+            self.files.fill(index, json(&run.result)?.as_bytes())?;
         }
         if let Some(index) = self.points {
-            let outputs = &mut self.outputs;
+            let outputs = &mut self.files;
             points_table::table(&run.result.question, &run.points, &self.listing, |bytes| {
                 outputs.append(index, bytes)
             })?;
@@ -87,7 +87,7 @@ impl Files {
         if let Some(index) = self.report {
             let page = kinetostat_report::html_of_run(run)
                 .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
-            self.outputs.fill(index, page.as_bytes())?;
+            self.files.fill(index, page.as_bytes())?;
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ use crate::ui::json::print_answer;
 use crate::ui::screen::{self, Stream};
 
 /// A written program that misses its tolerance has an exit code of its own; files are in place.
-pub(crate) fn judged(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> {
+pub(crate) fn refuse_missed_tolerance(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> {
     match tolerance.missed_in_words() {
         Some(text) => Err(Failure::tolerance_missed(text).within(program)),
         None => Ok(()),
@@ -15,7 +15,7 @@ pub(crate) fn judged(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> 
 }
 
 /// Where the text for people goes, and the JSON on the standard output if it is wanted there.
-pub(crate) fn tell(text: &str, result: Option<&RunResult>) -> Answer<()> {
+pub(crate) fn print_run(text: &str, result: Option<&RunResult>) -> Answer<()> {
     match result {
         Some(result) => print_answer(text, result, true),
         None => screen::print(Stream::Out, text),

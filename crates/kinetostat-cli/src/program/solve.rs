@@ -6,7 +6,7 @@ use kinetostat_machining::{
     load_in_words, origin_in_metres,
 };
 
-use crate::job::machine::Machine;
+use crate::job::machine::MachineSetup;
 use crate::job::program::read_program;
 use crate::job::setting::Setting;
 use crate::program::aim::Aim;
@@ -15,7 +15,7 @@ use crate::ui::progress::Progress;
 use crate::ui::threads::in_threads;
 
 /// The tools of a job, where it names several.
-pub(crate) fn tools(machine: &Machine) -> Vec<Tool<'_>> {
+pub(crate) fn tools(machine: &MachineSetup) -> Vec<Tool<'_>> {
     machine
         .tools
         .iter()
@@ -30,7 +30,7 @@ pub(crate) fn tools(machine: &Machine) -> Vec<Tool<'_>> {
 /// Solves the machine along the program.
 pub(crate) fn solve(
     aim: Aim,
-    machine: &Machine,
+    machine: &MachineSetup,
     setting: &Setting,
     threads: Option<usize>,
 ) -> Answer<Run> {
@@ -111,7 +111,7 @@ pub(crate) fn solve(
         let failure = Failure::from(error).within(&setting.program_name);
         // What is no warning without an answer may be the reason why there is none.
         match origin_in_metres(&machine.mechanism, &machine.placement, &path) {
-            Some(smell) => failure.with_reason(&smell.message),
+            Some(doubt) => failure.with_reason(&doubt.message),
             None => failure,
         }
     })?;

@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use kinetostat_machining::{RunError, Watch};
 use kinetostat_reproduce::{Entry, IDS, ReproduceError, all, html, one};
 
-use crate::files::output::{Existing, Outputs};
+use crate::files::outputs::{Existing, Outputs};
 use crate::reproduce::arguments::ReproduceArgs;
-use crate::reproduce::text::{summary, tell};
+use crate::reproduce::text::{entry_text, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 use crate::ui::layout::wrapped;
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
     let written = outputs.commit()?;
     let mut text = String::new();
     for entry in &entries {
-        tell(&mut text, entry, args.id.is_some());
+        entry_text(&mut text, entry, args.id.is_some());
     }
     summary(&mut text, &entries, args.id.is_some());
     for path in &written {
@@ -46,12 +46,12 @@ pub(crate) fn run(args: &ReproduceArgs) -> Answer<()> {
 }
 
 pub(crate) fn computed(id: Option<&str>) -> Answer<Vec<Entry>> {
-    let told = |error: ReproduceError| match error {
+    let failure_of = |error: ReproduceError| match error {
         ReproduceError::Unknown(id) => unknown(&id),
         error => Failure::unanswered(error),
     };
     if let Some(id) = id {
-        return Ok(vec![one(id).map_err(told)?]);
+        return Ok(vec![one(id).map_err(failure_of)?]);
     }
     let progress = Progress::new();
     let done = AtomicUsize::new(0);
@@ -63,7 +63,7 @@ pub(crate) fn computed(id: Option<&str>) -> Answer<Vec<Entry>> {
     if Watch::cancelled(&progress) {
         return Err(RunError::Cancelled.into());
     }
-    entries.map_err(told)
+    entries.map_err(failure_of)
 }
 
 fn unknown(id: &str) -> Failure {

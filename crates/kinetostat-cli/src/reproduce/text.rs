@@ -30,7 +30,7 @@ fn computed_text(item: &Item) -> String {
 
 /// One entry as a table. Numbers without print are many (they are points of figures): with all
 /// entries they are only counted.
-pub(crate) fn tell(out: &mut String, entry: &Entry, everything: bool) {
+pub(crate) fn entry_text(out: &mut String, entry: &Entry, everything: bool) {
     out.push_str(&wrapped(&format!("{}: {}", entry.id, entry.title), 0));
     let shown: Vec<&Item> = entry
         .items

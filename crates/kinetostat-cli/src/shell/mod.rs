@@ -4,7 +4,7 @@ pub(crate) mod arguments;
 
 use std::path::Path;
 
-use crate::files::output::{Existing, Outputs, written};
+use crate::files::outputs::{Existing, Outputs, written};
 use crate::shell::arguments::{CompletionsArgs, ManArgs};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::screen::{self, Stream};

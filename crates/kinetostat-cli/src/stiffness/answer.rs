@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::machine::principal_directions::{Principal, principal, uneven};
 use crate::place::joints::{self, JointValue};
-use crate::place::query::{PlaceAsked, Spot};
+use crate::place::query::{PlaceAnswer, PlaceQuery};
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -20,7 +20,7 @@ pub(crate) struct Stiffness {
     pub(crate) model: String,
     pub(crate) model_source: String,
     pub(crate) tool: String,
-    pub(crate) place: PlaceAsked,
+    pub(crate) place: PlaceAnswer,
     /// Commands of the actuators there.
     pub(crate) joints: Vec<JointValue>,
     /// What the controller shows, in the order of its axes; empty without a section `controller`.
@@ -93,11 +93,11 @@ pub(crate) fn with_causes(
 }
 
 /// Names what acts in the model and is not in its unloaded stiffness, and adds the stiffness with it.
-pub(crate) fn with_own_loads(answer: &mut Stiffness, spot: &Spot, posture: &Posture<'_>) {
-    if spot.own_loads.is_empty() {
+pub(crate) fn with_own_loads(answer: &mut Stiffness, query: &PlaceQuery, posture: &Posture<'_>) {
+    if query.own_loads.is_empty() {
         return;
     }
-    answer.left_out.clone_from(&spot.own_loads);
+    answer.left_out.clone_from(&query.own_loads);
     match posture.deflected_by(&Wrench::zero()) {
         Ok(rest) => {
             answer.at_rest = Some(AtRest {
@@ -114,7 +114,7 @@ pub(crate) fn with_own_loads(answer: &mut Stiffness, spot: &Spot, posture: &Post
 }
 
 pub(crate) fn answer(
-    spot: &Spot,
+    query: &PlaceQuery,
     posture: &Posture<'_>,
     (loaded, against_force): (bool, f64),
     cartesian: &CartesianStiffness,
@@ -125,22 +125,22 @@ pub(crate) fn answer(
     let count = |kind| directions.iter().filter(|d| d.kind == kind).count();
     let free = count(DirectionKind::Free);
     let held = free + count(DirectionKind::Rigid) < 6;
-    let near_singularity = spot.near_singular();
-    let mut warnings = spot.warnings.clone();
+    let near_singularity = query.near_singular();
+    let mut warnings = query.warnings.clone();
     warnings.extend(near_singularity.iter().map(NearSingular::warning));
-    warnings.extend(uneven(&spot.mechanism, directions));
+    warnings.extend(uneven(&query.mechanism, directions));
     Stiffness {
         schema: 2,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model: spot.name.clone(),
-        model_source: spot.source.clone(),
-        tool: spot.tool_words.clone(),
-        place: spot.asked(),
-        joints: joints::of_model(&spot.mechanism, &posture.commands()),
-        pendant: spot.on_pendant(posture),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        tool: query.tool_words.clone(),
+        place: query.answer(),
+        joints: joints::of_model(&query.mechanism, &posture.commands()),
+        pendant: query.on_pendant(posture),
         loaded,
-        force_n: spot.wrench.force().into(),
-        moment_n_m: spot.wrench.moment().into(),
+        force_n: query.wrench.force().into(),
+        moment_n_m: query.wrench.moment().into(),
         stiffness_n_m_rad: rows(&cartesian.matrix),
         stiffness_n_n_m_per_mm_rad: std::array::from_fn(|i| {
             std::array::from_fn(|j| per_column(j) * cartesian.matrix[(i, j)])
@@ -162,7 +162,7 @@ pub(crate) fn answer(
         principal_directions: directions.iter().map(principal).collect(),
         limbs: limbs
             .iter()
-            .zip(spot.mechanism.limbs())
+            .zip(query.mechanism.limbs())
             .map(|(k, limb)| LimbShare {
                 name: limb.name.clone(),
                 rank: k.rank,

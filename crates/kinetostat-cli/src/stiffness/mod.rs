@@ -6,8 +6,8 @@ mod text;
 
 use kinetostat::{ChainStiffness, Direction};
 
-use crate::files::input::Files;
-use crate::place::query::spot;
+use crate::files::input_files::InputFiles;
+use crate::place::query::place_query;
 use crate::stiffness::answer::{answer, with_causes, with_own_loads};
 use crate::stiffness::arguments::StiffnessArgs;
 use crate::stiffness::text::in_words;
@@ -15,23 +15,23 @@ use crate::ui::failure::Answer;
 use crate::ui::json;
 
 pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
-    let spot = spot(
-        &Files::default(),
+    let query = place_query(
+        &InputFiles::default(),
         &args.model,
         &args.place,
         args.tool_length_mm,
         args.force.as_deref(),
         args.moment.as_deref(),
     )?;
-    let posture = spot.posture()?;
+    let posture = query.posture()?;
     let loaded = args.force.is_some() || args.moment.is_some();
     let answer = if loaded {
-        let e = posture.deflected_by(&spot.wrench)?;
+        let e = posture.deflected_by(&query.wrench)?;
         let limbs: Vec<&ChainStiffness> = e.limbs.iter().map(|l| &l.stiffness).collect();
-        let behind = |d: &Direction| e.behind(&spot.mechanism, &d.twist);
+        let behind = |d: &Direction| e.behind(&query.mechanism, &d.twist);
         let directions = with_causes(&e.directions, behind);
         answer(
-            &spot,
+            &query,
             &posture,
             (true, e.stiffness_against_force()),
             &e.stiffness,
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         let limbs: Vec<&ChainStiffness> = k.limbs.iter().collect();
         let directions = with_causes(&k.directions, |d| k.behind(&posture, &d.twist));
         let mut answer = answer(
-            &spot,
+            &query,
             &posture,
             (false, k.stiffness_against_force()),
             &k.cartesian,
@@ -52,9 +52,9 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
             &directions,
             &limbs,
         );
-        with_own_loads(&mut answer, &spot, &posture);
+        with_own_loads(&mut answer, &query, &posture);
         answer
     };
-    let text = in_words(&spot, &answer);
+    let text = in_words(&query, &answer);
     json::print_answer(&text, &answer, args.json)
 }

@@ -2,14 +2,14 @@
 
 use crate::machine::principal_directions::{principals, what_moves};
 use crate::place::joints;
-use crate::place::query::Spot;
+use crate::place::query::PlaceQuery;
 use crate::stiffness::answer::{AtRest, LimbShare, MICRO, Stiffness, per_column};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, load_triple, number};
 use crate::ui::warnings;
 
-pub(crate) fn in_words(spot: &Spot, a: &Stiffness) -> String {
-    let mut out = spot.heading();
+pub(crate) fn in_words(query: &PlaceQuery, a: &Stiffness) -> String {
+    let mut out = query.heading();
     if !a.pendant.is_empty() {
         out.push_str(&joints::in_words("On the pendant", &a.pendant));
         out.push('\n');
@@ -39,7 +39,7 @@ pub(crate) fn in_words(spot: &Spot, a: &Stiffness) -> String {
     ));
     out.push('\n');
     out.push_str(&table(&a.stiffness_n_m_rad));
-    out.push_str(&asymmetry(spot, a));
+    out.push_str(&asymmetry(query, a));
     out.push('\n');
     out.push_str(&wrapped(&against_force(a), 0));
     if let Some(rest) = &a.at_rest {
@@ -199,8 +199,8 @@ fn table(stiffness: &[[f64; 6]; 6]) -> String {
 }
 
 /// Under a moment the matrix is not symmetric, which surprises who compares it with a table.
-fn asymmetry(spot: &Spot, a: &Stiffness) -> String {
-    let moment = spot.wrench.moment();
+fn asymmetry(query: &PlaceQuery, a: &Stiffness) -> String {
+    let moment = query.wrench.moment();
     if !a.loaded || moment.norm() == 0.0 {
         return String::new();
     }

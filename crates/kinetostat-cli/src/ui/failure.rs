@@ -151,7 +151,7 @@ impl From<kinetostat::Error> for Failure {
             }
             _ => "",
         };
-        let told = match &error {
+        let reported = match &error {
             // Millimetres and degrees, as the place was asked for.
             kinetostat::Error::Unreachable {
                 place,
@@ -165,7 +165,7 @@ impl From<kinetostat::Error> for Failure {
             ),
             other => other.to_string(),
         };
-        let message = format!("{told}{advice}");
+        let message = format!("{reported}{advice}");
         if error.is_unanswered() {
             Self::unanswered(message)
         } else {

@@ -23,7 +23,7 @@ pub(crate) fn load_triple(v: [f64; 3]) -> String {
     triple(v, |x| match x.abs() <= 1e-12 * most {
         true => "0".to_owned(),
         false if x.abs() < 0.01 => formatter::short(x),
-        false => formatter::without_zeros(&fixed(x, 4)).to_owned(),
+        false => short(x),
     })
 }
 

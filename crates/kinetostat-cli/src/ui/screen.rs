@@ -22,12 +22,12 @@ pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
         Stream::Out => write(&mut anstream::stdout().lock(), text.as_bytes()),
         Stream::Err => write(&mut anstream::stderr().lock(), text.as_bytes()),
     };
-    told(result)
+    unless_closed(result)
 }
 
 /// Prints bytes to the standard output without looking at them.
 pub(crate) fn print_bytes(bytes: &[u8]) -> Answer<()> {
-    told(write(&mut std::io::stdout().lock(), bytes))
+    unless_closed(write(&mut std::io::stdout().lock(), bytes))
 }
 
 fn write(to: &mut dyn Write, bytes: &[u8]) -> std::io::Result<()> {
@@ -35,7 +35,7 @@ fn write(to: &mut dyn Write, bytes: &[u8]) -> std::io::Result<()> {
     to.flush()
 }
 
-fn told(result: std::io::Result<()>) -> Answer<()> {
+fn unless_closed(result: std::io::Result<()>) -> Answer<()> {
     match result {
         // The reader has seen enough (`| head`): that is no failure.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),

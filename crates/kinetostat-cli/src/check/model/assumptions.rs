@@ -257,8 +257,8 @@ impl AssumptionsFinding {
         }
     }
 
-    fn too_much(&mut self, case: &Vector3<f64>, told: f64) {
-        let share = 1e3 * told / self.natural_length_mm;
+    fn too_much(&mut self, case: &Vector3<f64>, reported: f64) {
+        let share = 1e3 * reported / self.natural_length_mm;
         self.reference_force_n = Some((*case).into());
         self.in_words.push(format!(
             "a load of {} N is far too much for this machine: to first order the tool would move by {} % of the natural length; along it deflections are small (1 %) up to about {} N",

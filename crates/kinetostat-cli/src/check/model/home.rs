@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::check::model::assumptions::{AssumptionsFinding, assumptions};
 use crate::check::model::limbs::LimbFinding;
 use crate::machine::principal_directions::{Principal, principal, uneven};
-use crate::machine::unstable_joints::{Overcome, overcome};
+use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};
 
 #[derive(Serialize)]
 pub(crate) struct HomeFinding {
@@ -39,7 +39,7 @@ pub(crate) struct HomeFinding {
     /// Under loads without a potential it does not go away, but may swing with growing amplitude.
     pub(crate) may_flutter: bool,
     /// Joints whose springs the loads beat; empty where it is stable.
-    pub(crate) overcome_joints: Vec<Overcome>,
+    pub(crate) overcome_joints: Vec<UnstableJoint>,
     pub(crate) conservative: bool,
     pub(crate) largest_share_to_buckling: Option<f64>,
 }
@@ -86,7 +86,7 @@ pub(crate) fn at_home(
         over_constraints: over
             .stresses
             .iter()
-            .map(|s| fight(&s.in_words(posture)))
+            .map(|s| balance_in_words(&s.in_words(posture)))
             .collect(),
         redundant_motions: posture.redundancy(),
         redundant_actuators: (0..limbs.len())
@@ -118,7 +118,7 @@ pub(crate) fn at_home(
         platform_stable: rest.platform.stable,
         stable: rest.stable(),
         may_flutter: rest.may_flutter(),
-        overcome_joints: overcome(posture, &rest, load_names),
+        overcome_joints: unstable_joints(posture, &rest, load_names),
         conservative: rest.conservative,
         largest_share_to_buckling: rest.share_to_buckling().filter(|m| m.is_finite()),
     };
@@ -126,7 +126,7 @@ pub(crate) fn at_home(
 }
 
 /// A set of wrenches in balance: `leg x with a moment about x, against leg z with a moment about x`.
-fn fight(words: &str) -> String {
+fn balance_in_words(words: &str) -> String {
     let limbs = words.split("; ").map(|part| match part.split_once(": ") {
         Some((limb, wrench)) => {
             let wrench = wrench

@@ -23,7 +23,7 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         h.mobility,
         counted(h.actuators, "actuator")
     )));
-    out.push_str(&fights(&h.over_constraints));
+    out.push_str(&over_constraints_in_words(&h.over_constraints));
     out.push_str(&redundant(h));
     out.push_str(&held(h));
     out.push_str(&item(&at_rest(f, h)));
@@ -169,17 +169,17 @@ fn stability(h: &HomeFinding) -> String {
 }
 
 /// Most sets of wrenches shown; the JSON has all.
-const FIGHTS: usize = 6;
+const MOST_OVER_CONSTRAINTS: usize = 6;
 
-fn fights(list: &[String]) -> String {
+fn over_constraints_in_words(list: &[String]) -> String {
     let mut out = String::new();
-    for (i, one) in list.iter().take(FIGHTS).enumerate() {
+    for (i, one) in list.iter().take(MOST_OVER_CONSTRAINTS).enumerate() {
         out.push_str(&item(&format!("over-constraint {}: {one}", i + 1)));
     }
-    if list.len() > FIGHTS {
+    if list.len() > MOST_OVER_CONSTRAINTS {
         out.push_str(&item(&format!(
             "and {} more over-constraints; --json has them all",
-            list.len() - FIGHTS
+            list.len() - MOST_OVER_CONSTRAINTS
         )));
     }
     out

@@ -5,7 +5,7 @@ use kinetostat_analysis::measured_poses::{Axis, Coupling, Explanation, Frame};
 use nalgebra::UnitQuaternion;
 
 use crate::machine::units::unit;
-use crate::place::joints::{self, Named};
+use crate::place::joints::Named;
 use crate::ui::numbers::{fixed, short, triple};
 
 /// What the words of an explanation are made of: the axes, what the file says of them, and their joints in the model.
@@ -35,7 +35,7 @@ impl ExplanationText<'_> {
             parts.push(format!(
                 "zero of {} is off: {} {unit} have to be added to what is shown",
                 name(i),
-                joints::plain(by / size)
+                short(by / size)
             ));
         }
         parts.extend(e.coupling.map(|c| self.coupling(e, c, advice)));
@@ -67,7 +67,7 @@ impl ExplanationText<'_> {
         // A share between a slide and a turn has a unit of its own; it is not written as a number.
         let ratio = |i: usize, j: usize, share: f64| {
             if self.axes[i].turns == self.axes[j].turns {
-                format!(" ratio = {}", joints::plain(share))
+                format!(" ratio = {}", short(share))
             } else {
                 " the ratio with the other sign".to_owned()
             }
@@ -90,7 +90,7 @@ impl ExplanationText<'_> {
                 format!(
                     "{text} (write in the section [controller], at {own}: coupled = [{{ joint = \"{}\", ratio = {} }}])",
                     self.joints[other],
-                    joints::plain(turned * share * self.axes[other].ratio)
+                    short(turned * share * self.axes[other].ratio)
                 )
             }
             Coupling::Reversed { axis, other } => {

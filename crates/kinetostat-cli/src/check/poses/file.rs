@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use serde::Deserialize;
 use serde_spanned::Spanned;
 
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::job::source::Source;
 use crate::place::joints::{Named, quantity};
 use crate::place::orientation::{self, CONVENTIONS};
@@ -28,7 +28,7 @@ pub(crate) struct PoseRow {
     pub(crate) measured: MeasuredPose,
 }
 
-pub(crate) fn read(files: &Files, path: &Path, names: &[Named]) -> Answer<Vec<PoseRow>> {
+pub(crate) fn read(files: &InputFiles, path: &Path, names: &[Named]) -> Answer<Vec<PoseRow>> {
     let bytes = files.bytes("file of poses", path)?;
     let name = path.display().to_string();
     let text = String::from_utf8(bytes)

@@ -13,7 +13,7 @@ use kinetostat_model::Model;
 use crate::check::poses::comparison::{axes, compare};
 use crate::check::poses::file::read;
 use crate::check::poses::text::in_words;
-use crate::files::input::Files;
+use crate::files::input_files::InputFiles;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 
@@ -31,7 +31,7 @@ pub(crate) fn run(
         )));
     }
     let names = axes(model);
-    let rows = read(&Files::default(), file, &names)?;
+    let rows = read(&InputFiles::default(), file, &names)?;
     let tolerance = Tolerance {
         distance: 1e-3 * tolerance_mm,
         angle: (0.1 * tolerance_mm).to_radians(),

@@ -1,9 +1,8 @@
 //! The comparison for a person.
 
 use crate::check::poses::comparison::PoseComparison;
-use crate::place::joints;
 use crate::ui::layout::{columns, item, wrapped};
-use crate::ui::numbers::{fixed, triple};
+use crate::ui::numbers::{fixed, short, triple};
 
 /// Explanations shown where several fit.
 const SHOWN: usize = 6;
@@ -57,8 +56,8 @@ fn table(a: &PoseComparison) -> String {
 fn verdict(a: &PoseComparison) -> String {
     let within = format!(
         "{} mm and {} deg",
-        joints::plain(a.tolerance_mm),
-        joints::plain(a.tolerance_deg)
+        short(a.tolerance_mm),
+        short(a.tolerance_deg)
     );
     if a.agrees {
         return wrapped(
@@ -79,9 +78,9 @@ fn verdict(a: &PoseComparison) -> String {
                 out.push_str(&item(&format!(
                     "nearest: {}; then up to {} mm{} are left",
                     n.in_words,
-                    joints::plain(n.difference_mm),
+                    short(n.difference_mm),
                     n.difference_deg
-                        .map_or_else(String::new, |d| format!(" and {} deg", joints::plain(d)))
+                        .map_or_else(String::new, |d| format!(" and {} deg", short(d)))
                 )));
             }
             out.push_str(&wrapped(

@@ -18,11 +18,11 @@ const MOST_JOB_BYTES: u64 = 1 << 20;
 
 /// Files on disk, and some that are not there yet.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Files {
+pub(crate) struct InputFiles {
     memory: BTreeMap<PathBuf, Vec<u8>>,
 }
 
-impl Files {
+impl InputFiles {
     /// Puts a file in front of the disk.
     pub(crate) fn insert(&mut self, path: PathBuf, bytes: impl Into<Vec<u8>>) {
         self.memory.insert(path, bytes.into());

@@ -12,14 +12,14 @@ use crate::ui::failure::Answer;
 
 /// Outputs of a run.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Targets {
+pub(crate) struct OutputPaths {
     pub(crate) program: Option<PathBuf>,
     pub(crate) report: Option<PathBuf>,
     pub(crate) json: Option<PathBuf>,
     pub(crate) points: Option<PathBuf>,
 }
 
-impl Targets {
+impl OutputPaths {
     /// Those that are asked for, with what they are.
     pub(crate) fn named(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         [
@@ -33,12 +33,12 @@ impl Targets {
     }
 }
 
-pub(crate) fn targets(
+pub(crate) fn output_paths(
     job: Option<&JobFile>,
     flags: &ProgramArgs,
     writing: &WritingFlags<'_>,
     program: &Path,
-) -> Answer<Targets> {
+) -> Answer<OutputPaths> {
     let from_job = |flag: Option<&Path>, pick: fn(&Job) -> Option<&Spanned<String>>| {
         if let Some(path) = flag {
             return Ok(Some(path.to_owned()));
@@ -66,7 +66,7 @@ pub(crate) fn targets(
                 )
             })
     };
-    let mut targets = Targets {
+    let mut targets = OutputPaths {
         program: from_job(writing.out, |j| j.output.program.as_ref())?,
         report: from_job(flags.report.as_deref(), |j| j.output.report.as_ref())?,
         json: from_job(writing.json.filter(|p| *p != Path::new("-")), |j| {

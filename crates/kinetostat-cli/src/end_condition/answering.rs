@@ -7,16 +7,16 @@ use kinetostat_machining::Warning;
 use serde::Serialize;
 
 use crate::end_condition::arguments::CurveOutputs;
-use crate::files::input::Files;
-use crate::files::output::{self, Existing, Outputs};
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
 use crate::place::arguments::PlaceArgs;
-use crate::place::query::{PlaceAsked, Spot, spot};
+use crate::place::query::{PlaceAnswer, PlaceQuery, place_query};
 use crate::ui::background::{Stage, interruptible};
 use crate::ui::failure::Answer;
 use crate::ui::json;
 
 /// What `curve` and `equilibria` are asked alike.
-pub(crate) struct Asked<'a> {
+pub(crate) struct CommandQuery<'a> {
     pub(crate) model: &'a str,
     pub(crate) place: &'a PlaceArgs,
     pub(crate) tool_length_mm: Option<f64>,
@@ -25,7 +25,7 @@ pub(crate) struct Asked<'a> {
 
 /// The long work: from the place and the names of model, source and tool to the answer.
 pub(crate) type Work<A> =
-    Box<dyn FnOnce(PlaceAsked, [String; 3], &Stage) -> Answer<A> + Send + 'static>;
+    Box<dyn FnOnce(PlaceAnswer, [String; 3], &Stage) -> Answer<A> + Send + 'static>;
 
 /// An answer for a person and as files.
 pub(crate) struct Shown {
@@ -35,40 +35,40 @@ pub(crate) struct Shown {
 }
 
 /// From the question to the files: reads the model, claims what will be written, works, shows.
-pub(crate) fn follow<A: Serialize + Send + 'static>(
-    asked: &Asked<'_>,
-    question: impl FnOnce(&Spot) -> Answer<Work<A>>,
+pub(crate) fn answer_query<A: Serialize + Send + 'static>(
+    command: &CommandQuery<'_>,
+    question: impl FnOnce(&PlaceQuery) -> Answer<Work<A>>,
     warnings: impl Fn(&mut A) -> &mut Vec<Warning>,
     show: impl FnOnce(&str, &A) -> Answer<Shown>,
 ) -> Answer<()> {
-    let spot = spot(
-        &Files::default(),
-        asked.model,
-        asked.place,
-        asked.tool_length_mm,
+    let query = place_query(
+        &InputFiles::default(),
+        command.model,
+        command.place,
+        command.tool_length_mm,
         None,
         None,
     )?;
-    let work = question(&spot)?;
-    let targets = Targets::claim(asked.outputs, &spot.inputs)?;
-    let place = spot.asked();
+    let work = question(&query)?;
+    let targets = ClaimedOutputs::claim(command.outputs, &query.inputs)?;
+    let place = query.answer();
     let names = [
-        spot.name.clone(),
-        spot.source.clone(),
-        spot.tool_words.clone(),
+        query.name.clone(),
+        query.source.clone(),
+        query.tool_words.clone(),
     ];
     let mut answer = interruptible(move |stage| work(place, names, stage))?;
-    warnings(&mut answer).extend(spot.warnings.iter().cloned());
-    if is_serial_chain(&spot.mechanism) {
+    warnings(&mut answer).extend(query.warnings.iter().cloned());
+    if is_serial_chain(&query.mechanism) {
         // Of a machine the answer says it itself, as far as it is moved.
-        warnings(&mut answer).extend(spot.near_singular().map(|n| n.warning()));
+        warnings(&mut answer).extend(query.near_singular().map(|n| n.warning()));
     }
-    let shown = show(&spot.heading(), &answer)?;
+    let shown = show(&query.heading(), &answer)?;
     targets.finish(&shown, &answer)
 }
 
 /// Claimed outputs of `curve` and `equilibria`.
-struct Targets {
+struct ClaimedOutputs {
     outputs: Outputs,
     json: Option<usize>,
     csv: Option<usize>,
@@ -76,7 +76,7 @@ struct Targets {
     to_screen: bool,
 }
 
-impl Targets {
+impl ClaimedOutputs {
     /// Claims every target before the long work begins.
     fn claim(args: &CurveOutputs, inputs: &[std::path::PathBuf]) -> Answer<Self> {
         let existing = Existing::forced(args.force_overwrite);
@@ -106,7 +106,7 @@ impl Targets {
             self.outputs.fill(index, shown.svg.as_bytes())?;
         }
         let paths = self.outputs.commit()?;
-        let text = format!("{}{}", shown.text, output::written(&paths));
+        let text = format!("{}{}", shown.text, outputs::written(&paths));
         json::print_answer(&text, answer, self.to_screen)
     }
 }
