@@ -1,9 +1,10 @@
 //! The kinetostat command: how far a machine bends along a program, and a program that cuts where
 //! it should.
 //!
-//! One folder per command. Below them, shared: `end_condition` (how a tool is held), `program` (a run
-//! along a program), `job` (what such a run is asked), `place` (one place in the workspace), `machine`
-//! (what is said of a machine), `files`, and `ui`, which prints and knows the exit codes.
+//! One folder per command; commands do not know each other. Below them, from the top down, what they share:
+//! `program` (a run along a program), `end_condition` (how a tool is held), `job` (what a run is asked), `place`
+//! (one place in the workspace), `machine` (what is said of a machine), `options`, `files`, and `ui`, which prints
+//! and knows the exit codes. `command_line` stands above all.
 
 mod assemble;
 mod check;

@@ -8,9 +8,9 @@ use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::assemble::answer::solve;
 use crate::assemble::arguments::{AssembleArgs, Component};
 use crate::assemble::query::AssemblyQuery;
+use crate::assemble::solve::solve;
 use crate::options::vector;
 use crate::place::orientation;
 use crate::ui::csv_cell::digits;

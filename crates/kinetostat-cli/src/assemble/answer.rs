@@ -6,7 +6,9 @@ use kinetostat::{
 use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
+use crate::assemble::cases::Cases;
 use crate::assemble::query::AssemblyQuery;
+use crate::assemble::solve::{Solved, solve};
 use crate::machine::units::unit_of;
 use crate::place::query::PlaceAnswer;
 use crate::ui::failure::Answer;
@@ -14,14 +16,14 @@ use crate::ui::failure::Answer;
 /// The answer, stable names with units.
 #[derive(Serialize)]
 pub(crate) struct Assembly {
-    schema: u32,
-    kinetostat_version: &'static str,
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
     pub(crate) model: String,
-    model_source: String,
-    tool: String,
-    place: PlaceAnswer,
-    force_n: [f64; 3],
-    moment_n_m: [f64; 3],
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    pub(crate) place: PlaceAnswer,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
     pub(crate) deviations: Vec<String>,
     pub(crate) over_constraint: Directions,
     /// The limb that the deviations strain most, without load; none where they strain none.
@@ -35,20 +37,6 @@ pub(crate) struct Assembly {
     pub(crate) something_else_acts: bool,
     pub(crate) stable: bool,
     pub(crate) warnings: Vec<Warning>,
-}
-
-/// A value without load and under load: of the machine as built, the share of its deviations in it,
-/// and the first-order answer [R 6.15-6.20], which knows no weights and preloads.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Cases<T> {
-    pub(crate) without_load: T,
-    /// As built less as drawn.
-    pub(crate) without_load_by_deviations: T,
-    pub(crate) without_load_linear: T,
-    /// None without a force or moment.
-    pub(crate) under_load: Option<T>,
-    pub(crate) under_load_by_deviations: Option<T>,
-    pub(crate) under_load_linear: Option<T>,
 }
 
 /// How many directions the limbs fight in, and which.
@@ -112,87 +100,6 @@ pub(crate) struct SpringAnswer {
     pub(crate) torque_unit: &'static str,
     /// What the chain applies to the spring.
     pub(crate) torque: Cases<f64>,
-}
-
-/// The four equilibria of one place, and the first-order assembly.
-pub(crate) struct Solved<'m> {
-    pub(crate) posture: Posture<'m>,
-    /// As drawn and as built, without load.
-    pub(crate) rest: [MechanismEquilibrium; 2],
-    /// The same under load.
-    pub(crate) loaded: Option<[MechanismEquilibrium; 2]>,
-    pub(crate) linear: LinearAssembly,
-    /// The same under load.
-    pub(crate) linear_loaded: Option<LinearAssembly>,
-}
-
-/// Solves both machines in a posture of the machine as built.
-pub(crate) fn solve<'m>(
-    posture: Posture<'m>,
-    drawn: &Posture<'_>,
-    wrench: &Wrench,
-) -> kinetostat::Result<Solved<'m>> {
-    let both = |wrench: &Wrench| -> kinetostat::Result<_> {
-        Ok([drawn.deflected_by(wrench)?, posture.deflected_by(wrench)?])
-    };
-    let rest = both(&Wrench::zero())?;
-    let errors = posture.assembly_errors();
-    let (loaded, linear_loaded) = match wrench.0.norm() > 0.0 {
-        true => (
-            Some(both(wrench)?),
-            Some(posture.linear_assembly_under(&errors, wrench)?),
-        ),
-        false => (None, None),
-    };
-    let linear = posture.linear_assembly(&errors)?;
-    Ok(Solved {
-        posture,
-        rest,
-        loaded,
-        linear,
-        linear_loaded,
-    })
-}
-
-impl Solved<'_> {
-    /// A scalar of an equilibrium in all cases.
-    fn scalar(
-        &self,
-        linear: impl Fn(&LinearAssembly) -> f64,
-        of: impl Fn(&MechanismEquilibrium) -> f64,
-    ) -> Cases<f64> {
-        let [drawn, built] = &self.rest;
-        let under = self.loaded.as_ref();
-        Cases {
-            without_load: of(built),
-            without_load_by_deviations: of(built) - of(drawn),
-            without_load_linear: linear(&self.linear),
-            under_load: under.map(|[_, built]| of(built)),
-            under_load_by_deviations: under.map(|[drawn, built]| of(built) - of(drawn)),
-            under_load_linear: self.linear_loaded.as_ref().map(linear),
-        }
-    }
-
-    /// Three components in all cases.
-    fn vector(
-        &self,
-        linear: impl Fn(&LinearAssembly) -> [f64; 3],
-        of: impl Fn(&MechanismEquilibrium) -> [f64; 3],
-    ) -> Cases<[f64; 3]> {
-        let less = |[drawn, built]: &[MechanismEquilibrium; 2]| {
-            let (a, b) = (of(drawn), of(built));
-            std::array::from_fn(|i| b[i] - a[i])
-        };
-        let under = self.loaded.as_ref();
-        Cases {
-            without_load: of(&self.rest[1]),
-            without_load_by_deviations: less(&self.rest),
-            without_load_linear: linear(&self.linear),
-            under_load: under.map(|both| of(&both[1])),
-            under_load_by_deviations: under.map(less),
-            under_load_linear: self.linear_loaded.as_ref().map(linear),
-        }
-    }
 }
 
 pub(crate) fn answer(question: &AssemblyQuery) -> Answer<Assembly> {

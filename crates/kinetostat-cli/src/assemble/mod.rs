@@ -1,9 +1,14 @@
 //! `kinetostat assemble`: what assembly with errors locks in.
+//!
+//! It takes a model with deviations, a place and perhaps a load, and gives the shift of the tool, the forces inside
+//! and the over-constraint, at one place or along a line.
 
 mod along_line;
 mod answer;
 pub(crate) mod arguments;
+mod cases;
 mod query;
+mod solve;
 mod table;
 mod text;
 

@@ -1,6 +1,7 @@
 //! All figures of an assembly as a table.
 
-use crate::assemble::answer::{Assembly, Cases};
+use crate::assemble::answer::Assembly;
+use crate::assemble::cases::Cases;
 use crate::ui::failure::{Answer, Failure};
 
 /// One number in all cases.
@@ -95,40 +96,6 @@ pub(crate) fn rows(a: &Assembly) -> Vec<Row> {
         by_group.then(coarse(y.weight).total_cmp(&coarse(x.weight)))
     });
     list
-}
-
-impl Cases<[f64; 3]> {
-    fn component(&self, i: usize) -> Cases<f64> {
-        Cases {
-            without_load: self.without_load[i],
-            without_load_by_deviations: self.without_load_by_deviations[i],
-            without_load_linear: self.without_load_linear[i],
-            under_load: self.under_load.map(|v| v[i]),
-            under_load_by_deviations: self.under_load_by_deviations.map(|v| v[i]),
-            under_load_linear: self.under_load_linear.map(|v| v[i]),
-        }
-    }
-}
-
-impl Cases<f64> {
-    /// What sorts a list: the share of the deviations, then the whole.
-    fn weight(&self) -> f64 {
-        let under = self.under_load_by_deviations.unwrap_or(0.0).abs();
-        let whole = self.all().into_iter().flatten();
-        self.without_load_by_deviations.abs().max(under)
-            + 1e-6 * whole.fold(0.0_f64, |m, x| m.max(x.abs()))
-    }
-
-    pub(crate) fn all(&self) -> [Option<f64>; 6] {
-        [
-            Some(self.without_load),
-            Some(self.without_load_by_deviations),
-            Some(self.without_load_linear),
-            self.under_load,
-            self.under_load_by_deviations,
-            self.under_load_linear,
-        ]
-    }
 }
 
 /// Every number, full precision.

@@ -1,4 +1,7 @@
 //! `kinetostat check`: what a model or a job file says, in words, and what looks wrong.
+//!
+//! It takes a model, a job, or a model with poses measured on the machine, and gives findings; it solves a model at
+//! home only.
 
 pub(crate) mod arguments;
 mod job;

@@ -1,4 +1,6 @@
-//! The command line: one variant per command.
+//! The command line: one variant per command, with the options of its folder.
+//!
+//! It takes the words of the command line, negative numbers among them made readable, and gives a [`Command`].
 
 pub(crate) mod negative_numbers;
 

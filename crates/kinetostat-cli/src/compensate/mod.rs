@@ -1,4 +1,7 @@
 //! `kinetostat compensate`: a program that cuts where it should.
+//!
+//! It takes a job, or a table of corrections, and writes the compensated program with its report, result and
+//! points.
 
 pub(crate) mod arguments;
 mod correction_table;

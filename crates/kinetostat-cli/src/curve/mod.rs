@@ -1,5 +1,8 @@
 //! `kinetostat curve`: force against displacement of a chain or a machine, with everything that
 //! happens on the way.
+//!
+//! It takes a model, a place, and what grows, and gives branches with limit points, bifurcations, jumps and
+//! critical loads, as text, table and drawing.
 
 mod answer;
 pub(crate) mod arguments;
@@ -7,11 +10,13 @@ mod chain;
 mod chain_points;
 mod critical;
 mod csv;
+mod figures;
 mod machine;
 mod plot;
 mod query;
 mod state;
 mod text;
+mod verdict;
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 

@@ -1,4 +1,7 @@
 //! `kinetostat deflect`: how far the tool is off, at one place or along a program.
+//!
+//! It takes a model with a place and a load, or a job, and gives displacements, forces of actuators and limbs, and
+//! stability.
 
 mod answer;
 pub(crate) mod arguments;

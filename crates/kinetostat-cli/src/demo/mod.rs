@@ -1,4 +1,7 @@
 //! `kinetostat demo`: a circular groove on a machine that bends and was not built quite right.
+//!
+//! It takes a directory and writes a whole example into it: model, job, program, and what `compensate` makes of
+//! them.
 
 pub(crate) mod arguments;
 

@@ -1,5 +1,7 @@
-//! What holds the end of a chain or a machine, and what acts on it: shared by `curve` and
-//! `equilibria`.
+//! What holds the end of a chain or a machine, and what acts on it: what `curve` and `equilibria` share.
+//!
+//! It takes their options and a place and gives the chain or the machine with its end condition, the names of its
+//! coordinates, and the steps from the options to the files ([`answering`]).
 
 pub(crate) mod answering;
 pub(crate) mod arguments;

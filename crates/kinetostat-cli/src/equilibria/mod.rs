@@ -1,9 +1,14 @@
 //! `kinetostat equilibria`: all shapes that a chain or a machine can take.
+//!
+//! It takes a model, a place, and what holds the tool or acts on it, and gives every equilibrium with its energy,
+//! stability and forces, and how complete the list is.
 
 mod answer;
 pub(crate) mod arguments;
+mod chain;
 mod csv;
 mod machine;
+mod plot;
 mod query;
 mod text;
 
@@ -31,7 +36,7 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = equilibria_query(&moves_of(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
-                answer::solve(&chain, &q, place, names, stage)
+                chain::solve(&chain, &q, place, names, stage)
             }))
         } else {
             refuse_nodes(&args.end)?;
@@ -50,7 +55,7 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
             Ok(Shown {
                 text: text::in_words(heading, answer),
                 csv: csv::of_equilibria(answer)?,
-                svg: text::plot(answer).shape_svg(),
+                svg: plot::plot(answer).shape_svg(),
             })
         },
     )

@@ -1,5 +1,7 @@
-//! Files: those that a command reads, with words for what can be wrong with them, and those that it
-//! writes, all of them or none.
+//! Files that a command reads and writes.
+//!
+//! It takes paths and gives bytes, models and refusals in words; outputs are written beside their targets and put
+//! in place together, or not at all ([`outputs`], [`journal`]). It knows nothing of what is in them.
 
 pub(crate) mod hash;
 pub(crate) mod input_files;

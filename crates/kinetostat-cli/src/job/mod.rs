@@ -1,5 +1,8 @@
-//! The job of a run along a program, from a job file and options, options over the file: machine,
-//! program, placement, load, tolerances, limits and outputs.
+//! The job of a run along a program, from a job file and options; options go over the file.
+//!
+//! It takes both and gives two parts: the [`setting`] (program, how it is read and written, limits, outputs) and
+//! the [`machine`] (model, tool, placement, load). What is wrong is told with its line, all of it at once
+//! ([`all_faults`]).
 
 pub(crate) mod all_faults;
 pub(crate) mod arguments;

@@ -1,27 +1,30 @@
 //! `kinetostat map`: stiffness, and deflection under a load, on a grid of places.
+//!
+//! It takes a model, a grid and perhaps a load, and gives extremes, a table of all places and a drawing of one
+//! section.
 
 mod answer;
 pub(crate) mod arguments;
 mod picture;
 mod query;
+mod solve;
 mod text;
+mod unanswered;
 
-use kinetostat::Wrench;
-use kinetostat_machining::{MapPlace, MapTask, Warning, large_load, map, straight_tool};
-use kinetostat_report::Cell;
+use kinetostat_machining::{MapTask, Warning, large_load, straight_tool};
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::model_warnings::{deviations_in_words, no_potential, of_model};
-use crate::map::answer::{Figures, MapAnswer, Places};
+use crate::map::answer::MapAnswer;
 use crate::map::arguments::{MapArgs, Quantity};
 use crate::map::picture::Picture;
 use crate::map::query::{grid, load};
-use crate::map::text::Columns;
+use crate::map::solve::solve;
+use crate::map::unanswered::without_figures;
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::numbers::{load_triple, short};
-use crate::ui::progress::Progress;
+use crate::ui::numbers::short;
 use crate::ui::{json, threads};
 
 pub(crate) fn run(args: &MapArgs) -> Answer<()> {
@@ -103,84 +106,4 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let text = text::in_words(&answer, &rotation);
     let text = format!("{text}{}", outputs::written(&paths));
     json::print_answer(&text, &answer, args.json)
-}
-
-/// Why there is nothing to show, if no place has figures.
-fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Failure> {
-    if places.with_figures() > 0 {
-        return None;
-    }
-    if places.no_answer > 0 {
-        return Some(no_equilibrium(task, places));
-    }
-    Some(Failure::unanswered(format!(
-        "the machine {} with the tool {} (cannot be reached: {}; outside the limits of an actuator: {}); choose places inside the workspace (`kinetostat check` tells its size), another --rotation, or check the tool's length",
-        match places.asked {
-            1 => "cannot be put at the place".to_owned(),
-            n => format!("can be put at none of the {n} places"),
-        },
-        orientation::in_words(&task.orientation),
-        places.unreachable,
-        places.outside_limits
-    )))
-}
-
-/// No place has an answer, and places are within reach: the load is the reason.
-fn no_equilibrium(task: &MapTask<'_>, places: &Places) -> Failure {
-    let wrench = task.load.unwrap_or_else(Wrench::zero);
-    let counts = match places.asked {
-        1 => String::new(),
-        _ => format!(
-            " (no equilibrium: {}; cannot be reached: {}; outside the limits of an actuator: {})",
-            places.no_answer, places.unreachable, places.outside_limits
-        ),
-    };
-    Failure::unanswered(format!(
-        "no equilibrium was found {} under the force {} N and the moment {} N m{counts}: the load may be beyond what the machine can carry; check the load and its unit, or try a part of it",
-        match places.asked {
-            1 => "at the place".to_owned(),
-            n => format!("at any of the {n} places"),
-        },
-        load_triple(wrench.force().into()),
-        load_triple(wrench.moment().into()),
-    ))
-}
-
-/// Goes through the grid: the table is written, figures and picture are gathered.
-fn solve(
-    task: &MapTask<'_>,
-    outputs: &mut Outputs,
-    csv: Option<usize>,
-    mut picture: Picture,
-) -> Answer<(Figures, Picture)> {
-    let columns = Columns {
-        loaded: task.load.is_some(),
-        follows: task.orientation_follows,
-    };
-    if let Some(index) = csv {
-        outputs.append(index, text::header(columns).as_bytes())?;
-    }
-    let mut figures = Figures::default();
-    let progress = Progress::new();
-    let shown = picture.clone();
-    let block = |places: &[MapPlace]| {
-        let lines = csv.map(|_| text::lines(places, columns));
-        let cells: Vec<(usize, Cell)> = places.iter().filter_map(|p| shown.cell(p)).collect();
-        (Figures::of(places), lines, cells)
-    };
-    map(task, &progress, block, |(own, lines, cells)| {
-        figures.add(&own);
-        for (at, cell) in cells {
-            picture.cells[at] = cell;
-        }
-        match (csv, lines) {
-            (Some(index), Some(lines)) => outputs.append(index, lines.as_bytes()),
-            _ => Ok::<(), Failure>(()),
-        }
-    })?;
-    progress.finish();
-    if let Some(index) = csv {
-        outputs.complete(index)?;
-    }
-    Ok((figures, picture))
 }

@@ -1,4 +1,6 @@
-//! `kinetostat model`: presets and the format of model files.
+//! `kinetostat model`: presets and the format of model files, drawings, and two models compared.
+//!
+//! It takes the names of models and gives lists, text, a drawing, or the constant offsets between two of them.
 
 pub(crate) mod arguments;
 mod compare;

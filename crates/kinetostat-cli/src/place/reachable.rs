@@ -6,7 +6,7 @@ use kinetostat_machining::{Warning, WarningCode, natural_length};
 
 use crate::place::orientation;
 use crate::ui::failure::Answer;
-use crate::ui::numbers::pose_in_words;
+use crate::ui::pose::pose_in_words;
 
 /// A place whose orientation follows.
 #[derive(Clone, Debug)]

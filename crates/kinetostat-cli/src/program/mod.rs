@@ -1,4 +1,7 @@
 //! A run along a program: solved, written to its files, summarised.
+//!
+//! It takes the setting and the machine of a job and gives the run, its files and its text: what `compensate`,
+//! `deflect` and `demo` share.
 
 pub(crate) mod aim;
 pub(crate) mod outputs;

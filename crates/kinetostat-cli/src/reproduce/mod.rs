@@ -1,4 +1,6 @@
 //! `kinetostat reproduce`: the numbers of the report beside their print.
+//!
+//! It takes the name of a table, an equation or a figure, or none, and gives the printed and the computed figures.
 
 pub(crate) mod arguments;
 mod text;

@@ -1,4 +1,6 @@
-//! `kinetostat completions` and `kinetostat man`.
+//! `kinetostat completions` and `kinetostat man`: completions for a shell, and manual pages.
+//!
+//! It takes the command line itself, from above, and gives files made of it.
 
 pub(crate) mod arguments;
 

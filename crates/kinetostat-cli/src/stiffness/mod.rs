@@ -1,4 +1,7 @@
-//! `kinetostat stiffness`: the 6 x 6 matrix with units, axes and reference point.
+//! `kinetostat stiffness`: the 6 x 6 matrix of the tool at a place, with units, axes and reference point.
+//!
+//! It takes a model, a place and perhaps a load, and gives stiffness and compliance, their principal directions,
+//! and the share of each limb.
 
 mod answer;
 pub(crate) mod arguments;

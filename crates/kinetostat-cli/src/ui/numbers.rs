@@ -1,6 +1,5 @@
-//! Numbers, vectors and poses as people read them.
+//! Numbers and vectors as people read them.
 
-use kinetostat::Pose;
 use kinetostat_machining::number as formatter;
 use kinetostat_machining::number::without_zeros;
 
@@ -30,20 +29,6 @@ pub(crate) fn load_triple(v: [f64; 3]) -> String {
 /// Three components in brackets.
 pub(crate) fn triple(v: [f64; 3], shown: impl Fn(f64) -> String) -> String {
     format!("({}, {}, {})", shown(v[0]), shown(v[1]), shown(v[2]))
-}
-
-/// A pose to copy: `position (0, 760, 0) mm, rotation vector (0, 0, 53.13) deg`.
-pub(crate) fn pose_in_words(pose: &Pose) -> String {
-    let clean = |x: f64| (x * 1e6).round() / 1e6 + 0.0;
-    format!(
-        "position {} mm, rotation vector {} deg",
-        triple((pose.translation.vector * 1e3).into(), |x| clean(x)
-            .to_string()),
-        triple(
-            pose.rotation.scaled_axis().map(f64::to_degrees).into(),
-            |x| clean(x).to_string()
-        )
-    )
 }
 
 /// A number as short as it can be at four decimals.

@@ -13,7 +13,7 @@ use crate::check::model::limbs::{LimbFinding, LoadFinding, limb, platform_loads}
 use crate::check::model::reach::{ReachFinding, reach_from};
 use crate::machine::model_warnings::{deviations_in_words, of_model};
 use crate::machine::unstable_joints::load_names;
-use crate::ui::numbers::pose_in_words;
+use crate::ui::pose::pose_in_words;
 
 /// Findings, stable names with units.
 #[derive(Serialize)]

@@ -11,7 +11,7 @@ use kinetostat_model::Model;
 use serde::Serialize;
 
 use crate::check::poses::explanation_text::ExplanationText;
-use crate::check::poses::file::PoseRow;
+use crate::check::poses::pose_row::PoseRow;
 use crate::machine::units::unit;
 use crate::place::joints::{self, Named};
 use crate::ui::failure::{Answer, Failure};

@@ -1,9 +1,15 @@
 //! `kinetostat check --pose`: the model against poses that were measured on the machine.
+//!
+//! It takes a model and a file of poses (CSV or TOML) and gives the differences, and the sign, offset, coupling or
+//! frame that explains them.
 
 mod comparison;
+mod csv_file;
 mod explanation_text;
 mod file;
+mod pose_row;
 mod text;
+mod toml_file;
 
 use std::path::Path;
 
