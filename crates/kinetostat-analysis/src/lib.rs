@@ -5,6 +5,7 @@
 //! | how far does the tool get? | [`reach::reach`] |
 //! | are two models the same machine? | [`comparison::compare`] |
 //! | which sign, offset or frame explains measured poses? | [`measured_poses::explain`] |
+//! | what do deviations lock in? | [`assembled::AssembledMachine`] |
 //! | how near is a load to instability? | [`instability::InstabilityShares`] |
 //! | are deflections under a load small? | [`reference_load::under_forces`], [`push_stiffness::PushStiffnesses`] |
 //! | what do single limbs and actuators do? | [`limb_motions`], [`joint_motion`] |
@@ -14,6 +15,7 @@
 //! It takes mechanisms, postures and equilibria, and gives figures: lengths in m and angles in rad where a name
 //! does not say another unit, directions in axes of the base. It prints nothing.
 
+pub mod assembled;
 pub mod comparison;
 pub mod degenerate;
 pub mod forward;

@@ -2,7 +2,7 @@
 //! it should.
 //!
 //! One folder per command; commands do not know each other. Below them, from the top down, what they share:
-//! `program` (a run along a program), `end_condition` (how a tool is held), `job` (what a run is asked), `place`
+//! `program` (a run along a program), `end_condition` (how a tool is held), `job` (the query of such a run), `place`
 //! (one place in the workspace), `machine` (what is said of a machine), `options`, `files`, and `ui`, which prints
 //! and knows the exit codes. `command_line` stands above all.
 

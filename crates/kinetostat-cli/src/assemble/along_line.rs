@@ -10,7 +10,6 @@ use serde::Serialize;
 
 use crate::assemble::arguments::{AssembleArgs, Component};
 use crate::assemble::query::AssemblyQuery;
-use crate::assemble::solve::solve;
 use crate::options::vector;
 use crate::place::orientation;
 use crate::ui::csv_cell::digits;
@@ -18,6 +17,7 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
 use crate::ui::warnings;
+use kinetostat_analysis::assembled::AssembledMachine;
 
 /// More points are a slip of the pen.
 const MOST_POINTS: usize = 100_000;
@@ -118,7 +118,7 @@ pub(crate) fn answer(
             at(&question.perfect, &target, follows, near_drawn.as_ref()).map_err(located)?;
         turned = turned.max(posture.target().rotation.angle_to(&target.rotation));
         near = Some(posture.clone());
-        let solved = solve(posture, &drawn, &query.wrench).map_err(located)?;
+        let solved = AssembledMachine::solve(posture, &drawn, &query.wrench).map_err(located)?;
         near_drawn = Some(drawn);
         let mm = |e: &kinetostat::MechanismEquilibrium| e.displacement.linear() * 1e3;
         let [drawn, built] = &solved.rest;

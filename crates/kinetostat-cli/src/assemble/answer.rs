@@ -6,12 +6,12 @@ use kinetostat::{
 use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
-use crate::assemble::cases::Cases;
 use crate::assemble::query::AssemblyQuery;
-use crate::assemble::solve::{Solved, solve};
 use crate::machine::units::unit_of;
 use crate::place::query::PlaceAnswer;
 use crate::ui::failure::Answer;
+use kinetostat_analysis::assembled::AssembledMachine;
+use kinetostat_analysis::assembled::Cases;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]
@@ -110,7 +110,7 @@ pub(crate) fn answer(question: &AssemblyQuery) -> Answer<Assembly> {
         None => question.perfect.posture(&query.target)?,
     };
     let over = posture.overconstraint();
-    let solved = solve(posture, &drawn, &query.wrench)?;
+    let solved = AssembledMachine::solve(posture, &drawn, &query.wrench)?;
     let mechanism = &query.mechanism;
     let length = solved.rest[1].length;
     let limbs: Vec<LimbAnswer> = (0..mechanism.limbs().len())
@@ -181,7 +181,7 @@ fn directions(over: &Overconstraint, posture: &Posture<'_>) -> Directions {
     }
 }
 
-fn platforms(solved: &Solved<'_>) -> Vec<PlatformAnswer> {
+fn platforms(solved: &AssembledMachine<'_>) -> Vec<PlatformAnswer> {
     let mechanism = solved.posture.mechanism();
     let list = mechanism.platforms().iter().enumerate().skip(1);
     let mut list: Vec<PlatformAnswer> = list
@@ -209,7 +209,7 @@ fn platforms(solved: &Solved<'_>) -> Vec<PlatformAnswer> {
     list
 }
 
-fn limb(solved: &Solved<'_>, i: usize, length: f64) -> LimbAnswer {
+fn limb(solved: &AssembledMachine<'_>, i: usize, length: f64) -> LimbAnswer {
     let limb = &solved.posture.mechanism().limbs()[i];
     let chain = &limb.actual;
     let nominal = &solved.posture.limbs()[i].coordinates;

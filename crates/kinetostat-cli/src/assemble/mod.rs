@@ -6,9 +6,7 @@
 mod along_line;
 mod answer;
 pub(crate) mod arguments;
-mod cases;
 mod query;
-mod solve;
 mod table;
 mod text;
 

@@ -10,7 +10,7 @@ use crate::files::input_files::InputFiles;
 use crate::place::query::{PlaceQuery, place_query_of};
 use crate::ui::failure::{Answer, Failure};
 
-/// What is asked, and the machine without its deviations.
+/// The query, and the machine without its deviations.
 pub(crate) struct AssemblyQuery {
     pub(crate) query: PlaceQuery,
     pub(crate) perfect: Mechanism,

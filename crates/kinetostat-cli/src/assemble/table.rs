@@ -1,8 +1,8 @@
 //! All figures of an assembly as a table.
 
 use crate::assemble::answer::Assembly;
-use crate::assemble::cases::Cases;
 use crate::ui::failure::{Answer, Failure};
+use kinetostat_analysis::assembled::Cases;
 
 /// One number in all cases.
 pub(crate) struct Row {
@@ -58,7 +58,7 @@ pub(crate) fn rows(a: &Assembly) -> Vec<Row> {
                 unit: j.unit,
                 cases: j.shift,
                 // A degree counts as a millimetre: what is seen.
-                weight: j.shift.weight(),
+                weight: weight(&j.shift),
             });
         }
         for s in &l.springs {
@@ -77,7 +77,7 @@ pub(crate) fn rows(a: &Assembly) -> Vec<Row> {
                     name: s.name.clone(),
                     unit,
                     cases,
-                    weight: lever * s.torque.weight(),
+                    weight: lever * weight(&s.torque),
                 });
             }
         }
@@ -139,4 +139,12 @@ pub(crate) fn decimals(unit: &str) -> i32 {
         "N m" => 4,
         _ => 5,
     }
+}
+
+/// What sorts a list: the share of the deviations, then the whole.
+fn weight(x: &Cases<f64>) -> f64 {
+    let under = x.under_load_by_deviations.unwrap_or(0.0).abs();
+    let whole = x.all().into_iter().flatten();
+    x.without_load_by_deviations.abs().max(under)
+        + 1e-6 * whole.fold(0.0_f64, |m, x| m.max(x.abs()))
 }

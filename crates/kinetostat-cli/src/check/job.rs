@@ -187,7 +187,7 @@ fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<
     found
 }
 
-/// What a compensation would refuse of its outputs, files that exist apart: these are told in the list.
+/// What a compensation would refuse of its outputs, files that exist apart: these are reported in the list.
 fn outputs_can_be(setting: &Setting) -> Answer<()> {
     let mut others: Vec<(&'static str, &Path)> = Vec::new();
     for (what, path) in setting.targets.named() {

@@ -3,16 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat_machining::number::{
-    MISSING, Rounding, fixed, largest, largest_length, mean_length, significant, with_unit,
+    MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
 };
 use kinetostat_machining::{
-    RESULT_SCHEMA, RunError, ToleranceVerdict, Warning, WarningCode, keeps_as_it_is,
-    odd_correction, odd_tolerances, of_accounting, of_program, of_table, unchanged_in_words,
+    RESULT_SCHEMA, RunError, TableCorrection, ToleranceVerdict, Warning, WarningCode,
+    correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
+    unchanged_in_words, wide_table,
 };
 use kinetostat_program::{
-    Accounting, Corrected, CorrectionMap, FieldCheck, Knowledge, MoveKind, NoCorrection,
-    Path as ToolPath, Program, WriteError, WriteOptions, verify_against_field, verify_written,
-    write_corrected,
+    Accounting, CorrectionMap, Path as ToolPath, WriteOptions, verify_written,
 };
 use serde::Serialize;
 
@@ -98,7 +97,7 @@ pub(crate) fn from_map(
         Failure::from(kinetostat_machining::RunError::Write(error)).within(&setting.program_name)
     };
     let progress = Progress::new();
-    let made = make(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let made = correct_by_table(&program, &path, &field, &writing, &progress).map_err(refuse)?;
     let (written, against) = (&made.written, &made.against);
     let a = &written.accounting;
     let beyond = of_accounting(&setting.limits, a);
@@ -122,7 +121,7 @@ pub(crate) fn from_map(
         map: name,
         accounting: a,
         unchanged,
-        within_tolerance_before: made.within_before,
+        within_tolerance_before: made.keeps_as_it_is,
         tolerance,
         places_checked: against.places,
         max_position_error_before_mm: against.before.distance_mm,
@@ -165,7 +164,7 @@ fn warnings_of(
     setting: &Setting,
     path: &ToolPath,
     field: &CorrectionMap,
-    made: &Made,
+    made: &TableCorrection,
     tolerance: &ToleranceVerdict,
     writing: &WriteOptions,
 ) -> Vec<Warning> {
@@ -184,84 +183,6 @@ fn warnings_of(
     warnings.extend(wide_table(path, field));
     warnings.extend(odd_tolerances(writing));
     warnings
-}
-
-/// A table so many times as wide as the program, and no smaller than this (mm), may have its nodes in micrometres.
-const WIDE: (f64, f64) = (50.0, 10_000.0);
-
-/// Nodes that may be in micrometres: along every axis along which both reach, the table is far wider.
-fn wide_table(path: &ToolPath, field: &CorrectionMap) -> Option<Warning> {
-    let [low, high] = field.bounds_mm();
-    let feeds = || {
-        let moves = path.moves.iter();
-        moves.filter(|m| m.kind == MoveKind::Feed && m.known == Knowledge::Whole)
-    };
-    let mut found = None;
-    for axis in 0..3 {
-        let places = || feeds().flat_map(|m| [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| m.point(s)[axis]));
-        let least = places().fold(f64::INFINITY, f64::min);
-        let program = places().fold(f64::NEG_INFINITY, f64::max) - least;
-        let table = high[axis] - low[axis];
-        if !(program > 0.0 && table > 0.0) {
-            continue;
-        }
-        if table < WIDE.0 * program || table < WIDE.1 {
-            return None;
-        }
-        found.get_or_insert((axis, table, program));
-    }
-    let (axis, table, program) = found?;
-    Some(Warning::new(
-        WarningCode::WideTable,
-        format!(
-            "the table reaches over {} in {}, the program over {}: are its nodes in micrometres? Positions and corrections are in millimetres",
-            mean_length(table),
-            ["x", "y", "z"][axis],
-            mean_length(program)
-        ),
-    ))
-}
-
-/// The program as it will be written, and how far it is from the table.
-struct Made {
-    written: Corrected,
-    against: FieldCheck,
-    /// As it is, it keeps the tolerance.
-    within_before: bool,
-    /// The largest correction that the table asks for, and its line; written or not.
-    largest_correction: (f64, Option<usize>),
-}
-
-/// Corrected, or left as it is where that keeps the tolerance: what is written could be farther off.
-fn make(
-    program: &Program,
-    path: &ToolPath,
-    field: &CorrectionMap,
-    writing: &WriteOptions,
-    progress: &Progress,
-) -> Result<Made, WriteError> {
-    let written = write_corrected(program, path, field, writing, progress)?;
-    let against = verify_against_field(path, &written, field, writing, progress)?;
-    let a = &written.accounting;
-    let mut made = Made {
-        within_before: written.bytes != program.bytes()
-            && keeps_as_it_is(
-                against.before.distance_mm.max(against.before_at_ends_mm),
-                against.after.distance_mm,
-                writing.tolerance_mm,
-                against.allowed_mm,
-            ),
-        largest_correction: (a.largest_correction_mm, a.largest_correction_line),
-        written,
-        against,
-    };
-    if made.within_before {
-        // What was measured, so that the warning has the figure of the verdict.
-        let before = made.against.before;
-        made.largest_correction = (before.distance_mm, before.line);
-        made.written = write_corrected(program, path, &NoCorrection, writing, progress)?;
-    }
-    Ok(made)
 }
 
 /// The result for a person: what is missed first, then the figures.

@@ -72,7 +72,7 @@ fn compensate(files: &InputFiles, args: &CompensateArgs) -> Answer<()> {
         &args.run.program,
         &mut setting.inputs,
     )?;
-    // A program that cannot be read is told before outputs are looked at.
+    // A program that cannot be read is reported before outputs are looked at.
     program::read_program(&setting)?;
     let mut outputs =
         RunOutputs::claim(Aim::Compensate, &setting.targets, existing, &setting.inputs)?;

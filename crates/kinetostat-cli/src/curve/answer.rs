@@ -42,7 +42,7 @@ pub(crate) struct CurveAnswer {
     pub(crate) units: Units,
     /// What was asked and what the start's own branch covers of it, as the parameter is shown.
     #[serde(skip)]
-    pub(crate) asked: (f64, f64),
+    pub(crate) requested: (f64, f64),
     #[serde(skip)]
     pub(crate) reached: (f64, f64),
 }

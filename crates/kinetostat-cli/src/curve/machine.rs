@@ -97,7 +97,7 @@ pub(crate) fn solve(
         warnings,
         subject: q.holding.subject,
         units: Units::of(q),
-        asked: (q.shown(q.range.0), q.shown(q.range.1)),
+        requested: (q.shown(q.range.0), q.shown(q.range.1)),
         reached: reached(own),
     })
 }

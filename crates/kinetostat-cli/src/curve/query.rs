@@ -1,4 +1,4 @@
-//! What `curve` is asked, from its options: what grows, how far, and what acts besides.
+//! The query of `curve`, from its options: what grows, how far, and what acts besides.
 
 use kinetostat::{EndCondition, Load, LoadPattern, Parameter, Twist, Wrench};
 use kinetostat_analysis::serial_chain::SerialChain;

@@ -65,7 +65,7 @@ fn going_away(a: &CurveAnswer) -> String {
             .min_by(|p, q| from(p).total_cmp(&from(q)))
             .map(|p| ("does NOT hold", format!("from {} on, or before", place(p))))
     };
-    let along = if covers_what_was_asked(a) {
+    let along = if covers_the_request(a) {
         "all along"
     } else {
         "as far as it was followed"
@@ -103,18 +103,18 @@ fn going_away(a: &CurveAnswer) -> String {
 
 /// What the ends of a curve may miss by rounding.
 fn slack(a: &CurveAnswer) -> f64 {
-    1e-6 * (a.asked.1 - a.asked.0)
+    1e-6 * (a.requested.1 - a.requested.0)
 }
 
 /// Whether the start's own branch covers what was asked.
-fn covers_what_was_asked(a: &CurveAnswer) -> bool {
+fn covers_the_request(a: &CurveAnswer) -> bool {
     let (low, high) = a.reached;
-    low <= a.asked.0 + slack(a) && high >= a.asked.1 - slack(a)
+    low <= a.requested.0 + slack(a) && high >= a.requested.1 - slack(a)
 }
 
 /// Says so if the start's own branch does not cover what was asked.
 pub(crate) fn reach(a: &CurveAnswer) -> String {
-    if covers_what_was_asked(a) {
+    if covers_the_request(a) {
         return String::new();
     }
     let slack = slack(a);

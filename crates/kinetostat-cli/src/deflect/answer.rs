@@ -42,7 +42,7 @@ pub(crate) struct Deflection {
     pub(crate) platform_may_flutter: bool,
     /// How near the load brings the machine with its tool free to instability, 1 is there: never less
     /// than the largest share of its limbs. At least 1 or none where it is not stable; behind a snap
-    /// the share of the equilibrium told here.
+    /// the share of the equilibrium reported here.
     pub(crate) share_to_instability_of_free_machine: Option<f64>,
     /// The same where the limbs do not tell it.
     #[serde(skip)]

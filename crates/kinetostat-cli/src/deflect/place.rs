@@ -14,7 +14,7 @@ use crate::place::query::place_query;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
 
-/// Why nothing is told of a place where the machine's own loads find no equilibrium.
+/// Why nothing is reported of a place where the machine's own loads find no equilibrium.
 fn without_load(error: kinetostat::Error) -> Failure {
     match &error {
         kinetostat::Error::NotConverged {

@@ -15,7 +15,7 @@ use crate::ui::background::{Stage, interruptible};
 use crate::ui::failure::Answer;
 use crate::ui::json;
 
-/// What `curve` and `equilibria` are asked alike.
+/// What queries of `curve` and `equilibria` share.
 pub(crate) struct CommandQuery<'a> {
     pub(crate) model: &'a str,
     pub(crate) place: &'a PlaceArgs,

@@ -117,7 +117,7 @@ pub(crate) fn holding(
         None => Rotation3::identity(),
     };
     // The direction of the six along which the tool is driven, if it is one of them.
-    let alone = |axes: &Rotation3<f64>| {
+    let driven_axis = |axes: &Rotation3<f64>| {
         let d = driven?;
         let local = axes.inverse() * d.axis;
         let k = local.iamax();
@@ -125,20 +125,20 @@ pub(crate) fn holding(
     };
     if others(&args.free)
         && args.axes.is_none()
-        && alone(&axes).is_none()
+        && driven_axis(&axes).is_none()
         && let Some(d) = driven
     {
         axes = Rotation3::rotation_between(&Vector3::x(), &d.axis).unwrap_or_default();
     }
     let free = match (&args.hold, &args.free) {
-        (Some(text), _) => list("--hold", text, alone(&axes))?.map(|held| !held),
+        (Some(text), _) => list("--hold", text, driven_axis(&axes))?.map(|held| !held),
         (None, Some(text)) => {
-            if others(&args.free) && driven.is_some() && alone(&axes).is_none() {
+            if others(&args.free) && driven.is_some() && driven_axis(&axes).is_none() {
                 return Err(Failure::input(
                     "--free others: with these --axes the tool is not pushed along one of the axes; leave --axes out, then they follow the direction",
                 ));
             }
-            list("--free", text, alone(&axes))?
+            list("--free", text, driven_axis(&axes))?
         }
         (None, None) => [!held_by_default; 6],
     };

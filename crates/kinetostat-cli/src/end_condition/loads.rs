@@ -36,7 +36,7 @@ pub(crate) fn constant(args: &EndArgs) -> Answer<Wrench> {
     )
 }
 
-/// That a force on a node is asked of a machine.
+/// A force on a node was requested of a machine.
 pub(crate) fn no_nodes(option: &str) -> Failure {
     Failure::input(format!(
         "{option} puts a force on a node of a chain, and this model has several limbs; write such a load into the model file, or a force on the tool"

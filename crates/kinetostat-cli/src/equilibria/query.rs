@@ -1,4 +1,4 @@
-//! What `equilibria` is asked, from its options.
+//! The query of `equilibria`, from its options.
 
 use kinetostat::{EndCondition, SearchSettings, Twist, moved};
 use nalgebra::Vector3;

@@ -56,7 +56,7 @@ pub(crate) fn inside(root: &Path, written: &str) -> Result<PathBuf, String> {
     let target = root.join(path);
     let (Ok(root), Ok(parent)) = (fs::canonicalize(root), fs::canonicalize(parent_of(&target)))
     else {
-        // A missing directory is told when the output is claimed.
+        // A missing directory is reported when the output is claimed.
         return Ok(target);
     };
     if !parent.starts_with(&root) {

@@ -45,7 +45,7 @@ pub(crate) fn displacements(args: &DisplacementsArgs) -> Answer<()> {
     } else {
         found.stiffness
     };
-    // Deviations do not turn like the matrix: they are told in the mesh's axes only.
+    // Deviations do not turn like the matrix: they are reported in the mesh's axes only.
     let unturned = (turn - Matrix6::identity()).norm() < 1e-12;
     remarks.deviation = unturned.then_some(found.stiffness_deviation);
     let stiffness = symmetrised(&(turn.transpose() * stiffness * turn));

@@ -42,7 +42,7 @@ struct Summary<'a> {
     notices: &'a [String],
 }
 
-/// What is told of a link besides its matrix.
+/// What is reported of a link besides its matrix.
 #[derive(Default)]
 pub(crate) struct Remarks {
     pub(crate) rows: Vec<[String; 2]>,

@@ -22,7 +22,7 @@ use crate::ui::failure::{Answer, Code, Failure};
 /// More faults than this are not looked for.
 const MOST: usize = 100;
 
-/// What a run along a program is asked: enough to read everything that its job file says.
+/// The query of a run along a program: enough to read everything that its job file says.
 pub(crate) struct RunQuery<'a> {
     pub(crate) job: Option<&'a Path>,
     pub(crate) model: Option<&'a str>,

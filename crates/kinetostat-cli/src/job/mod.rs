@@ -1,7 +1,7 @@
 //! The job of a run along a program, from a job file and options; options go over the file.
 //!
 //! It takes both and gives two parts: the [`setting`] (program, how it is read and written, limits, outputs) and
-//! the [`machine`] (model, tool, placement, load). What is wrong is told with its line, all of it at once
+//! the [`machine`] (model, tool, placement, load). What is wrong is reported with its line, all of it at once
 //! ([`all_faults`]).
 
 pub(crate) mod all_faults;

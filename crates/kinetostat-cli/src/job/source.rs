@@ -50,7 +50,7 @@ impl Source<'_> {
         )
     }
 
-    /// Reads a job file's TOML into a type; every mistake is told with its line and what to do.
+    /// Reads a job file's TOML into a type; every mistake is reported with its line and what to do.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T, Failure> {
         self.read_as(HELP)
     }

@@ -38,12 +38,12 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     let mechanism = model.mechanism.with_tool(&straight_tool(1e-3 * length));
     let home = mechanism.platforms()[mechanism.tool()].home;
     let grid = grid(args, (home.translation.vector * 1e3).into())?;
-    let asked = match &args.rotation {
+    let requested = match &args.rotation {
         Some(text) => Some(orientation::option_or_follows("--rotation", text)?),
         None => None,
     };
-    let rotation = asked.flatten().unwrap_or(home.rotation);
-    let follows = asked.map_or_else(|| mechanism.turns_as_it_moves(), |a| a.is_none());
+    let rotation = requested.flatten().unwrap_or(home.rotation);
+    let follows = requested.map_or_else(|| mechanism.turns_as_it_moves(), |a| a.is_none());
     let load = load(args)?;
     if load.is_none() && matches!(args.show, Quantity::Displacement | Quantity::Rotation) {
         return Err(Failure::input(
@@ -74,7 +74,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
     warnings.extend(load.iter().flat_map(large_load));
     let turned = figures.largest_turn_deg;
     if follows {
-        warnings.push(orientation::follows(turned, asked.is_some(), true));
+        warnings.push(orientation::follows(turned, requested.is_some(), true));
     }
     let answer = MapAnswer {
         schema: 3,

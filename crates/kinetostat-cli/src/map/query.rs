@@ -1,4 +1,4 @@
-//! What `map` is asked: grid and load.
+//! The query of `map`: grid and load.
 
 use kinetostat::Wrench;
 use kinetostat_machining::Grid;
@@ -22,13 +22,13 @@ pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
         to_mm: home_mm,
         counts: [1; 3],
     };
-    let asked = [&args.x, &args.y, &args.z];
-    if asked.iter().all(|a| a.is_none()) {
+    let requested = [&args.x, &args.y, &args.z];
+    if requested.iter().all(|a| a.is_none()) {
         return Err(Failure::input(
             "a map needs places; give at least one of --x, --y and --z, as in --x -100 100 21 (from, to in mm, how many)",
         ));
     }
-    for (k, values) in asked.into_iter().enumerate() {
+    for (k, values) in requested.into_iter().enumerate() {
         let Some(values) = values else { continue };
         let name = AXES[k];
         if values.iter().take(2).any(|x| x.abs() > 1e7) {

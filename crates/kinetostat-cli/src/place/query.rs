@@ -235,7 +235,7 @@ impl PlaceQuery {
     }
 }
 
-/// Where it was asked.
+/// The place of a query.
 #[derive(Serialize)]
 pub(crate) struct PlaceAnswer {
     pub(crate) position_mm: [f64; 3],

@@ -20,7 +20,7 @@ pub(crate) struct Followed {
 pub(crate) fn followed(
     m: &Mechanism,
     target: &Pose,
-    asked: bool,
+    requested: bool,
     warnings: &mut Vec<Warning>,
 ) -> Answer<(Pose, Option<Followed>)> {
     let rotation = &target.rotation;
@@ -41,7 +41,7 @@ pub(crate) fn followed(
     };
     let pose = *posture.target();
     let turned_deg = pose.rotation.angle_to(rotation).to_degrees();
-    warnings.push(orientation::follows(turned_deg, asked, false));
+    warnings.push(orientation::follows(turned_deg, requested, false));
     let limbs = posture.limbs().to_vec();
     Ok((pose, Some(Followed { limbs, turned_deg })))
 }
@@ -50,7 +50,7 @@ fn nearest_used(said: String) -> Warning {
     Warning::new(WarningCode::NearestPlace, said)
 }
 
-/// Share of the natural length by which an asked pose may miss what the machine can take.
+/// Share of the natural length by which a requested pose may differ from what the machine can take.
 const ROUNDED: f64 = 1e-6;
 
 /// How far the nearest pose is looked for where a place cannot be reached, in natural lengths.

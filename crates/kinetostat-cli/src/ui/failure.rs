@@ -24,7 +24,7 @@ pub(crate) enum Code {
     Stopped = 130,
 }
 
-/// What is told before the program ends.
+/// What is reported before the program ends.
 #[derive(Clone, Debug)]
 pub(crate) struct Failure {
     pub(crate) code: Code,
@@ -63,7 +63,7 @@ impl Failure {
         }
     }
 
-    /// Several failures, told one after the other.
+    /// Several failures, reported one after the other.
     pub(crate) fn together(failures: Vec<Self>) -> Self {
         let styled = |f: &Self| {
             let plain = || format!("\u{1b}[1;31merror\u{1b}[0m: {}", f.plain);
@@ -98,7 +98,7 @@ impl Failure {
         self
     }
 
-    /// The same failure, told to be in a file.
+    /// The same failure, reported to be in a file.
     pub(crate) fn within(mut self, place: &str) -> Self {
         self.plain = format!("{}: {}", safe(place), self.plain);
         self.styled = None;

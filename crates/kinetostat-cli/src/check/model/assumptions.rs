@@ -94,7 +94,7 @@ pub(crate) fn assumptions(
 impl AssumptionsFinding {
     fn scale(&mut self, rest: &MechanismEquilibrium) {
         let c = rest.compliance().springs;
-        // Motions along free directions are not told by it.
+        // Motions along free directions are not reported by it.
         if rest.platform.free == 0 {
             let stiffness = PushStiffnesses::of(&c, rest.length);
             let mut against = Vec::new();

@@ -76,7 +76,7 @@ impl Senses {
     }
 
     /// `forward and down`; shares below a fifth of the whole are left out.
-    fn way(&self, v: &Vector3<f64>) -> String {
+    fn direction_of(&self, v: &Vector3<f64>) -> String {
         let left = self.up.cross(&self.forward);
         let names = [
             (self.forward, "forward", "back"),
@@ -192,7 +192,7 @@ fn in_words_of(senses: &Senses, twist: &Twist, through: Option<&Vector3<f64>>) -
     let mut parts = Vec::new();
     // Per rad or m: what is smaller than a micrometre is rounding.
     if v.norm() > 1e-6 {
-        parts.push(format!("the tool moves {}", senses.way(&v)));
+        parts.push(format!("the tool moves {}", senses.direction_of(&v)));
     } else {
         parts.push("the tool's point stays".to_owned());
     }

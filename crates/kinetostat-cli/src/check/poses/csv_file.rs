@@ -25,7 +25,7 @@ enum Column {
 }
 
 pub(crate) fn from_csv(text: &str, names: &[Named]) -> Answer<Vec<PoseRow>> {
-    // Semicolons come from spreadsheets that write decimal commas; those are told where they stand.
+    // Semicolons come from spreadsheets that write decimal commas; those are reported where they stand.
     let head = text.lines().find(|l| !l.trim().is_empty()).unwrap_or("");
     let delimiter = if head.contains(';') { b';' } else { b',' };
     let mut reader = csv::ReaderBuilder::new()
