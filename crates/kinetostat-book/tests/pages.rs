@@ -347,7 +347,7 @@ fn no_example_escapes_the_tests() {
                 let holds = match language.split(" #").next().unwrap_or_default() {
                     // Documentation tests of this crate; nothing may be taken out of them.
                     "rust" => tested.contains(&format!("\"{name}\"")),
-                    // Run by `kinetostat-cli/tests/book.rs`; formulas are read when the book is built.
+                    // Run by `kinetostat-cli/tests/cli/book.rs`; formulas are read when the book is built.
                     "console" | "math" => true,
                     // Parts of files that are compiled elsewhere.
                     "rs" => true,
