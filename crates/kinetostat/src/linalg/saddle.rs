@@ -177,6 +177,7 @@ pub(crate) fn independent_columns(a: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::complement::complement;
 
     #[test]
     fn singular_systems_get_the_shortest_solution_and_their_rank() {
