@@ -106,14 +106,14 @@ pub use chain::stability::{ShapeStability, ShapeVerdict};
 pub use chain::stiffness::{ChainStiffness, unloaded_stiffness};
 pub use compensation::following::{compensate_following, target_under_load_following};
 pub use compensation::target::{Compensation, compensate, compensate_from, target_under_load};
-pub use continuation::bifurcation::{Special, SpecialKind};
-pub use continuation::branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Curves, follow};
+pub use continuation::curve::{Branch, BranchEnd, CurvePoint, Curves, Jump, Special, SpecialKind};
+pub use continuation::follow::follow;
 pub use continuation::held_curve::{HeldCurve, HeldPoint};
-pub use continuation::jumps::Jump;
 pub use continuation::machine_path::{
     MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind,
 };
-pub use continuation::reduced::{LoadPattern, Parameter};
+pub use continuation::parameter::{LoadPattern, Parameter};
+pub use continuation::settings::CurveSettings;
 pub use equilibrium::all_of_chain::{
     Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria,
 };

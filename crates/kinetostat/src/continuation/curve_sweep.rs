@@ -18,7 +18,7 @@ use crate::chain::sweep::end_spring::STEP_SPRINGS;
 use crate::chain::sweep::factor::Factored;
 use crate::chain::sweep::solve::EndRows;
 use crate::chain::sweep::stages::{Form, Sweep, column};
-use crate::continuation::curve_matrix::{Tangent, determinant};
+use crate::continuation::tangent::{Tangent, determinant};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::Saddle;
 
@@ -60,7 +60,7 @@ struct Unknowns {
 const NEARLY_SINGULAR: f64 = 1e6;
 
 impl CurveSweep {
-    /// `turned` maps the motion of the end to the change of what it lacks. `None` where the sweep
+    /// `turned` maps the motion of the end to the change of its residual. `None` where the sweep
     /// loses a pivot.
     pub fn new(
         sweep: &Sweep,

@@ -17,15 +17,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::curve_matrix::Whole;
-use crate::continuation::reduced::{Reduced, Row};
-
-/// Singular values below this share of the largest count as zero, if moved equilibria confirm it.
-const NULL: f64 = 1e-7;
-
-/// How far an equilibrium is moved along a motion that seems neutral, balanced units: as far as its family
-/// goes, which close to its origin is a small circle.
-const MOVED: [f64; 3] = [0.03, 0.003, 0.0003];
+use crate::continuation::dense_matrix::Whole;
 
 /// Motions that lead from one equilibrium to another at the same value of the parameter.
 #[derive(Clone, Debug)]
@@ -37,6 +29,10 @@ pub(crate) struct Family {
 }
 
 impl Family {
+    pub fn new(motions: DMatrix<f64>, lefts: DMatrix<f64>) -> Self {
+        Self { motions, lefts }
+    }
+
     /// The matrix above, (m + 1 + k) square, `t` in row `m`.
     pub fn bordered(&self, matrix: &DMatrix<f64>, t: &DVector<f64>) -> DMatrix<f64> {
         let (m, k) = (matrix.nrows(), self.motions.ncols());
@@ -124,56 +120,4 @@ fn orthonormal(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
         a.set_column(j, &(v / norm));
     }
     Some(a)
-}
-
-/// The family to which a state on a curve along `t` belongs, if any: null motions beside the
-/// curve's own, confirmed by equilibria a finite way along each of them, both ways.
-pub(crate) fn family_of(
-    reduced: &mut Reduced<'_, '_>,
-    z: &DVector<f64>,
-    t: &DVector<f64>,
-) -> Option<Family> {
-    let (_, _, matrix) = reduced.linearised_densely(z);
-    let found = reduced.null_directions(&matrix);
-    let count = found.count(1, NULL);
-    if count < 2 {
-        return None;
-    }
-    let null = found.right.columns(0, count).into_owned();
-    let k = null.ncols() - 1;
-    // The curve's own direction changes the parameter, the family's motions do not.
-    let last = t.len() - 1;
-    let rate: DVector<f64> = null.row(last).transpose();
-    let own = if rate.norm() > 1e-3 {
-        rate
-    } else {
-        null.transpose() * t
-    };
-    let own = own.normalize();
-    if !own.iter().all(|x| x.is_finite()) {
-        return None;
-    }
-    let motions = &null * crate::linalg::complement::complement(&DMatrix::from_columns(&[own]));
-    let lefts = found.left.columns(0, k).into_owned();
-    let family = Family { motions, lefts };
-    let before = reduced.family.replace(family.clone().into());
-    let sizes = family.motions.column_iter();
-    let sizes: Vec<f64> = sizes
-        .map(|v| reduced.size_of_motion(&v.into_owned()))
-        .collect();
-    let mut at_rest = |v: &DVector<f64>, h: f64| {
-        let moved = reduced.followed(z, z + v * h);
-        let row = Row::Plane(t, t.dot(&moved));
-        let Some(there) = reduced.correct(&moved, &row, 10) else {
-            return false;
-        };
-        reduced.size_of_motion(&(there.z - moved)) < 0.3 * reduced.size_of_motion(&(v * h))
-    };
-    let holds = family.motions.column_iter().zip(sizes).all(|(v, size)| {
-        let v = v / size;
-        MOVED.into_iter().any(|h| at_rest(&v, -h) && at_rest(&v, h))
-    });
-    reduced.family = before;
-    reduced.evaluate(z);
-    holds.then_some(family)
 }

@@ -1,9 +1,10 @@
 //! Equilibria on the branches of a curve at one load or one displacement, and where the chain jumps
 //! from its limit points.
 
-use crate::continuation::bifurcation::SpecialKind;
-use crate::continuation::branches::{CurvePoint, Curves};
-use crate::continuation::reduced::{Reduced, Row};
+use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::corrector::Row;
+use crate::continuation::curve::{CurvePoint, Curves, Jump, SpecialKind};
+use crate::continuation::describe::{describe, tangent};
 use crate::continuation::state_distance::{distance, wrapped, wraps};
 use crate::continuation::tracer::Tracer;
 use crate::error::Result;
@@ -27,15 +28,15 @@ impl Curves<'_> {
     }
 
     fn crossings(&self, value: f64, parameter: bool) -> Result<Vec<CurvePoint>> {
-        let mut reduced =
-            Reduced::new(&self.problem, Some(&self.parameter), &self.settings.solver)?.by_sweeps();
-        reduced.start(&self.start.0, &self.start.1, self.start.2)?;
+        let mut system =
+            ChainSystem::new(&self.problem, Some(&self.parameter), &self.settings.solver)?
+                .by_sweeps();
+        system.start(&self.start.0, &self.start.1, self.start.2)?;
         let mut tracer = Tracer {
-            reduced,
+            system,
             settings: &self.settings,
             specials: Vec::new(),
         };
-        let chain = self.problem.chain;
         let mut found: Vec<CurvePoint> = Vec::new();
         for pair in self.branches.iter().flat_map(|b| b.points.windows(2)) {
             let of = |p: &CurvePoint| (if parameter { p.parameter } else { p.conjugate }) - value;
@@ -50,19 +51,19 @@ impl Curves<'_> {
             } else {
                 Row::Conjugate(value)
             };
-            tracer.reduced.family = pair[0].family.clone().or_else(|| pair[1].family.clone());
-            let Some(c) = tracer.reduced.correct(&guess, &row, 12) else {
+            tracer.system.family = pair[0].family.clone().or_else(|| pair[1].family.clone());
+            let Some(c) = tracer.system.correct(&guess, &row, 12) else {
                 continue;
             };
             let far = (&c.z - &guess).norm() > (&pair[1].z - &pair[0].z).norm();
             let known = found
                 .iter()
-                .any(|p| distance(chain, &tracer.reduced, &p.z, &c.z) < 1e-7);
+                .any(|p| distance(&tracer.system, &p.z, &c.z) < 1e-7);
             if far || known {
                 continue;
             }
-            if let Some(t) = tracer.tangent(&c.matrix, &pair[0].tangent) {
-                found.push(tracer.describe(&c, t.direction));
+            if let Some(t) = tangent(&tracer.system, &c.matrix, &pair[0].tangent) {
+                found.push(describe(&mut tracer.system, &c, t.direction));
             }
         }
         Ok(found)
@@ -75,10 +76,10 @@ impl Curves<'_> {
     /// # Errors
     /// None in practice: the problem was accepted when the curve was followed.
     pub fn jumps(&self) -> Result<Vec<Jump>> {
-        let reduced = Reduced::new(&self.problem, Some(&self.parameter), &self.settings.solver)?;
-        let is_load = reduced.is_load();
-        let turns = wraps(self.problem.chain, &reduced);
-        let offset = reduced.reactions();
+        let system = ChainSystem::new(&self.problem, Some(&self.parameter), &self.settings.solver)?;
+        let is_load = system.is_load();
+        let turns = wraps(&system);
+        let offset = system.reactions();
         let mut jumps = Vec::new();
         for (index, special) in self.specials.iter().enumerate() {
             let by_load = match special.kind {
@@ -86,7 +87,7 @@ impl Curves<'_> {
                 SpecialKind::DisplacementLimit => false,
                 _ => continue,
             };
-            let verdict = |p: &CurvePoint| {
+            let stable = |p: &CurvePoint| {
                 if by_load {
                     p.dead.stable
                 } else {
@@ -104,7 +105,7 @@ impl Curves<'_> {
             let mut to: Vec<(f64, CurvePoint)> = self
                 .crossings(value, by_load == is_load)?
                 .into_iter()
-                .filter(|p| verdict(p))
+                .filter(|p| stable(p))
                 .map(|p| (wrapped(&p.z, &special.point.z, &turns, offset).norm(), p))
                 .filter(|(d, _)| *d > 1e-3)
                 .collect();
@@ -117,16 +118,4 @@ impl Curves<'_> {
         }
         Ok(jumps)
     }
-}
-
-/// A jump from a limit point.
-#[derive(Clone, Debug)]
-pub struct Jump {
-    /// The limit point: index into [`Curves::specials`].
-    pub from: usize,
-    /// True under a dead load (at a load limit), false under prescribed motion.
-    pub dead_load: bool,
-    /// Stable equilibria at the same load (displacement), nearest first; empty if no computed
-    /// branch holds one.
-    pub to: Vec<CurvePoint>,
 }

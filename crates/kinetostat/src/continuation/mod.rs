@@ -9,14 +9,29 @@
 //! ```
 
 pub(crate) mod bifurcation;
-pub(crate) mod branches;
+pub(crate) mod branch_switching;
+pub(crate) mod chain_linearisation;
+pub(crate) mod chain_stability;
+pub(crate) mod chain_start;
+pub(crate) mod chain_system;
+pub(crate) mod corrector;
+pub(crate) mod curve;
 pub(crate) mod curve_matrix;
 pub(crate) mod curve_sweep;
+pub(crate) mod dense_matrix;
+pub(crate) mod describe;
 pub(crate) mod family;
+pub(crate) mod family_of;
+pub(crate) mod follow;
 pub(crate) mod held_curve;
 pub(crate) mod jumps;
 pub(crate) mod machine_path;
-pub(crate) mod reduced;
+pub(crate) mod null_directions;
+pub(crate) mod parameter;
+pub(crate) mod segment;
+pub(crate) mod settings;
 pub(crate) mod singular_point;
+pub(crate) mod special_points;
 pub(crate) mod state_distance;
+pub(crate) mod tangent;
 pub(crate) mod tracer;

@@ -1,67 +1,14 @@
-//! Null directions of the conditions of equilibrium, and simple bifurcation points by Newton.
+//! Where a curve starts, and simple bifurcation points by Newton.
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::reduced::Reduced;
-use crate::linalg::singular_values::SingularValues;
-
-/// Directions that a matrix takes to nothing, or nearly so.
-pub(crate) struct NullDirections {
-    /// Singular values, the least first; zero where there are more columns than rows.
-    pub values: Vec<f64>,
-    /// Unit directions, one column for each value.
-    pub right: DMatrix<f64>,
-    /// Unit directions of the rows, the least first.
-    pub left: DMatrix<f64>,
-}
-
-impl NullDirections {
-    /// Of an `m x n` matrix.
-    pub fn of(matrix: &DMatrix<f64>) -> Self {
-        if !matrix.iter().all(|v| v.is_finite()) {
-            return Self {
-                values: Vec::new(),
-                right: DMatrix::zeros(matrix.ncols(), 0),
-                left: DMatrix::zeros(matrix.nrows(), 0),
-            };
-        }
-        let own = SingularValues::of(matrix);
-        let all = own.all_right();
-        let value = |k: usize| own.values.get(k).copied().unwrap_or(0.0);
-        let falling = |a: &DMatrix<f64>| {
-            let order: Vec<usize> = (0..a.ncols()).rev().collect();
-            a.select_columns(&order)
-        };
-        Self {
-            values: (0..all.ncols()).rev().map(value).collect(),
-            right: falling(&all),
-            left: falling(&own.left),
-        }
-    }
-
-    /// In other units: orthonormal again, from the least on.
-    pub fn map(&mut self, change: impl Fn(&mut DMatrix<f64>)) {
-        for vectors in [&mut self.right, &mut self.left] {
-            if vectors.ncols() > 0 {
-                change(vectors);
-                *vectors = vectors.clone().qr().q();
-            }
-        }
-    }
-
-    /// How many there are at least, or below a share of the largest singular value.
-    pub fn count(&self, least: usize, share: f64) -> usize {
-        let most = self.values.last().copied().unwrap_or(0.0);
-        let below = |(i, value): &(usize, &f64)| *i < least || **value < share * most;
-        self.values.iter().enumerate().take_while(below).count()
-    }
-}
+use crate::continuation::chain_system::ChainSystem;
 
 /// Direction in which a curve starts: the null direction, and among several the one along which the
 /// parameter changes most.
-pub(crate) fn start_direction(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>) -> DVector<f64> {
-    let (_, _, matrix) = reduced.linearised_densely(z);
-    let found = reduced.null_directions(&matrix);
+pub(crate) fn start_direction(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>) -> DVector<f64> {
+    let (_, _, matrix) = system.linearised_densely(z);
+    let found = system.null_directions(&matrix);
     let m = matrix.nrows();
     let null = found.right.columns(0, found.count(1, 1e-9));
     let sum = null * null.row(m).transpose();
@@ -78,18 +25,21 @@ pub(crate) fn start_direction(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>) -
 const DIFFERENCE: f64 = 1e-5;
 
 /// Derivative of `G_z(z) ` along `p`, by central differences.
-fn change(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, p: &DVector<f64>) -> DMatrix<f64> {
-    let (_, _, plus) = reduced.linearised_densely(&(z + p * DIFFERENCE));
-    let (_, _, minus) = reduced.linearised_densely(&(z - p * DIFFERENCE));
+fn change(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>, p: &DVector<f64>) -> DMatrix<f64> {
+    let (_, _, plus) = system.linearised_densely(&(z + p * DIFFERENCE));
+    let (_, _, minus) = system.linearised_densely(&(z - p * DIFFERENCE));
     (plus - minus) / (2.0 * DIFFERENCE)
 }
 
 /// Newton on the extended system of a simple bifurcation point.
-pub(crate) fn refine(reduced: &mut Reduced<'_, '_>, guess: &DVector<f64>) -> Option<DVector<f64>> {
-    let m = reduced.count();
+pub(crate) fn refine(
+    system: &mut ChainSystem<'_, '_>,
+    guess: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let m = system.count();
     let mut z = guess.clone();
-    let (_, _, matrix) = reduced.linearised_densely(&z);
-    let found = reduced.null_directions(&matrix);
+    let (_, _, matrix) = system.linearised_densely(&z);
+    let found = system.null_directions(&matrix);
     if found.left.ncols() == 0 {
         return None;
     }
@@ -98,14 +48,16 @@ pub(crate) fn refine(reduced: &mut Reduced<'_, '_>, guess: &DVector<f64>) -> Opt
     let size = 2 * m + 2;
     let mut last = f64::INFINITY;
     for _ in 0..12 {
-        let (lack, balance, g) = reduced.linearised_densely(&z);
-        let mut residual = DVector::zeros(size);
-        residual.rows_mut(0, m).copy_from(&(&lack + &psi * beta));
-        residual
+        let (residual, balance, g) = system.linearised_densely(&z);
+        let mut extended = DVector::zeros(size);
+        extended
+            .rows_mut(0, m)
+            .copy_from(&(&residual + &psi * beta));
+        extended
             .rows_mut(m, m + 1)
             .copy_from(&(g.transpose() * &psi));
-        residual[size - 1] = psi.norm_squared() - 1.0;
-        if last < 1e-9 && reduced.converged(&balance) {
+        extended[size - 1] = psi.norm_squared() - 1.0;
+        if last < 1e-9 && system.converged(&balance) {
             return Some(z);
         }
         if !g.iter().all(|v| v.is_finite()) {
@@ -122,10 +74,10 @@ pub(crate) fn refine(reduced: &mut Reduced<'_, '_>, guess: &DVector<f64>) -> Opt
         for j in 0..=m {
             let mut p = DVector::zeros(m + 1);
             p[j] = 1.0;
-            let column = change(reduced, &z, &p).transpose() * &psi;
+            let column = change(system, &z, &p).transpose() * &psi;
             a.view_mut((m, j), (m + 1, 1)).copy_from(&column);
         }
-        let step = a.lu().solve(&(-residual))?;
+        let step = a.lu().solve(&(-extended))?;
         let length = step.norm();
         if !length.is_finite() || length > 10.0 * last.min(1.0) {
             return None;
@@ -135,14 +87,14 @@ pub(crate) fn refine(reduced: &mut Reduced<'_, '_>, guess: &DVector<f64>) -> Opt
         psi += step.rows(m + 1, m);
         beta += step[size - 1];
     }
-    let (_, balance) = reduced.evaluate(&z);
-    (last < 1e-8 && reduced.converged(&balance)).then_some(z)
+    let (_, balance) = system.evaluate(&z);
+    (last < 1e-8 && system.converged(&balance)).then_some(z)
 }
 
 /// Directions of the two branches through a simple bifurcation: roots of `a11 x^2 + 2 a12 x y + a22
 /// y^2 = 0`, `a_ij = psi^T G_zz phi_i phi_j`. The path's own comes first.
 pub(crate) fn tangents(
-    reduced: &mut Reduced<'_, '_>,
+    system: &mut ChainSystem<'_, '_>,
     z: &DVector<f64>,
     psi: &DVector<f64>,
     null: &[DVector<f64>],
@@ -156,8 +108,8 @@ pub(crate) fn tangents(
         &null[1]
     };
     let second = (pick - own * own.dot(pick)).normalize();
-    let d1 = change(reduced, z, &first);
-    let d2 = change(reduced, z, &second);
+    let d1 = change(system, z, &first);
+    let d2 = change(system, z, &second);
     let a11 = psi.dot(&(&d1 * &first));
     let a12 = 0.5 * (psi.dot(&(&d1 * &second)) + psi.dot(&(&d2 * &first)));
     let a22 = psi.dot(&(&d2 * &second));

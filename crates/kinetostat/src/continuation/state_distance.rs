@@ -2,20 +2,21 @@
 
 use nalgebra::DVector;
 
-use crate::continuation::reduced::Reduced;
-use crate::model::chain::{Chain, Role};
+use crate::continuation::chain_system::ChainSystem;
+use crate::model::chain::Role;
 use crate::spatial::MotionKind;
 
 /// Full turn of every coordinate in balanced units, 0 where a turn makes a difference.
-pub(crate) fn wraps(chain: &Chain, reduced: &Reduced<'_, '_>) -> Vec<f64> {
-    let mut one = DVector::zeros(reduced.count() + 1);
+pub(crate) fn wraps(system: &ChainSystem<'_, '_>) -> Vec<f64> {
+    let chain = system.problem.chain;
+    let mut one = DVector::zeros(system.count() + 1);
     (0..chain.coordinate_count())
         .map(|i| {
             let c = &chain.coordinates()[i];
             if c.role == Role::Passive && c.kind == MotionKind::Revolute {
                 one.fill(0.0);
-                one[reduced.reactions() + i] = 1.0;
-                std::f64::consts::TAU / reduced.coordinates(&one)[i]
+                one[system.reactions() + i] = 1.0;
+                std::f64::consts::TAU / system.coordinates(&one)[i]
             } else {
                 0.0
             }
@@ -40,23 +41,17 @@ pub(crate) fn wrapped(
 }
 
 /// Distance of two states, full turns of passive joints taken out.
-pub(crate) fn distance(
-    chain: &Chain,
-    reduced: &Reduced<'_, '_>,
-    a: &DVector<f64>,
-    b: &DVector<f64>,
-) -> f64 {
-    wrapped(a, b, &wraps(chain, reduced), reduced.reactions()).norm()
+pub(crate) fn distance(system: &ChainSystem<'_, '_>, a: &DVector<f64>, b: &DVector<f64>) -> f64 {
+    wrapped(a, b, &wraps(system), system.reactions()).norm()
 }
 
 pub(crate) fn off_segment(
-    chain: &Chain,
-    reduced: &Reduced<'_, '_>,
+    system: &ChainSystem<'_, '_>,
     p: &DVector<f64>,
     a: &DVector<f64>,
     b: &DVector<f64>,
 ) -> f64 {
-    segment_distance(p, a, b, &wraps(chain, reduced), reduced.reactions())
+    segment_distance(p, a, b, &wraps(system), system.reactions())
 }
 
 /// Distance of `p` from the segment `a b`.

@@ -5,15 +5,17 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::bifurcation::{self, Special};
-use crate::continuation::branches::{Branch, BranchEnd, CurvePoint, CurveSettings, Stop, join};
-use crate::continuation::curve_matrix::{CurveMatrix, Tangent};
-use crate::continuation::family::{Family, family_of};
-use crate::continuation::reduced::{Corrected, Reduced, Row};
+use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::corrector::{Corrected, Row};
+use crate::continuation::curve::{BranchEnd, CurvePoint, Special, Stop};
+use crate::continuation::describe::{describe, tangent};
+use crate::continuation::family::Family;
+use crate::continuation::family_of::family_of;
+use crate::continuation::settings::CurveSettings;
 use crate::continuation::singular_point::start_direction;
-use crate::continuation::state_distance::{
-    distance, off_segment, segment_distance, wrapped, wraps,
-};
+use crate::continuation::special_points;
+use crate::continuation::state_distance::distance;
+use crate::continuation::tangent::Tangent;
 use crate::error::Result;
 use crate::spatial::MotionKind;
 
@@ -25,12 +27,12 @@ const ATTEMPTS: usize = 150;
 struct Budget {
     attempts: usize,
     since: usize,
-    way: f64,
+    progress: f64,
 }
 
 impl Budget {
     fn advanced(&mut self, by: f64) {
-        self.way += by;
+        self.progress += by;
     }
 
     /// Counts an attempt from a branch of some points whose longest step is known.
@@ -38,237 +40,79 @@ impl Budget {
         self.attempts += 1;
         self.since += 1;
         if self.since > ATTEMPTS {
-            if self.way < 0.05 * longest {
+            if self.progress < 0.05 * longest {
                 return true;
             }
             self.since = 0;
-            self.way = 0.0;
+            self.progress = 0.0;
         }
         self.attempts > 10 * points + ATTEMPTS
     }
 }
 
-/// Compliance, in natural units, below which a chain is locked along the load.
-const LOCKED: f64 = 1e-12;
-
-/// No first step away from a bifurcation converged.
-struct NotFollowed;
-
-/// Family of a branch close to the special point from which it starts.
-fn beside_origin(branch: &Branch, special: &Special) -> Option<Arc<Family>> {
-    let apart = |p: &CurvePoint| (&p.z - &special.point.z).norm();
-    let beside = branch.points.iter().filter(|p| apart(p) > 0.0);
-    beside
-        .min_by(|a, b| apart(a).total_cmp(&apart(b)))
-        .and_then(|p| p.family.clone())
-}
-
 pub(crate) struct Tracer<'p, 'a, 's> {
-    pub reduced: Reduced<'p, 'a>,
+    pub system: ChainSystem<'p, 'a>,
     pub settings: &'s CurveSettings,
     pub specials: Vec<Special>,
 }
 
 impl Tracer<'_, '_, '_> {
-    /// Follows the path through a state both ways, and the branches that cross it.
-    pub fn grow(
-        &mut self,
-        z: &DVector<f64>,
-        branches: &mut Vec<Branch>,
-        more: &mut bool,
-        stop: Stop<'_>,
-    ) -> Result<bool> {
-        let first = self.first_point(z)?;
-        let chain = self.reduced.problem.chain;
-        let on_branch = branches.iter().flat_map(|b| b.points.windows(2)).any(|w| {
-            let step = (&w[1].z - &w[0].z).norm();
-            off_segment(chain, &self.reduced, &first.z, &w[0].z, &w[1].z) < 0.02 * step
-        });
-        if on_branch {
-            return Ok(false);
-        }
-        let own = branches.len();
-        let allowed = own + self.settings.branches.max(1);
-        let mut next = self.specials.len();
-        let mut halves = Vec::new();
-        for sign in [-1.0, 1.0] {
-            // A search goes one way only: towards larger parameters.
-            if sign < 0.0 && stop.is_some() {
-                halves.push((vec![first.clone()], BranchEnd::Found));
-                continue;
-            }
-            let mut point = first.clone();
-            point.tangent *= sign;
-            halves.push(self.run(point, true, own, stop));
-            if halves.first().is_some_and(|h| h.1 == BranchEnd::Closed) {
-                halves.push((vec![first.clone()], BranchEnd::Closed));
-                break;
-            }
-        }
-        branches.push(join(halves, None));
-        while next < self.specials.len() && stop.is_none() {
-            let special = self.specials[next].clone();
-            let mut followed: Vec<(DVector<f64>, Arc<Family>)> = Vec::new();
-            for direction in &special.directions {
-                // One branch of a family stands for all.
-                if followed.iter().any(|(d, f)| f.joins(d, direction)) {
-                    continue;
-                }
-                if branches.len() >= allowed {
-                    *more |= self.settings.branches > 1;
-                    break;
-                }
-                let mut halves = Vec::new();
-                for sign in [-1.0, 1.0] {
-                    let half = self.switch(&special, &(direction * sign), branches, branches.len());
-                    let half = half.unwrap_or_else(|NotFollowed| {
-                        self.specials[next].lost_branch = true;
-                        None
-                    });
-                    let closed = half.as_ref().is_some_and(|h| h.1 == BranchEnd::Closed);
-                    halves.push(half);
-                    if closed {
-                        halves.push(None);
-                        break;
-                    }
-                }
-                if halves.iter().all(Option::is_none) {
-                    continue;
-                }
-                let middle = special.point.clone();
-                let whole = halves
-                    .into_iter()
-                    .map(|h| h.unwrap_or((vec![middle.clone()], BranchEnd::Closed)))
-                    .collect();
-                let branch = join(whole, Some(next));
-                if let Some(family) = beside_origin(&branch, &special) {
-                    followed.push((direction.clone(), family));
-                }
-                self.specials[next].branches.push(branches.len());
-                branches.push(branch);
-            }
-            next += 1;
-        }
-        Ok(true)
-    }
-
-    fn first_point(&mut self, z: &DVector<f64>) -> Result<CurvePoint> {
-        let m = self.reduced.count();
+    pub(super) fn first_point(&mut self, z: &DVector<f64>) -> Result<CurvePoint> {
+        let m = self.system.count();
         let mut z = z.clone();
         let mut best = None;
         // The start is refined across its own tangent, which exists where the parameter stands
         // still.
         for _ in 0..3 {
-            let (_, _, matrix) = self.reduced.linearised(&z);
+            let (_, _, matrix) = self.system.linearised(&z);
             let t = match matrix.only_direction() {
                 Some(t) => t,
-                None => start_direction(&mut self.reduced, &z),
+                None => start_direction(&mut self.system, &z),
             };
             let offset = t.dot(&z);
-            let Some(c) = self.reduced.correct(&z, &Row::Plane(&t, offset), 12) else {
+            let Some(c) = self.system.correct(&z, &Row::Plane(&t, offset), 12) else {
                 break;
             };
             z.clone_from(&c.z);
             best = Some((c, t));
         }
         let Some((c, mut t)) = best else {
-            let (_, balance) = self.reduced.evaluate(&z);
+            let (_, balance) = self.system.evaluate(&z);
             return Err(crate::error::Error::NotConverged {
-                place: format!("chain '{}'", self.reduced.problem.chain.name()),
+                place: format!("chain '{}'", self.system.problem.chain.name()),
                 iterations: 12,
-                residual_position_m: balance.closure * self.reduced.problem.chain.scale().length,
+                residual_position_m: balance.closure * self.system.problem.chain.scale().length,
                 residual_torque: balance.torque / balance.loads.max(1e-9),
                 load_factor: 0.0,
-                last: self.reduced.coordinates(&z),
+                last: self.system.coordinates(&z),
                 limit: None,
             });
         };
         if t[m] < 0.0 {
             t *= -1.0;
         }
-        self.reduced.family = self.family_at(&c, &t);
-        if let Some(own) = self.tangent(&c.matrix, &t) {
+        self.system.family = self.family_at(&c, &t);
+        if let Some(own) = tangent(&self.system, &c.matrix, &t) {
             t = own.direction;
         }
-        self.reduced.evaluate(&c.z);
-        Ok(self.describe(&c, t))
+        self.system.evaluate(&c.z);
+        Ok(describe(&mut self.system, &c, t))
     }
 
     /// Family to which a state on a curve along `t` belongs.
-    fn family_at(&mut self, c: &Corrected, t: &DVector<f64>) -> Option<Arc<Family>> {
+    pub(super) fn family_at(&mut self, c: &Corrected, t: &DVector<f64>) -> Option<Arc<Family>> {
         match c.matrix.only_direction() {
             Some(_) => None,
-            None => family_of(&mut self.reduced, &c.z, t).map(Arc::new),
-        }
-    }
-
-    /// Tangent of the curve that is followed.
-    pub fn tangent(&self, matrix: &CurveMatrix, guide: &DVector<f64>) -> Option<Tangent> {
-        matrix.tangent(guide, self.reduced.family.as_deref())
-    }
-
-    /// A point from a corrected state, with the family as it is there; the system is evaluated
-    /// there.
-    pub fn describe(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
-        let before = self.reduced.family.clone();
-        if let Some(carried) = before.as_ref().and_then(|f| match &c.matrix {
-            CurveMatrix::Dense(own) => f.carried(own, &direction),
-            CurveMatrix::Swept(_) => None,
-        }) {
-            self.reduced.family = Some(Arc::new(carried));
-        }
-        let point = self.described(c, direction);
-        self.reduced.family = before;
-        point
-    }
-
-    fn described(&mut self, c: &Corrected, direction: DVector<f64>) -> CurvePoint {
-        self.reduced.evaluate(&c.z);
-        let held = self.reduced.stability(c, true);
-        let dead = self.reduced.stability(c, false);
-        let m = self.reduced.count();
-        let rate = self
-            .reduced
-            .conjugate_row(&c.matrix.gradient())
-            .dot(&direction);
-        let change = direction[m] * self.reduced.sigma;
-        let (load, displacement) = if self.reduced.is_load() {
-            (change, rate)
-        } else {
-            (rate, change)
-        };
-        // Both in natural units.
-        let (own, other) = (direction[m], self.reduced.natural_conjugate(rate));
-        let (pushed, moved) = match self.reduced.is_load() {
-            true => (own, other),
-            false => (other, own),
-        };
-        let slope = if moved.abs() > LOCKED * pushed.abs() {
-            load / displacement
-        } else {
-            f64::INFINITY
-        };
-        CurvePoint {
-            parameter: self.reduced.value(&c.z),
-            conjugate: self.reduced.conjugate(&c.z),
-            equilibrium: self.reduced.equilibrium(c),
-            slope,
-            unstable: [held.unstable_modes, dead.unstable_modes],
-            held,
-            dead,
-            arc: 0.0,
-            z: c.z.clone(),
-            tangent: direction,
-            family: self.reduced.family.clone(),
+            None => family_of(&mut self.system, &c.z, t).map(Arc::new),
         }
     }
 
     /// Largest step along `t`.
     pub fn longest(&self, t: &DVector<f64>) -> f64 {
-        let chain = self.reduced.problem.chain;
+        let chain = self.system.problem.chain;
         let turn = self.settings.largest_turn;
         let mut h = 2.0_f64;
-        for (dx, c) in self.reduced.motion(t).iter().zip(chain.coordinates()) {
+        for (dx, c) in self.system.motion(t).iter().zip(chain.coordinates()) {
             let most = match c.kind {
                 MotionKind::Revolute => turn,
                 MotionKind::Prismatic => turn * chain.scale().length,
@@ -282,7 +126,7 @@ impl Tracer<'_, '_, '_> {
             .largest_change
             .or_else(|| width.is_finite().then_some(width / 20.0));
         if let Some(most) = most.filter(|m| *m > 0.0) {
-            let change = (t[self.reduced.count()] * self.reduced.sigma).abs();
+            let change = (t[self.system.count()] * self.system.sigma).abs();
             h = h.min(most / change.max(1e-300));
         }
         h
@@ -297,9 +141,9 @@ impl Tracer<'_, '_, '_> {
         branch: usize,
         stop: Stop<'_>,
     ) -> (Vec<CurvePoint>, BranchEnd) {
-        let m = self.reduced.count();
+        let m = self.system.count();
         let mut points = vec![start];
-        self.reduced.family.clone_from(&points[0].family);
+        self.system.family.clone_from(&points[0].family);
         if stop.is_some_and(|stop| stop(&points[0])) {
             return (points, BranchEnd::Found);
         }
@@ -341,12 +185,7 @@ impl Tracer<'_, '_, '_> {
                 continue;
             }
             let origin = &points[0];
-            let back = distance(
-                self.reduced.problem.chain,
-                &self.reduced,
-                &origin.z,
-                &point.z,
-            );
+            let back = distance(&self.system, &origin.z, &point.z);
             if points.len() > 5
                 && back < 0.75 * h
                 && origin.tangent.dot(&point.tangent) > 0.8
@@ -359,7 +198,7 @@ impl Tracer<'_, '_, '_> {
             }
             let found = stop.is_some_and(|stop| stop(&point));
             budget.advanced((&point.z - &here.z).norm());
-            self.reduced.family.clone_from(&point.family);
+            self.system.family.clone_from(&point.family);
             probe = if point.family.is_some() {
                 self.probe(&point)
             } else {
@@ -375,27 +214,27 @@ impl Tracer<'_, '_, '_> {
         }
     }
 
-    /// The point between two neighbours at which a verdict changes, by halving.
-    pub fn verdict_change(
+    /// The point between two neighbours at which stability changes, by halving.
+    pub fn stability_change(
         &mut self,
         here: &CurvePoint,
         there: &CurvePoint,
-        verdict: &dyn Fn(&CurvePoint) -> bool,
+        unstable: &dyn Fn(&CurvePoint) -> bool,
     ) -> CurvePoint {
-        self.reduced.family.clone_from(&here.family);
+        self.system.family.clone_from(&here.family);
         let (mut low, mut high, mut best) = (0.0, 1.0, there.clone());
         for _ in 0..50 {
             let share = 0.5 * (low + high);
             let guess = &here.z + (&there.z - &here.z) * share;
             let t = &here.tangent;
             let Some(c) = self
-                .reduced
+                .system
                 .correct(&guess, &Row::Plane(t, t.dot(&guess)), 10)
             else {
                 break;
             };
-            let point = self.describe(&c, t.clone());
-            if verdict(&point) {
+            let point = describe(&mut self.system, &c, t.clone());
+            if unstable(&point) {
                 high = share;
                 best = point;
             } else {
@@ -407,33 +246,35 @@ impl Tracer<'_, '_, '_> {
 
     /// Test functions at a point.
     pub fn probe(&mut self, point: &CurvePoint) -> Option<Tangent> {
-        let (_, _, matrix) = self.reduced.linearised(&point.z);
-        self.tangent(&matrix, &point.tangent)
+        let (_, _, matrix) = self.system.linearised(&point.z);
+        tangent(&self.system, &matrix, &point.tangent)
     }
 
     /// One step of length `h`, `None` if it is too long.
-    fn step(&mut self, here: &CurvePoint, h: f64) -> Option<(CurvePoint, Tangent, usize)> {
+    pub(super) fn step(
+        &mut self,
+        here: &CurvePoint,
+        h: f64,
+    ) -> Option<(CurvePoint, Tangent, usize)> {
         let t = &here.tangent;
         let straight = &here.z + t * h;
         let offset = t.dot(&straight);
-        let predicted = self.reduced.followed(&here.z, straight);
-        let c = self
-            .reduced
-            .correct(&predicted, &Row::Plane(t, offset), 8)?;
+        let predicted = self.system.followed(&here.z, straight);
+        let c = self.system.correct(&predicted, &Row::Plane(t, offset), 8)?;
         if (&c.z - &predicted).norm() > 0.3 * h {
             return None;
         }
-        let next = self.tangent(&c.matrix, t)?;
+        let next = tangent(&self.system, &c.matrix, t)?;
         if next.direction.dot(t) < 0.95 && h > 1e-5 {
             return None;
         }
         let iterations = c.iterations;
-        let point = self.describe(&c, next.direction.clone());
+        let point = describe(&mut self.system, &c, next.direction.clone());
         Some((point, next, iterations))
     }
 
     /// Whether the last step left the limits.
-    fn beyond(&self, here: &CurvePoint, point: &CurvePoint) -> Option<BranchEnd> {
+    pub(super) fn beyond(&self, here: &CurvePoint, point: &CurvePoint) -> Option<BranchEnd> {
         let left = |from: f64, to: f64, (low, high): (f64, f64)| {
             (to > high && to > from) || (to < low && to < from)
         };
@@ -446,7 +287,7 @@ impl Tracer<'_, '_, '_> {
         {
             return Some(BranchEnd::Range);
         }
-        let chain = self.reduced.problem.chain;
+        let chain = self.system.problem.chain;
         let far = point
             .equilibrium
             .coordinates
@@ -476,118 +317,18 @@ impl Tracer<'_, '_, '_> {
             (None, None) => return None,
         };
         let guess = &here.z + (&point.z - &here.z) * share;
-        let c = self.reduced.correct(&guess, &row, 10)?;
+        let c = self.system.correct(&guess, &row, 10)?;
         if (&c.z - &guess).norm() > (&point.z - &here.z).norm() {
             return None;
         }
-        let next = self.tangent(&c.matrix, &here.tangent)?;
-        let last = self.describe(&c, next.direction.clone());
+        let next = tangent(&self.system, &c.matrix, &here.tangent)?;
+        let last = describe(&mut self.system, &c, next.direction.clone());
         Some((last, next))
-    }
-
-    /// First point of another branch at a bifurcation, and the path from there; `None` where it is known already.
-    fn switch(
-        &mut self,
-        special: &Special,
-        direction: &DVector<f64>,
-        branches: &[Branch],
-        branch: usize,
-    ) -> std::result::Result<Option<(Vec<CurvePoint>, BranchEnd)>, NotFollowed> {
-        let mut middle = special.point.clone();
-        middle.tangent.clone_from(direction);
-        let usual = 0.3 * self.longest(direction);
-        for h in [usual, 0.2 * usual, 0.04 * usual, 3.0 * usual] {
-            self.reduced.family.clone_from(&special.point.family);
-            let straight = &middle.z + direction * h;
-            let offset = direction.dot(&straight);
-            let predicted = self.reduced.followed(&middle.z, straight);
-            let Some(c) = self
-                .reduced
-                .correct(&predicted, &Row::Plane(direction, offset), 10)
-            else {
-                continue;
-            };
-            if (&c.z - &predicted).norm() > 0.4 * h {
-                continue;
-            }
-            self.reduced.family = self.family_at(&c, direction);
-            let Some(next) = self.tangent(&c.matrix, direction) else {
-                continue;
-            };
-            let chain = self.reduced.problem.chain;
-            let covered = branches.iter().any(|b| {
-                b.points
-                    .windows(2)
-                    .any(|w| off_segment(chain, &self.reduced, &c.z, &w[0].z, &w[1].z) < 0.15 * h)
-            });
-            if covered {
-                return Ok(None);
-            }
-            let second = self.describe(&c, next.direction.clone());
-            if self.beyond(&middle, &second).is_some() {
-                return Ok(Some((vec![middle], BranchEnd::Range)));
-            }
-            return Ok(Some(self.run_from(middle, second, branch)));
-        }
-        Err(NotFollowed)
-    }
-
-    fn run_from(
-        &mut self,
-        middle: CurvePoint,
-        second: CurvePoint,
-        branch: usize,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
-        let origin = middle.z.clone();
-        let (rest, mut end) = self.run_watching(second, branch, &origin);
-        let mut points = vec![middle.clone()];
-        points.extend(rest);
-        if end == BranchEnd::Closed {
-            // The last step went past the origin.
-            points.pop();
-            let mut last = middle;
-            if let Some(before) = points.last() {
-                last.tangent.clone_from(&before.tangent);
-            }
-            points.push(last);
-        } else if points.len() < 2 {
-            end = BranchEnd::Lost;
-        }
-        (points, end)
-    }
-
-    /// As [`Self::run`] from an ordinary point; ends as closed where the path returns to `origin`.
-    fn run_watching(
-        &mut self,
-        second: CurvePoint,
-        branch: usize,
-        origin: &DVector<f64>,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
-        let home = origin.clone();
-        let chain = self.reduced.problem.chain;
-        let scales: Vec<f64> = wraps(chain, &self.reduced);
-        let offset = self.reduced.reactions();
-        let first = second.z.clone();
-        let came = std::cell::Cell::new(0_usize);
-        let previous = std::cell::RefCell::new(first.clone());
-        let returns = |p: &CurvePoint| {
-            came.set(came.get() + 1);
-            let last = previous.replace(p.z.clone());
-            let span = wrapped(&p.z, &last, &scales, offset).norm();
-            came.get() > 5 && segment_distance(&home, &last, &p.z, &scales, offset) < 0.05 * span
-        };
-        let (points, end) = self.run(second, true, branch, Some(&returns));
-        let end = if end == BranchEnd::Found {
-            BranchEnd::Closed
-        } else {
-            end
-        };
-        (points, end)
     }
 
     /// Books limit and bifurcation points between two points; false if the second lies on another
     /// branch.
-    fn look_between(
+    pub(super) fn look_between(
         &mut self,
         here: &CurvePoint,
         point: &CurvePoint,
@@ -595,14 +336,15 @@ impl Tracer<'_, '_, '_> {
         after: &Tangent,
         branch: usize,
     ) -> bool {
-        let Some(found) = bifurcation::between(self, here, point, before, after) else {
+        let Some(found) =
+            special_points::between(&mut self.system, &self.specials, here, point, before, after)
+        else {
             return false;
         };
         for mut special in found {
-            let chain = self.reduced.problem.chain;
             let same = self.specials.iter().position(|s| {
                 let bifurcations = s.kind.is_bifurcation() == special.kind.is_bifurcation();
-                let apart = distance(chain, &self.reduced, &s.point.z, &special.point.z);
+                let apart = distance(&self.system, &s.point.z, &special.point.z);
                 bifurcations && apart < (10.0 * (s.accuracy + special.accuracy)).max(1e-7)
             });
             match same {

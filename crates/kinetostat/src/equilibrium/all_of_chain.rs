@@ -17,9 +17,12 @@ use crate::chain::equilibrium::Equilibrium;
 use crate::chain::potential::load_energy;
 use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::scaling::step_limit;
-use crate::continuation::branches::{CurveSettings, follow};
-use crate::continuation::family::family_of;
-use crate::continuation::reduced::{Corrected, LoadPattern, Parameter, Reduced};
+use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::corrector::Corrected;
+use crate::continuation::family_of::family_of;
+use crate::continuation::follow::follow;
+use crate::continuation::parameter::{LoadPattern, Parameter};
+use crate::continuation::settings::CurveSettings;
 use crate::continuation::state_distance::wrapped;
 use crate::error::{Error, Result};
 use crate::linalg::saddle::{Saddle, pseudo_inverse};
@@ -200,7 +203,7 @@ pub fn equilibria(
 ) -> Result<Equilibria> {
     bounds.check(problem.chain)?;
     let mut search = Search {
-        reduced: Reduced::new(problem, None, &settings.solver)?,
+        system: ChainSystem::new(problem, None, &settings.solver)?,
         bounds,
         turns: turns(problem.chain),
         known: Vec::new(),
@@ -217,7 +220,7 @@ pub fn equilibria(
         while suggested < search.known.len() {
             let from = search.known[suggested].equilibrium.coordinates.clone();
             let more = around(&search.known[suggested], chain).into_iter();
-            queue.extend(more.map(|x| search.reduced.strained_coordinates(&from, x)));
+            queue.extend(more.map(|x| search.system.strained_coordinates(&from, x)));
             suggested += 1;
         }
         if let Some(x) = queue.pop() {
@@ -226,7 +229,7 @@ pub fn equilibria(
             index += 1;
             let x = spread(&search, index);
             let home = chain.home_coordinates();
-            let x = search.reduced.strained_coordinates(&home, x);
+            let x = search.system.strained_coordinates(&home, x);
             search.start(&x, true);
         } else if let Some(parameter) = sweep.as_ref().filter(|_| swept < search.known.len()) {
             search.sweep(parameter, swept);
@@ -320,7 +323,7 @@ fn around(known: &Known, chain: &Chain) -> Vec<Vec<f64>> {
 /// what the natural energy can deflect, a third of it, and a tenth of it in turn; where some are very much
 /// stiffer than others, what a turn by one radian of the softest one stores.
 fn spread(search: &Search<'_, '_, '_>, index: usize) -> Vec<f64> {
-    let chain = search.reduced.problem.chain;
+    let chain = search.system.problem.chain;
     let n = chain.coordinate_count();
     // Root of g^(n+1) = g + 1: the most even recurrence in n dimensions.
     let mut g = 2.0_f64;
@@ -328,9 +331,9 @@ fn spread(search: &Search<'_, '_, '_>, index: usize) -> Vec<f64> {
         g = (1.0 + g).powf(1.0 / (n as f64 + 1.0));
     }
     let share = [4.0, 1.5, 0.4][index % 3];
-    let mut one = DVector::zeros(search.reduced.count() + 1);
-    one.rows_mut(search.reduced.reactions(), n).fill(share);
-    let mut reach = search.reduced.coordinates(&one);
+    let mut one = DVector::zeros(search.system.count() + 1);
+    one.rows_mut(search.system.reactions(), n).fill(share);
+    let mut reach = search.system.coordinates(&one);
     if spread_of_springs(chain, &reach) > UNEVEN {
         let rotations = chain.coordinates().iter().zip(&reach);
         let softest = rotations
@@ -422,7 +425,7 @@ const SINGULAR: f64 = 1e-7;
 const LEFT_OPEN: f64 = 1e3;
 
 struct Search<'p, 'a, 'b> {
-    reduced: Reduced<'p, 'a>,
+    system: ChainSystem<'p, 'a>,
     bounds: &'b Bounds,
     turns: Vec<f64>,
     known: Vec<Known>,
@@ -441,21 +444,21 @@ impl Search<'_, '_, '_> {
     /// Follows the curve through a known equilibrium both ways and books every equilibrium where it
     /// comes back to the problem's own conditions.
     fn sweep(&mut self, parameter: &Parameter, index: usize) {
-        let length = self.reduced.problem.chain.scale().length;
+        let length = self.system.problem.chain.scale().length;
         let mut settings = match parameter {
             Parameter::Displacement(_) => CurveSettings::within(-0.6 * length, 0.6 * length),
             Parameter::Load(_) => CurveSettings::within(-2.0, 2.0),
         };
         settings.points = 120;
-        settings.solver = self.reduced.settings;
+        settings.solver = self.system.settings;
         let start = self.known[index].equilibrium.clone();
-        let curves = follow(self.reduced.problem, parameter, &start, 0.0, &settings);
+        let curves = follow(self.system.problem, parameter, &start, 0.0, &settings);
         let Ok(points) = curves.and_then(|c| c.at(0.0)) else {
             return;
         };
         for point in points {
             let e = &point.equilibrium;
-            let z = self.reduced.state(&e.coordinates, &e.wrench, 0.0);
+            let z = self.system.state(&e.coordinates, &e.wrench, 0.0);
             if let Some(c) = self.newton(&z, false) {
                 self.note(c, false);
             }
@@ -481,25 +484,25 @@ impl Search<'_, '_, '_> {
 
     /// Closes the chain from a start and estimates the reactions that balance it best.
     fn guess(&mut self, x: &[f64]) -> Option<DVector<f64>> {
-        let (r, m) = (self.reduced.reactions(), self.reduced.count());
-        let chain = self.reduced.problem.chain;
-        let mut z = self.reduced.state(x, &self.reduced.problem.end.wrench, 0.0);
+        let (r, m) = (self.system.reactions(), self.system.count());
+        let chain = self.system.problem.chain;
+        let mut z = self.system.state(x, &self.system.problem.end.wrench, 0.0);
         for _ in 0..12 {
-            let (lack, balance) = self.reduced.evaluate(&z);
+            let (lack, balance) = self.system.evaluate(&z);
             if r == 0 || balance.closure < 1e-3 {
                 break;
             }
-            let rows = self.reduced.matrix().view((0, r), (r, m - r)).into_owned();
+            let rows = self.system.matrix().view((0, r), (r, m - r)).into_owned();
             let step = pseudo_inverse(&rows).0 * lack.rows(0, r);
             let mut whole = DVector::zeros(m + 1);
             whole.rows_mut(r, m - r).copy_from(&(-step));
-            let length = step_limit(chain, self.reduced.motion(&whole).into_iter());
-            z = self.reduced.strained(&z, &z + whole * length);
+            let length = step_limit(chain, self.system.motion(&whole).into_iter());
+            z = self.system.strained(&z, &z + whole * length);
         }
         // Reactions by least squares: torques are linear in them.
-        let (lack, _) = self.reduced.evaluate(&z);
+        let (lack, _) = self.system.evaluate(&z);
         if r > 0 {
-            let columns = self.reduced.matrix().view((r, 0), (m - r, r)).into_owned();
+            let columns = self.system.matrix().view((r, 0), (m - r, r)).into_owned();
             let a = pseudo_inverse(&columns).0 * lack.rows(r, m - r);
             let mut head = z.rows_mut(0, r);
             head -= a;
@@ -509,24 +512,24 @@ impl Search<'_, '_, '_> {
 
     /// Newton under step control; with `deflate` the known equilibria repel.
     fn newton(&mut self, start: &DVector<f64>, deflate: bool) -> Option<Corrected> {
-        let m = self.reduced.count();
-        let chain = self.reduced.problem.chain;
+        let m = self.system.count();
+        let chain = self.system.problem.chain;
         let ones = vec![1.0; m];
         let mut z = start.clone();
-        let (mut lack, mut balance) = self.reduced.evaluate(&z);
+        let (mut lack, mut balance) = self.system.evaluate(&z);
         let mut small = false;
-        for iteration in 0..self.reduced.settings.iterations.max(1) {
-            if small && self.reduced.converged(&balance) {
+        for iteration in 0..self.system.settings.iterations.max(1) {
+            if small && self.system.converged(&balance) {
                 let mut matrix = DMatrix::zeros(m, m + 1);
-                matrix.columns_mut(0, m).copy_from(&self.reduced.matrix());
+                matrix.columns_mut(0, m).copy_from(&self.system.matrix());
                 return Some(Corrected {
                     z,
-                    matrix: self.reduced.whole(matrix),
+                    matrix: self.system.whole(matrix),
                     balance,
                     iterations: iteration,
                 });
             }
-            let matrix = self.reduced.matrix();
+            let matrix = self.system.matrix();
             if !matrix.iter().chain(lack.iter()).all(|v| v.is_finite()) {
                 return None;
             }
@@ -543,13 +546,13 @@ impl Search<'_, '_, '_> {
             if !whole.iter().all(|v| v.is_finite()) {
                 return None;
             }
-            let mut length = step_limit(chain, self.reduced.motion(&whole).into_iter());
+            let mut length = step_limit(chain, self.system.motion(&whole).into_iter());
             let merit = lack.norm();
             let mut best = (f64::INFINITY, length);
             let tries = if deflate { 1 } else { 7 };
             for k in 0..tries {
-                let trial = self.reduced.strained(&z, &z + &whole * length);
-                let (after, _) = self.reduced.evaluate(&trial);
+                let trial = self.system.strained(&z, &z + &whole * length);
+                let (after, _) = self.system.evaluate(&trial);
                 let size = after.norm();
                 if size < best.0 {
                     best = (size, length);
@@ -565,8 +568,8 @@ impl Search<'_, '_, '_> {
                 return None;
             }
             // Where no length lowers it, the best one still leads out of a bad place.
-            z = self.reduced.strained(&z, &z + &whole * best.1);
-            (lack, balance) = self.reduced.evaluate(&z);
+            z = self.system.strained(&z, &z + &whole * best.1);
+            (lack, balance) = self.system.evaluate(&z);
             small = whole.norm() * best.1 < 1e-7 * (1.0 + z.norm()) || balance.torque < 1e-14;
         }
         None
@@ -574,7 +577,7 @@ impl Search<'_, '_, '_> {
 
     /// Derivative of the logarithm of the deflation along a step.
     fn deflation_slope(&self, z: &DVector<f64>, step: &DVector<f64>) -> f64 {
-        let offset = self.reduced.reactions();
+        let offset = self.system.reactions();
         let turns = self.balanced_turns();
         self.known
             .iter()
@@ -588,10 +591,10 @@ impl Search<'_, '_, '_> {
     }
 
     fn balanced_turns(&self) -> Vec<f64> {
-        let mut one = DVector::zeros(self.reduced.count() + 1);
-        one.rows_mut(self.reduced.reactions(), self.reduced.coordinates_count())
+        let mut one = DVector::zeros(self.system.count() + 1);
+        one.rows_mut(self.system.reactions(), self.system.coordinates_count())
             .fill(1.0);
-        self.reduced
+        self.system
             .coordinates(&one)
             .iter()
             .zip(&self.turns)
@@ -602,16 +605,16 @@ impl Search<'_, '_, '_> {
     /// Coordinates that take part in motions that change nothing. One that does so alone (an end
     /// hinge that nothing turns) goes back to the posture's value.
     fn idle(&self, z: &mut DVector<f64>) -> Vec<bool> {
-        let n = self.reduced.coordinates_count();
-        let Some(motions) = self.reduced.neutral_motions() else {
+        let n = self.system.coordinates_count();
+        let Some(motions) = self.system.neutral_motions() else {
             return vec![false; n];
         };
-        let posture = self.reduced.state(
-            &self.reduced.problem.posture,
+        let posture = self.system.state(
+            &self.system.problem.posture,
             &crate::spatial::Wrench::zero(),
             0.0,
         );
-        let offset = self.reduced.reactions();
+        let offset = self.system.reactions();
         (0..n)
             .map(|i| {
                 let part = motions.row(i).norm();
@@ -625,7 +628,7 @@ impl Search<'_, '_, '_> {
 
     /// Books an equilibrium; true if it was known.
     fn note(&mut self, mut c: Corrected, plain: bool) -> bool {
-        let offset = self.reduced.reactions();
+        let offset = self.system.reactions();
         let turns = self.balanced_turns();
         // Full turns of passive joints out.
         let middle: Vec<f64> = self
@@ -641,31 +644,31 @@ impl Search<'_, '_, '_> {
                 }
             })
             .collect();
-        let x = self.reduced.coordinates(&c.z);
+        let x = self.system.coordinates(&c.z);
         for (i, turn) in self.turns.iter().enumerate() {
             if *turn > 0.0 {
                 let count = ((x[i] - middle[i]) / turn).round();
                 c.z[offset + i] -= count * turns[i];
             }
         }
-        self.reduced.evaluate(&c.z);
+        self.system.evaluate(&c.z);
         let mut rested = c.z.clone();
         let idle = self.idle(&mut rested);
         // A motion that changes nothing at first may change a lot further on.
-        c.balance = self.reduced.evaluate(&rested).1;
-        if self.reduced.converged(&c.balance) {
+        c.balance = self.system.evaluate(&rested).1;
+        if self.system.converged(&c.balance) {
             c.z = rested;
         } else {
-            c.balance = self.reduced.evaluate(&c.z).1;
+            c.balance = self.system.evaluate(&c.z).1;
         }
-        let x = self.reduced.coordinates(&c.z);
+        let x = self.system.coordinates(&c.z);
         if !self.bounds.hold(&x) {
             self.outside += usize::from(plain);
             return false;
         }
-        let energy = self.reduced.system.energy;
+        let energy = self.system.equations.energy;
         let residual = c.balance.torque / c.balance.loads.max(f64::MIN_POSITIVE);
-        let stability = self.reduced.stability(&c, false);
+        let stability = self.system.stability(&c, false);
         let unstable = stability.unstable_modes;
         for k in &mut self.known {
             let near = if k.unstable == unstable || k.least < 1e-8 {
@@ -695,7 +698,7 @@ impl Search<'_, '_, '_> {
                 return true;
             }
         }
-        let square = self.reduced.matrix();
+        let square = self.system.matrix();
         let least = if square.is_empty() {
             1.0
         } else {
@@ -707,15 +710,15 @@ impl Search<'_, '_, '_> {
         if least < SINGULAR {
             let mut still = DVector::zeros(c.z.len());
             still[c.z.len() - 1] = 1.0;
-            self.reduced.family = family_of(&mut self.reduced, &c.z, &still).map(Arc::new);
-            if self.reduced.family.is_some() {
-                stability = self.reduced.stability(&c, false);
-                equilibrium = Some(self.reduced.equilibrium(&c));
-                self.reduced.family = None;
+            self.system.family = family_of(&mut self.system, &c.z, &still).map(Arc::new);
+            if self.system.family.is_some() {
+                stability = self.system.stability(&c, false);
+                equilibrium = Some(self.system.equilibrium(&c));
+                self.system.family = None;
             }
         }
         let unstable = stability.unstable_modes;
-        let equilibrium = equilibrium.unwrap_or_else(|| self.reduced.equilibrium(&c));
+        let equilibrium = equilibrium.unwrap_or_else(|| self.system.equilibrium(&c));
         self.known.push(Known {
             z: c.z,
             equilibrium,
@@ -731,7 +734,7 @@ impl Search<'_, '_, '_> {
     }
 
     fn finish(self, settings: &SearchSettings) -> Equilibria {
-        let problem = self.reduced.problem;
+        let problem = self.system.problem;
         let known = self.known.len();
         let hits: usize = self.known.iter().map(|k| k.hits).sum();
         let once = self.known.iter().filter(|k| k.hits <= 1).count();

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 
 use crate::chain::directions::DirectionKind;
 use crate::chain::problem::EndCondition;
-use crate::continuation::branches::CurveSettings;
 use crate::continuation::machine_path::Path;
+use crate::continuation::settings::CurveSettings;
 use crate::equilibrium::all_of_chain::{Bounds, chance_of_more};
 use crate::error::Result;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};

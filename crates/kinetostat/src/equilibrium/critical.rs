@@ -16,9 +16,12 @@ use crate::chain::equilibrium::Equilibrium;
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::ChainProblem;
 use crate::chain::stability::share_to_buckling;
-use crate::continuation::bifurcation::SpecialKind;
-use crate::continuation::branches::{CurvePoint, CurveSettings, follow_until};
-use crate::continuation::reduced::{LoadPattern, Parameter, Reduced};
+use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::curve::CurvePoint;
+use crate::continuation::curve::SpecialKind;
+use crate::continuation::follow::follow_until;
+use crate::continuation::parameter::{LoadPattern, Parameter};
+use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracer::Tracer;
 use crate::equilibrium::chain::solve_chain;
 use crate::error::Result;
@@ -107,13 +110,13 @@ pub fn critical_load_factor(
     settings.check(&format!("chain '{}'", problem.chain.name()))?;
     let parameter = Parameter::Load(pattern.clone());
     let start = solve_chain(problem, &settings.solver)?;
-    let mut reduced = Reduced::new(problem, Some(&parameter), &settings.solver)?;
-    let z = reduced.start(&start.coordinates, &start.wrench, 0.0)?;
+    let mut system = ChainSystem::new(problem, Some(&parameter), &settings.solver)?;
+    let z = system.start(&start.coordinates, &start.wrench, 0.0)?;
     let mut whole = problem.clone();
     whole.loads.extend(pattern.loads.iter().cloned());
     whole.end.wrench = Wrench(whole.end.wrench.0 + pattern.end.0);
     let conservative = is_conservative(problem) && is_conservative(&whole);
-    let (linear, linear_mode) = linear_prediction(&mut reduced, &z, judged, conservative);
+    let (linear, linear_mode) = linear_prediction(&mut system, &z, judged, conservative);
 
     let mut settings = settings.clone();
     settings.branches = 1;
@@ -130,7 +133,7 @@ pub fn critical_load_factor(
         let stability = stability(p);
         !stability.stable || stability.may_flutter()
     };
-    let mut judge = Reduced::new(problem, Some(&parameter), &settings.solver)?;
+    let mut judge = ChainSystem::new(problem, Some(&parameter), &settings.solver)?;
     judge.start(&start.coordinates, &start.wrench, 0.0)?;
     let judge = RefCell::new(judge);
     let diverged_before = {
@@ -147,14 +150,14 @@ pub fn critical_load_factor(
     let mut reached = points.iter().map(|p| p.parameter).fold(0.0, f64::max);
     let at_change = |i: usize, verdict: &dyn Fn(&CurvePoint) -> bool| -> Result<CurvePoint> {
         let mut tracer = Tracer {
-            reduced: Reduced::new(problem, Some(&parameter), &settings.solver)?,
+            system: ChainSystem::new(problem, Some(&parameter), &settings.solver)?,
             settings: &settings,
             specials: Vec::new(),
         };
         tracer
-            .reduced
+            .system
             .start(&start.coordinates, &start.wrench, 0.0)?;
-        Ok(tracer.verdict_change(&points[i - 1], &points[i], verdict))
+        Ok(tracer.stability_change(&points[i - 1], &points[i], verdict))
     };
     let mode = |p: &CurvePoint| match conservative {
         true => mode_of(p, judged),
@@ -240,30 +243,30 @@ struct Tangent {
 impl Tangent {
     /// At the state `z` of a path that starts at `start`.
     fn at(
-        reduced: &mut Reduced<'_, '_>,
+        system: &mut ChainSystem<'_, '_>,
         z: &DVector<f64>,
         start: &DVector<f64>,
         judged: Judged,
     ) -> Self {
-        let (r, n) = (reduced.reactions(), reduced.coordinates_count());
-        let last = reduced.count();
+        let (r, n) = (system.reactions(), system.coordinates_count());
+        let last = system.count();
         // This posture under what acts at the start.
         let mut before = z.clone();
         before.rows_mut(0, r).copy_from(&start.rows(0, r));
         before[last] = start[last];
-        reduced.linearised_densely(&before);
-        let staying = reduced.load_hessian();
-        let (_, _, matrix) = reduced.linearised_densely(z);
+        system.linearised_densely(&before);
+        let staying = system.load_hessian();
+        let (_, _, matrix) = system.linearised_densely(z);
         let rows = match judged {
             Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
             Judged::Shape => {
-                crate::chain::passive::balanced_jacobian(&reduced.system, &reduced.factors)
+                crate::chain::passive::balanced_jacobian(&system.equations, &system.scaling)
             }
         };
-        let null = free_motions(reduced, &rows);
+        let null = free_motions(system, &rows);
         Self {
-            springs: null.transpose() * reduced.spring_tangent() * &null,
-            growing: null.transpose() * (reduced.load_hessian() - &staying) * &null,
+            springs: null.transpose() * system.spring_tangent() * &null,
+            growing: null.transpose() * (system.load_hessian() - &staying) * &null,
             staying: null.transpose() * staying * &null,
             null,
         }
@@ -283,11 +286,11 @@ impl Tangent {
 }
 
 /// Motions that `rows` leave free, without those that change nothing.
-fn free_motions(reduced: &Reduced<'_, '_>, rows: &DMatrix<f64>) -> DMatrix<f64> {
+fn free_motions(system: &ChainSystem<'_, '_>, rows: &DMatrix<f64>) -> DMatrix<f64> {
     let range = column_space(rows);
     let mut all = (range.transpose() * rows).transpose();
     // Motions that change nothing are no modes: those of them that the held directions leave free.
-    for v in reduced
+    for v in system
         .neutral_motions()
         .iter()
         .flat_map(|v| v.column_iter())
@@ -350,39 +353,39 @@ fn between(a: &CurvePoint, s: &CurvePoint, b: &CurvePoint) -> bool {
 /// Largest eigenvalue of the stresses per unit factor against the stiffness, in the posture at
 /// factor 0: `(N^T d(H - K)/df N) v = (1/f) (N^T (K - H) N) v`.
 fn linear_prediction(
-    reduced: &mut Reduced<'_, '_>,
+    system: &mut ChainSystem<'_, '_>,
     z: &DVector<f64>,
     judged: Judged,
     conservative: bool,
 ) -> (Option<f64>, Vec<f64>) {
-    let (r, m) = (reduced.reactions(), reduced.count());
-    let n = reduced.coordinates_count();
-    let (_, _, matrix) = reduced.linearised_densely(z);
-    let at_rest = reduced.curvature();
+    let (r, m) = (system.reactions(), system.count());
+    let n = system.coordinates_count();
+    let (_, _, matrix) = system.linearised_densely(z);
+    let at_rest = system.curvature();
     let rows = match judged {
         Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
         Judged::Shape => {
-            crate::chain::passive::balanced_jacobian(&reduced.system, &reduced.factors)
+            crate::chain::passive::balanced_jacobian(&system.equations, &system.scaling)
         }
     };
     // Reactions per unit factor; the posture stays.
     let ones = vec![1.0; m];
     let mut step = DMatrix::zeros(m, 1);
     step.column_mut(0)
-        .copy_from(&(-matrix.column(m) / reduced.sigma));
+        .copy_from(&(-matrix.column(m) / system.sigma));
     Saddle::new(matrix.columns(0, m).into_owned(), &ones, &ones).solve(&mut step);
     let mut ahead = z.clone();
     for i in 0..r {
         ahead[i] += step[(i, 0)];
     }
-    ahead[m] += 1.0 / reduced.sigma;
-    reduced.evaluate(&ahead);
-    let mut stress = reduced.curvature() - &at_rest;
+    ahead[m] += 1.0 / system.sigma;
+    system.evaluate(&ahead);
+    let mut stress = system.curvature() - &at_rest;
     // Links that bow take a geometric stiffness from the start.
-    let springs = |reduced: &Reduced<'_, '_>| {
+    let springs = |system: &ChainSystem<'_, '_>| {
         let mut sum = DMatrix::zeros(n, n);
-        for (first, matrix) in &reduced.system.spring_geometric {
-            let unit = &reduced.factors[6 + first..];
+        for (first, matrix) in &system.equations.spring_geometric {
+            let unit = &system.scaling[6 + first..];
             for i in 0..6 {
                 for j in 0..6 {
                     sum[(first + i, first + j)] += matrix[(i, j)] * unit[i] * unit[j];
@@ -391,22 +394,22 @@ fn linear_prediction(
         }
         sum
     };
-    let before = springs(reduced);
+    let before = springs(system);
     let share = 1e-5 / step.rows(r, n).amax().max(1e-300);
     let mut moved = z.clone();
     for i in 0..n {
         moved[r + i] += share * step[(r + i, 0)];
     }
-    reduced.evaluate(&moved);
-    stress -= (springs(reduced) - before) / share;
-    reduced.evaluate(z);
-    let null = free_motions(reduced, &rows);
+    system.evaluate(&moved);
+    stress -= (springs(system) - before) / share;
+    system.evaluate(z);
+    let null = free_motions(system, &rows);
     if !conservative {
-        let springs = null.transpose() * reduced.spring_tangent() * &null;
-        let before = null.transpose() * reduced.load_hessian() * &null;
-        reduced.evaluate(&ahead);
-        let loads = null.transpose() * reduced.load_hessian() * &null - &before;
-        reduced.evaluate(z);
+        let springs = null.transpose() * system.spring_tangent() * &null;
+        let before = null.transpose() * system.load_hessian() * &null;
+        system.evaluate(&ahead);
+        let loads = null.transpose() * system.load_hessian() * &null - &before;
+        system.evaluate(z);
         let mu = largest_real(&(springs - before), &loads);
         let factor = mu.filter(|mu| mu.is_finite() && *mu > 1e-9);
         return (factor.map(|mu| 1.0 / mu), Vec::new());
@@ -421,7 +424,7 @@ fn linear_prediction(
         (Some(mu), Some(v)) if mu > least && mu.is_finite() => {
             let mut whole = DVector::zeros(m + 1);
             whole.rows_mut(r, n).copy_from(&(&null * v));
-            (Some(1.0 / mu), largest_one(&reduced.motion(&whole)))
+            (Some(1.0 / mu), largest_one(&system.motion(&whole)))
         }
         _ => (None, Vec::new()),
     }

@@ -19,7 +19,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::{ChainProblem, check_numbers};
-use crate::continuation::reduced::{Reduced, Row};
+use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::corrector::Row;
 use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
@@ -184,7 +185,7 @@ fn iterate(
     exact: bool,
 ) -> Result<ReportIteration> {
     let chain = problem.chain;
-    let mut reduced = Reduced::new(problem, None, &Settings::default())?;
+    let mut system = ChainSystem::new(problem, None, &Settings::default())?;
     let start = start.unwrap_or_else(|| ChainState {
         coordinates: problem.posture.clone(),
         wrench: Wrench::zero(),
@@ -192,21 +193,21 @@ fn iterate(
     settings.check(&format!("chain '{}'", chain.name()))?;
     chain.check(&start.coordinates, &problem.commands)?;
     check_numbers(problem, "the wrench of the start", &start.wrench.0)?;
-    let mut z = reduced.state(&start.coordinates, &start.wrench, 0.0);
+    let mut z = system.state(&start.coordinates, &start.wrench, 0.0);
     let begin = z.clone();
     let mut path = vec![start];
     let mut sizes: Vec<f64> = Vec::new();
     let mut outcome = IterationOutcome::Spent;
     while path.len() <= settings.steps {
-        let Some(step) = step(&mut reduced, &z, exact) else {
+        let Some(step) = step(&mut system, &z, exact) else {
             outcome = IterationOutcome::Diverged;
             break;
         };
         sizes.push(step.norm());
         z += step;
         let state = ChainState {
-            coordinates: reduced.coordinates(&z),
-            wrench: reduced.wrench(&z),
+            coordinates: system.coordinates(&z),
+            wrench: system.wrench(&z),
         };
         let changed = |back: usize| {
             let earlier = path.len().checked_sub(back).and_then(|i| path.get(i));
@@ -221,7 +222,7 @@ fn iterate(
             outcome = IterationOutcome::Diverged;
             break;
         }
-        if last <= settings.tolerance && nearly_balanced(&mut reduced, &z, settings.tolerance) {
+        if last <= settings.tolerance && nearly_balanced(&mut system, &z, settings.tolerance) {
             outcome = IterationOutcome::Settled;
             break;
         }
@@ -232,10 +233,10 @@ fn iterate(
         }
     }
     let steps = path.len() - 1;
-    let nearest = from_nearby(&mut reduced, &begin);
+    let nearest = from_nearby(&mut system, &begin);
     let mut here = None;
     if outcome == IterationOutcome::Settled {
-        here = refined(&mut reduced, &z);
+        here = refined(&mut system, &z);
         let other = match (&here, &nearest) {
             (Some((a, _)), Some((b, _))) => {
                 change(chain, &a.coordinates, &b.coordinates) > 1e4 * settings.tolerance
@@ -260,13 +261,13 @@ fn iterate(
 }
 
 /// One full step; `None` without a finite solution.
-fn step(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, exact: bool) -> Option<DVector<f64>> {
-    let (lack, _) = reduced.evaluate(z);
-    let m = reduced.count();
+fn step(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>, exact: bool) -> Option<DVector<f64>> {
+    let (lack, _) = system.evaluate(z);
+    let m = system.count();
     let matrix = if exact {
-        reduced.matrix()
+        system.matrix()
     } else {
-        reduced.lagged_matrix()
+        system.lagged_matrix()
     };
     if !matrix.iter().chain(lack.iter()).all(|x| x.is_finite()) {
         return None;
@@ -280,42 +281,42 @@ fn step(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, exact: bool) -> Option<
 
 /// Torques and closure are as small as a change of the coordinates by `tolerance` makes them: tells
 /// an equilibrium from a place where the iteration merely stands still.
-fn nearly_balanced(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>, tolerance: f64) -> bool {
-    let (_, balance) = reduced.evaluate(z);
+fn nearly_balanced(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>, tolerance: f64) -> bool {
+    let (_, balance) = system.evaluate(z);
     balance.closure <= 1e2 * tolerance.max(1e-14)
         && balance.torque <= 1e3 * tolerance.max(1e-14) * balance.loads.max(1e-9)
 }
 
 /// Exact Newton from a state, with what is known about the equilibrium and the rate there.
-fn refined(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>) -> Option<(Equilibrium, f64)> {
-    let found = reduced.correct(z, &Row::Parameter(0.0), 30)?;
-    reduced.evaluate(&found.z);
-    let rate = rate_here(reduced);
-    Some((reduced.equilibrium(&found), rate))
+fn refined(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>) -> Option<(Equilibrium, f64)> {
+    let found = system.correct(z, &Row::Parameter(0.0), 30)?;
+    system.evaluate(&found.z);
+    let rate = rate_here(system);
+    Some((system.equilibrium(&found), rate))
 }
 
 /// Newton from a start as it is; where that fails, from one step of the report's iteration (which
 /// brings the wrench).
-fn from_nearby(reduced: &mut Reduced<'_, '_>, z: &DVector<f64>) -> Option<(Equilibrium, f64)> {
-    let lagged = step(reduced, z, false).map(|s| z + s);
+fn from_nearby(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>) -> Option<(Equilibrium, f64)> {
+    let lagged = step(system, z, false).map(|s| z + s);
     let with_wrench = lagged.as_ref().map(|l| {
         let mut start = z.clone();
-        let r = reduced.reactions();
+        let r = system.reactions();
         start.rows_mut(0, r).copy_from(&l.rows(0, r));
         start
     });
     let starts = with_wrench.into_iter().chain(lagged);
     starts
         .chain(std::iter::once(z.clone()))
-        .find_map(|start| refined(reduced, &start))
+        .find_map(|start| refined(system, &start))
 }
 
 /// `max |mu|` over the eigenvalues of `(N^T K N)^-1 N^T H N` at the evaluated state.
-fn rate_here(reduced: &Reduced<'_, '_>) -> f64 {
-    let n = reduced.coordinates_count();
-    let rows = reduced.reaction_rows();
+fn rate_here(system: &ChainSystem<'_, '_>) -> f64 {
+    let n = system.coordinates_count();
+    let rows = system.reaction_rows();
     let r = rows.nrows();
-    let neutral = reduced.neutral_motions();
+    let neutral = system.neutral_motions();
     let held = neutral.as_ref().map_or(0, DMatrix::ncols);
     let mut taken = DMatrix::zeros(n, r + held);
     taken.columns_mut(0, r).copy_from(&rows.transpose());
@@ -326,8 +327,8 @@ fn rate_here(reduced: &Reduced<'_, '_>) -> f64 {
     if null.ncols() == 0 {
         return 0.0;
     }
-    let h = null.transpose() * reduced.load_hessian() * &null;
-    let k = null.transpose() * reduced.spring_tangent() * &null;
+    let h = null.transpose() * system.load_hessian() * &null;
+    let k = null.transpose() * system.spring_tangent() * &null;
     if !h.iter().chain(k.iter()).all(|x| x.is_finite()) {
         return f64::INFINITY;
     }

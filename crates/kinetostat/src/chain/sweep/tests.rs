@@ -11,8 +11,9 @@ use crate::chain::sweep::end_spring::END_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndMotions, EndRows};
 use crate::chain::sweep::stages::{Form, Path, SWEEP_FROM};
 use crate::chain::system::System;
+use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::curve_matrix::CurveMatrix;
-use crate::continuation::reduced::{LoadPattern, Parameter, Reduced};
+use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::equilibrium::chain::solve_along;
 use crate::*;
 
@@ -594,7 +595,7 @@ fn curves_are_alike_by_sweeps_and_dense() {
                 loads: loads(&mut rng, &chain, true),
             }),
         };
-        let new = || Reduced::new(&problem, Some(&parameter), &Settings::default()).unwrap();
+        let new = || ChainSystem::new(&problem, Some(&parameter), &Settings::default()).unwrap();
         let (mut dense, mut swept) = (new(), new().by_sweeps());
         let m = dense.count();
         let mut direction = || {
@@ -646,7 +647,7 @@ fn a_cantilever_bent_far_stays_with_sweeps() {
         let parameter = Parameter::end_wrench(grown);
         let settings = Settings::default();
         let rest = crate::solve_chain(&problem, &settings).expect("rest");
-        let mut reduced = Reduced::new(&problem, Some(&parameter), &settings)
+        let mut reduced = ChainSystem::new(&problem, Some(&parameter), &settings)
             .expect("curve")
             .by_sweeps();
         reduced

@@ -1,0 +1,84 @@
+//! Newton's iteration across a curve: equilibrium and one more condition.
+
+use nalgebra::DVector;
+
+use crate::chain::residual::Balance;
+use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::curve_matrix::CurveMatrix;
+
+/// What closes the system of equilibrium along a curve.
+pub(crate) enum Row<'v> {
+    /// `normal . z = offset`.
+    Plane(&'v DVector<f64>, f64),
+    /// The parameter has this value.
+    Parameter(f64),
+    /// The conjugate has this value.
+    Conjugate(f64),
+}
+
+/// A state that satisfies equilibrium.
+pub(crate) struct Corrected {
+    pub z: DVector<f64>,
+    /// Of the curve at that state.
+    pub matrix: CurveMatrix,
+    pub balance: Balance,
+    pub iterations: usize,
+}
+
+impl ChainSystem<'_, '_> {
+    /// Newton from `z` on equilibrium and one more row.
+    pub fn correct(&mut self, z: &DVector<f64>, row: &Row<'_>, most: usize) -> Option<Corrected> {
+        let m = self.count();
+        let mut z = z.clone();
+        let mut last = f64::INFINITY;
+        for iteration in 0..=most {
+            let (residual, balance, matrix) = self.linearised(&z);
+            let (normal, beside) = match row {
+                Row::Plane(normal, offset) => ((*normal).clone(), normal.dot(&z) - offset),
+                Row::Parameter(value) => {
+                    let mut normal = DVector::zeros(m + 1);
+                    normal[m] = 1.0;
+                    (normal, z[m] - value / self.sigma)
+                }
+                Row::Conjugate(value) => {
+                    let normal = self.conjugate_row(&matrix.gradient());
+                    let size = normal.norm().max(f64::MIN_POSITIVE);
+                    (normal / size, (self.conjugate(&z) - value) / size)
+                }
+            };
+            let fine = self.converged(&balance) && beside.abs() <= 1e-11 * (1.0 + z.norm());
+            if fine && (last < 1e-8 || iteration == most) {
+                return Some(Corrected {
+                    z,
+                    matrix,
+                    balance,
+                    iterations: iteration,
+                });
+            }
+            let finite = matrix.is_finite() && residual.iter().all(|v| v.is_finite());
+            if iteration == most || !finite {
+                return None;
+            }
+            let step = match matrix.step(&normal, &residual, beside, self.family.as_deref()) {
+                Some(step) => step,
+                None => {
+                    let (residual, _, dense) = self.linearised_densely(&z);
+                    self.whole(dense).step(&normal, &residual, beside, None)?
+                }
+            };
+            let length = step.norm();
+            if !length.is_finite() || (iteration > 1 && length > 2.0 * last && length > 1e-9) {
+                // Beside very stiff springs the last steps are rounding.
+                return fine.then_some(Corrected {
+                    z,
+                    matrix,
+                    balance,
+                    iterations: iteration,
+                });
+            }
+            last = length;
+            z = self.followed(&z, &z + step);
+        }
+        None
+    }
+}

@@ -1,0 +1,210 @@
+//! Curves of equilibria by arc-length continuation (Keller): force against displacement, or
+//! displacement against a load factor, around limit points and through bifurcations.
+//!
+//! A curve starts at an equilibrium, is followed both ways, and every further branch that crosses
+//! it can be followed as well. Steps adapt to the curve; limit points and bifurcation points
+//! between two steps are located by themselves ([`Special`]).
+//!
+//! Shapes that a motion turns into each other at no cost (a round rod that buckles in any direction)
+//! are one family and one branch, followed at rest along that motion ([`CurvePoint::in_family`]).
+
+use std::sync::Arc;
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use crate::chain::equilibrium::Equilibrium;
+use crate::chain::problem::ChainProblem;
+use crate::chain::stability::ShapeStability;
+use crate::continuation::family::Family;
+use crate::continuation::parameter::Parameter;
+use crate::continuation::settings::CurveSettings;
+
+/// Why a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BranchEnd {
+    /// The parameter or its conjugate reached a limit.
+    Range,
+    /// A joint reached the largest angle.
+    Angle,
+    /// As many points as allowed.
+    Points,
+    /// The branch came back to where it started.
+    Closed,
+    /// The smallest step found no further point.
+    Lost,
+    /// Ever shorter steps made no progress.
+    Stalled,
+    /// What was looked for has been found.
+    Found,
+}
+
+/// An equilibrium on a curve.
+#[derive(Clone, Debug)]
+pub struct CurvePoint {
+    /// Displacement (m, rad) or load factor.
+    pub parameter: f64,
+    /// Force (N, N m) along the displacement, or displacement along the load pattern (J per unit
+    /// factor, since the curve's start).
+    pub conjugate: f64,
+    /// Coordinates, wrench, energy, stiffness and shape (the whole end held).
+    pub equilibrium: Equilibrium,
+    /// Load per displacement along the curve (N/m, N m/rad; for a load pattern factor per J):
+    /// negative where a dead load runs away, infinite where the end is locked.
+    pub slope: f64,
+    /// Stability while the motion along the parameter's direction is prescribed.
+    pub held: ShapeStability,
+    /// Stability while a dead load acts along it instead.
+    pub dead: ShapeStability,
+    /// Arc length since the branch's first point, natural units.
+    pub arc: f64,
+    pub(crate) z: DVector<f64>,
+    pub(crate) tangent: DVector<f64>,
+    pub(crate) unstable: [usize; 2],
+    pub(crate) family: Option<Arc<Family>>,
+}
+
+impl CurvePoint {
+    /// Number of unstable modes while the motion along the parameter is prescribed, and under a
+    /// dead load.
+    #[must_use]
+    pub fn unstable_modes(&self) -> [usize; 2] {
+        self.unstable
+    }
+
+    /// True if the shape is one of a continuum at this value of the parameter: a motion leads from
+    /// it to others that costs nothing (a buckled round rod turned about its axis). Stability then
+    /// is that against all other motions, the neutral one counts as a zero of the inertia.
+    #[must_use]
+    pub fn in_family(&self) -> bool {
+        self.family.is_some()
+    }
+
+    /// The parameter's load: the factor, or the force along the displacement.
+    #[must_use]
+    pub fn load(&self, parameter: &Parameter) -> f64 {
+        match parameter {
+            Parameter::Displacement(_) => self.conjugate,
+            Parameter::Load(_) => self.parameter,
+        }
+    }
+}
+
+/// What is special about a point of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SpecialKind {
+    /// Limit point of the load: under a dead load the chain jumps (snap-through).
+    LoadLimit,
+    /// Limit point of the displacement: under prescribed motion the chain jumps (snap-back).
+    DisplacementLimit,
+    /// Two branches cross, one of them turns back there: buckling of a symmetric chain.
+    Pitchfork,
+    /// Two branches cross and both go on.
+    Transcritical,
+    /// Several modes become critical together.
+    Multiple {
+        /// Number of independent critical modes.
+        modes: usize,
+    },
+}
+
+impl SpecialKind {
+    /// True where branches cross.
+    #[must_use]
+    pub fn is_bifurcation(self) -> bool {
+        !matches!(self, Self::LoadLimit | Self::DisplacementLimit)
+    }
+}
+
+/// A limit point or a bifurcation point.
+#[derive(Clone, Debug)]
+pub struct Special {
+    /// Which kind.
+    pub kind: SpecialKind,
+    /// The equilibrium there.
+    pub point: CurvePoint,
+    /// Motion of all coordinates (m, rad; largest component 1): of the critical mode at a
+    /// bifurcation, along the curve at a limit point.
+    pub mode: Vec<f64>,
+    /// Uncertainty of the place in natural units.
+    pub accuracy: f64,
+    /// Branches through it: indices into [`crate::Curves::branches`].
+    pub branches: Vec<usize>,
+    /// True if the curve is stable on one side of it at least (for a limit point: under the kind of
+    /// load that it limits).
+    pub stable_side: bool,
+    /// A branch crosses here whose first step did not converge: it is not among the branches.
+    pub lost_branch: bool,
+    /// Directions of the branches other than the one on which it was found.
+    pub(crate) directions: Vec<DVector<f64>>,
+}
+
+/// A smooth path of equilibria.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// In order along the path.
+    pub points: Vec<CurvePoint>,
+    /// Bifurcation point (index into [`Curves::specials`]) it was found from; `None`: the start.
+    pub origin: Option<usize>,
+    /// Why it ends, at the first and at the last point.
+    pub ends: [BranchEnd; 2],
+}
+
+/// A curve of equilibria and the branches connected to it.
+#[derive(Clone, Debug)]
+pub struct Curves<'a> {
+    /// The problem at parameter 0.
+    pub problem: ChainProblem<'a>,
+    /// What grows.
+    pub parameter: Parameter,
+    /// The start's own branch first.
+    pub branches: Vec<Branch>,
+    /// Limit points and bifurcation points, in the order found.
+    pub specials: Vec<Special>,
+    /// True if connected branches were left out because there were too many.
+    pub more_branches: bool,
+    pub(crate) settings: CurveSettings,
+    pub(crate) start: (Vec<f64>, crate::spatial::Wrench, f64),
+}
+
+/// A jump from a limit point.
+#[derive(Clone, Debug)]
+pub struct Jump {
+    /// The limit point: index into [`Curves::specials`].
+    pub from: usize,
+    /// True under a dead load (at a load limit), false under prescribed motion.
+    pub dead_load: bool,
+    /// Stable equilibria at the same load (displacement), nearest first; empty if no computed
+    /// branch holds one.
+    pub to: Vec<CurvePoint>,
+}
+
+/// Tells that a point is what was looked for.
+pub(crate) type Stop<'s> = Option<&'s dyn Fn(&CurvePoint) -> bool>;
+
+/// One branch from its two halves, which share their first point.
+pub(crate) fn join(mut halves: Vec<(Vec<CurvePoint>, BranchEnd)>, origin: Option<usize>) -> Branch {
+    let (forward, last) = halves.pop().unwrap_or((Vec::new(), BranchEnd::Lost));
+    let (backward, first) = halves.pop().unwrap_or((Vec::new(), BranchEnd::Lost));
+    let mut points: Vec<CurvePoint> = backward;
+    points.reverse();
+    points.pop();
+    for point in &mut points {
+        point.tangent *= -1.0;
+    }
+    points.extend(forward);
+    let mut arc = 0.0;
+    for i in 0..points.len() {
+        if i > 0 {
+            arc += (&points[i].z - &points[i - 1].z).norm();
+        }
+        points[i].arc = arc;
+    }
+    Branch {
+        points,
+        origin,
+        ends: [first, last],
+    }
+}

@@ -1,0 +1,48 @@
+//! What grows along a curve of equilibria: a displacement of the end, or a pattern of loads.
+
+use nalgebra::Vector6;
+
+use crate::model::loads::load::Load;
+use crate::spatial::{Twist, Wrench, turn_matrix};
+
+/// Loads that grow together: at factor `f` the chain carries its own loads plus `f` times these.
+#[derive(Clone, Debug, Default)]
+pub struct LoadPattern {
+    /// Wrench on the end, about its origin, base axes (N, N m); only directions in which the end
+    /// condition prescribes the wrench.
+    pub end: Wrench,
+    /// Loads on the nodes.
+    pub loads: Vec<Load>,
+}
+
+/// What grows along a curve of equilibria.
+#[derive(Clone, Debug)]
+pub enum Parameter {
+    /// The end is moved by `value * twist` from the pose that the problem prescribes: base axes, at
+    /// the end's origin, only directions in which the pose is prescribed. With a unit twist the
+    /// parameter is in m (rad) and its conjugate, the end's force (moment) along the twist, in N
+    /// (N m).
+    Displacement(Twist),
+    /// A pattern of loads is multiplied by the parameter (a pure number). The conjugate is the
+    /// displacement along the pattern since the curve's start: factor times it is work (J).
+    Load(LoadPattern),
+}
+
+impl Parameter {
+    /// Motion of the end along one of the six directions `x y z rx ry rz` of the end condition's
+    /// axes, 1 m or 1 rad per unit.
+    #[must_use]
+    pub fn along(axes: &nalgebra::Rotation3<f64>, direction: usize) -> Self {
+        let unit = Vector6::from_fn(|i, _| f64::from(u8::from(i == direction)));
+        Self::Displacement(Twist(turn_matrix(axes) * unit))
+    }
+
+    /// A wrench on the end, base axes.
+    #[must_use]
+    pub fn end_wrench(wrench: Wrench) -> Self {
+        Self::Load(LoadPattern {
+            end: wrench,
+            loads: Vec::new(),
+        })
+    }
+}
