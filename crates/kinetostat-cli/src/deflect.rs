@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use kinetostat::{
-    DirectionKind, LoadLimit, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench,
+    DirectionKind, FoundBy, LoadLimit, Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench,
 };
 use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
@@ -156,6 +156,9 @@ struct Deflection {
     energy_j: Option<f64>,
     converged: bool,
     iterations: usize,
+    /// How the equilibrium was found, where it was not directly from the commanded posture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    found_by: Option<FoundBy>,
     /// Last correction of the iteration by the one before it; none with fewer than two.
     rate_observed: Option<f64>,
     /// How far the loops are from closing; rotations at the machine's length.
@@ -414,6 +417,7 @@ fn answer(
         energy_j: loaded.energy,
         converged: true,
         iterations: loaded.residual.iterations,
+        found_by: Some(loaded.found_by).filter(|by| *by != FoundBy::Directly),
         rate_observed: loaded.residual.rate,
         closure_mm: 1e3 * loaded.residual.closure_m,
         near_singularity,
@@ -473,6 +477,10 @@ fn in_words(spot: &Spot, a: &Deflection) -> String {
         ),
         2,
     ));
+    if let Some(by) = a.found_by.filter(|by| by.may_be_another_branch()) {
+        let said = by.sentence();
+        out.push_str(&wrapped(&format!("Note: {said}."), 2));
+    }
     out.push('\n');
     let row = |name: &str, v: [f64; 3], decimals: usize, unit: &str| {
         let mut cells = vec![format!("{name}, {unit}")];

@@ -14,16 +14,17 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
+use crate::chain::found_by::FoundBy;
 use crate::chain::potential::load_energy;
 use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::scaling::step_limit;
 use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::Corrected;
 use crate::continuation::family_of::family_of;
 use crate::continuation::follow::follow;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::state_distance::wrapped;
+use crate::continuation::system::Corrected;
 use crate::error::{Error, Result};
 use crate::linalg::saddle::{Saddle, pseudo_inverse};
 use crate::linalg::singular_values::SingularValues;
@@ -577,12 +578,11 @@ impl Search<'_, '_, '_> {
 
     /// Derivative of the logarithm of the deflation along a step.
     fn deflation_slope(&self, z: &DVector<f64>, step: &DVector<f64>) -> f64 {
-        let offset = self.system.reactions();
         let turns = self.balanced_turns();
         self.known
             .iter()
             .map(|k| {
-                let d = wrapped(z, &k.z, &turns, offset);
+                let d = wrapped(z, &k.z, &turns);
                 let d2 = d.norm_squared().max(1e-12);
                 let eta = 1.0 + 1.0 / d2;
                 (-2.0 / (d2 * d2)) * d.dot(step) / eta
@@ -590,16 +590,13 @@ impl Search<'_, '_, '_> {
             .sum()
     }
 
+    /// Full turns of the unknowns.
     fn balanced_turns(&self) -> Vec<f64> {
-        let mut one = DVector::zeros(self.system.count() + 1);
-        one.rows_mut(self.system.reactions(), self.system.coordinates_count())
-            .fill(1.0);
-        self.system
-            .coordinates(&one)
-            .iter()
-            .zip(&self.turns)
-            .map(|(unit, turn)| turn / unit)
-            .collect()
+        let mut all = vec![0.0; self.system.count() + 1];
+        for (i, turn) in self.turns.iter().enumerate() {
+            all[self.system.reactions() + i] = turn / self.system.unit_of_coordinate(i);
+        }
+        all
     }
 
     /// Coordinates that take part in motions that change nothing. One that does so alone (an end
@@ -648,7 +645,7 @@ impl Search<'_, '_, '_> {
         for (i, turn) in self.turns.iter().enumerate() {
             if *turn > 0.0 {
                 let count = ((x[i] - middle[i]) / turn).round();
-                c.z[offset + i] -= count * turns[i];
+                c.z[offset + i] -= count * turns[offset + i];
             }
         }
         self.system.evaluate(&c.z);
@@ -678,7 +675,7 @@ impl Search<'_, '_, '_> {
                 // fold), except where neither is known better.
                 (1e-11 / k.least).clamp(1e-10, 1e-4)
             };
-            let d = wrapped(&c.z, &k.z, &turns, offset);
+            let d = wrapped(&c.z, &k.z, &turns);
             let alike = (k.equilibrium.energy - energy).abs()
                 <= (1e-8 + LEFT_OPEN * (k.residual + residual))
                     * (energy.abs() + k.equilibrium.energy.abs())
@@ -751,7 +748,10 @@ impl Search<'_, '_, '_> {
                 may_flutter: k.may_flutter,
                 hits: k.hits,
                 singular: k.least < SINGULAR,
-                equilibrium: k.equilibrium,
+                equilibrium: Equilibrium {
+                    found_by: FoundBy::OtherStart,
+                    ..k.equilibrium
+                },
             })
             .collect();
         let rank = |f: &FoundEquilibrium| f.potential.unwrap_or(f.equilibrium.energy);

@@ -7,9 +7,10 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use rayon::prelude::*;
 
 use crate::chain::directions::DirectionKind;
+use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
-use crate::continuation::machine_path::Path;
 use crate::continuation::settings::CurveSettings;
+use crate::continuation::tool_conditions::ToolConditions;
 use crate::equilibrium::all_of_chain::{Bounds, chance_of_more};
 use crate::error::Result;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
@@ -109,7 +110,7 @@ impl Posture<'_> {
         end: &EndCondition,
         settings: &SpreadSettings,
     ) -> Result<MachineEquilibria> {
-        let path = Path::held_at(self, end)?;
+        let path = ToolConditions::held_at(self, end)?;
         // Mirrored at the singular postures nearby, and at rest.
         let mut first = vec![Twist::zero()];
         let near = self.motion_gained(path.length);
@@ -169,7 +170,7 @@ impl Posture<'_> {
     /// comes to rest; `rest` is the machine held where it is commanded.
     fn fallen(
         &self,
-        path: &Path<'_, '_>,
+        path: &ToolConditions<'_, '_>,
         rest: Option<&MechanismEquilibrium>,
         way: &Vector6<f64>,
         k: usize,
@@ -225,7 +226,7 @@ struct Known {
 }
 
 struct Search<'p, 'm> {
-    path: Path<'p, 'm>,
+    path: ToolConditions<'p, 'm>,
     bounds: Vec<Bounds>,
     known: Vec<Known>,
     starts: usize,
@@ -338,6 +339,9 @@ impl Search<'_, '_> {
 
     fn finish(self, settings: &SpreadSettings) -> MachineEquilibria {
         let mut found: Vec<MachineFound> = self.known.into_iter().map(|k| k.found).collect();
+        for one in &mut found {
+            one.equilibrium.found_by = FoundBy::OtherStart;
+        }
         found.sort_by(|a, b| a.potential.total_cmp(&b.potential));
         let once = found.iter().filter(|f| f.hits <= 1).count();
         let (chance_of_more, chance_of_more_at_most) = chance_of_more(self.hits, once);
@@ -356,7 +360,7 @@ impl Search<'_, '_> {
 
 /// The k-th of evenly spread motions of some directions (balanced): Kronecker's sequence. Distances
 /// are shares of the machine's size, angles of half a turn.
-fn spread(free: &DMatrix<f64>, k: usize, path: &Path<'_, '_>) -> Vector6<f64> {
+fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_, '_>) -> Vector6<f64> {
     let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0_f64];
     let parts = DVector::from_fn(free.ncols(), |i, _| {
         2.0 * (k as f64 * roots[i % 6].sqrt()).fract() - 1.0
@@ -366,7 +370,7 @@ fn spread(free: &DMatrix<f64>, k: usize, path: &Path<'_, '_>) -> Vector6<f64> {
     Vector6::from_fn(|i, _| motion[i] * if i < 3 { size } else { PI })
 }
 
-impl Path<'_, '_> {
+impl ToolConditions<'_, '_> {
     /// With verdict and energy.
     pub(crate) fn judged(&self, e: MechanismEquilibrium, dead: &Wrench) -> MachineFound {
         let k = self.balanced_stiffness(&e);
