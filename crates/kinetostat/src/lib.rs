@@ -120,10 +120,9 @@ pub use continuation::machine_path::{
 pub use continuation::parameter::{LoadPattern, Parameter};
 pub use continuation::settings::CurveSettings;
 pub use continuation::tool_stability::MachineStability;
-pub use equilibrium::all_of_chain::{
-    Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria,
-};
+pub use equilibrium::all_of_chain::{Equilibria, FoundEquilibrium, SearchSettings, equilibria};
 pub use equilibrium::all_of_machine::{MachineEquilibria, MachineFound, SpreadSettings};
+pub use equilibrium::bounds::Bounds;
 pub use equilibrium::chain::solve_chain;
 pub use equilibrium::critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
 pub use error::{Error, LoadLimit, Result};
