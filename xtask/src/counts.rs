@@ -8,7 +8,6 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use crate::{cargo, root, step};
 
@@ -32,7 +31,7 @@ pub fn run(options: &[&str]) -> Result<()> {
     match options {
         [] => check(),
         ["--renew"] => {
-            let Some(found) = counted()? else {
+            let Some(found) = counted(Tools::found()?)? else {
                 bail!("counts --renew needs valgrind, which is not installed");
             };
             fs::write(file(), serde_json::to_string_pretty(&found)? + "\n")?;
@@ -82,25 +81,60 @@ pub fn worst() -> Result<Option<f64>> {
     Ok(all.reduce(f64::max))
 }
 
-/// Counts of now and of the baseline.
+/// Counts of now and of the baseline; none, and said, where they would not be comparable.
 fn both() -> Result<Option<(Counts, Counts)>> {
     let baseline =
         fs::read_to_string(file()).with_context(|| format!("cannot read {}", file().display()))?;
     let baseline: Counts = serde_json::from_str(&baseline)
         .with_context(|| format!("{} is no baseline", file().display()))?;
-    if baseline.instruction_set != instruction_set() {
-        skipped(&format!(
-            "the baseline is for {}, this machine has {}",
-            baseline.instruction_set,
-            instruction_set()
-        ));
+    let now = Tools::found()?;
+    if let Some(why) = now.not_comparable(&baseline) {
+        skipped(&why);
         return Ok(None);
     }
-    let Some(found) = counted()? else {
-        skipped("valgrind is not installed");
-        return Ok(None);
-    };
-    Ok(Some((found, baseline)))
+    Ok(counted(now)?.map(|found| (found, baseline)))
+}
+
+/// What counts are taken with.
+struct Tools {
+    rustc: String,
+    /// None where it is not installed.
+    valgrind: Option<String>,
+    instruction_set: String,
+}
+
+impl Tools {
+    fn found() -> Result<Self> {
+        let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+        Ok(Self {
+            rustc: version(&mut Command::new(rustc)).context("cannot start rustc")?,
+            valgrind: version(&mut Command::new("valgrind")),
+            instruction_set: instruction_set(),
+        })
+    }
+
+    /// Why counts taken with these say nothing beside the baseline: another compiler makes other
+    /// instructions of the same program.
+    fn not_comparable(&self, baseline: &Counts) -> Option<String> {
+        if self.valgrind.is_none() {
+            return Some("valgrind is not installed".into());
+        }
+        for (what, now, before) in [
+            (
+                "processors",
+                &self.instruction_set,
+                &baseline.instruction_set,
+            ),
+            ("rustc", &self.rustc, &baseline.rustc),
+        ] {
+            if now != before {
+                return Some(format!(
+                    "the baseline is for {what} {before}, and here is {now}"
+                ));
+            }
+        }
+        None
+    }
 }
 
 fn skipped(why: &str) {
@@ -154,18 +188,15 @@ fn percent(count: &u64, before: Option<u64>) -> f64 {
     }
 }
 
-/// Another compiler may be the cause.
+/// Another valgrind may be the cause.
 fn taken_differently(found: &Counts, baseline: &Counts) -> String {
-    let mut text = String::new();
-    for (what, now, before) in [
-        ("rustc", &found.rustc, &baseline.rustc),
-        ("valgrind", &found.valgrind, &baseline.valgrind),
-    ] {
-        if now != before {
-            text += &format!("This is {what} {now}, the baseline was taken with {before}. ");
-        }
+    if found.valgrind == baseline.valgrind {
+        return String::new();
     }
-    text
+    format!(
+        "This is valgrind {}, the baseline was taken with {}. ",
+        found.valgrind, baseline.valgrind
+    )
 }
 
 fn file() -> PathBuf {
@@ -196,105 +227,77 @@ fn version(program: &mut Command) -> Option<String> {
 }
 
 /// Counts everything; none without valgrind.
-fn counted() -> Result<Option<Counts>> {
-    let Some(valgrind) = version(&mut Command::new("valgrind")) else {
+fn counted(tools: Tools) -> Result<Option<Counts>> {
+    let Some(valgrind) = tools.valgrind else {
         return Ok(None);
     };
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let rustc = version(&mut Command::new(rustc)).context("cannot start rustc")?;
-    let runner = runner()?;
-    eprintln!("== instructions of the works, counted by valgrind");
-    let output = cargo()
-        .args([
-            "bench",
-            "--quiet",
-            "-p",
-            "kinetostat-bench",
-            "--bench",
-            "counts",
-        ])
-        .args(["--", "--output-format=json", "--allow-aslr=true"])
-        .env("GUNGRAUN_RUNNER", runner)
-        // Pairs of single numbers that the compiler packs by itself take a move that valgrind 3.19 does
-        // not know. The kernels say what is packed, and are the same without.
-        .env("RUSTFLAGS", "-Cno-vectorize-slp")
-        .current_dir(root())
-        .stderr(Stdio::inherit())
+    step(
+        "the works to count",
+        cargo()
+            .args(["build", "--quiet", "--release", "-p", "kinetostat-bench"])
+            .args(["--bin", "counts"])
+            // Pairs of single numbers that the compiler packs by itself take a move that valgrind 3.19
+            // does not know. The kernels say what is packed, and are the same without.
+            .env("RUSTFLAGS", "-Cno-vectorize-slp"),
+    )?;
+    let program = target().join("release").join("counts");
+    let names = Command::new(&program)
         .output()
-        .context("cannot start the bench 'counts'")?;
-    if !output.status.success() {
-        bail!("the bench 'counts' failed ({})", output.status);
+        .with_context(|| format!("cannot start {}", program.display()))?;
+    let names = String::from_utf8(names.stdout).context("names of works")?;
+    eprintln!("== instructions of the works, counted by valgrind");
+    let mut instructions = BTreeMap::new();
+    for name in names.lines() {
+        instructions.insert(name.to_owned(), instructions_of(&program, name)?);
     }
-    let instructions = instructions(&String::from_utf8_lossy(&output.stdout))?;
+    if instructions.is_empty() {
+        bail!("{} names no work", program.display());
+    }
     Ok(Some(Counts {
-        rustc,
+        rustc: tools.rustc,
         valgrind,
-        instruction_set: instruction_set(),
+        instruction_set: tools.instruction_set,
         instructions,
     }))
 }
 
-/// From what gungraun prints: one summary per line.
-fn instructions(text: &str) -> Result<BTreeMap<String, u64>> {
-    let mut found = BTreeMap::new();
-    for line in text.lines() {
-        let summary: Value = serde_json::from_str(line)
-            .with_context(|| format!("the bench 'counts' printed no summary: {line}"))?;
-        let word = |key: &str| summary[key].as_str().unwrap_or_default().to_owned();
-        // Beside it lies the count of an earlier run, if there was one.
-        let count = &summary["profiles"][0]["data"]["total"]["metrics"]["Ir"]["values"]["new"];
-        let Some(count) = count.as_u64() else {
-            bail!("the bench 'counts' printed no instructions: {line}");
-        };
-        found.insert(format!("{} {}", word("function_name"), word("id")), count);
+/// Instructions of one work, without what is done before and after it.
+fn instructions_of(program: &Path, name: &str) -> Result<u64> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--cache-sim=no"])
+        .args(["--callgrind-out-file=/dev/null"])
+        .arg("--toggle-collect=*kinetostat_counted*")
+        .arg(program)
+        .arg(name)
+        .current_dir(root())
+        // Counts must not depend on the caller's settings.
+        .env_clear()
+        .env("PATH", std::env::var_os("PATH").unwrap_or_default())
+        // A string instruction counts as many as it has bytes: vectors instead, on every processor.
+        .env(
+            "GLIBC_TUNABLES",
+            "glibc.cpu.x86_rep_stosb_threshold=1000000000:glibc.cpu.x86_rep_movsb_threshold=1000000000",
+        )
+        .output()
+        .context("cannot start valgrind")?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if !output.status.success() {
+        bail!("'{name}' under valgrind failed ({}): {said}", output.status);
     }
-    if found.is_empty() {
-        bail!("the bench 'counts' printed nothing");
-    }
-    Ok(found)
+    collected(&said)
+        .with_context(|| format!("valgrind counted no instructions of '{name}': {said}"))
 }
 
-/// The program that gungraun starts valgrind with, of the version of the library in use; built into
-/// the target directory where it is not there yet.
-fn runner() -> Result<PathBuf> {
-    let lock = fs::read_to_string(root().join("Cargo.lock"))?;
-    let version = locked(&lock, "gungraun-runner").context("gungraun is not in Cargo.lock")?;
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
-    let folder = target.join(format!("gungraun-runner-{version}"));
-    let program = folder.join("bin").join("gungraun-runner");
-    if !program.is_file() {
-        step(
-            "gungraun-runner into the target directory",
-            cargo()
-                .args(["install", "gungraun-runner", "--quiet", "--locked"])
-                .args(["--version", &format!("={version}")])
-                .arg("--root")
-                .arg(&folder)
-                .arg("--target-dir")
-                .arg(folder.join("build"))
-                // It starts valgrind and reads a file: building it fast is what counts.
-                .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0")
-                .env("CARGO_PROFILE_RELEASE_LTO", "off")
-                .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16"),
-        )?;
-        let _ = fs::remove_dir_all(folder.join("build"));
-    }
-    absolute(&program)
+/// From what callgrind says at the end: `==123== Collected : 456`.
+fn collected(said: &str) -> Option<u64> {
+    let line = said.lines().find(|line| line.contains("Collected :"))?;
+    let count = line.rsplit(':').next()?.trim().parse().ok()?;
+    // None where the function was not found.
+    (count > 0).then_some(count)
 }
 
-fn absolute(path: &Path) -> Result<PathBuf> {
-    std::path::absolute(path).with_context(|| format!("where is {}?", path.display()))
-}
-
-/// Version of a package in a lock file.
-fn locked<'a>(lock: &'a str, package: &str) -> Option<&'a str> {
-    let name = format!("name = \"{package}\"");
-    let mut lines = lock.lines().skip_while(|line| *line != name);
-    lines
-        .nth(1)?
-        .strip_prefix("version = \"")?
-        .strip_suffix('"')
+fn target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
 #[cfg(test)]
@@ -324,34 +327,35 @@ mod tests {
         assert_eq!(told.more, ["b", "d"]);
         assert_eq!(told.less, ["c", "e (gone)"]);
         assert_eq!(told.table.lines().count(), 5);
-        let why = taken_differently(&now, &before);
-        assert_eq!(why, "This is rustc 2, the baseline was taken with 1. ");
+        assert_eq!(taken_differently(&now, &before), "");
     }
 
     #[test]
-    fn counts_are_read_from_summaries_of_a_first_and_a_later_run() {
-        let line = |values: Value| {
-            serde_json::json!({
-                "function_name": "many", "id": "w1",
-                "profiles": [{"data": {"total": {"metrics": {"Ir": {"values": values}}}}}],
-            })
-            .to_string()
+    fn another_compiler_processor_or_no_valgrind_is_not_compared() {
+        let baseline = counts("1", &[("a", 1)]);
+        let with = |rustc: &str, valgrind: Option<&str>, instruction_set: &str| Tools {
+            rustc: rustc.into(),
+            valgrind: valgrind.map(Into::into),
+            instruction_set: instruction_set.into(),
         };
-        for values in [
-            serde_json::json!({"new": 7}),
-            serde_json::json!({"new": 7, "old": 9}),
+        let why = |tools: Tools| tools.not_comparable(&baseline);
+        let own = "x86_64 with AVX2";
+        assert_eq!(why(with("1", Some("4"), own)), None);
+        for (tools, word) in [
+            (with("2", Some("3"), own), "rustc 1, and here is 2"),
+            (with("1", Some("3"), "x86_64"), "and here is x86_64"),
+            (with("1", None, own), "valgrind"),
         ] {
-            let found = instructions(&line(values)).expect("counts");
-            assert_eq!(found, BTreeMap::from([("many w1".into(), 7)]));
+            let why = why(tools).expect("a reason");
+            assert!(why.contains(word), "{why}");
         }
-        assert!(instructions("").is_err());
-        assert!(instructions(&line(Value::Null)).is_err());
     }
 
     #[test]
-    fn the_lock_file_tells_the_version() {
-        let lock = "[[package]]\nname = \"a\"\nversion = \"1.2.3\"\n";
-        assert_eq!(locked(lock, "a"), Some("1.2.3"));
-        assert_eq!(locked(lock, "b"), None);
+    fn counts_are_read_from_what_callgrind_says() {
+        let said = "==7== Events    : Ir\n==7== Collected : 209812\n==7== \n";
+        assert_eq!(collected(said), Some(209_812));
+        assert_eq!(collected("==7== Collected : 0\n"), None);
+        assert_eq!(collected(""), None);
     }
 }

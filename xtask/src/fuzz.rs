@@ -68,7 +68,7 @@ fn absurd_units() -> Result<()> {
         "--package",
         "kinetostat-cli",
     ]);
-    command.args(["--test", "absurd"]);
+    command.args(["--test", "cli", "absurd::"]);
     command.env("KINETOSTAT_ABSURD", "all");
     step("absurd units", &mut command)
 }

@@ -25,9 +25,14 @@ pub fn run() -> Result<()> {
             .args(["doc", "--workspace", "--no-deps", "--quiet"])
             .env("RUSTDOCFLAGS", "-D warnings"),
     )?;
+    // Examples are built by the lints.
     step(
         "tests",
-        cargo().args(["test", "--workspace", "--no-fail-fast"]),
+        cargo().args(["test", "--workspace", "--no-fail-fast", "--tests"]),
+    )?;
+    step(
+        "examples in the documentation",
+        cargo().args(["test", "--workspace", "--no-fail-fast", "--doc"]),
     )?;
     book::check()?;
     counts::check()?;

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use kinetostat::Wrench;
 use kinetostat::batch::{Batch, Found};
 use kinetostat_bench::{Answers, Places, Task, Work, sample};
+use kinetostat_testing::largest_size;
 
 fn model(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../benches/models/{name}.toml"))
@@ -26,10 +27,8 @@ fn answers(name: &str, work: Work, places: Places, wrench: &[f64]) -> Answers {
 /// Largest difference to the largest number.
 fn apart(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
-    let largest =
-        |numbers: &mut dyn Iterator<Item = f64>| numbers.fold(0.0_f64, |a, b| a.max(b.abs()));
-    largest(&mut found.iter().zip(expected).map(|(a, b)| a - b))
-        / largest(&mut expected.iter().copied())
+    largest_size(found.iter().zip(expected).map(|(a, b)| a - b))
+        / largest_size(expected.iter().copied())
 }
 
 fn upper(matrix: &[f64]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! The examples of the book, as tests.
 //!
 //! Every Rust block of every chapter is a documentation test of this crate, so the book cannot say
-//! what the library does not do. The shell examples run in `kinetostat-cli/tests/book.rs`. Here are
+//! what the library does not do. The shell examples run in `kinetostat-cli/tests/cli/book.rs`. Here are
 //! also the [chains of the report](chains) that several chapters use.
 
 pub mod chains;

@@ -100,9 +100,10 @@ fn every_function_and_test_of_the_theory_map_exists() {
             "{line}"
         );
         for pair in functions.chunks(2) {
-            let file = match pair[1].contains('/') {
-                true => root().join(pair[1]),
-                false => root().join("crates/kinetostat/src").join(pair[1]),
+            let of_core = root().join("crates/kinetostat/src").join(pair[1]);
+            let file = match of_core.exists() {
+                true => of_core,
+                false => root().join(pair[1]),
             };
             let source = read(&file);
             for name in pair[0].split("::") {
@@ -346,7 +347,7 @@ fn no_example_escapes_the_tests() {
                 let holds = match language.split(" #").next().unwrap_or_default() {
                     // Documentation tests of this crate; nothing may be taken out of them.
                     "rust" => tested.contains(&format!("\"{name}\"")),
-                    // Run by `kinetostat-cli/tests/book.rs`; formulas are read when the book is built.
+                    // Run by `kinetostat-cli/tests/cli/book.rs`; formulas are read when the book is built.
                     "console" | "math" => true,
                     // Parts of files that are compiled elsewhere.
                     "rs" => true,

@@ -1,92 +1,44 @@
 //! The kinetostat command: how far a machine bends along a program, and a program that cuts where
 //! it should.
 //!
-//! One module per command (`demo`, `compensate`, `deflect`, `stiffness`, `map`, `curve`,
-//! `equilibria`, `check`, `models`, `shell`);
-//! `job` and `setting` turn files and options into a question, `along` runs it, `output` puts files
-//! in place, `screen` prints, `failure` knows the exit codes.
+//! One folder per command; commands do not know each other. Below them, from the top down, what they share:
+//! `program` (a run along a program), `end_condition` (how a tool is held), `job` (the query of such a run), `place`
+//! (one place in the workspace), `machine` (what is said of a machine), `options`, `files`, and `ui`, which prints
+//! and knows the exit codes. `command_line` stands above all.
 
-mod along;
-mod args;
 mod assemble;
-mod assemble_along;
-mod assemble_answer;
-mod assemble_args;
-mod assemble_question;
-mod assemble_table;
 mod check;
-mod check_assumptions;
-mod check_frames;
-mod check_home;
-mod check_job;
-mod check_limbs;
-mod check_pose;
-mod check_pose_file;
-mod check_pose_fit;
-mod check_reach;
-mod check_reach_commands;
-mod check_words;
-mod compare;
-mod compare_fit;
+mod command_line;
 mod compensate;
-mod compensate_map;
 mod curve;
-mod curve_answer;
-mod curve_args;
-mod curve_chain;
-mod curve_csv;
-mod curve_machine;
-mod curve_plot;
-mod curve_question;
-mod curve_table;
-mod curve_turns;
-mod curve_work;
 mod deflect;
 mod demo;
-mod diagnose;
-mod draw;
+mod end_condition;
 mod equilibria;
-mod equilibria_answer;
-mod equilibria_machine;
-mod equilibria_table;
-mod failure;
-mod faults;
-mod free_machine;
+mod files;
 mod import;
-mod import_link;
-mod import_link_args;
-mod input;
 mod job;
-mod joints;
-mod journal;
-mod limit_options;
 mod machine;
 mod map;
-mod map_answer;
-mod map_args;
-mod map_table;
-mod models;
-mod orientation;
-mod origin;
-mod output;
-mod overcome;
+mod model;
+mod options;
 mod place;
-mod points_csv;
-mod progress;
+mod program;
 mod reproduce;
-mod screen;
-mod setting;
 mod shell;
 mod stiffness;
-mod summary;
+mod ui;
 
 use std::process::ExitCode;
 
-use clap::Parser;
 use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
 
-use crate::args::{Cli, Command, no_number, plain_numbers};
-use crate::failure::{Answer, Code};
+use crate::command_line::negative_numbers::{no_number, plain_numbers};
+use crate::command_line::{Cli, Command};
+use crate::files::journal;
+use crate::ui::failure::{self, Answer, Code};
+use crate::ui::{progress, screen};
 
 fn main() -> ExitCode {
     let words = plain_numbers(std::env::args_os());
@@ -105,7 +57,7 @@ fn main() -> ExitCode {
             };
         }
     };
-    progress::catch_interrupts();
+    progress::catch_interrupts(journal::remove_temporary);
     match run(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -128,8 +80,8 @@ fn run(command: Command) -> Answer<()> {
         Command::Check(args) => check::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Reproduce(args) => reproduce::run(&args),
-        Command::Model(args) => models::run(&args),
-        Command::Completions(args) => shell::completions(&args),
-        Command::Man(args) => shell::man(&args),
+        Command::Model(args) => model::run(&args),
+        Command::Completions(args) => shell::completions(&args, Cli::command()),
+        Command::Man(args) => shell::man(&args, Cli::command()),
     }
 }

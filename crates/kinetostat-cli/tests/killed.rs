@@ -1,8 +1,12 @@
 //! kill -9 at any moment: no half file, nothing left for ever, no new program beside an old report
-//! without a word. `KINETOSTAT_KILLS=500 cargo test --test killed` kills more often.
+//! without a word. `KINETOSTAT_KILLS=500 cargo test --workspace --test killed` kills more often.
+//!
+//! A binary of its own: it measures how long a run takes and kills within that time, so that no other
+//! test may run beside it.
 
 #![cfg(unix)]
 
+#[path = "cli/common/mod.rs"]
 mod common;
 
 use std::collections::BTreeMap;

@@ -21,6 +21,7 @@ mod result;
 mod run;
 mod sites;
 mod solve;
+mod table;
 mod thin;
 mod together;
 mod tool;
@@ -46,6 +47,7 @@ pub use result::{
 pub use run::{
     Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words, of_program,
 };
+pub use table::{TableCorrection, correct_by_table, wide_table};
 pub use thin::thinned;
 pub use tool::Tool;
 pub use verdict::{keeps_as_it_is, of_table, unchanged_in_words};

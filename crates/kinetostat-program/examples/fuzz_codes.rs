@@ -7,7 +7,7 @@
     reason = "a tool for developers; a module is shared with the tests"
 )]
 
-#[path = "../tests/code_programs/mod.rs"]
+#[path = "../tests/program/code_programs/mod.rs"]
 mod code_programs;
 
 use std::process::ExitCode;

@@ -10,9 +10,10 @@
     reason = "a tool for developers; modules are shared with the tests"
 )]
 
-#[path = "../tests/sampled/mod.rs"]
+#[path = "../tests/program/sampled/mod.rs"]
 mod sampled;
 
+use kinetostat_testing::Worst;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
@@ -27,12 +28,12 @@ fn main() -> ExitCode {
     let minutes: f64 = words.first().and_then(|w| w.parse().ok()).unwrap_or(1.0);
     let first: u64 = words.get(1).and_then(|w| w.parse().ok()).unwrap_or(1);
     let end = Instant::now() + Duration::from_secs_f64(60.0 * minutes);
-    let (mut cases, mut places, mut faults, mut worst) = (0_u64, 0, 0, 0.0_f64);
+    let (mut cases, mut places, mut faults, mut worst) = (0_u64, 0, 0, Worst::new());
     while Instant::now() < end {
         match sampled::check(first.wrapping_mul(1_000_003).wrapping_add(cases)) {
             Ok(found) => {
                 places += found.places;
-                worst = worst.max(found.worst);
+                worst.add(found.worst.of_all(found.places));
             }
             Err(what) => {
                 faults += 1;
@@ -42,7 +43,8 @@ fn main() -> ExitCode {
         cases += 1;
     }
     println!(
-        "{cases} programs under tables, {places} places, worst {worst:.3} of what is allowed, {faults} faults"
+        "{cases} programs under tables, {places} places, worst {:.3} of what is allowed, {faults} faults",
+        worst.measured().unwrap_or(0.0)
     );
     match faults {
         0 => ExitCode::SUCCESS,

@@ -82,6 +82,7 @@ pub(crate) fn remainder(points: u8, size: f64, length: f64, radius: f64) -> f64 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kinetostat_testing::{Worst, largest_size};
 
     fn values(f: impl Fn(f64) -> f64) -> Values {
         std::array::from_fn(|i| Vector3::new(f(0.25 * i as f64), 0.0, 0.0))
@@ -92,13 +93,13 @@ mod tests {
         let f = |t: f64| 0.3 - t + 2.0 * t * t - 5.0 * t.powi(3) + 1.7 * t.powi(4);
         let known = values(f);
         let chord = [Vector3::new(0.1, 0.0, 0.0), Vector3::new(-2.0, 0.0, 0.0)];
-        let mut largest = 0.0;
+        let mut largest = Worst::new();
         for i in 0..=5000 {
             let t = f64::from(i) / 5000.0;
             assert!((polynomial(&known, t).x - f(t)).abs() < 1e-12);
-            largest = f64::max(largest, (f(t) - chord[0].lerp(&chord[1], t).x).abs());
+            largest.add(f(t) - chord[0].lerp(&chord[1], t).x);
         }
-        let bound = departure(&known, chord);
+        let (largest, bound) = (largest.of(5001), departure(&known, chord));
         assert!(
             bound >= largest && bound < 1.1 * largest,
             "{bound} {largest}"
@@ -124,10 +125,8 @@ mod tests {
                 let known = values(|t| f(t * length));
                 let three = parabola(known[0], known[2], known[4]);
                 let missed = |values: &Values| {
-                    (0..=400)
-                        .map(|i| f64::from(i) / 400.0)
-                        .map(|t| (polynomial(values, t).x - f(t * length)).abs())
-                        .fold(0.0, f64::max)
+                    let shares = (0..=400).map(|i| f64::from(i) / 400.0);
+                    largest_size(shares.map(|t| polynomial(values, t).x - f(t * length)))
                 };
                 let bound = |points| remainder(points, f(0.0), length, 0.5 * radius);
                 assert!(missed(&known) <= bound(5) + 1e-15, "{radius} {length}");

@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 
 use kinetostat::{Kinematics, MotionKind};
 use kinetostat_import::{Imported, JointStiffness, UrdfOptions};
+use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{Matrix4, Vector3};
 use serde_json::{Value, json};
 
@@ -79,22 +80,23 @@ fn compare(
     postures: &[Vec<f64>],
     other: impl Fn(usize) -> (Matrix4<f64>, Vec<f64>),
 ) -> Difference {
-    let mut worst = Difference {
-        pose: 0.0,
-        torque: 0.0,
-    };
-    let mut largest = 1e-3_f64;
+    let (mut worst, mut worst_torque) = (Worst::new(), Worst::new());
+    let mut largest = Worst::new();
+    largest.add(1e-3);
     for (i, commands) in postures.iter().enumerate() {
         let (pose, torques) = computed(imported, commands);
         let (other_pose, other_torques) = other(i);
-        worst.pose = worst.pose.max((pose - other_pose).amax());
+        worst.add((pose - other_pose).largest_entry());
+        assert_eq!(torques.len(), other_torques.len());
         for (a, b) in torques.iter().zip(&other_torques) {
-            worst.torque = worst.torque.max((a - b).abs());
-            largest = largest.max(b.abs());
+            worst_torque.add(a - b);
+            largest.add(b.abs());
         }
     }
-    worst.torque /= largest;
-    worst
+    Difference {
+        pose: worst.of(postures.len()),
+        torque: worst_torque.value() / largest.value(),
+    }
 }
 
 /// Largest difference of the frames of side branches (nodes named like their links), m or 1.
@@ -104,7 +106,7 @@ pub fn side_branches(urdf: &str, imported: &Imported, count: usize) -> (usize, f
     let nodes: Vec<usize> = (0..chain.nodes().len() - 1)
         .filter(|n| chain.bodies().iter().all(|b| b.node != *n))
         .collect();
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for commands in postures(imported, count) {
         let values: BTreeMap<&str, f64> = imported
             .actuators
@@ -117,10 +119,10 @@ pub fn side_branches(urdf: &str, imported: &Imported, count: usize) -> (usize, f
         let k = Kinematics::new(chain, &base, &coordinates, &commands, false);
         for &n in &nodes {
             let wanted = oracle.pose(&imported.base, &chain.nodes()[n], &values);
-            worst = worst.max((k.node_pose(n).to_homogeneous() - wanted).amax());
+            worst.add((k.node_pose(n).to_homogeneous() - wanted).largest_entry());
         }
     }
-    (nodes.len(), worst)
+    (nodes.len(), worst.value())
 }
 
 /// Against the oracle.

@@ -5,6 +5,7 @@
 use kinetostat::{LimbPosture, MechanismEquilibrium, MotionKind, Wrench};
 use kinetostat_import::{Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf};
 use kinetostat_model::schema::{Section, Tube};
+use kinetostat_testing::largest_size;
 
 use nalgebra::Vector3;
 
@@ -296,9 +297,10 @@ fn figure_drives_of_the_heavy_arm_hold_its_weight() {
     let force = |name: &str| forces[names.iter().position(|n| n.contains(name)).unwrap()];
     let ([crank, screw], _) = held_by_hand(&imported);
     println!("{names:?} {forces:?}; by hand: crank {crank}, screw {screw}");
-    let worst = ((force("crank") - crank) / crank)
-        .abs()
-        .max(((force("screw") - screw) / screw).abs());
+    let worst = largest_size([
+        (force("crank") - crank) / crank,
+        (force("screw") - screw) / screw,
+    ]);
     figure_at_most(
         "URDF with loops (counterweight, linear actuator, bar): drive forces against statics by hand",
         worst,

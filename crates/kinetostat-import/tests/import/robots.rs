@@ -2,6 +2,7 @@
 
 use kinetostat_import::{Imported, JointStiffness, UrdfOptions, import_urdf, read_text};
 use kinetostat_model::Model;
+use kinetostat_testing::Worst;
 
 use crate::agreement::{side_branches, with_oracle, with_pinocchio};
 use crate::{data, figure_at_most, notices};
@@ -52,14 +53,14 @@ fn all_of_them_import_and_load_again() {
 
 #[test]
 fn figure_robots_move_and_weigh_as_their_files_say() {
-    let (mut pose, mut torque) = (0.0_f64, 0.0_f64);
+    let (mut pose, mut torque) = (Worst::new(), Worst::new());
     for (name, _) in ROBOTS {
         let Some((text, imported)) = robot(name, UrdfOptions::default()) else {
             return;
         };
         let d = with_oracle(&text, &imported, 1000);
-        pose = pose.max(d.pose);
-        torque = torque.max(d.torque);
+        pose.add(d.pose);
+        torque.add(d.torque);
         if !imported.bodies.is_empty() {
             println!(
                 "{name}: gravity torques differ by {:.1e} of the largest",
@@ -69,13 +70,13 @@ fn figure_robots_move_and_weigh_as_their_files_say() {
     }
     figure_at_most(
         "URDF of 8 robots: poses at 1000 postures",
-        pose,
+        pose.of(ROBOTS.len()),
         1e-10,
         "m and 1",
     );
     figure_at_most(
         "URDF of 8 robots: gravity torques at 1000 postures",
-        torque,
+        torque.of(ROBOTS.len()),
         1e-10,
         "of the largest",
     );
@@ -83,7 +84,7 @@ fn figure_robots_move_and_weigh_as_their_files_say() {
 
 #[test]
 fn figure_robots_agree_with_pinocchio() {
-    let (mut pose, mut torque) = (0.0_f64, 0.0_f64);
+    let (mut pose, mut torque) = (Worst::new(), Worst::new());
     for (name, _) in ROBOTS {
         let Some((text, imported)) = robot(name, UrdfOptions::default()) else {
             return;
@@ -91,13 +92,18 @@ fn figure_robots_agree_with_pinocchio() {
         let Some(d) = with_pinocchio(&text, &imported, 1000) else {
             return;
         };
-        pose = pose.max(d.pose);
-        torque = torque.max(d.torque);
+        pose.add(d.pose);
+        torque.add(d.torque);
     }
-    figure_at_most("URDF of 8 robots, Pinocchio: poses", pose, 1e-10, "m and 1");
+    figure_at_most(
+        "URDF of 8 robots, Pinocchio: poses",
+        pose.of(ROBOTS.len()),
+        1e-10,
+        "m and 1",
+    );
     figure_at_most(
         "URDF of 8 robots, Pinocchio: gravity torques",
-        torque,
+        torque.of(ROBOTS.len()),
         1e-10,
         "of the largest",
     );

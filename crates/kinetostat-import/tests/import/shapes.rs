@@ -3,6 +3,7 @@
 use kinetostat::MotionKind;
 use kinetostat_import::{JointStiffness, UrdfOptions, import_urdf};
 use kinetostat_model::schema::{Element, Section, Tube};
+use kinetostat_testing::LargestEntry;
 
 use crate::agreement::{TREE, with_oracle};
 use crate::{between, import, notices};
@@ -124,7 +125,7 @@ fn a_follower_before_its_source_leads() {
         &[-0.7, 0.2],
         false,
     );
-    let gap = (k.tip_pose().to_homogeneous() - wanted).amax();
+    let gap = (k.tip_pose().to_homogeneous() - wanted).largest_entry();
     assert!(gap < 1e-12, "{gap}");
 }
 

@@ -7,6 +7,7 @@ mod figures;
 mod matrices;
 
 use kinetostat_links::Text;
+use kinetostat_testing::Worst;
 use nalgebra::Matrix6;
 
 /// A text that is not on disk.
@@ -16,19 +17,9 @@ fn text(name: &str, body: &str) -> Text {
 
 /// Largest difference of two stiffnesses, entries in units of the geometric mean of their diagonals.
 fn apart(found: &Matrix6<f64>, wanted: &Matrix6<f64>) -> f64 {
-    let mut worst = 0.0_f64;
-    for i in 0..6 {
-        for j in 0..6 {
-            let unit = (wanted[(i, i)] * wanted[(j, j)]).sqrt();
-            let d = (found[(i, j)] - wanted[(i, j)]).abs() / unit;
-            worst = if d.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(d)
-            };
-        }
-    }
-    worst
+    let mut worst = Worst::new();
+    worst.matrix(found, wanted, wanted);
+    worst.of(36)
 }
 
 /// Prints a figure and holds it.

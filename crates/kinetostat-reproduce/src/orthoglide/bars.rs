@@ -145,7 +145,7 @@ mod tests {
 
     /// Two bars between two beams are what the lumped parallelogram stands for: the same stiffness
     /// (to rounding), and loaded, with springs of the same convention, a
-    /// motion that differs by less than 1.4e-4 mm (reference values, part 2, section 1.2).
+    /// motion that differs by less than 1.4e-4 mm (reference numbers, section 2.0).
     #[test]
     fn bars_stand_for_the_lumped_spring() {
         let machine = Orthoglide::default();

@@ -27,7 +27,7 @@ pub(super) struct Reading {
     pub(super) inside: bool,
 }
 
-/// Readings of reference values, part 2, section 2.6.
+/// Readings of the reference numbers, section 2.6.
 pub(super) const READINGS: [Reading; 4] = [
     Reading {
         name: "A (rigid drives, 50 mm circle about the point)",

@@ -3,8 +3,9 @@
 use pulp::Simd;
 
 use super::lanes::Lanes;
-use super::loaded::{LoadedLimb, lever, rotated_back};
+use super::loaded::LoadedLimb;
 use super::plan::{Plan, Step};
+use super::wrenches::{lever, rotated_back};
 
 /// Adds the force (N) or torque (N m) of the loads on every actuator of a limb where it lies: of the
 /// wrench at its tip and of the weights beyond.

@@ -8,10 +8,11 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::lanes::{Lanes, minus};
-use super::loaded::{select, turned};
-use super::reach::{Target, turn_between};
-use super::run::{Machine, REGULAR};
+use super::group::REGULAR;
+use super::lanes::Lanes;
+use super::machine::Machine;
+use super::reach::Target;
+use super::vectors::{minus, select, turn_between, turned};
 
 /// Equilibria after which a lane is given up.
 pub(super) const MOST_ROUNDS: usize = 12;

@@ -5,7 +5,13 @@ use pulp::Simd;
 use super::apart::apart;
 use super::lanes::Lanes;
 use super::symmetric::Symmetric;
-use super::unloaded::LimbStiffness;
+
+/// Stiffness of a limb in base axes about the platform's point.
+pub(super) struct LimbStiffness<S: Simd> {
+    pub matrix: Symmetric<S>,
+    /// Smallest relative pivot on the way: near zero where a joint or a spring is redundant here.
+    pub regular: Lanes<S>,
+}
 
 /// A compliance in axes whose first `m` are those of the passive joints: reflections and factors that
 /// answer how a limb with passive joints yields.

@@ -1,10 +1,12 @@
 //! Loaded postures: what is asked of them, and where the answers go.
 
+use super::compiled::{BLOCKS, Batch, in_parallel, left};
+use super::group::Places;
 use super::plan::Plan;
-use super::run::{Answers, Places, Work};
+use super::run::{Answers, Work};
 use super::shape::springs;
-use super::table::BLOCK;
-use super::{BLOCKS, Batch, Found, Table, in_parallel, left};
+use super::status::Found;
+use super::table::{BLOCK, Table};
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
 use crate::error::{Error, Result};

@@ -9,7 +9,7 @@ use pulp::Simd;
 use super::apart::apart;
 use super::lanes::Lanes;
 use super::plan::Plan;
-use super::tangent::Mat6;
+use super::wrenches::Mat6;
 
 type Mat12<S> = [[Lanes<S>; 12]; 12];
 

@@ -24,11 +24,6 @@ impl<S: Simd> Clone for Lanes<S> {
 
 impl<S: Simd> Copy for Lanes<S> {}
 
-/// Three numbers: a vector in base axes.
-pub(super) type Vec3<S> = [Lanes<S>; 3];
-/// A 3 x 3 matrix, row by row.
-pub(super) type Mat3<S> = [Lanes<S>; 9];
-
 macro_rules! operator {
     ($trait:ident, $function:ident, $simd:ident) => {
         impl<S: Simd> $trait for Lanes<S> {
@@ -216,103 +211,4 @@ impl<S: Simd> Lanes<S> {
         }
         sum
     }
-}
-
-/// `a x b`.
-#[inline(always)]
-pub(super) fn cross<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
-    [
-        a[2].times_from(b[1], a[1] * b[2]),
-        a[0].times_from(b[2], a[2] * b[0]),
-        a[1].times_from(b[0], a[0] * b[1]),
-    ]
-}
-
-/// `a . b`.
-#[inline(always)]
-pub(super) fn dot<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Lanes<S> {
-    a[0].times_plus(b[0], a[1].times_plus(b[1], a[2] * b[2]))
-}
-
-/// `a - b`.
-#[inline(always)]
-pub(super) fn minus<S: Simd>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// `R v + p`.
-#[inline(always)]
-pub(super) fn carried<S: Simd>(r: &Mat3<S>, v: &Vec3<S>, p: &Vec3<S>) -> Vec3<S> {
-    let mut out = *p;
-    for i in 0..3 {
-        out[i] = r[3 * i].times_plus(
-            v[0],
-            r[3 * i + 1].times_plus(v[1], r[3 * i + 2].times_plus(v[2], p[i])),
-        );
-    }
-    out
-}
-
-/// `A B`.
-#[inline(always)]
-pub(super) fn product<S: Simd>(a: &Mat3<S>, b: &Mat3<S>) -> Mat3<S> {
-    let mut out = *a;
-    for i in 0..3 {
-        for j in 0..3 {
-            out[3 * i + j] = a[3 * i].times_plus(
-                b[j],
-                a[3 * i + 1].times_plus(b[3 + j], a[3 * i + 2] * b[6 + j]),
-            );
-        }
-    }
-    out
-}
-
-/// `A B^T`.
-#[inline(always)]
-pub(super) fn product_transposed<S: Simd>(a: &Mat3<S>, b: &Mat3<S>) -> Mat3<S> {
-    let mut out = *a;
-    for i in 0..3 {
-        for j in 0..3 {
-            out[3 * i + j] = a[3 * i].times_plus(
-                b[3 * j],
-                a[3 * i + 1].times_plus(b[3 * j + 1], a[3 * i + 2] * b[3 * j + 2]),
-            );
-        }
-    }
-    out
-}
-
-/// `R <- R Rot(axis)` with the sine and cosine of the angle: two columns change.
-#[inline(always)]
-pub(super) fn turn_columns<S: Simd, const AXIS: usize>(r: &mut Mat3<S>, s: Lanes<S>, c: Lanes<S>) {
-    let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
-    for i in 0..3 {
-        let (a, b) = (r[3 * i + j], r[3 * i + k]);
-        r[3 * i + j] = c.times_plus(a, s * b);
-        r[3 * i + k] = s.times_from(a, c * b);
-    }
-}
-
-/// Column of a matrix.
-#[inline(always)]
-pub(super) fn column<S: Simd>(r: &Mat3<S>, k: usize) -> Vec3<S> {
-    [r[k], r[3 + k], r[6 + k]]
-}
-
-/// A constant vector in all lanes.
-#[inline(always)]
-pub(super) fn constant<S: Simd>(simd: S, v: &[f64; 3]) -> Vec3<S> {
-    [
-        Lanes::new(simd, v[0]),
-        Lanes::new(simd, v[1]),
-        Lanes::new(simd, v[2]),
-    ]
-}
-
-/// The identity.
-#[inline(always)]
-pub(super) fn identity<S: Simd>(simd: S) -> Mat3<S> {
-    let (o, z) = (Lanes::new(simd, 1.0), Lanes::new(simd, 0.0));
-    [o, z, z, z, o, z, z, z, o]
 }

@@ -7,7 +7,7 @@ use super::apart::apart;
 use super::dual::{Dual, Number, inner, outer};
 use super::lanes::Lanes;
 use super::symmetric::Symmetric;
-use super::tangent::Mat6;
+use super::wrenches::Mat6;
 use crate::model::springs::parallelogram::ParallelogramLaw;
 
 /// Rotations beyond this (squared, rad^2) leave the range of the series.

@@ -12,34 +12,26 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::eliminate::Eliminated;
-use super::lanes::{
-    Lanes, Mat3, Vec3, carried, column, constant, cross, dot, identity, minus, product,
-    turn_columns,
-};
+use super::lanes::Lanes;
 use super::law;
-use super::newton::Newton;
+use super::place::{Place, amount};
 use super::plan::{Held, Joint, Law, Plan, Spring, Step};
-use super::reach::turn_between;
 use super::symmetric::Symmetric;
-use super::unloaded::{Place, amount, matrix};
+use super::vectors::{
+    Mat3, Vec3, carried, column, column_of, component, constant, identity, matrix, product, select,
+    shifted, turn_columns,
+};
+use super::wrenches::{Mat6, back, lever, rotated_back, slid, times};
 use crate::spatial::MotionKind;
 
 /// Passes after which a lane is given up. One of [`MOST_CONTRACTION`] is done in thirty.
 pub(super) const MOST_PASSES: usize = 30;
 /// Relative change of the torques that the next pass would bring when a lane is done: rounding.
-const TOLERANCE: f64 = 1e-13;
-/// Rounding of a gap between a limb and its platform, share of the natural length or rad: a few walks
-/// of tens of motions.
-const GAP_ROUNDING: f64 = 4e-15;
+pub(super) const TOLERANCE: f64 = 1e-13;
 /// And the most that the last pass has brought, however fast the passes contract.
 const LAST_CHANGE: f64 = 1e-10;
-/// Passes that bring more than this share of the one before do not come to an end in time.
-const MOST_CONTRACTION: f64 = 0.4;
 /// Springs turn less than this, rad: see [`sin_cos_small`].
-const MOST_TURN: f64 = 0.1;
-/// And in Newton's iteration: see [`Lanes::sin_cos_near_zero`].
-const MOST_TURN_FAR: f64 = 0.7;
+pub(super) const MOST_TURN: f64 = 0.1;
 
 /// A limb on its way to equilibrium.
 pub(super) struct LoadedLimb<S: Simd> {
@@ -160,7 +152,7 @@ impl<S: Simd> LoadedLimb<S> {
             let mut mass = 0;
             for step in &plan.steps {
                 match step {
-                    Step::Shift(l) => shift(&r, l, &mut p),
+                    Step::Shift(l) => shifted(&r, l, &mut p),
                     Step::Rotate(by) => r = product(&r, &matrix(simd, by)),
                     Step::Joint(joint) => {
                         if PLACES {
@@ -476,13 +468,21 @@ impl<S: Simd> LoadedLimb<S> {
     /// One in the lanes where the next pass would still change the torques. If passes contract by a
     /// ratio, the next change is that ratio times the last one.
     #[inline(always)]
-    fn moving(&self, rounding: Lanes<S>) -> Lanes<S> {
+    pub fn moving(&self, rounding: Lanes<S>) -> Lanes<S> {
         let one = Lanes::new(self.simd, 1.0);
         let Tally { size, change, .. } = self.tally;
         let most = (size * (LAST_CHANGE * LAST_CHANGE)).max(rounding);
         let moving = most.where_less(change, one, one.same(0.0));
         let allowed = (self.before * size * (TOLERANCE * TOLERANCE)).max(rounding * rounding);
         allowed.where_less(change * change, one, moving)
+    }
+
+    /// One in the lanes where the last pass has brought more than this share of the one before.
+    #[inline(always)]
+    pub fn slower_than(&self, share: f64) -> Lanes<S> {
+        let one = Lanes::new(self.simd, 1.0);
+        let most = self.before * (share * share);
+        most.where_less(self.tally.change, one, one.same(0.0))
     }
 
     /// One where every spring turns less than so much (rad) and all numbers are numbers.
@@ -517,341 +517,39 @@ fn sin_cos_small<S: Simd>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
     ((x * z).times_plus(sine, x), cosine)
 }
 
-/// A component. An index that is known at run time only would keep the vector out of registers.
-#[inline(always)]
-pub(super) fn component<S: Simd>(v: &Vec3<S>, axis: usize) -> Lanes<S> {
-    match axis {
-        0 => v[0],
-        1 => v[1],
-        _ => v[2],
-    }
-}
-
-/// A column, likewise.
-#[inline(always)]
-fn column_of<S: Simd>(r: &Mat3<S>, axis: usize) -> Vec3<S> {
-    match axis {
-        0 => column(r, 0),
-        1 => column(r, 1),
-        _ => column(r, 2),
-    }
-}
-
-/// `p + R l` for a constant `l`, often along an axis.
-#[inline(always)]
-fn shift<S: Simd>(r: &Mat3<S>, l: &[f64; 3], p: &mut Vec3<S>) {
-    for k in 0..3 {
-        if l[k] != 0.0 {
-            for i in 0..3 {
-                p[i] = r[3 * i + k].times_plus(p[i].same(l[k]), p[i]);
-            }
-        }
-    }
-}
-
-/// `m + l x f` for a constant `l`, often along an axis.
-#[inline(always)]
-pub(super) fn lever<S: Simd>(l: &[f64; 3], f: &Vec3<S>, m: &mut Vec3<S>) {
-    for k in 0..3 {
-        if l[k] != 0.0 {
-            slid(k, f[0].same(l[k]), f, m);
-        }
-    }
-}
-
-/// The moment of a force about a point that lies `l` back along an axis: `m + l e x f`.
-#[inline(always)]
-pub(super) fn slid<S: Simd>(axis: usize, l: Lanes<S>, f: &Vec3<S>, m: &mut Vec3<S>) {
-    match axis {
-        0 => slid_along::<S, 0>(l, f, m),
-        1 => slid_along::<S, 1>(l, f, m),
-        _ => slid_along::<S, 2>(l, f, m),
-    }
-}
-
-#[inline(always)]
-fn slid_along<S: Simd, const AXIS: usize>(l: Lanes<S>, f: &Vec3<S>, m: &mut Vec3<S>) {
-    let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
-    m[j] = l.times_from(f[k], m[j]);
-    m[k] = l.times_plus(f[j], m[k]);
-}
-
-/// Force and moment in the axes before a rotation about one of them: `Rot(axis) v`.
-#[inline(always)]
-pub(super) fn back<S: Simd>(
-    axis: usize,
-    s: Lanes<S>,
-    c: Lanes<S>,
-    f: &mut Vec3<S>,
-    m: &mut Vec3<S>,
-) {
-    match axis {
-        0 => {
-            back_about::<S, 0>(s, c, f);
-            back_about::<S, 0>(s, c, m);
-        }
-        1 => {
-            back_about::<S, 1>(s, c, f);
-            back_about::<S, 1>(s, c, m);
-        }
-        _ => {
-            back_about::<S, 2>(s, c, f);
-            back_about::<S, 2>(s, c, m);
-        }
-    }
-}
-
-#[inline(always)]
-fn back_about<S: Simd, const AXIS: usize>(s: Lanes<S>, c: Lanes<S>, v: &mut Vec3<S>) {
-    let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
-    let (a, b) = (v[j], v[k]);
-    v[j] = s.times_from(b, c * a);
-    v[k] = s.times_plus(a, c * b);
-}
-
-/// Force and moment in the axes before a constant rotation.
-#[inline(always)]
-pub(super) fn rotated_back<S: Simd>(simd: S, by: &[f64; 9], f: &mut Vec3<S>, m: &mut Vec3<S>) {
-    let (r, zero) = (matrix(simd, by), Lanes::new(simd, 0.0));
-    *f = carried(&r, f, &[zero; 3]);
-    *m = carried(&r, m, &[zero; 3]);
-}
-
-/// A constant 6 x 6 matrix times six numbers.
-#[inline(always)]
-pub(super) fn times<S: Simd>(matrix: &[f64; 36], x: &[Lanes<S>; 6]) -> [Lanes<S>; 6] {
-    let mut out = *x;
-    for i in 0..6 {
-        let mut sum = x[0] * matrix[6 * i];
-        for j in 1..6 {
-            sum = x[j].times_plus(x[j].same(matrix[6 * i + j]), sum);
-        }
-        out[i] = sum;
-    }
-    out
-}
-
-/// Equilibrium of a serial limb under a dead wrench at its tip: one in the lanes that are done.
-#[inline(always)]
-pub(super) fn serial<S: Simd>(
-    simd: S,
-    plan: &Plan,
-    limb: &mut LoadedLimb<S>,
-    newton: &mut Option<Newton<S>>,
-    wrench: [Lanes<S>; 6],
-    gravity: &[f64; 3],
-) -> Lanes<S> {
-    apart!(simd, {
-        let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-        let (mut active, mut lost) = (one, zero);
-        limb.wrench = wrench;
-        for pass in 0..=MOST_PASSES {
-            limb.outwards(plan, gravity);
-            if pass == MOST_PASSES || active.all_less(0.5) {
-                break;
-            }
-            limb.inwards(plan, active);
-            active = active * limb.moving(zero);
-            if pass > 0 {
-                let most = limb.before * (MOST_CONTRACTION * MOST_CONTRACTION);
-                lost = select(active, most.where_less(limb.tally.change, one, zero), lost);
-                active = active * (one - lost);
-            }
-        }
-        let done = (one - active) * (one - lost) * limb.sound(plan, MOST_TURN);
-        if (one - done).all_less(0.5) || !plan.has_tangent() {
-            return done;
-        }
-        if newton.is_none() {
-            *newton = Some(Newton::new(simd, plan));
-        }
-        let Some(newton) = newton else {
-            return done;
-        };
-        let found = newton.settle(plan, limb, gravity, one - done);
-        done + found * limb.sound(plan, MOST_TURN_FAR)
-    })
-}
-
-/// Limbs that hold one platform.
-pub(super) struct Held6<'a, S: Simd> {
-    pub plans: &'a [Plan],
-    pub limbs: &'a mut [LoadedLimb<S>],
-    /// Unloaded compliance of every limb.
-    pub factors: &'a [Eliminated<S>],
-    /// Largest entry of every limb's stiffness, N m.
-    pub stiffest: &'a [Lanes<S>],
-    /// Inverse of the unloaded stiffness of the platform.
-    pub compliance: &'a Symmetric<S>,
-    pub rotation: Mat3<S>,
-    pub point: Vec3<S>,
-    /// Centre of mass (m, platform axes) and mass of the platform.
-    pub body: ([f64; 3], f64),
-    pub gravity: [f64; 3],
-}
-
-impl<S: Simd> Held6<'_, S> {
-    /// Equilibrium under a dead wrench at the platform's point: one in the lanes that are done.
-    #[inline(always)]
-    pub fn settle(&mut self, simd: S, wrench: &[Lanes<S>; 6]) -> Lanes<S> {
-        let one = Lanes::new(simd, 1.0);
-        let mut active = one;
-        for limb in self.limbs.iter_mut().zip(self.plans) {
-            limb.0.outwards(limb.1, &self.gravity);
-        }
-        for _ in 0..MOST_PASSES {
-            active = self.pass(simd, wrench, active);
-            if active.all_less(0.5) {
-                break;
-            }
-        }
-        let mut done = one - active;
-        for (limb, plan) in self.limbs.iter_mut().zip(self.plans) {
-            // The last pass has moved the passive joints.
-            limb.outwards(plan, &self.gravity);
-            done = done * limb.sound(plan, MOST_TURN);
-        }
-        done
-    }
-
-    #[inline(always)]
-    fn pass(&mut self, simd: S, wrench: &[Lanes<S>; 6], active: Lanes<S>) -> Lanes<S> {
-        apart!(simd, {
-            let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
-            let mut moving = zero;
-            // What the limbs lack, to first order, with the platform where it is.
-            let mut weight = constant(simd, &self.gravity);
-            for x in &mut weight {
-                *x = *x * self.body.1;
-            }
-            let arm = carried(&self.rotation, &constant(simd, &self.body.0), &[zero; 3]);
-            let lever = cross(&arm, &weight);
-            let mut lacks = *wrench;
-            for k in 0..3 {
-                lacks[k] = lacks[k] + weight[k];
-                lacks[3 + k] = lacks[3 + k] + lever[k];
-            }
-            for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
-                let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
-                limb.clear(plan);
-                limb.inwards(plan, active);
-                limb.outwards(plan, &self.gravity);
-                let gap = gap(limb, plan, &self.rotation, &self.point);
-                for x in gap {
-                    // A share of the natural length, or rad.
-                    moving = (one * TOLERANCE).where_less(x.abs(), one, moving);
-                }
-                // On every coordinate, N or N m.
-                let torques = noise * noise * (limb.coordinates.len() as f64);
-                let rounding = torques * (1.0 + 1.0 / (plan.length * plan.length));
-                moving = moving.max(limb.moving(rounding));
-                let (step, _) = correction(simd, limb, plan, factors, gap);
-                for k in 0..6 {
-                    lacks[k] = lacks[k] - limb.wrench[k] - step[k];
-                }
-            }
-            let motion = self.compliance.times(&lacks);
-            for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
-                let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
-                let mut gap = gap(limb, plan, &self.rotation, &self.point);
-                for k in 0..3 {
-                    gap[k] = motion[k].times_plus(one * (1.0 / plan.length), gap[k]);
-                    gap[3 + k] = gap[3 + k] + motion[3 + k];
-                }
-                let (step, joints) = correction(simd, limb, plan, factors, gap);
-                let (mut change, mut size) = (zero, zero);
-                for k in 0..6 {
-                    let unit = if k < 3 { plan.length } else { 1.0 };
-                    let (x, w) = (step[k] * unit, (limb.wrench[k] + step[k]) * unit);
-                    change = x.times_plus(x, change);
-                    size = w.times_plus(w, size);
-                }
-                // What a gap of rounding makes of wrenches is rounding too: limbs that brace each other
-                // know their inner forces no better.
-                let allowed = (size * (TOLERANCE * TOLERANCE)).max(noise * noise);
-                moving = allowed.where_less(change, one, moving);
-                for k in 0..6 {
-                    limb.wrench[k] = select(active, limb.wrench[k] + step[k], limb.wrench[k]);
-                }
-                for (own, dq) in plan.passive.iter().zip(joints) {
-                    let x = limb.coordinates[*own];
-                    limb.coordinates[*own] = select(active, x + dq, x);
-                }
-            }
-            let turned = turned(&[motion[3], motion[4], motion[5]], &self.rotation);
-            for k in 0..3 {
-                self.point[k] = select(active, self.point[k] + motion[k], self.point[k]);
-            }
-            for k in 0..9 {
-                self.rotation[k] = select(active, turned[k], self.rotation[k]);
-            }
-            active * moving
-        })
-    }
-}
-
-#[inline(always)]
-pub(super) fn select<S: Simd>(active: Lanes<S>, yes: Lanes<S>, no: Lanes<S>) -> Lanes<S> {
-    active.where_less(active.same(0.5), no, yes)
-}
-
-/// From a limb's tip to the platform, balanced: share of the natural length, rad.
-#[inline(always)]
-fn gap<S: Simd>(limb: &LoadedLimb<S>, plan: &Plan, to: &Mat3<S>, point: &Vec3<S>) -> [Lanes<S>; 6] {
-    let l = minus(point, &limb.point);
-    let a = turn_between(to, &limb.rotation);
-    let share = 1.0 / plan.length;
-    [l[0] * share, l[1] * share, l[2] * share, a[0], a[1], a[2]]
-}
-
-/// Change of a limb's wrench (N, N m) and of its passive joints that closes a gap and frees the joints of torque.
-#[inline(always)]
-fn correction<S: Simd>(
-    simd: S,
-    limb: &LoadedLimb<S>,
-    plan: &Plan,
-    factors: &Eliminated<S>,
-    gap: [Lanes<S>; 6],
-) -> ([Lanes<S>; 6], [Lanes<S>; 6]) {
-    let zero = Lanes::new(simd, 0.0);
-    let mut torque = [zero; 6];
-    for (x, own) in torque.iter_mut().zip(&plan.passive) {
-        *x = -limb.torque[*own];
-    }
-    let mut joints = [zero; 6];
-    let mut wrench = factors.answer(simd, gap, &torque, &mut joints);
-    for x in &mut wrench[..3] {
-        *x = *x * (1.0 / plan.length);
-    }
-    (wrench, joints)
-}
-
-/// `exp(hat(v)) R` for a small rotation vector.
-#[inline(always)]
-pub(super) fn turned<S: Simd>(v: &Vec3<S>, r: &Mat3<S>) -> Mat3<S> {
-    let z = dot(v, v);
-    let a = z.polynomial(&[1.0 / 362_880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0]);
-    let b = z.polynomial(&[
-        1.0 / 3_628_800.0,
-        -1.0 / 40_320.0,
-        1.0 / 720.0,
-        -1.0 / 24.0,
-        0.5,
-    ]);
-    let mut out = *r;
-    for k in 0..3 {
-        let own = column(r, k);
-        let once = cross(v, &own);
-        let twice = cross(v, &once);
-        for i in 0..3 {
-            out[3 * i + k] = b.times_plus(twice[i], a.times_plus(once[i], own[i]));
-        }
-    }
-    out
-}
-
 /// Twist of a limb's tip per unit of a motion, base axes.
 #[inline(always)]
 pub(super) fn twist<S: Simd>(limb: &LoadedLimb<S>, plan: &Plan, screw: usize) -> [Lanes<S>; 6] {
     limb.places[screw].twist(plan.screws[screw].kind, &limb.point)
+}
+
+/// Coordinates of a spring in the six directions.
+#[inline(always)]
+pub(super) fn deflection<S: Simd>(limb: &LoadedLimb<S>, spring: &Spring) -> [Lanes<S>; 6] {
+    let mut at = [limb.wrench[0] * 0.0; 6];
+    for d in 0..6 {
+        if let Some(own) = spring.coordinates[d] {
+            at[d] = limb.coordinates[own];
+        }
+    }
+    at
+}
+
+/// Twists of a spring's six directions at the tip's place; zero where a direction does not move.
+#[inline(always)]
+pub(super) fn twists<S: Simd>(
+    simd: S,
+    plan: &Plan,
+    limb: &LoadedLimb<S>,
+    spring: &Spring,
+) -> Mat6<S> {
+    let mut s = [[Lanes::new(simd, 0.0); 6]; 6];
+    let mut screw = spring.screw;
+    for d in 0..6 {
+        if spring.coordinates[d].is_some() {
+            s[d] = twist(limb, plan, screw);
+            screw += 1;
+        }
+    }
+    s
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::Batch;
+use super::compiled::Batch;
 use crate::error::Result;
 use crate::model::mechanism::Mechanism;
 

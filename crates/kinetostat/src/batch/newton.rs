@@ -22,10 +22,12 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::lanes::{Lanes, Vec3, cross, dot};
-use super::loaded::{LoadedLimb, back, component, lever, rotated_back, select, slid, times};
-use super::plan::{Held, Joint, Plan, Spring, Step};
-use super::unloaded::matrix;
+use super::lanes::Lanes;
+use super::loaded::LoadedLimb;
+use super::newton_stage::{Single, Stage, axes, turns, weighs};
+use super::plan::{Held, Plan, Step};
+use super::vectors::{component, dot, select};
+use super::wrenches::{back, lever, rotate, rotated_back, shift, slid, times, turn};
 use crate::spatial::MotionKind;
 
 /// Steps, and shortenings of one, after which a lane is given up.
@@ -33,34 +35,6 @@ const MOST_STEPS: usize = 25;
 const MOST_TRIALS: usize = 10;
 /// A step shorter than this share of all deflections is the last one.
 const LAST_STEP: f64 = 1e-10;
-
-type Mat6<S> = [[Lanes<S>; 6]; 6];
-
-/// A spring of several directions, eliminated: names as above.
-#[derive(Clone, Copy)]
-struct Stage<S: Simd> {
-    /// `K - S^T P S - N`, factored; reciprocals on the diagonal.
-    pivots: Mat6<S>,
-    /// `P S + U`.
-    passed_on: Mat6<S>,
-    /// `X` and `x_0`.
-    follows: Mat6<S>,
-    free: [Lanes<S>; 6],
-    /// Sines and cosines of its rotations, and its translations.
-    turned: [[Lanes<S>; 2]; 3],
-    slid: [Lanes<S>; 3],
-}
-
-/// The same for a spring of one direction.
-#[derive(Clone, Copy)]
-struct Single<S: Simd> {
-    reciprocal: Lanes<S>,
-    passed_on: [Lanes<S>; 6],
-    follows: [Lanes<S>; 6],
-    free: Lanes<S>,
-    /// Sine and cosine, or length.
-    moved: [Lanes<S>; 2],
-}
 
 /// Buffers of the iteration.
 pub(super) struct Newton<S: Simd> {
@@ -81,30 +55,14 @@ impl<S: Simd> Newton<S> {
     /// Buffers.
     pub fn new(simd: S, plan: &Plan) -> Self {
         let zero = Lanes::new(simd, 0.0);
-        let nothing = [[zero; 6]; 6];
-        let stage = Stage {
-            pivots: nothing,
-            passed_on: nothing,
-            follows: nothing,
-            free: [zero; 6],
-            turned: [[zero; 2]; 3],
-            slid: [zero; 3],
-        };
-        let single = Single {
-            reciprocal: zero,
-            passed_on: [zero; 6],
-            follows: [zero; 6],
-            free: zero,
-            moved: [zero; 2],
-        };
         let springs = plan.steps.iter().filter(|s| matches!(s, Step::Spring(_)));
         let singles = plan
             .steps
             .iter()
             .filter(|s| matches!(s, Step::Joint(j) if matches!(j.held, Held::Spring(_))));
         Self {
-            stages: vec![stage; springs.count()],
-            singles: vec![single; singles.count()],
+            stages: vec![Stage::new(simd); springs.count()],
+            singles: vec![Single::new(simd); singles.count()],
             at: vec![zero; plan.coordinates],
             step: vec![zero; plan.coordinates],
             next: vec![zero; plan.coordinates],
@@ -282,7 +240,8 @@ impl<S: Simd> Newton<S> {
                     Step::Joint(joint) => {
                         if let Held::Spring(_) = joint.held {
                             single -= 1;
-                            self.single(single, joint, limb, &force, &moment, &mut p);
+                            let own = &mut self.singles[single];
+                            own.eliminate(joint, limb, &force, &moment, &mut p, &mut self.stable);
                         }
                         limb.joint_bears(joint, &mut force, &mut moment);
                         let [s, c] = limb.moved[joint.screw];
@@ -293,182 +252,19 @@ impl<S: Simd> Newton<S> {
                     }
                     Step::Spring(spring) => {
                         stage -= 1;
-                        self.stage(stage, spring, limb, &mut force, &mut moment, &mut p);
+                        let own = &mut self.stages[stage];
+                        own.eliminate(
+                            spring,
+                            limb,
+                            &mut force,
+                            &mut moment,
+                            &mut p,
+                            &mut self.stable,
+                        );
                     }
                 }
             }
         })
-    }
-
-    #[inline(always)]
-    fn single(
-        &mut self,
-        single: usize,
-        joint: &Joint,
-        limb: &LoadedLimb<S>,
-        force: &Vec3<S>,
-        moment: &Vec3<S>,
-        p: &mut Mat6<S>,
-    ) {
-        let (Held::Spring(c), Some((_, ratio))) = (joint.held, joint.amount.coordinate) else {
-            return;
-        };
-        let zero = Lanes::new(self.simd, 0.0);
-        let mut axis = [zero; 3];
-        axis[joint.axis] = zero + ratio;
-        let own = &mut self.singles[single];
-        own.moved = limb.moved[joint.screw];
-        let lever = cross(&axis, force);
-        let (row, more) = match joint.kind {
-            MotionKind::Prismatic => (joint.axis, [zero, zero, zero, lever[0], lever[1], lever[2]]),
-            MotionKind::Revolute => {
-                let m = cross(&axis, moment);
-                let more = [lever[0], lever[1], lever[2], m[0], m[1], m[2]];
-                (3 + joint.axis, more)
-            }
-        };
-        let pivot = p[row][row].times_from(zero + ratio * ratio, zero + 1.0 / c);
-        own.reciprocal = zero.same(1.0) / pivot;
-        self.stable = self.stable.least_of(pivot * c);
-        for k in 0..6 {
-            own.passed_on[k] = p[k][row].times_plus(zero + ratio, more[k]);
-            own.follows[k] = p[row][k] * ratio * own.reciprocal;
-        }
-        for r in 0..6 {
-            for k in 0..6 {
-                p[r][k] = own.passed_on[r].times_plus(own.follows[k], p[r][k]);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn stage(
-        &mut self,
-        stage: usize,
-        spring: &Spring,
-        limb: &LoadedLimb<S>,
-        force: &mut Vec3<S>,
-        moment: &mut Vec3<S>,
-        p: &mut Mat6<S>,
-    ) {
-        let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
-        let own = &mut self.stages[stage];
-        (own.turned, own.slid) = ([[zero, one]; 3], [zero; 3]);
-        let mut screw = spring.screw;
-        for d in 0..6 {
-            if let Some(place) = spring.coordinates[d] {
-                if d < 3 {
-                    own.slid[d] = limb.coordinates[place];
-                } else {
-                    own.turned[d - 3] = limb.moved[screw];
-                }
-                screw += 1;
-            }
-        }
-        for i in 0..3 {
-            let k = 2 - i;
-            if spring.coordinates[3 + k].is_some() {
-                let [s, c] = own.turned[k];
-                back(k, s, c, force, moment);
-                turn(k, s, c, p);
-            }
-        }
-        let [second, third] = axes(&own.turned);
-        // U, P S, and S^T P; then S^T (P S).
-        let mut q = *p;
-        for k in 0..3 {
-            let mut a = [zero; 3];
-            a[k] = one;
-            let e = match k {
-                0 => a,
-                1 => second,
-                _ => third,
-            };
-            let (lever, ef, em) = (cross(&a, force), cross(&e, force), cross(&e, moment));
-            for r in 0..3 {
-                own.passed_on[r][k] = zero;
-                own.passed_on[3 + r][k] = lever[r];
-                own.passed_on[r][3 + k] = ef[r];
-                own.passed_on[3 + r][3 + k] = em[r];
-            }
-        }
-        for r in 0..6 {
-            let own = [p[r][3], p[r][4], p[r][5]];
-            q[r][4] = dot(&second, &own);
-            q[r][5] = dot(&third, &own);
-        }
-        let (mut sp, mut g) = (*p, q);
-        let mut n = own.passed_on;
-        for k in 0..6 {
-            let (a, b, c) = (
-                [p[3][k], p[4][k], p[5][k]],
-                [q[3][k], q[4][k], q[5][k]],
-                [n[3][k], n[4][k], n[5][k]],
-            );
-            (sp[4][k], sp[5][k]) = (dot(&second, &a), dot(&third, &a));
-            (g[4][k], g[5][k]) = (dot(&second, &b), dot(&third, &b));
-            n[4][k] = dot(&second, &c);
-        }
-        for i in 0..6 {
-            for j in 0..6 {
-                let mut x = zero.same(spring.stiffness[6 * i + j]) - g[i][j];
-                if i < j && j > 2 {
-                    x = x - n[i][j];
-                }
-                own.pivots[i][j] = x;
-                own.passed_on[i][j] = own.passed_on[i][j] + q[i][j];
-            }
-        }
-        for d in 0..6 {
-            // A direction that does not move.
-            if spring.coordinates[d].is_none() {
-                own.pivots[d] = [zero; 6];
-                own.pivots[d][d] = one;
-                sp[d] = [zero; 6];
-            }
-        }
-        for k in 0..6 {
-            let reciprocal = one / own.pivots[k][k];
-            let size = spring.stiffness[7 * k];
-            if size > 0.0 {
-                self.stable = self.stable.least_of(own.pivots[k][k] * (1.0 / size));
-            }
-            own.pivots[k][k] = reciprocal;
-            for i in k + 1..6 {
-                let l = own.pivots[i][k] * reciprocal;
-                own.pivots[i][k] = l;
-                for j in k + 1..6 {
-                    own.pivots[i][j] = l.times_from(own.pivots[k][j], own.pivots[i][j]);
-                }
-                for j in 0..6 {
-                    sp[i][j] = l.times_from(sp[k][j], sp[i][j]);
-                }
-            }
-        }
-        for i in (0..6).rev() {
-            for k in i + 1..6 {
-                for j in 0..6 {
-                    sp[i][j] = own.pivots[i][k].times_from(sp[k][j], sp[i][j]);
-                }
-            }
-            for j in 0..6 {
-                sp[i][j] = sp[i][j] * own.pivots[i][i];
-            }
-        }
-        own.follows = sp;
-        for r in 0..6 {
-            for i in 0..6 {
-                for k in 0..6 {
-                    p[r][k] = own.passed_on[r][i].times_plus(sp[i][k], p[r][k]);
-                }
-            }
-        }
-        for k in 0..3 {
-            if spring.coordinates[k].is_some() {
-                slid(k, own.slid[k], force, moment);
-                shift(k, own.slid[k], p);
-            }
-        }
     }
 
     /// The step that takes away what the springs lack.
@@ -642,123 +438,5 @@ impl<S: Simd> Newton<S> {
                 }
             }
         })
-    }
-}
-
-/// Axes of the second and third rotation of a spring, in the axes before the first.
-#[inline(always)]
-fn axes<S: Simd>(turned: &[[Lanes<S>; 2]; 3]) -> [Vec3<S>; 2] {
-    let [[s1, c1], [s2, c2], _] = *turned;
-    let zero = s1.same(0.0);
-    [[zero, c1, s1], [s2, -(s1 * c2), c1 * c2]]
-}
-
-/// A dead force at a point: `df = hat(f) w`, with its lever `at`.
-#[inline(always)]
-fn weighs<S: Simd>(at: &[f64; 3], f: &Vec3<S>, p: &mut Mat6<S>) {
-    let zero = f[0].same(0.0);
-    // Columns of hat(f): f x e.
-    let columns = [
-        [zero, f[2], -f[1]],
-        [-f[2], zero, f[0]],
-        [f[1], -f[0], zero],
-    ];
-    for k in 0..3 {
-        let mut turned = [zero; 3];
-        lever(at, &columns[k], &mut turned);
-        for r in 0..3 {
-            p[r][3 + k] = p[r][3 + k] + columns[k][r];
-            p[3 + r][3 + k] = p[3 + r][3 + k] + turned[r];
-        }
-    }
-}
-
-/// A dead moment: `dm = hat(m) w`.
-#[inline(always)]
-fn turns<S: Simd>(m: &Vec3<S>, p: &mut Mat6<S>) {
-    let zero = m[0].same(0.0);
-    let columns = [
-        [zero, m[2], -m[1]],
-        [-m[2], zero, m[0]],
-        [m[1], -m[0], zero],
-    ];
-    for k in 0..3 {
-        for r in 0..3 {
-            p[3 + r][3 + k] = p[3 + r][3 + k] + columns[k][r];
-        }
-    }
-}
-
-/// `P` in the axes before a rotation about one of them: `Q P Q^T`.
-#[inline(always)]
-fn turn<S: Simd>(axis: usize, s: Lanes<S>, c: Lanes<S>, p: &mut Mat6<S>) {
-    match axis {
-        0 => turn_about::<S, 0>(s, c, p),
-        1 => turn_about::<S, 1>(s, c, p),
-        _ => turn_about::<S, 2>(s, c, p),
-    }
-}
-
-#[inline(always)]
-fn turn_about<S: Simd, const AXIS: usize>(s: Lanes<S>, c: Lanes<S>, p: &mut Mat6<S>) {
-    for from in [0, 3] {
-        let (j, k) = (from + (AXIS + 1) % 3, from + (AXIS + 2) % 3);
-        for i in 0..6 {
-            let (a, b) = (p[j][i], p[k][i]);
-            p[j][i] = s.times_from(b, c * a);
-            p[k][i] = s.times_plus(a, c * b);
-        }
-    }
-    for from in [0, 3] {
-        let (j, k) = (from + (AXIS + 1) % 3, from + (AXIS + 2) % 3);
-        for i in 0..6 {
-            let (a, b) = (p[i][j], p[i][k]);
-            p[i][j] = s.times_from(b, c * a);
-            p[i][k] = s.times_plus(a, c * b);
-        }
-    }
-}
-
-/// `P` about a point that lies `l` back along an axis.
-#[inline(always)]
-fn shift<S: Simd>(axis: usize, l: Lanes<S>, p: &mut Mat6<S>) {
-    match axis {
-        0 => shift_along::<S, 0>(l, p),
-        1 => shift_along::<S, 1>(l, p),
-        _ => shift_along::<S, 2>(l, p),
-    }
-}
-
-#[inline(always)]
-fn shift_along<S: Simd, const AXIS: usize>(l: Lanes<S>, p: &mut Mat6<S>) {
-    let (j, k) = ((AXIS + 1) % 3, (AXIS + 2) % 3);
-    for i in 0..6 {
-        p[i][3 + j] = l.times_from(p[i][k], p[i][3 + j]);
-        p[i][3 + k] = l.times_plus(p[i][j], p[i][3 + k]);
-    }
-    for i in 0..6 {
-        p[3 + j][i] = l.times_from(p[k][i], p[3 + j][i]);
-        p[3 + k][i] = l.times_plus(p[j][i], p[3 + k][i]);
-    }
-}
-
-/// `P` in the axes before a constant rotation.
-#[inline(always)]
-fn rotate<S: Simd>(simd: S, by: &[f64; 9], p: &mut Mat6<S>) {
-    let r = matrix(simd, by);
-    for _ in 0..2 {
-        // Rows, then columns as rows of the transposed matrix.
-        let before = *p;
-        for from in [0, 3] {
-            for i in 0..3 {
-                for k in 0..6 {
-                    let mut sum = r[3 * i] * before[from][k];
-                    for j in 1..3 {
-                        sum = r[3 * i + j].times_plus(before[from + j][k], sum);
-                    }
-                    p[k][from + i] = sum;
-                }
-            }
-        }
     }
 }

@@ -2,8 +2,10 @@
 
 use nalgebra::{DVector, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3};
 
+use super::group::Places;
 use super::*;
-use crate::spatial::Wrench;
+use crate::model::mechanism::Mechanism;
+use crate::spatial::{Pose, Wrench};
 use crate::{ActuatorSpec, BeamSection, Chain, Kinematics, MotionKind};
 
 const EA: f64 = 1e6;

@@ -5,11 +5,12 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::lanes::{
-    Lanes, Mat3, Vec3, carried, column, constant, cross, dot, minus, product_transposed,
-};
+use super::lanes::Lanes;
 use super::plan::{Plan, Polar, Rows, Search};
-use super::unloaded::{Walk, matrix};
+use super::unloaded::Walk;
+use super::vectors::{
+    Mat3, Vec3, carried, column, constant, cross, dot, matrix, minus, turn_between,
+};
 
 /// A limb that is not there after so many steps is left to the search posture by posture.
 const MOST_STEPS: usize = 24;
@@ -222,19 +223,6 @@ fn sphere_centre<S: Simd>(simd: S, plan: &Plan, target: &Target<S>) -> Vec3<S> {
     };
     let arm = constant(simd, &[-x, -y, -z]);
     carried(&target.rotation, &arm, &target.point)
-}
-
-/// Rotation that leads from `from` to `to` as axis times twice the tangent of half the angle, base
-/// axes: the rotation vector to third order, and finite up to half a turn.
-#[inline(always)]
-pub(super) fn turn_between<S: Simd>(to: &Mat3<S>, from: &Mat3<S>) -> Vec3<S> {
-    let r = product_transposed(to, from);
-    let scale = r[0].same(2.0) / (r[0] + r[4] + r[8] + 1.0);
-    [
-        (r[7] - r[5]) * scale,
-        (r[2] - r[6]) * scale,
-        (r[3] - r[1]) * scale,
-    ]
 }
 
 /// Three equations, three unknowns: Cramer's rule.

@@ -12,11 +12,12 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::lanes::{Lanes, Vec3, cross, dot, minus};
+use super::lanes::Lanes;
 use super::law;
-use super::loaded::{LoadedLimb, twist};
+use super::loaded::{LoadedLimb, deflection, twist, twists};
 use super::plan::{Held, Law, Plan, Spring, Step};
-use super::tangent::{Mat6, deflection, outer, twists};
+use super::vectors::{Vec3, cross, dot, minus};
+use super::wrenches::{Mat6, inner6, outer};
 
 /// Motions of one coordinate in the order of the limb.
 struct Motion<S: Simd> {
@@ -195,16 +196,16 @@ impl<S: Simd> Shape<S> {
         let turned = outer(&loads.force, &loads.moment, &s);
         let mut row = s;
         for i in 0..6 {
-            row[i] = inner(&loads.g[i], &s);
+            row[i] = inner6(&loads.g[i], &s);
         }
-        let own = inner(&row, &s);
+        let own = inner6(&row, &s);
         for i in 0..6 {
             // s^T A = -(A s)^T.
             row[i] = row[i] - turned[i] * 0.5;
         }
         for j in 0..count {
             let other = self.motions[j].place;
-            let value = inner(&row, &self.motions[j].twist);
+            let value = inner6(&row, &self.motions[j].twist);
             // Both triangles; of one coordinate's own motions both are the same entry.
             self.add(place, other, value);
             self.add(other, place, value);
@@ -234,14 +235,14 @@ impl<S: Simd> Shape<S> {
                 let turned = outer(&loads.force, &loads.moment, &s[j]);
                 let mut column = turned;
                 for i in 0..6 {
-                    column[i] = inner(&loads.g[i], &s[j]);
+                    column[i] = inner6(&loads.g[i], &s[j]);
                 }
-                b[j][j] = inner(&column, &s[j]);
+                b[j][j] = inner6(&column, &s[j]);
                 for i in 0..6 {
                     column[i] = column[i] + turned[i] * 0.5;
                 }
                 for i in j + 1..6 {
-                    b[i][j] = inner(&column, &s[i]);
+                    b[i][j] = inner6(&column, &s[i]);
                     b[j][i] = b[i][j];
                 }
             }
@@ -588,15 +589,6 @@ impl<S: Simd> Loads<S> {
             self.g[3 + i][3 + i] = self.g[3 + i][3 + i] - along;
         }
     }
-}
-
-#[inline(always)]
-fn inner<S: Simd>(a: &[Lanes<S>; 6], b: &[Lanes<S>; 6]) -> Lanes<S> {
-    let mut sum = a[0] * b[0];
-    for k in 1..6 {
-        sum = a[k].times_plus(b[k], sum);
-    }
-    sum
 }
 
 /// `M` of the compliance, `C = M M^T`, and the geometric stiffness; nothing where a direction does not

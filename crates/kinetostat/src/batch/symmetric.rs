@@ -5,7 +5,8 @@
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Mat3, Vec3, cross, product, product_transposed, turn_columns};
+use super::lanes::Lanes;
+use super::vectors::{Mat3, Vec3, cross, product, product_transposed, turn_columns};
 
 /// Place of entry (i, j) of a symmetric 3 x 3 matrix among its six numbers.
 pub(super) const AT: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];

@@ -16,12 +16,13 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::lanes::{Lanes, Vec3, cross, dot, minus};
+use super::freed::freed;
+use super::lanes::Lanes;
 use super::law;
-use super::loaded::{LoadedLimb, twist};
+use super::loaded::{LoadedLimb, deflection, twist, twists};
 use super::plan::{Held, Law, Plan, Spring, Step};
-
-pub(super) type Mat6<S> = [[Lanes<S>; 6]; 6];
+use super::vectors::{Vec3, cross, dot, minus};
+use super::wrenches::{Mat6, dot6, outer, solve_small, weight};
 
 struct Walk<S: Simd> {
     /// `[D E; G H]`, column by column.
@@ -99,16 +100,6 @@ pub(super) fn stiffness<S: Simd>(
     })
 }
 
-#[inline(always)]
-fn weight<S: Simd>(simd: S, gravity: &[f64; 3], mass: f64) -> Vec3<S> {
-    let [x, y, z] = gravity;
-    [
-        Lanes::new(simd, x * mass),
-        Lanes::new(simd, y * mass),
-        Lanes::new(simd, z * mass),
-    ]
-}
-
 /// Tangent compliance of a spring where it is.
 #[inline(always)]
 fn compliance<S: Simd>(
@@ -144,66 +135,6 @@ fn compliance<S: Simd>(
         }
     }
     c
-}
-
-/// Coordinates of a spring in the six directions.
-#[inline(always)]
-pub(super) fn deflection<S: Simd>(limb: &LoadedLimb<S>, spring: &Spring) -> [Lanes<S>; 6] {
-    let mut at = [limb.wrench[0] * 0.0; 6];
-    for d in 0..6 {
-        if let Some(own) = spring.coordinates[d] {
-            at[d] = limb.coordinates[own];
-        }
-    }
-    at
-}
-
-/// Twists of a spring's six directions at the tip's place; zero where a direction does not move.
-#[inline(always)]
-pub(super) fn twists<S: Simd>(
-    simd: S,
-    plan: &Plan,
-    limb: &LoadedLimb<S>,
-    spring: &Spring,
-) -> Mat6<S> {
-    let mut s = [[Lanes::new(simd, 0.0); 6]; 6];
-    let mut screw = spring.screw;
-    for d in 0..6 {
-        if spring.coordinates[d].is_some() {
-            s[d] = twist(limb, plan, screw);
-            screw += 1;
-        }
-    }
-    s
-}
-
-/// `A t = [0, hat(f); hat(f), hat(m)] t` for a twist.
-#[inline(always)]
-pub(super) fn outer<S: Simd>(
-    force: &Vec3<S>,
-    moment: &Vec3<S>,
-    t: &[Lanes<S>; 6],
-) -> [Lanes<S>; 6] {
-    let (v, w) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
-    let top = cross(force, &w);
-    let (a, b) = (cross(force, &v), cross(moment, &w));
-    [
-        top[0],
-        top[1],
-        top[2],
-        a[0] + b[0],
-        a[1] + b[1],
-        a[2] + b[2],
-    ]
-}
-
-#[inline(always)]
-pub(super) fn dot6<S: Simd>(a: &[Lanes<S>; 6], b: &[Lanes<S>; 12]) -> Lanes<S> {
-    let mut sum = a[0] * b[0];
-    for k in 1..6 {
-        sum = a[k].times_plus(b[k], sum);
-    }
-    sum
 }
 
 impl<S: Simd> Walk<S> {
@@ -380,7 +311,7 @@ impl<S: Simd> Walk<S> {
         apart!(self.simd, {
             let (zero, one) = (Lanes::new(self.simd, 0.0), Lanes::new(self.simd, 1.0));
             if self.width > 6 {
-                let found = super::freed::freed(self.simd, plan, &mut self.z);
+                let found = freed(self.simd, plan, &mut self.z);
                 return (found.0, self.regular.least_of(found.1));
             }
             let (mut matrix, mut inverse) = ([[zero; 6]; 6], [[zero; 6]; 6]);
@@ -394,43 +325,4 @@ impl<S: Simd> Walk<S> {
             (inverse, self.regular.least_of(regular))
         })
     }
-}
-
-/// `M X = B` in place without pivoting; the smallest pivot relative to its diagonal entry.
-#[inline(always)]
-pub(super) fn solve_small<S: Simd, const N: usize, const C: usize>(
-    simd: S,
-    m: &mut [[Lanes<S>; N]; N],
-    x: &mut [[Lanes<S>; C]; N],
-) -> Lanes<S> {
-    let one = Lanes::new(simd, 1.0);
-    let mut regular = one;
-    let mut diagonal = [one; N];
-    for i in 0..N {
-        diagonal[i] = m[i][i].abs();
-    }
-    for k in 0..N {
-        regular = regular.least_of(m[k][k].abs() / diagonal[k]);
-        let reciprocal = one / m[k][k];
-        for i in k + 1..N {
-            let l = m[i][k] * reciprocal;
-            for j in k + 1..N {
-                m[i][j] = l.times_from(m[k][j], m[i][j]);
-            }
-            for c in 0..C {
-                x[i][c] = l.times_from(x[k][c], x[i][c]);
-            }
-        }
-        m[k][k] = reciprocal;
-    }
-    for i in (0..N).rev() {
-        for c in 0..C {
-            let mut y = x[i][c];
-            for k in i + 1..N {
-                y = m[i][k].times_from(x[k][c], y);
-            }
-            x[i][c] = y * m[i][i];
-        }
-    }
-    regular
 }

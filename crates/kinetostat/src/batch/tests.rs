@@ -3,9 +3,14 @@
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 use pulp::{Arch, Scalar};
 
+use super::group::Places;
 use super::lanes::Lanes;
-use super::run::{CHOSEN, Places};
+use super::run::CHOSEN;
 use super::*;
+use crate::error::Error;
+use crate::model::kinematics::unloaded_tip;
+use crate::model::mechanism::Mechanism;
+use crate::spatial::Pose;
 use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench};
 
 /// Numbers between -1 and 1 with nothing special about them.

@@ -8,40 +8,16 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::eliminate::Eliminated;
-use super::lanes::{
-    Lanes, Mat3, Vec3, carried, column, constant, cross, dot, identity, minus, product,
-    turn_columns,
-};
+use super::eliminate::{Eliminated, LimbStiffness};
+use super::lanes::Lanes;
 use super::law;
-use super::plan::{Amount, Drive, Held, Joint, Law, Plan, Step};
+use super::place::{Place, amount};
+use super::plan::{Drive, Held, Joint, Law, Plan, Step};
 use super::symmetric::Symmetric;
+use super::vectors::{
+    Mat3, Vec3, carried, column, constant, cross, dot, identity, matrix, product, turn_columns,
+};
 use crate::spatial::MotionKind;
-
-/// Axis and place of a motion that a coordinate or a command drives, base axes.
-#[derive(Clone, Copy)]
-pub(super) struct Place<S: Simd> {
-    pub axis: Vec3<S>,
-    pub origin: Vec3<S>,
-}
-
-impl<S: Simd> Place<S> {
-    /// Twist of a body at `point` per unit of the motion, base axes.
-    #[inline(always)]
-    pub fn twist(&self, kind: MotionKind, point: &Vec3<S>) -> [Lanes<S>; 6] {
-        let Self { axis, origin } = self;
-        match kind {
-            MotionKind::Revolute => {
-                let v = cross(axis, &minus(point, origin));
-                [v[0], v[1], v[2], axis[0], axis[1], axis[2]]
-            }
-            MotionKind::Prismatic => {
-                let zero = axis[0].same(0.0);
-                [axis[0], axis[1], axis[2], zero, zero, zero]
-            }
-        }
-    }
-}
 
 type SineCosine<S> = (Lanes<S>, Lanes<S>);
 
@@ -58,13 +34,6 @@ pub(super) struct Walk<S: Simd> {
     /// Sines and cosines of two joints that are known already, and the step of the first.
     pub known: Option<(usize, [SineCosine<S>; 2])>,
     simd: S,
-}
-
-/// Stiffness of a limb in base axes about the platform's point.
-pub(super) struct LimbStiffness<S: Simd> {
-    pub matrix: Symmetric<S>,
-    /// Smallest relative pivot on the way: near zero where a joint or a spring is redundant here.
-    pub regular: Lanes<S>,
 }
 
 impl<S: Simd> Walk<S> {
@@ -322,32 +291,4 @@ impl<S: Simd> Walk<S> {
         }
         LimbStiffness { matrix, regular }
     }
-}
-
-/// A constant matrix in all lanes.
-#[inline(always)]
-pub(super) fn matrix<S: Simd>(simd: S, r: &[f64; 9]) -> Mat3<S> {
-    let mut out = identity(simd);
-    for k in 0..9 {
-        out[k] = Lanes::new(simd, r[k]);
-    }
-    out
-}
-
-/// `fixed + ratio * command + ratio * coordinate`.
-#[inline(always)]
-pub(super) fn amount<S: Simd>(
-    simd: S,
-    amount: &Amount,
-    commands: &[Lanes<S>],
-    coordinate: Option<Lanes<S>>,
-) -> Lanes<S> {
-    let mut sum = Lanes::new(simd, amount.fixed);
-    if let Some((index, ratio)) = amount.command {
-        sum = commands[index].times_plus(sum.same(ratio), sum);
-    }
-    if let (Some((_, ratio)), Some(value)) = (amount.coordinate, coordinate) {
-        sum = value.times_plus(sum.same(ratio), sum);
-    }
-    sum
 }

@@ -3,10 +3,12 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::lanes::{Lanes, carried, constant, dot};
-use super::run::Machine;
+use super::lanes::Lanes;
+use super::machine::Machine;
 use super::symmetric::{AT, Symmetric};
-use super::tangent::{self, Mat6};
+use super::tangent;
+use super::vectors::{carried, constant, dot};
+use super::wrenches::Mat6;
 
 impl<S: Simd> Machine<'_, S> {
     /// Tangent stiffness of the platform at its point, base axes, and the smallest relative pivot: of

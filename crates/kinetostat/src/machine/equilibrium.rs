@@ -15,9 +15,11 @@ use crate::chain::residual::Residual;
 use crate::chain::stability::ShapeStability;
 use crate::chain::stiffness::ChainStiffness;
 use crate::error::{Error, Result};
+use crate::linalg::sparse::Sparse;
 use crate::machine::directions::{
     balanced_directions, condensed_directions, none_diverges, others_hold,
 };
+use crate::machine::graded::GradedPlatforms;
 use crate::machine::platform_system::RigidRows;
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
@@ -182,19 +184,8 @@ pub(crate) fn conclude(
     solver: &mut PlatformSolver<'_>,
     residual: Residual,
 ) -> Result<MechanismEquilibrium> {
-    let (tangent, lack) = solver.finish();
+    let (tangent, unbalanced) = solver.finish();
     let m = solver.mechanism;
-    let tool = m.tool;
-    let scale = m.scale();
-    // What a held tool lacks is what its holder must apply.
-    let wrench = match solver.unknowns {
-        Unknowns::Held => Wrench(-lack[tool].0),
-        _ => solver.wrench,
-    };
-    let rigid = match m.platforms.len() {
-        2 => RigidRows::none(1),
-        _ => solver.rigid_rows(&solver.state).0,
-    };
     if let Some(&(.., value)) = tangent.entries.iter().find(|(.., x)| !x.is_finite()) {
         return Err(Error::NotFinite {
             place: format!("mechanism '{}'", m.name),
@@ -202,126 +193,177 @@ pub(crate) fn conclude(
             value,
         });
     }
+    // What a held tool lacks is what its holder must apply.
+    let wrench = match solver.unknowns {
+        Unknowns::Held => Wrench(-unbalanced[m.tool].0),
+        _ => solver.wrench,
+    };
     let verdicts: Vec<_> = (0..m.limbs.len()).map(|i| solver.verdicts(i)).collect();
-    let limbs: Vec<LimbEquilibrium> = m
-        .limbs
-        .iter()
-        .zip(verdicts)
-        .enumerate()
-        .map(|(i, (limb, (stiffness, stability)))| {
-            let system = solver.limb_system(i);
-            let n = limb.actual.coordinate_count();
-            let r = limb.actual.actuators().len();
-            let joints = &solver.posture[i];
-            let loaded = ChainProblem {
-                chain: &limb.actual,
-                base: solver.state.platforms[limb.from],
-                commands: joints.commands.clone(),
-                posture: joints.coordinates.clone(),
-                loads: solver.loads[i].clone(),
-                end: EndCondition::pose(system.kinematics.tip_pose()),
-            };
-            Ok(LimbEquilibrium {
-                load_energy: load_energy(&loaded, &solver.state.coordinates[i])?,
-                conservative: m.loads_conservative(i),
-                link_loads: link_loads(&limb.actual, &system.spring_torque),
-                nodes: (0..limb.actual.nodes().len())
-                    .map(|node| system.kinematics.node_pose(node))
-                    .collect(),
-                name: limb.name.clone(),
-                wrench: solver.state.wrenches[i],
-                coordinates: solver.state.coordinates[i].clone(),
-                spring_torques: system.spring_torque.clone(),
-                energy: system.energy,
-                actuator_forces: system.torque[n..n + r].to_vec(),
-                stiffness,
-                stability,
-            })
-        })
-        .collect::<Result<_>>()?;
-    let weights: f64 = m
-        .platforms
-        .iter()
-        .zip(&solver.state.platforms)
-        .skip(1)
-        .map(|(p, pose)| {
-            let centre = pose * nalgebra::Point3::from(p.centre_of_mass);
-            -p.mass * m.gravity.dot(&centre.coords)
-        })
-        .sum();
-    // A dead force has a potential; a dead moment is not asked for one here.
-    let dead = solver.others.iter().map(|(platform, wrench)| {
-        let place = solver.state.platforms[*platform].translation.vector;
-        (wrench.moment() == nalgebra::Vector3::zeros()).then(|| -wrench.force().dot(&place))
-    });
-    let between = m.platform_loads.iter();
-    let between = between.map(|load| load.energy(&solver.state.platforms));
-    let outside = dead.chain(between).sum::<Option<f64>>();
-    let outside = outside.map(|outside| outside + weights);
+    let limbs = verdicts.into_iter().enumerate();
+    let limbs = limbs.map(|(i, found)| limb_equilibrium(solver, i, found));
+    let limbs: Vec<LimbEquilibrium> = limbs.collect::<Result<_>>()?;
+    let outside = potential_of_platforms(solver);
     let energy = limbs.iter().fold(outside, |sum, limb| {
         Some(sum? + limb.energy + limb.load_energy?)
     });
-    // With platforms in between, what blocks the tool is not one limb's affair.
-    let own: Vec<&ChainStiffness> = limbs.iter().map(|limb| &limb.stiffness).collect();
-    let graded = solver.graded(&tangent, &own);
-    let (stiffness, directions) = if m.platforms.len() > 2 {
-        condensed_directions(&tangent, graded.as_ref(), &rigid, tool - 1, scale)
-    } else {
-        let mut stiffness = Matrix6::zeros();
-        for &(i, j, value) in &tangent.entries {
-            stiffness[(i, j)] += value;
-        }
-        let own = own.into_iter().zip(&m.limbs).map(|(limb, description)| {
-            let arm = solver.state.platforms[tool].rotation
-                * description.platform_from_tip.translation.vector;
-            (limb, arm, description.actual.scale())
-        });
-        let directions = balanced_directions(&stiffness, graded.as_ref(), scale, own);
-        (stiffness, directions)
-    };
-    let least = directions
-        .iter()
-        .map(|d| d.stiffness_n_per_m)
-        .fold(f64::INFINITY, f64::min);
-    let free = directions
-        .iter()
-        .filter(|d| d.kind == DirectionKind::Free)
-        .count();
     let conservative = outside.is_some()
         && limbs.iter().all(|l| l.conservative)
         && (solver.unknowns == Unknowns::Held
             || m.tool_moment_has_potential(&solver.dead_moment(&wrench)));
-    let held = solver.unknowns == Unknowns::Held;
-    let hold = |held| others_hold(&tangent, graded.as_ref(), &rigid, tool - 1, scale, held);
-    let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
-    let stays = |held| {
-        !conservative && none_diverges(&tangent, &directions, &rigid, tool - 1, scale, held, whole)
-    };
-    let definite = least >= 0.0 && hold(held);
-    let stable = definite || stays(held);
-    let others_hold = hold(true) || stays(true);
+    let tool = ToolStiffness::of(solver, tangent, &limbs);
+    let (platform, others_hold) = tool.stability(solver, conservative, &limbs);
     let answer = MechanismEquilibrium {
-        tool: solver.state.platforms[tool],
-        displacement: pose_residual(&solver.state.platforms[tool], &solver.target),
+        tool: solver.state.platforms[m.tool],
+        displacement: pose_residual(&solver.state.platforms[m.tool], &solver.target),
         conservative,
         energy,
         wrench,
-        stiffness: CartesianStiffness { matrix: stiffness },
-        platform: PlatformStability {
-            stable,
-            may_flutter: stable && !definite,
-            smallest_stiffness_n_per_m: least,
-            free,
+        stiffness: CartesianStiffness {
+            matrix: tool.matrix,
         },
+        platform,
         others_hold,
-        directions,
-        length: scale.length,
+        directions: tool.directions,
+        length: m.scale().length,
         limbs,
         residual,
         found_by: solver.found_by,
         state: solver.state.clone(),
     };
     Ok(answer.named(m))
+}
+
+/// What one limb does at a solved state.
+fn limb_equilibrium(
+    solver: &PlatformSolver<'_>,
+    i: usize,
+    (stiffness, stability): (ChainStiffness, ShapeStability),
+) -> Result<LimbEquilibrium> {
+    let limb = &solver.mechanism.limbs[i];
+    let system = solver.limb_system(i);
+    let n = limb.actual.coordinate_count();
+    let r = limb.actual.actuators().len();
+    let joints = &solver.posture[i];
+    let loaded = ChainProblem {
+        chain: &limb.actual,
+        base: solver.state.platforms[limb.from],
+        commands: joints.commands.clone(),
+        posture: joints.coordinates.clone(),
+        loads: solver.loads[i].clone(),
+        end: EndCondition::pose(system.kinematics.tip_pose()),
+    };
+    Ok(LimbEquilibrium {
+        load_energy: load_energy(&loaded, &solver.state.coordinates[i])?,
+        conservative: solver.mechanism.loads_conservative(i),
+        link_loads: link_loads(&limb.actual, &system.spring_torque),
+        nodes: (0..limb.actual.nodes().len())
+            .map(|node| system.kinematics.node_pose(node))
+            .collect(),
+        name: limb.name.clone(),
+        wrench: solver.state.wrenches[i],
+        coordinates: solver.state.coordinates[i].clone(),
+        spring_torques: system.spring_torque.clone(),
+        energy: system.energy,
+        actuator_forces: system.torque[n..n + r].to_vec(),
+        stiffness,
+        stability,
+    })
+}
+
+/// Potential of weights, dead forces and compensators on the platforms, J; `None` where one has none.
+fn potential_of_platforms(solver: &PlatformSolver<'_>) -> Option<f64> {
+    let m = solver.mechanism;
+    let poses = &solver.state.platforms;
+    let weights = m.platforms.iter().zip(poses).skip(1).map(|(p, pose)| {
+        let centre = pose * nalgebra::Point3::from(p.centre_of_mass);
+        -p.mass * m.gravity.dot(&centre.coords)
+    });
+    let weights: f64 = weights.sum();
+    // A dead force has a potential; a dead moment is not asked for one here.
+    let dead = solver.others.iter().map(|(platform, wrench)| {
+        let place = poses[*platform].translation.vector;
+        (wrench.moment() == nalgebra::Vector3::zeros()).then(|| -wrench.force().dot(&place))
+    });
+    let between = m.platform_loads.iter().map(|load| load.energy(poses));
+    let outside = dead.chain(between).sum::<Option<f64>>();
+    outside.map(|outside| outside + weights)
+}
+
+/// Tangent stiffness of a machine at its tool, and the whole tangent from which it comes.
+struct ToolStiffness {
+    /// Of all moving platforms, 6P x 6P.
+    tangent: Sparse,
+    rigid: RigidRows,
+    graded: Option<GradedPlatforms>,
+    /// Of the tool with all other platforms free, 6 x 6.
+    matrix: Matrix6<f64>,
+    directions: Vec<Direction>,
+}
+
+impl ToolStiffness {
+    fn of(solver: &PlatformSolver<'_>, tangent: Sparse, limbs: &[LimbEquilibrium]) -> Self {
+        let m = solver.mechanism;
+        let scale = m.scale();
+        let rigid = match m.platforms.len() {
+            2 => RigidRows::none(1),
+            _ => solver.rigid_rows(&solver.state).0,
+        };
+        let own: Vec<&ChainStiffness> = limbs.iter().map(|limb| &limb.stiffness).collect();
+        let graded = solver.graded(&tangent, &own);
+        // With platforms in between, what blocks the tool is not one limb's affair.
+        let (matrix, directions) = if m.platforms.len() > 2 {
+            condensed_directions(&tangent, graded.as_ref(), &rigid, m.tool - 1, scale)
+        } else {
+            let mut matrix = Matrix6::zeros();
+            for &(i, j, value) in &tangent.entries {
+                matrix[(i, j)] += value;
+            }
+            let own = own.into_iter().zip(&m.limbs).map(|(limb, description)| {
+                let arm = solver.state.platforms[m.tool].rotation
+                    * description.platform_from_tip.translation.vector;
+                (limb, arm, description.actual.scale())
+            });
+            let directions = balanced_directions(&matrix, graded.as_ref(), scale, own);
+            (matrix, directions)
+        };
+        Self {
+            tangent,
+            rigid,
+            graded,
+            matrix,
+            directions,
+        }
+    }
+
+    /// Whether the tool's platform stays, and whether the other platforms do while the tool is held.
+    fn stability(
+        &self,
+        solver: &PlatformSolver<'_>,
+        conservative: bool,
+        limbs: &[LimbEquilibrium],
+    ) -> (PlatformStability, bool) {
+        let m = solver.mechanism;
+        let (tool, scale) = (m.tool - 1, m.scale());
+        let (tangent, rigid, directions) = (&self.tangent, &self.rigid, &self.directions);
+        let stiffnesses = directions.iter().map(|d| d.stiffness_n_per_m);
+        let least = stiffnesses.fold(f64::INFINITY, f64::min);
+        let free = directions.iter().filter(|d| d.kind == DirectionKind::Free);
+        let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
+        let hold = |held| others_hold(tangent, self.graded.as_ref(), rigid, tool, scale, held);
+        let stays = |held| {
+            !conservative && none_diverges(tangent, directions, rigid, tool, scale, held, whole)
+        };
+        let held = solver.unknowns == Unknowns::Held;
+        let definite = least >= 0.0 && hold(held);
+        let stable = definite || stays(held);
+        let platform = PlatformStability {
+            stable,
+            may_flutter: stable && !definite,
+            smallest_stiffness_n_per_m: least,
+            free: free.count(),
+        };
+        (platform, hold(true) || stays(true))
+    }
 }
 
 impl Posture<'_> {

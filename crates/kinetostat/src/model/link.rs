@@ -1,4 +1,4 @@
-//! Links that bend: a straight elastic link as one or several segments (theory note, section 4).
+//! Links that bend: a straight elastic link as one or several segments (book: Conventions, Links that bend).
 //!
 //! A link of length `L` becomes `n` times "rigid offset `h = L/n`, six-dimensional spring". For small
 //! deflections every convention gives the same, exact stiffness (but [`LinkConvention::ConstantStrain`],

@@ -5,6 +5,7 @@ use kinetostat::{
     ChainProblem, Equilibrium, Load, MechanismEquilibrium, Posture, Prescribed, ShapeStability,
     Wrench, hat,
 };
+use kinetostat_testing::{LargestEntry, largest, largest_size};
 use nalgebra::{DVector, Matrix6, Vector3};
 
 use crate::oracle::{Flat, Frames, springs};
@@ -17,7 +18,8 @@ pub fn antisymmetric_error(k: &Matrix6<f64>, moment: &Vector3<f64>, length: f64)
         .copy_from(&-hat(moment));
     let unit = |i: usize| if i < 3 { 1.0 } else { 1.0 / length };
     let balanced = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] * unit(i) * unit(j));
-    balanced(&(k - k.transpose() - expected)).amax() / balanced(k).amax().max(1e-300)
+    balanced(&(k - k.transpose() - expected)).largest_entry()
+        / balanced(k).largest_entry().max(1e-300)
 }
 
 #[track_caller]
@@ -97,7 +99,7 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
         back * miss.fixed_rows::<3>(3),
     );
     let lack = Wrench(problem.end.wrench.0 - e.wrench.0).rotated(&back);
-    let forces = e.wrench.0.amax().max(1e-6);
+    let forces = e.wrench.0.largest_entry().max(1e-6);
     for k in 0..6 {
         match problem.end.prescribed[k] {
             Prescribed::Pose => {
@@ -128,11 +130,12 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
             v[i] / (scale.stiffness.sqrt() * scale.length)
         }
     };
-    let size = (0..torque.len())
-        .map(|i| scaled(&spring, i).abs().max(scaled(&torque, i).abs()))
-        .fold(1e-6 * scale.stiffness.sqrt() * scale.length, f64::max)
-        .max(e.wrench.force().norm() / scale.stiffness.sqrt())
-        .max(e.wrench.moment().norm() / (scale.stiffness.sqrt() * scale.length));
+    let sizes = (0..torque.len()).flat_map(|i| [scaled(&spring, i), scaled(&torque, i)]);
+    let size = largest_size(sizes.chain([
+        1e-6 * scale.stiffness.sqrt() * scale.length,
+        e.wrench.force().norm() / scale.stiffness.sqrt(),
+        e.wrench.moment().norm() / (scale.stiffness.sqrt() * scale.length),
+    ]));
     for i in 0..torque.len() {
         let left = (scaled(&torque, i) - scaled(&spring, i)).abs();
         assert!(
@@ -142,7 +145,7 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
         );
         let reported = (e.spring_torques[i] - spring[i]).abs();
         assert!(
-            reported <= 1e-9 * spring.amax().max(1e-9),
+            reported <= 1e-9 * spring.largest_entry().max(1e-9),
             "spring torque {i}"
         );
     }
@@ -184,21 +187,10 @@ pub fn assert_equilibrium(posture: &Posture<'_>, e: &MechanismEquilibrium) {
         e.stiffness.matrix.iter().all(|x| x.is_finite()),
         "stiffness is not finite"
     );
-    let force = e
-        .limbs
-        .iter()
-        .map(|l| l.wrench.force().norm())
-        .fold(e.wrench.force().norm(), f64::max);
-    let moment = e
-        .limbs
-        .iter()
-        .map(|l| l.wrench.moment().norm())
-        .fold(e.wrench.moment().norm(), f64::max);
-    let reach = m
-        .limbs()
-        .iter()
-        .map(|l| l.actual.scale().length)
-        .fold(0.0, f64::max);
+    let wrenches = || e.limbs.iter().map(|l| &l.wrench).chain([&e.wrench]);
+    let force = largest(wrenches().map(|w| w.force().norm()));
+    let moment = largest(wrenches().map(|w| w.moment().norm()));
+    let reach = largest(m.limbs().iter().map(|l| l.actual.scale().length));
     let forces = (force + moment / reach).max(1e-6);
     let moving = m.platforms().len() - 1;
     for (i, left) in rows.rows(0, 6 * moving).iter().enumerate() {
@@ -233,18 +225,21 @@ pub fn assert_equilibrium(posture: &Posture<'_>, e: &MechanismEquilibrium) {
             } else {
                 limb.actual.scale().stiffness.sqrt() * own
             };
-            let all = (0..n)
-                .map(|j| spring[j].abs() / k[(j, j)].max(1e-300).sqrt())
-                .filter(|x| x.is_finite())
-                .fold(0.0, f64::max)
-                .max(forces / limb.actual.scale().stiffness.sqrt());
+            // A coordinate without a spring, or a NaN, counts by the residual alone.
+            let torques = (0..n).map(|j| spring[j].abs() / k[(j, j)].max(1e-300).sqrt());
+            let all = largest(
+                torques
+                    .filter(|x| x.is_finite())
+                    .chain([forces / limb.actual.scale().stiffness.sqrt()]),
+            );
             let left = rows[at + 6 + j].abs() / unit;
             assert!(
                 left <= 1e-8 * all,
                 "limb {i} torque {j}: {left:.2e} of {all:.2e}"
             );
             assert!(
-                (e.limbs[i].spring_torques[j] - spring[j]).abs() <= 1e-9 * spring.amax().max(1e-9),
+                (e.limbs[i].spring_torques[j] - spring[j]).abs()
+                    <= 1e-9 * spring.largest_entry().max(1e-9),
                 "limb {i} spring torque {j}"
             );
         }

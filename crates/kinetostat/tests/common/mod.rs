@@ -9,6 +9,7 @@ pub use invariants::{assert_chain_equilibrium, assert_equilibrium};
 pub use machines::*;
 pub use random::*;
 
+use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, Matrix6};
 use serde_json::Value;
 
@@ -70,26 +71,26 @@ pub fn all_close(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
 /// Largest difference of two 6 x 6 stiffnesses as a share of the largest entry of its own block
 /// (N/m, N, N m): units are never mixed.
 pub fn block_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for (r, c) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-        let d = (a - b).fixed_view::<3, 3>(r, c).amax();
-        worst = worst.max(d / b.fixed_view::<3, 3>(r, c).amax().max(1e-300));
+        let d = (a - b).fixed_view::<3, 3>(r, c).largest_entry();
+        worst.add(d / b.fixed_view::<3, 3>(r, c).largest_entry().max(1e-300));
     }
-    worst
+    worst.value()
 }
 
 /// As [`block_error`], but each block is judged against the geometric mean of the diagonal blocks:
 /// for matrices in which a block may vanish.
 pub fn balanced_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
-    let size = |r: usize| b.fixed_view::<3, 3>(r, r).amax().max(1e-300);
-    let mut worst = 0.0_f64;
+    let size = |r: usize| b.fixed_view::<3, 3>(r, r).largest_entry().max(1e-300);
+    let mut worst = Worst::new();
     for r in [0, 3] {
         for c in [0, 3] {
-            let d = (a - b).fixed_view::<3, 3>(r, c).amax();
-            worst = worst.max(d / (size(r) * size(c)).sqrt());
+            let d = (a - b).fixed_view::<3, 3>(r, c).largest_entry();
+            worst.add(d / (size(r) * size(c)).sqrt());
         }
     }
-    worst
+    worst.value()
 }
 
 #[track_caller]

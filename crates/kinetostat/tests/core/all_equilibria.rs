@@ -9,6 +9,7 @@ use kinetostat::{
     BeamSection, Bounds, Chain, ChainProblem, EndCondition, Equilibria, FoundEquilibrium,
     MotionKind, Prescribed, SearchSettings, Wrench, equilibria,
 };
+use kinetostat_testing::{LargestEntry, largest, largest_size};
 use nalgebra::{Vector3, vector};
 
 #[track_caller]
@@ -228,7 +229,7 @@ impl Pinned {
                 return inside.then_some(answer);
             }
             let step = gauss(a)?;
-            let most = step[..n].iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+            let most = largest_size(step[..n].iter().copied());
             let length = (0.4 / most).min(1.0);
             u.iter_mut().zip(&step).for_each(|(u, s)| *u -= length * s);
         }
@@ -302,7 +303,7 @@ pub fn compared(links: usize, seed: u64, steps: usize) -> (usize, usize, usize, 
         Some((f.equilibrium.wrench.0[0] - e[links]).abs())
     });
     let forces: Vec<f64> = forces.collect();
-    let worst = forces.iter().fold(0.0_f64, |m, x| m.max(*x));
+    let worst = largest(forces.iter().copied());
     (all.found.len(), expected.len(), forces.len(), worst)
 }
 
@@ -426,9 +427,9 @@ fn a_link_has_one_description_of_its_orientation() {
             let (a, b) = (&a.equilibrium, &b.equilibrium);
             let wrench = (a.wrench.0 - b.wrench.0).norm() / (1.0 + a.wrench.0.norm());
             let place = a.nodes.iter().zip(&b.nodes);
-            let away = place
-                .map(|(p, q)| (p.to_homogeneous() - q.to_homogeneous()).amax())
-                .fold(wrench, f64::max);
+            let place =
+                place.map(|(p, q)| (p.to_homogeneous() - q.to_homogeneous()).largest_entry());
+            let away = largest(place.chain([wrench]));
             assert!(away > 1e-6, "one shape twice: {:?}", b.coordinates);
         }
     }

@@ -9,6 +9,7 @@ use kinetostat::{
     CartesianStiffness, ChainProblem, EndCondition, Load, Pose, Settings, Twist, Wrench, moved,
     solve_chain,
 };
+use kinetostat_testing::Worst;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -201,11 +202,7 @@ pub fn reordered() -> Reordered {
         .build()
     };
     let machine = build([0, 1, 2]);
-    let mut worst = Reordered {
-        tool: 0.0,
-        stiffness: 0.0,
-        wrench: 0.0,
-    };
+    let [mut tool, mut stiffness, mut wrenches] = <[Worst; 3]>::default();
     for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
         let other = build(order);
         for index in 0..5 {
@@ -218,20 +215,23 @@ pub fn reordered() -> Reordered {
                 p.deflected_by(&wrench).unwrap(),
                 q.deflected_by(&wrench).unwrap(),
             );
-            // Neither holds a NaN from here on.
             assert_equilibrium(&p, &e);
             assert_equilibrium(&q, &o);
             let miss = kinetostat::pose_residual(&e.tool, &o.tool);
-            worst.tool = worst.tool.max(miss.0.norm());
+            tool.add(miss.0.norm());
             let k = balanced_error(&e.stiffness.matrix, &o.stiffness.matrix);
-            worst.stiffness = worst.stiffness.max(k);
+            stiffness.add(k);
             for (k, &i) in order.iter().enumerate() {
                 let d = (e.limbs[i].wrench.0 - o.limbs[k].wrench.0).norm();
-                worst.wrench = worst.wrench.max(d);
+                wrenches.add(d);
             }
         }
     }
-    worst
+    Reordered {
+        tool: tool.of(5 * 5),
+        stiffness: stiffness.of(5 * 5),
+        wrench: wrenches.of(5 * 5 * 3),
+    }
 }
 
 #[test]

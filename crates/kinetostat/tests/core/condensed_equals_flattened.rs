@@ -10,6 +10,7 @@ use kinetostat::{
     Chain, Limb, LimbPosture, Mechanism, Platform, Pose, Posture, Twist, Wrench, moved,
     pose_residual,
 };
+use kinetostat_testing::{Worst, largest};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use proptest::prelude::*;
 
@@ -36,22 +37,21 @@ pub fn apart(label: &str, posture: &Posture<'_>, wrench: &Wrench) -> Apart {
     flat.load = wrench.0;
     flat.solve(false);
     let tool = posture.mechanism().tool();
-    let size = flat.wrenches.iter().map(Vector6::norm).fold(1.0, f64::max);
-    let mut found = Apart {
-        tool: pose_residual(&e.tool, &flat.platforms[tool]).0.norm(),
-        wrench: 0.0,
-        coordinates: 0.0,
-        stiffness: balanced_error(&e.stiffness.matrix, &flat.stiffness()),
-    };
+    let size = largest(flat.wrenches.iter().map(Vector6::norm).chain([1.0]));
+    let (mut wrenches, mut coordinates) = (Worst::new(), Worst::new());
     for (i, limb) in e.limbs.iter().enumerate() {
-        // No number here is NaN: `assert_equilibrium` has looked.
-        let d = (limb.wrench.0 - flat.wrenches[i]).norm();
-        found.wrench = found.wrench.max(d / size);
+        wrenches.add((limb.wrench.0 - flat.wrenches[i]).norm() / size);
+        assert_eq!(limb.coordinates.len(), flat.coordinates[i].len(), "{label}");
         for (a, b) in limb.coordinates.iter().zip(&flat.coordinates[i]) {
-            found.coordinates = found.coordinates.max((a - b).abs());
+            coordinates.add(a - b);
         }
     }
-    found
+    Apart {
+        tool: pose_residual(&e.tool, &flat.platforms[tool]).0.norm(),
+        wrench: wrenches.of(flat.wrenches.len()),
+        coordinates: coordinates.value(),
+        stiffness: balanced_error(&e.stiffness.matrix, &flat.stiffness()),
+    }
 }
 
 #[track_caller]

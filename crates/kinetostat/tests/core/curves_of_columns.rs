@@ -6,6 +6,7 @@ use kinetostat::{
     BeamSection, Chain, ChainProblem, CurveSettings, EndCondition, Judged, LinkSpec, LoadPattern,
     MotionKind, Parameter, Pose, Prescribed, SpecialKind, Wrench, critical_load_factor, follow,
 };
+use kinetostat_testing::{largest, largest_size};
 use nalgebra::{Vector3, vector};
 
 /// End on its line under a dead force along x, free to turn.
@@ -59,13 +60,12 @@ fn straight_columns_fork_at_two_one_minus_cosine() {
             let exact = critical.exact.unwrap();
             close(&label, exact.factor, loads[0], 1e-9 * loads[0]);
             // Mode: joint i deflects by sin(i pi / n).
-            let middle = (1..n)
-                .map(|i| (i as f64 * std::f64::consts::PI / n as f64).sin())
-                .fold(0.0, f64::max);
+            let middle =
+                largest((1..n).map(|i| (i as f64 * std::f64::consts::PI / n as f64).sin()));
             let own = &exact.mode[1..n];
-            let most = own.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let most = largest_size(own.iter().copied());
             for mode in [&exact.mode, &critical.linear_mode] {
-                let scale = mode[1..n].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                let scale = largest_size(mode[1..n].iter().copied());
                 for i in 1..n {
                     let s = (i as f64 * std::f64::consts::PI / n as f64).sin() / middle;
                     close(&label, mode[i].abs() / scale, s, 1e-6);

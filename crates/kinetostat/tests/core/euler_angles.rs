@@ -14,6 +14,7 @@ use kinetostat::{
     ChainProblem, EndCondition, Equilibrium, Kinematics, Pose, Settings, Twist, Wrench, moved,
     solve_chain,
 };
+use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 /// Position and angles `(a, b, c)` of `R = Rz(a) Ry(b) Rx(c)`.
@@ -136,7 +137,7 @@ fn compare(r: &RandomChain, problem: &ChainProblem<'_>, e: &Equilibrium) -> Comp
     let h_spatial = all.view((0, 0), (n, n)).into_owned();
     let dense = DMatrix::from_fn(6, 6, |i, j| d[(i, j)]);
     let geometric = j_euler.transpose() * &dense * &j_euler;
-    let size = h_spatial.amax();
+    let size = h_spatial.largest_entry();
 
     // K_Euler from the bordered system of the report, with Euler angles.
     let (_, k, _) = springs(chain, &e.coordinates, &problem.posture);
@@ -169,28 +170,28 @@ fn compare(r: &RandomChain, problem: &ChainProblem<'_>, e: &Equilibrium) -> Comp
     let spatial = |k: &Matrix6<f64>| inverse.transpose() * k * inverse;
     let own = e.stiffness.cartesian.matrix;
     // Only the rotations know of D.
-    let block = |m: Matrix6<f64>| m.fixed_view::<3, 3>(3, 3).amax();
+    let block = |m: Matrix6<f64>| m.fixed_view::<3, 3>(3, 3).largest_entry();
     let share = |found: &Matrix6<f64>| {
-        let size = |r: usize| own.fixed_view::<3, 3>(r, r).amax();
-        let mut worst = 0.0_f64;
+        let size = |r: usize| own.fixed_view::<3, 3>(r, r).largest_entry();
+        let mut worst = Worst::new();
         for r in [0, 3] {
             for c in [0, 3] {
-                let off = (found - own).fixed_view::<3, 3>(r, c).amax();
-                worst = worst.max(off / (size(r) * size(c)).sqrt());
+                let off = (found - own).fixed_view::<3, 3>(r, c).largest_entry();
+                worst.add(off / (size(r) * size(c)).sqrt());
             }
         }
-        worst
+        worst.value()
     };
     let without = spatial(&k_euler);
     Compared {
-        hessian: (&h_spatial - &h_euler - &geometric).amax() / size,
-        hessian_without: (&h_spatial - &h_euler).amax() / size,
+        hessian: (&h_spatial - &h_euler - &geometric).largest_entry() / size,
+        hessian_without: (&h_spatial - &h_euler).largest_entry() / size,
         stiffness: share(&spatial(&(k_euler - d))),
         solved_again: share(&spatial(&(again - d))),
         stiffness_without: (share(&without), block(without - own)),
         asymmetry: (
-            (&h_euler - h_euler.transpose()).amax() / size,
-            (&h_spatial - h_spatial.transpose()).amax() / size,
+            (&h_euler - h_euler.transpose()).largest_entry() / size,
+            (&h_spatial - h_spatial.transpose()).largest_entry() / size,
         ),
         moment: e.wrench.moment().norm(),
     }

@@ -7,6 +7,7 @@ use kinetostat::{
     ActuatorSpec, BeamSection, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
     Posture, Settings, Twist, Wrench, compensate, moved, pose_residual, unloaded_tip,
 };
+use kinetostat_testing::Worst;
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 
 /// `K_C` of the unloaded nominal machine as one dense system over all coordinates, wrenches and
@@ -218,7 +219,7 @@ fn hybrids_are_commanded_anywhere() {
 /// limbs, relative.
 pub fn hybrids_apart() -> [f64; 3] {
     let mut rng = Rng(12);
-    let mut worst = [0.0_f64; 3];
+    let mut worst = <[Worst; 3]>::default();
     for machine in hybrids() {
         let home = machine.platforms()[machine.tool()].home;
         for _ in 0..3 {
@@ -226,7 +227,7 @@ pub fn hybrids_apart() -> [f64; 3] {
             let posture = machine.posture(&target).unwrap();
             let unloaded = posture.stiffness().unwrap();
             let flat = flat_stiffness(&posture);
-            worst[0] = worst[0].max(balanced_error(&unloaded.cartesian.matrix, &flat));
+            worst[0].add(balanced_error(&unloaded.cartesian.matrix, &flat));
             let wrench = rng.wrench(200.0, 30.0);
             let e = posture.deflected_by(&wrench).unwrap();
             assert_equilibrium(&posture, &e);
@@ -234,13 +235,13 @@ pub fn hybrids_apart() -> [f64; 3] {
             flat.load = wrench.0;
             flat.solve(false);
             let apart = pose_residual(&e.tool, &flat.platforms[machine.tool()]).0;
-            worst[1] = worst[1].max(apart.norm() / e.displacement.0.norm());
+            worst[1].add(apart.norm() / e.displacement.0.norm());
             for (limb, w) in e.limbs.iter().zip(&flat.wrenches) {
-                worst[2] = worst[2].max((limb.wrench.0 - w).norm() / w.norm());
+                worst[2].add((limb.wrench.0 - w).norm() / w.norm());
             }
         }
     }
-    worst
+    worst.map(|w| w.value())
 }
 
 /// Two platforms on springs with a limb without any spring between them: `bar` is what joins them.
@@ -300,12 +301,12 @@ fn rigid_bars() -> Vec<(&'static str, Mechanism)> {
 /// loaded, relative.
 pub fn rigid_limbs_apart() -> [f64; 2] {
     let mut rng = Rng(8);
-    let (mut worst, mut loaded) = (0.0_f64, 0.0_f64);
+    let (mut worst, mut loaded) = (Worst::new(), Worst::new());
     for (name, machine) in rigid_bars() {
         let home = machine.platforms()[machine.tool()].home;
         let posture = machine.posture(&home).unwrap();
         let k = posture.stiffness().unwrap().cartesian.matrix;
-        worst = worst.max(balanced_error(&k, &flat_stiffness(&posture)));
+        worst.add(balanced_error(&k, &flat_stiffness(&posture)));
         let target = moved(&home, &Twist::new(rng.vector(2e-3), rng.vector(5e-3)));
         let e = posture.wrench_at(&target).unwrap();
         assert_equilibrium(&posture, &e);
@@ -317,13 +318,13 @@ pub fn rigid_limbs_apart() -> [f64; 2] {
         let off = (e.wrench.0 - flat.load).norm() / flat.load.norm();
         assert!(off < 1e-8, "{name}: {off:e}");
         let off = balanced_error(&e.stiffness.matrix, &flat.stiffness());
-        loaded = loaded.max(off);
+        loaded.add(off);
         assert!(off < 1e-8, "{name}: {off:e}");
         let d = posture.deflected_by(&rng.wrench(100.0, 20.0)).unwrap();
         assert_equilibrium(&posture, &d);
         assert!(d.stable(), "{name}");
     }
-    [worst, loaded]
+    [worst.value(), loaded.value()]
 }
 
 #[test]
@@ -538,7 +539,7 @@ fn a_double_pantograph_enlarges_four_times() {
 #[test]
 fn a_graph_with_errors_strains_itself_to_first_order() {
     let mut rng = Rng(77);
-    let mut worst = [0.0_f64; 2];
+    let mut worst = <[Worst; 2]>::default();
     for size in [1e-6, 1e-7] {
         let mut builder = Mechanism::builder("ring");
         let homes = [
@@ -583,13 +584,14 @@ fn a_graph_with_errors_strains_itself_to_first_order() {
         let e = posture.deflected_by(&Wrench::zero()).unwrap();
         assert_equilibrium(&posture, &e);
         let apart = (e.displacement.0 - linear.shift.0).norm() / linear.shift.0.norm();
-        worst[0] = worst[0].max(apart / size);
+        worst[0].add(apart / size);
         for (limb, wrench) in e.limbs.iter().zip(&linear.wrenches) {
             assert!(wrench.0.norm() > 0.0);
             let apart = (limb.wrench.0 - wrench.0).norm() / limb.wrench.0.norm();
-            worst[1] = worst[1].max(apart / size);
+            worst[1].add(apart / size);
         }
     }
+    let worst = worst.map(|w| w.value());
     assert!(worst.iter().all(|w| *w < 1e3), "{worst:?}");
 }
 

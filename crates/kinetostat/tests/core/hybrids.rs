@@ -9,6 +9,7 @@ use kinetostat::{
     ActuatorSpec, BeamSection, Chain, LengthLaw, Limb, Mechanism, MotionKind, Platform,
     PlatformLoad, Pose, Settings, Twist, Wrench, moved, pose_residual,
 };
+use kinetostat_testing::largest;
 use nalgebra::{Vector3, vector};
 
 /// The chain with its base put elsewhere: an error of assembly.
@@ -144,12 +145,12 @@ pub fn hybrids_apart(machine: &Mechanism) -> [f64; 3] {
     flat.load = wrench.0;
     flat.solve(false);
     let tool = pose_residual(&e.tool, &flat.platforms[machine.tool()]).0;
-    let most = flat.wrenches.iter().map(|w| w.norm()).fold(0.0, f64::max);
+    let most = largest(flat.wrenches.iter().map(|w| w.norm()));
     let both = e.limbs.iter().zip(&flat.wrenches);
     let wrenches = both.map(|(limb, w)| (limb.wrench.0 - w).norm() / most);
     [
         tool.norm() / e.displacement.0.norm(),
-        wrenches.fold(0.0, f64::max),
+        largest(wrenches),
         balanced_error(&e.stiffness.matrix, &flat.stiffness()),
     ]
 }

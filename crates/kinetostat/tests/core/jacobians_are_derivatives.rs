@@ -3,6 +3,7 @@
 
 use crate::common::{Recipe, Rng, cases, random_chain};
 use kinetostat::{Kinematics, Twist, Wrench, moved, pose_residual};
+use kinetostat_testing::LargestEntry;
 use nalgebra::{DVector, Vector6};
 use proptest::prelude::*;
 
@@ -46,7 +47,7 @@ pub fn jacobian_error(seed: u64) -> (f64, String) {
                 .map(|k| pose_residual(&k.node_pose(node), &centre).0)
                 .collect();
             let column = (8.0 * (d[2] - d[1]) - (d[3] - d[0])) / (12.0 * h);
-            let error = (column - kinematics.jacobian(node).column(index)).amax();
+            let error = (column - kinematics.jacobian(node).column(index)).largest_entry();
             // NaN counts as the worst.
             if error.is_nan() || error > worst.0 {
                 worst = (error, format!("node {node} velocity {index}"));
@@ -111,7 +112,7 @@ pub fn hessian_error(seed: u64) -> f64 {
             - (torques(j, 2.0 * h) - torques(j, -2.0 * h)))
             / (12.0 * h);
         for i in 0..n {
-            let error = (hessian[(i, j)] - column[i]).abs() / hessian.amax();
+            let error = (hessian[(i, j)] - column[i]).abs() / hessian.largest_entry();
             // NaN counts as the worst.
             if error.is_nan() || error > worst {
                 worst = error;

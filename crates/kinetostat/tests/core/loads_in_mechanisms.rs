@@ -9,6 +9,7 @@ use kinetostat::{
     MotionKind, Platform, Pose, Posture, Settings, Twist, Wrench, is_conservative, load_energy,
     moved, pose_residual, solve_chain,
 };
+use kinetostat_testing::{LargestEntry, largest_size};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};
 use proptest::prelude::*;
 
@@ -132,7 +133,7 @@ fn at_home(machine: &Mechanism) -> Posture<'_> {
 
 fn same(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
     assert_eq!(found.len(), expected.len(), "{what}");
-    let size = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let size = largest_size(expected.iter().copied());
     for (f, e) in found.iter().zip(expected) {
         let off = (f - e).abs();
         assert!(off <= tolerance * size, "{what}: {found:?} {expected:?}");
@@ -154,7 +155,7 @@ fn compare(label: &str, machine: &Mechanism, chain: &Chain, loads: &[Load], wren
     problem.loads.push(Load::gravity(GRAVITY));
     let alone = solve_chain(&problem, &tight).unwrap_or_else(|x| panic!("{label}: {x}"));
 
-    let apart = pose_residual(&e.tool, &alone.tip).0.amax();
+    let apart = pose_residual(&e.tool, &alone.tip).0.largest_entry();
     assert!(apart < 1e-10, "{label}: tool {apart:e}");
     let coordinates: Vec<f64> = e.state.coordinates.concat();
     same("coordinates", &coordinates, &alone.coordinates, 1e-10);
@@ -302,7 +303,7 @@ fn the_wrench_that_holds_a_loaded_machine_is_the_derivative_of_its_energy() {
         let here = posture.wrench_at(&pose).unwrap();
         assert!(here.conservative);
         let (gradient, _) = by_differences(&posture, &pose, 2e-3);
-        let off = (gradient - here.wrench.0).amax() / here.wrench.0.amax();
+        let off = (gradient - here.wrench.0).largest_entry() / here.wrench.0.largest_entry();
         assert!(off < 1e-7, "{seed}: {off:e}\n{gradient}\n{:?}", here.wrench);
     }
 }
@@ -366,9 +367,7 @@ fn links_bow_in_closed_loops() {
         assert!((0.1..1.0).contains(&pressed.share), "{pressed:?}");
         let (gradient, stiffness) = by_differences(&posture, &e.tool, 1e-5);
         let unit = |i: usize| if i < 3 { 1.0 } else { 0.3 };
-        let size = (0..6)
-            .map(|i| (pull.0[i] / unit(i)).abs())
-            .fold(0.0, f64::max);
+        let size = largest_size((0..6).map(|i| pull.0[i] / unit(i)));
         for i in 0..6 {
             let off = (gradient[i] - pull.0[i]).abs() / unit(i);
             assert!(off < 1e-6 * size, "{segments}: {i} {off:e}");
@@ -391,7 +390,7 @@ fn a_machine_with_platforms_in_between_is_commanded_at_home() {
     }
     let e = posture.deflected_by(&Wrench::zero()).unwrap();
     let by_joints = at_home(&machine).deflected_by(&Wrench::zero()).unwrap();
-    assert!(pose_residual(&e.tool, &by_joints.tool).0.amax() < 1e-9);
+    assert!(pose_residual(&e.tool, &by_joints.tool).0.largest_entry() < 1e-9);
     // Newton: the last correction is a small share of the one before.
     assert!(e.residual.rate.unwrap() < 1e-2, "{:?}", e.residual);
     let elsewhere = home * Pose::translation(0.01, 0.0, 0.0);

@@ -9,6 +9,7 @@ use kinetostat::{
     LengthLaw, LengthResponse, Load, MotionKind, Pose, Prescribed, Settings, Twist, Wrench,
     check_tangents, is_conservative, load_energy, moved, solve_chain,
 };
+use kinetostat_testing::largest_size;
 use nalgebra::{DMatrix, Matrix3, Vector3, vector};
 use proptest::prelude::*;
 
@@ -147,7 +148,7 @@ proptest! {
                 continue;
             }
             let torque = torque(&r, &load, &x);
-            let size = torque.iter().fold(1.0_f64, |m, t| m.max(t.abs()));
+            let size = largest_size(torque.iter().copied().chain([1.0]));
             for (i, torque) in torque.iter().enumerate() {
                 let at = |s: f64| {
                     let mut near = x.clone();
@@ -279,7 +280,7 @@ fn work_of_the_end_is_the_change_of_all_energies() {
         };
         let work = (16.0 * simpson(1) - simpson(2)) / 15.0;
         let change = points[16].0 - points[0].0;
-        let size = points.iter().fold(1e-3_f64, |m, p| m.max(p.1.abs()));
+        let size = largest_size(points.iter().map(|p| p.1).chain([1e-3]));
         close("work", work, change, 1e-8 * size);
         done += 1;
     }

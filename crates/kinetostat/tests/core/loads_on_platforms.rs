@@ -7,6 +7,7 @@ use kinetostat::{
     Chain, LengthLaw, Mechanism, MotionKind, PlatformLoad, Pose, Twist, Wrench, moved,
     pose_residual,
 };
+use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, vector};
 
 /// One of every kind, none of them on an axis, between platforms 0 to 2.
@@ -76,7 +77,7 @@ fn somewhere(rng: &mut Rng) -> Vec<Pose> {
 /// energy, relative: the worst of all kinds.
 pub fn derivatives_apart() -> [f64; 2] {
     let mut rng = Rng(5);
-    let mut worst = [0.0_f64; 2];
+    let mut worst = <[Worst; 2]>::default();
     for load in every_kind() {
         for _ in 0..5 {
             let poses = somewhere(&mut rng);
@@ -101,8 +102,10 @@ pub fn derivatives_apart() -> [f64; 2] {
                 differences.set_column(column, &(change / 12e-3));
             }
             let moving = (6, 6);
-            let apart = (&tangent - &differences).view(moving, (12, 12)).amax();
-            worst[0] = worst[0].max(apart / differences.amax());
+            let apart = (&tangent - &differences)
+                .view(moving, (12, 12))
+                .largest_entry();
+            worst[0].add(apart / differences.largest_entry());
             let wrench = stacked(&load, &poses);
             let Some(_) = load.energy(&poses) else {
                 assert!(!load.conservative());
@@ -111,11 +114,11 @@ pub fn derivatives_apart() -> [f64; 2] {
             for column in 6..18 {
                 let at = |share: f64| load.energy(&near(column, share)).unwrap();
                 let slope = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / 12e-3;
-                worst[1] = worst[1].max((slope + wrench[column]).abs() / wrench.amax());
+                worst[1].add((slope + wrench[column]).abs() / wrench.largest_entry());
             }
         }
     }
-    worst
+    worst.map(|w| w.value())
 }
 
 #[test]
@@ -139,7 +142,10 @@ fn action_is_reaction_and_frames_do_not_matter() {
                     let arm = poses[*p].translation.vector;
                     sum + Wrench::new(w.force(), w.moment() + arm.cross(&w.force()))
                 });
-                assert!(sum.0.amax() < 1e-12 * list[0].1.0.amax(), "{strut:?}");
+                assert!(
+                    sum.0.largest_entry() < 1e-12 * list[0].1.0.largest_entry(),
+                    "{strut:?}"
+                );
                 // And everything turns with the machine.
                 let turn = rng.pose(2.0, 2.0);
                 let elsewhere: Vec<Pose> = poses.iter().map(|p| turn * p).collect();
@@ -147,8 +153,8 @@ fn action_is_reaction_and_frames_do_not_matter() {
                 load.wrenches(&elsewhere, &mut turned);
                 let rotation = turn.rotation.to_rotation_matrix();
                 for ((_, w), (_, other)) in list.iter().zip(&turned) {
-                    let off = (w.rotated(&rotation).0 - other.0).amax();
-                    assert!(off < 1e-11 * w.0.amax(), "{off:e}");
+                    let off = (w.rotated(&rotation).0 - other.0).largest_entry();
+                    assert!(off < 1e-11 * w.0.largest_entry(), "{off:e}");
                 }
             }
         }
@@ -174,7 +180,7 @@ fn loaded_wrist(loads: Vec<PlatformLoad>) -> Mechanism {
 /// Machines with loads on platforms against the flattened system: displacement and stiffness,
 /// relative.
 pub fn loaded_apart() -> [f64; 2] {
-    let mut worst = [0.0_f64; 2];
+    let mut worst = <[Worst; 2]>::default();
     let machine = loaded_wrist(every_kind());
     let home = machine.platforms()[machine.tool()].home;
     let posture = machine.posture(&home).unwrap();
@@ -184,9 +190,9 @@ pub fn loaded_apart() -> [f64; 2] {
     flat.load = pull.0;
     flat.solve(false);
     let apart = pose_residual(&e.tool, &flat.platforms[machine.tool()]).0;
-    worst[0] = worst[0].max(apart.norm() / e.displacement.0.norm());
-    worst[1] = worst[1].max(balanced_error(&e.stiffness.matrix, &flat.stiffness()));
-    worst
+    worst[0].add(apart.norm() / e.displacement.0.norm());
+    worst[1].add(balanced_error(&e.stiffness.matrix, &flat.stiffness()));
+    worst.map(|w| w.value())
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! matrices, by known closed forms, and by differences.
 
 use kinetostat::*;
+use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector3, vector};
 
 use crate::common::invariants::assert_chain_equilibrium;
@@ -163,8 +164,11 @@ fn equilibria_of_long_chains_hold_before_the_oracle() {
             balanced(&e.stiffness.cartesian.matrix, length),
             balanced(&expected, length),
         );
-        let off = (found - expected).amax();
-        assert!(off < 1e-8 * expected.amax(), "{case}: K_C off by {off:.2e}");
+        let off = (found - expected).largest_entry();
+        assert!(
+            off < 1e-8 * expected.largest_entry(),
+            "{case}: K_C off by {off:.2e}"
+        );
         let (found, expected) = (
             e.stability.share_to_buckling.unwrap(),
             oracle_share(&problem, &e),
@@ -176,7 +180,7 @@ fn equilibria_of_long_chains_hold_before_the_oracle() {
         let mode = DVector::from_row_slice(&e.stability.mode);
         let moved = frames.jacobian(frames.tip()) * mode;
         assert!(
-            moved.amax() < 1e-8 * length,
+            moved.largest_entry() < 1e-8 * length,
             "{case}: the mode moves the end"
         );
     }
@@ -209,8 +213,9 @@ fn stiffness_of_long_chains_is_the_derivative_of_the_wrench() {
             let column = k.column(direction);
             for i in 0..6 {
                 let arm = if i < 3 { 1.0 } else { length };
-                let size =
-                    balanced(&k, length).amax() * arm * if direction < 3 { 1.0 } else { length };
+                let size = balanced(&k, length).largest_entry()
+                    * arm
+                    * if direction < 3 { 1.0 } else { length };
                 assert!(
                     (slope[i] - column[i]).abs() < 1e-7 * size,
                     "{case}, {i} {direction}: {} {}",

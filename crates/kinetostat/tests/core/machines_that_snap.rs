@@ -6,6 +6,7 @@ use kinetostat::{
     Mechanism, MotionKind, Parameter, PathPoint, PathSpecialKind, Platform, Pose, Posture,
     Prescribed, SpreadSettings, Twist, Wrench, moved,
 };
+use kinetostat_testing::{LargestEntry, Worst, largest, least as least_of};
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6, vector};
 
 use crate::common::assert_equilibrium;
@@ -62,13 +63,13 @@ pub fn truss_path_apart() -> [f64; 3] {
     let mut settings = CurveSettings::within(-0.3 * h, 2.4 * h);
     settings.largest_change = Some(0.05 * h);
     let by_motion = posture.path(&down(), &hold, &settings).unwrap();
-    let mut worst = [0.0_f64; 3];
+    let mut worst = <[Worst; 3]>::default();
     for path in [&by_load, &by_motion] {
         for p in &path.points {
             let z = p.equilibrium.tool.translation.z;
             let force = truss_force(b, h, k, z);
             let off = (p.equilibrium.wrench.force().z - force).abs() / (k * h);
-            worst[0] = worst[0].max(off);
+            worst[0].add(off);
             // dF/dz > 0 holds under a dead load; held it always does.
             let l = b.hypot(z);
             let slope = 1.0 - unloaded * b * b / l.powi(3);
@@ -85,7 +86,7 @@ pub fn truss_path_apart() -> [f64; 3] {
         assert_eq!(limits.len(), 2);
         for (found, expected) in limits.iter().zip([limit, -limit]) {
             let z = found.equilibrium.tool.translation.z;
-            worst[1] = worst[1].max((z - expected).abs() / h);
+            worst[1].add((z - expected).abs() / h);
         }
         // Through at the first, and back at the second: the same force on the other side.
         assert_eq!(path.jumps.len(), 2);
@@ -100,10 +101,10 @@ pub fn truss_path_apart() -> [f64; 3] {
                 }
             }
             let z = jump.to[0].equilibrium.tool.translation.z;
-            worst[2] = worst[2].max((z - side * near).abs() / h);
+            worst[2].add((z - side * near).abs() / h);
         }
     }
-    worst
+    worst.map(|w| w.value())
 }
 
 #[test]
@@ -208,19 +209,16 @@ fn against_energy(
     free: &[usize],
 ) -> f64 {
     let wrench = |p: &PathPoint| p.equilibrium.wrench.0;
-    let size = path
-        .points
-        .iter()
-        .map(|p| wrench(p).amax())
-        .fold(0.0, f64::max);
-    let mut worst = 0.0_f64;
+    let size = path.points.iter().map(|p| wrench(p).largest_entry());
+    let size = largest(size);
+    let mut worst = Worst::new();
     for p in &path.points {
-        if wrench(p).amax() > 1e-6 * size {
+        if wrench(p).largest_entry() > 1e-6 * size {
             assert_equilibrium(posture, &p.equilibrium);
         }
         let pose = &p.equilibrium.tool;
         let gradient = legs.gradient(pose);
-        worst = worst.max((gradient - wrench(p)).amax() / size);
+        worst.add((gradient - wrench(p)).largest_entry() / size);
         let hessian = legs.hessian(pose);
         let verdicts = [(p.held, free.to_vec()), (p.dead, [driven, free].concat())];
         for (found, directions) in verdicts {
@@ -236,7 +234,7 @@ fn against_energy(
             );
         }
     }
-    worst
+    worst.of(path.points.len())
 }
 
 /// Three paths of a hexapod near its flat posture, against the energy of its legs; the last is
@@ -249,18 +247,18 @@ pub fn hexapod_path_apart() -> [f64; 2] {
     let posture = machine.posture(&home).unwrap();
     let mut settings = CurveSettings::within(-0.4 * height, 2.3 * height);
     settings.largest_change = Some(0.04 * height);
-    let mut worst = [0.0_f64; 2];
+    let mut worst = <[Worst; 2]>::default();
 
     // Held in all other directions: straight through.
     let hold = EndCondition::pose(home);
     let path = posture.path(&down(), &hold, &settings).unwrap();
     assert_eq!(path.ends, [BranchEnd::Range; 2]);
-    worst[0] = worst[0].max(against_energy(&legs, &posture, &path, &[2], &[]));
+    worst[0].add(against_energy(&legs, &posture, &path, &[2], &[]));
     let limits = of_kind(&path, PathSpecialKind::LoadLimit);
     assert_eq!(limits.len(), 2);
     for limit in limits {
         let stiffness = legs.hessian(&limit.equilibrium.tool)[(2, 2)];
-        worst[1] = worst[1].max(stiffness.abs() / k);
+        worst[1].add(stiffness.abs() / k);
     }
 
     // By a pin: free in all other directions, with a weight across so that nothing is symmetric.
@@ -269,7 +267,7 @@ pub fn hexapod_path_apart() -> [f64; 2] {
         Wrench::new(vector![300.0, -200.0, 0.0], vector![10.0, 4.0, -6.0]),
     );
     let path = posture.path(&down(), &pin, &settings).unwrap();
-    worst[0] = worst[0].max(against_energy(
+    worst[0].add(against_energy(
         &legs,
         &posture,
         &path,
@@ -281,8 +279,8 @@ pub fn hexapod_path_apart() -> [f64; 2] {
         let unit = |i: usize| if i < 3 { 1.0 } else { 0.3 };
         let hessian = Matrix6::from_fn(|i, j| hessian[(i, j)] / (unit(i) * unit(j)));
         let values = hessian.symmetric_eigenvalues();
-        let nearest = values.iter().map(|v| v.abs()).fold(f64::INFINITY, f64::min);
-        worst[1] = worst[1].max(nearest / k);
+        let nearest = least_of(values.iter().map(|v| v.abs()));
+        worst[1].add(nearest / k);
     }
 
     // A force off the axis that grows both ways; the tool is free.
@@ -294,8 +292,8 @@ pub fn hexapod_path_apart() -> [f64; 2] {
     let end = EndCondition::wrench(Wrench::zero());
     let path = posture.path(&push, &end, &settings).unwrap();
     assert!(path.points.len() > 20);
-    worst[0] = worst[0].max(against_energy(&legs, &posture, &path, &[], &[]));
-    worst
+    worst[0].add(against_energy(&legs, &posture, &path, &[], &[]));
+    worst.map(|w| w.value())
 }
 
 #[test]
@@ -334,7 +332,7 @@ fn toggle_frame(angle: f64, k: f64) -> Mechanism {
 /// [R 5.45]: worst of the critical displacement and force against `cos^3 phi = cos phi0` and
 /// `3 K L sin^3 phi`, relative; and against the print's limits for small angles.
 pub fn toggle_frame_apart() -> [f64; 2] {
-    let (k, mut exact, mut small) = (2e5, 0.0_f64, 0.0_f64);
+    let (k, mut exact, mut small) = (2e5, Worst::new(), Worst::new());
     for angle in [0.01, 0.05, 0.1, 0.3, 0.8] {
         let machine = toggle_frame(angle, k);
         let home = machine.platforms()[machine.tool()].home;
@@ -350,17 +348,17 @@ pub fn toggle_frame_apart() -> [f64; 2] {
         let phi = angle.cos().cbrt().acos();
         let (moved, force) = (far - phi.sin(), 3.0 * k * phi.sin().powi(3));
         let found = limits[0];
-        exact = exact.max((found.parameter / moved - 1.0).abs());
-        exact = exact.max((found.conjugate / force - 1.0).abs());
+        exact.add((found.parameter / moved - 1.0).abs());
+        exact.add((found.conjugate / force - 1.0).abs());
         let start = &path.points[path.start];
-        exact = exact.max((start.slope / (3.0 * k * angle.tan().powi(2)) - 1.0).abs());
+        exact.add((start.slope / (3.0 * k * angle.tan().powi(2)) - 1.0).abs());
         if angle == 0.01 {
             let root = 3.0_f64.sqrt();
-            small = small.max((found.parameter / ((1.0 - 1.0 / root) * far) - 1.0).abs());
-            small = small.max((found.conjugate / (k * far.powi(3) / root) - 1.0).abs());
+            small.add((found.parameter / ((1.0 - 1.0 / root) * far) - 1.0).abs());
+            small.add((found.conjugate / (k * far.powi(3) / root) - 1.0).abs());
         }
     }
-    [exact, small]
+    [exact.of(3 * 5), small.of(2)]
 }
 
 #[test]

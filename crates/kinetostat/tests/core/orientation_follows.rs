@@ -4,6 +4,7 @@ use kinetostat::{
     ActuatorSpec, Chain, ChainBuilder, Error, Mechanism, MotionKind, Platform, Pose, Settings,
     SingularityKind, Wrench, compensate, compensate_following,
 };
+use kinetostat_testing::{LargestEntry, least};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3, vector};
 use proptest::prelude::*;
 
@@ -152,7 +153,7 @@ proptest! {
         let curve = (-400..=400).map(|k| at(in_line(phi + f64::from(k) * 1e-4)).translation.vector);
         let curve: Vec<Vector3<f64>> = curve.collect();
         let nearest = |from: &Vector3<f64>| {
-            curve.iter().map(|c| (c - from).norm()).fold(f64::INFINITY, f64::min)
+            least(curve.iter().map(|c| (c - from).norm()))
         };
         let here = pose.translation.vector;
         let there = here + gained.way.linear() * gained.distance_m;
@@ -412,8 +413,11 @@ fn a_machine_that_holds_its_orientation_gives_the_same_correction_either_way() {
     .unwrap();
     let positions = [true, true, true, false, false, false];
     let held = compensate(&machine, &wanted, &wrench, positions, &Settings::default()).unwrap();
-    let apart = (follows.correction.0 - held.correction.0).amax();
-    assert!(held.correction.0.amax() > 1e-5 && apart < 1e-12, "{apart}");
+    let apart = (follows.correction.0 - held.correction.0).largest_entry();
+    assert!(
+        held.correction.0.largest_entry() > 1e-5 && apart < 1e-12,
+        "{apart}"
+    );
 }
 
 #[test]

@@ -6,6 +6,7 @@ use crate::common::{
     numbers, rank,
 };
 use kinetostat::{MechanismEquilibrium, Pose, Role, Twist, Wrench, compensate};
+use kinetostat_testing::{LargestEntry, largest_size};
 use nalgebra::{Matrix6, Vector3};
 use serde_json::Value;
 
@@ -43,10 +44,6 @@ pub fn milling(file: &Value) -> Wrench {
 pub fn mm(twist: &Twist) -> [f64; 3] {
     let d = twist.linear() * 1e3;
     [d.x, d.y, d.z]
-}
-
-pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
 #[test]
@@ -106,9 +103,9 @@ fn unloaded_compliance_and_legs_of_section_2_4() {
             let (found, expected) = (to_mm(&limb.cartesian.matrix), matrix(own));
             let size = |i: usize| {
                 if i < 3 {
-                    expected.fixed_view::<3, 3>(0, 0).amax()
+                    expected.fixed_view::<3, 3>(0, 0).largest_entry()
                 } else {
-                    expected.fixed_view::<3, 3>(3, 3).amax()
+                    expected.fixed_view::<3, 3>(3, 3).largest_entry()
                 }
             };
             for i in 0..6 {
@@ -214,7 +211,7 @@ fn the_platform_shifts_with_position_errors_as_in_table_6_1() {
             1e-9,
         );
         assert!(linear.shift.angular().norm() < 1e-12, "{q}");
-        let dq = largest(linear.passive.iter().flatten().copied()).to_degrees();
+        let dq = largest_size(linear.passive.iter().flatten().copied()).to_degrees();
         close(&q, dq, number(&computed["linear_dq_max_deg"]), 1e-9);
         all_close(&q, &mm(&linear.shift), &numbers(&printed["dp"]), 0.005001);
         close(&q, dq, number(&printed["dq_max_deg"]), 0.005001);
@@ -242,7 +239,7 @@ fn the_platform_shifts_with_position_errors_as_in_table_6_1() {
         });
         close(
             &q,
-            largest(moved).to_degrees(),
+            largest_size(moved).to_degrees(),
             number(&computed["exact_dq_max_deg"]),
             1e-8,
         );
@@ -277,17 +274,17 @@ fn turned_actuator_lines_strain_the_machine_as_in_table_6_2() {
             .map(|x| x.to_degrees())
             .collect();
         all_close(q, &degrees, &numbers(&own["phi_deg"]), 1e-9);
-        let m = largest(
+        let m = largest_size(
             linear
                 .wrenches
                 .iter()
                 .flat_map(|w| w.moment().as_slice().to_vec()),
         );
         close(q, m, number(&own["M_max_Nm"]), 1e-8);
-        let dq = largest(linear.passive.iter().flatten().copied()).to_degrees();
+        let dq = largest_size(linear.passive.iter().flatten().copied()).to_degrees();
         close(q, dq, number(&own["dq_max_deg"]), 1e-9);
         let of = |turning: bool| {
-            largest(linear.springs.iter().flat_map(|l| {
+            largest_size(linear.springs.iter().flat_map(|l| {
                 l.iter()
                     .zip(&rotations)
                     .filter(|(_, r)| **r == turning)
@@ -326,12 +323,12 @@ fn turned_actuator_lines_strain_the_machine_as_in_table_6_2() {
             .map(|x| x.to_degrees())
             .collect();
         all_close(q, &degrees, &numbers(&nonlinear["phi_deg"]), 1e-9);
-        let moment = largest(
+        let moment = largest_size(
             e.limbs
                 .iter()
                 .flat_map(|l| l.wrench.moment().as_slice().to_vec()),
         );
-        let force = largest(
+        let force = largest_size(
             e.limbs
                 .iter()
                 .flat_map(|l| l.wrench.force().as_slice().to_vec()),

@@ -6,6 +6,7 @@ use kinetostat::{
     ActuatorSpec, BeamSection, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
     SingularityKind, Twist, Wrench, moved,
 };
+use kinetostat_testing::{LargestEntry, Worst, largest};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};
 
 const THIRD: f64 = 2.0 * std::f64::consts::FRAC_PI_3;
@@ -57,19 +58,11 @@ pub fn internal_wrenches() -> [f64; 2] {
     let shift = e.displacement.0.norm();
     assert!(shift > 1e-5, "the errors move the tool: {shift:e}");
     // Against the wrenches that such a shift would cost if the tool were held.
-    let k = e.stiffness.matrix.amax();
-    let internal = e
-        .limbs
-        .iter()
-        .map(|l| l.wrench.0.norm())
-        .fold(0.0, f64::max);
+    let k = e.stiffness.matrix.largest_entry();
+    let internal = largest(e.limbs.iter().map(|l| l.wrench.0.norm()));
     let determinate = internal / (k * shift);
     let linear = posture.linear_assembly(&posture.assembly_errors()).unwrap();
-    let most = linear
-        .wrenches
-        .iter()
-        .map(|w| w.0.norm())
-        .fold(0.0, f64::max);
+    let most = largest(linear.wrenches.iter().map(|w| w.0.norm()));
     assert!(most < 1e-9 * k * shift, "{most:e}");
 
     let machine = Orthoglide {
@@ -91,12 +84,8 @@ pub fn internal_wrenches() -> [f64; 2] {
         assert!(stress.wrenches.len() >= 2);
     }
     let e = posture.deflected_by(&Wrench::zero()).unwrap();
-    let internal = e
-        .limbs
-        .iter()
-        .map(|l| l.wrench.0.norm())
-        .fold(0.0, f64::max);
-    let size = e.stiffness.matrix.amax() * e.displacement.0.norm();
+    let internal = largest(e.limbs.iter().map(|l| l.wrench.0.norm()));
+    let size = e.stiffness.matrix.largest_entry() * e.displacement.0.norm();
     [determinate, internal / size]
 }
 
@@ -222,7 +211,7 @@ pub fn planar_3_rrr_apart() -> f64 {
     let planar = Planar::new();
     let home = vector![0.02, -0.03, 0.1];
     let machine = planar.machine(&home);
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for (target, load) in [
         (home, vector![30.0, -20.0, 2.0]),
         (vector![-0.05, 0.04, -0.1], vector![-15.0, 40.0, -3.0]),
@@ -247,9 +236,9 @@ pub fn planar_3_rrr_apart() -> f64 {
         assert!(e.stable());
         let expected = planar.pose(&planar.minimum(&target, &load));
         let off = kinetostat::pose_residual(&e.tool, &expected).0.norm();
-        worst = worst.max(off / e.displacement.0.norm());
+        worst.add(off / e.displacement.0.norm());
     }
-    worst
+    worst.value()
 }
 
 /// `sum k n n^T` of legs that take axial force only, by hand.
@@ -301,7 +290,7 @@ pub fn hexapod_apart() -> f64 {
     }
     let home = Pose::translation(0.0, 0.0, 0.7);
     let machine = hexapod(3e7, &ends, &home);
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for step in 0..6 {
         let twist = Twist::new(rng.vector(0.1), rng.vector(0.3));
         let target = if step == 0 {
@@ -315,11 +304,11 @@ pub fn hexapod_apart() -> f64 {
             assert!((command - way.norm()).abs() < 1e-12);
         }
         let k = posture.stiffness().unwrap().cartesian.matrix;
-        worst = worst.max(balanced_error(&k, &by_legs(3e7, &ends, &target)));
+        worst.add(balanced_error(&k, &by_legs(3e7, &ends, &target)));
         assert_eq!(posture.overconstraint().degree, 0);
         assert_eq!(posture.redundancy(), 0);
     }
-    worst
+    worst.value()
 }
 
 /// Stewart's cubic hexapod against its closed form, relative.
@@ -425,7 +414,7 @@ pub fn delta_apart() -> f64 {
     let k = 4000.0;
     let (machine, rod) = delta(k);
     let home = machine.platforms()[machine.tool()].home;
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for offset in [
         Vector3::zeros(),
         vector![0.1, -0.05, 0.08],
@@ -453,7 +442,7 @@ pub fn delta_apart() -> f64 {
             .filter(|d| d.kind == DirectionKind::Rigid);
         assert_eq!(rigid.count(), 3, "{:?}", found.directions);
         let block = found.cartesian.matrix.fixed_view::<3, 3>(0, 0).into_owned();
-        worst = worst.max((block - expected).amax() / expected.amax());
+        worst.add((block - expected).largest_entry() / expected.largest_entry());
         let pull = Wrench::new(vector![20.0, -10.0, -30.0], Vector3::zeros());
         let e = posture.deflected_by(&pull).unwrap();
         assert_equilibrium(&posture, &e);
@@ -461,12 +450,12 @@ pub fn delta_apart() -> f64 {
         let turned = e.displacement.angular().norm();
         assert!(turned < 1e-12, "a Delta does not turn: {turned:e}");
     }
-    worst
+    worst.value()
 }
 
 /// A Tripteron against the diagonal of its drives, relative.
 pub fn tripteron_apart() -> f64 {
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     let stiffness = [2e6, 3e6, 5e6];
     let mut builder = Mechanism::builder("tripteron");
     let tool = builder.platform(Platform::new("tool", Pose::identity()));
@@ -507,9 +496,9 @@ pub fn tripteron_apart() -> f64 {
         let k = posture.stiffness().unwrap();
         let block = k.cartesian.matrix.fixed_view::<3, 3>(0, 0).into_owned();
         let expected = Matrix3::from_diagonal(&Vector3::from(stiffness));
-        worst = worst.max((block - expected).amax() / 5e6);
+        worst.add((block - expected).largest_entry() / 5e6);
     }
-    worst
+    worst.value()
 }
 
 /// Two elastic sliding legs from the left and the right in the plane x, z: a truss that snaps.
@@ -553,22 +542,22 @@ pub fn truss_apart() -> [f64; 2] {
     let curve = posture.held_along(&up, &way, None).unwrap();
     assert!(curve.ended.is_none());
     let free = (b * b + h * h).sqrt();
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for point in &curve.points {
         let z = h + point.along;
         let l = (b * b + z * z).sqrt();
         let force = 2.0 * k * (l - free) * z / l;
-        worst = worst.max((point.force - force).abs() / (k * h));
+        worst.add((point.force - force).abs() / (k * h));
     }
     // dF/dz = 0 where l^3 = free b^2.
     let limit = ((free * b * b).powf(2.0 / 3.0) - b * b).sqrt();
     assert_eq!(curve.limits.len(), 2);
-    let mut limits = 0.0_f64;
+    let mut limits = Worst::new();
     for (found, expected) in curve.limits.iter().zip([limit, -limit]) {
         let off = (h + found.along - expected).abs();
-        limits = limits.max(off);
+        limits.add(off);
     }
-    [worst, limits]
+    [worst.value(), limits.value()]
 }
 
 /// The same truss pushed down while its tool is free to swerve, with a soft spring across so that

@@ -11,6 +11,7 @@ use crate::common::balanced_error;
 use crate::graphs::limb;
 use crate::oracle::{Frames, balanced_solve, springs};
 use kinetostat::{Chain, Mechanism, MotionKind, Platform, Pose, Posture, Twist, Wrench, moved};
+use kinetostat_testing::Worst;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6, vector};
 
 const LENGTH: f64 = 0.31;
@@ -76,7 +77,7 @@ fn aside(q: f64) -> Twist {
 
 /// Stiffness unloaded, and the wrench under a displacement, relative.
 pub fn parallelogram_apart() -> [f64; 2] {
-    let (mut worst, mut apart) = (0.0_f64, 0.0_f64);
+    let (mut worst, mut apart) = (Worst::new(), Worst::new());
     for q in INCLINATIONS {
         let (lumped, bars, far) = machines(q);
         let (a, b) = (lumped.posture(&far).unwrap(), bars.posture(&far).unwrap());
@@ -86,13 +87,13 @@ pub fn parallelogram_apart() -> [f64; 2] {
         let (ka, kb) = (a.stiffness().unwrap(), b.stiffness().unwrap());
         assert_eq!(ka.rank(), 5);
         assert_eq!(kb.rank(), 5);
-        worst = worst.max(balanced_error(&kb.cartesian.matrix, &ka.cartesian.matrix));
+        worst.add(balanced_error(&kb.cartesian.matrix, &ka.cartesian.matrix));
         let pose = moved(&far, &aside(q));
         let (x, y) = (a.wrench_at(&pose).unwrap(), b.wrench_at(&pose).unwrap());
         let d = (x.wrench.0 - y.wrench.0).norm() / x.wrench.0.norm();
-        apart = apart.max(d);
+        apart.add(d);
     }
-    [worst, apart]
+    [worst.value(), apart.value()]
 }
 
 /// `-1/2 sum F . c2(y, y)` of all limbs that end at the tool, of the linear answer to a displacement,
@@ -150,7 +151,7 @@ fn balanced(wrench: &Vector6<f64>) -> f64 {
 /// predicted term leaves of it at the smallest displacement, and the stiffness that a turn about the
 /// pivots' axis gains from tension, against its closed form.
 pub fn left_out() -> [f64; 3] {
-    let (mut growth, mut explained, mut term) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut growth, mut explained, mut term) = (Worst::new(), Worst::new(), Worst::new());
     for q in INCLINATIONS {
         let (lumped, bars, far) = machines(q);
         let (a, b) = (lumped.posture(&far).unwrap(), bars.posture(&far).unwrap());
@@ -174,8 +175,8 @@ pub fn left_out() -> [f64; 3] {
             }
             before = Some((size, left));
         }
-        growth = growth.max((last - 2.0_f64).abs());
-        explained = explained.max(before.unwrap().1);
+        growth.add((last - 2.0_f64).abs());
+        explained.add(before.unwrap().1);
         // Tension N in the bars, the far beam turned by psi: the bars incline by -+ psi d sin q / 2L
         // against each other, which costs N d^2 psi^2 sin^2 q / (8 L). The lumped link has one bar.
         let stretch = 1e-6;
@@ -186,9 +187,9 @@ pub fn left_out() -> [f64; 3] {
         let gained = k(&b) - k(&a);
         let formula = tension * (WIDTH * q.sin()).powi(2) / (4.0 * LENGTH);
         let size = tension * WIDTH * WIDTH / (4.0 * LENGTH);
-        term = term.max((gained - formula).abs() / size);
+        term.add((gained - formula).abs() / size);
     }
-    [growth, explained, term]
+    [growth, explained, term].map(|w| w.value())
 }
 
 #[test]

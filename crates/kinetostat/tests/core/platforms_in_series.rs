@@ -7,6 +7,7 @@ use kinetostat::{
     ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture, SingularityKind, Twist,
     moved,
 };
+use kinetostat_testing::least as least_of;
 use nalgebra::{Matrix3, RowVector3, Vector2, Vector3, Vector6, vector};
 
 /// Feet and heads of the legs of one planar stage, and its platform seen from the one below.
@@ -217,7 +218,7 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
                 let there = machine.posture_near(&target, &posture).unwrap();
                 let least = |p: &Posture<'_>| {
                     let sizes = lines(&stages, p).into_iter().map(f64::abs);
-                    sizes.fold(f64::INFINITY, f64::min)
+                    least_of(sizes)
                 };
                 assert!(
                     least(&there) < 1e-3 * least(&posture),

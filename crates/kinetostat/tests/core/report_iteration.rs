@@ -10,6 +10,7 @@ use kinetostat::{
     Kinematics, ReportIteration, Settings, Twist, moved, newton_iteration, report_iteration,
     solve_chain,
 };
+use kinetostat_testing::{LargestEntry, Worst, largest, largest_size};
 use nalgebra::DMatrix;
 
 /// One row of the table.
@@ -81,7 +82,7 @@ fn error(state: &ChainState, exact: &Equilibrium) -> f64 {
     let count = exact.coordinates.len();
     let count = if count == 4 { 3 } else { count };
     let pairs = state.coordinates.iter().zip(&exact.coordinates).take(count);
-    pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+    largest_size(pairs.map(|(a, b)| a - b))
 }
 
 /// Steps after which the error is below 1e-10.
@@ -230,7 +231,7 @@ fn under_tension_it_alternates_although_the_shape_is_stable() {
             };
             let apart = |a: &ChainState, b: &ChainState| {
                 let pairs = a.coordinates.iter().zip(&b.coordinates);
-                pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
+                largest_size(pairs.map(|(a, b)| a - b))
             };
             assert!(apart(&two[0], &two[1]) > 1e-3);
             // One more step from either lands on the other.
@@ -323,8 +324,8 @@ fn spatial_run(problem: &ChainProblem<'_>, exact: &Equilibrium) -> SpatialRun {
     let h = kinematics.hessian(&[(chain.tip(), exact.wrench)]);
     let j = kinematics.jacobian(chain.tip());
     let w = |i: usize| j.fixed_view::<3, 1>(3, i).into_owned();
-    let size = h.view((0, 0), (n, n)).amax();
-    let (mut rule, mut asymmetry) = (0.0_f64, 0.0_f64);
+    let size = h.view((0, 0), (n, n)).largest_entry();
+    let (mut rule, mut asymmetry) = (Worst::new(), Worst::new());
     // The rule speaks of elementary motions; a coordinate that drives two has no single axis.
     let single = |i: usize| {
         let drives = chain.elements().iter().filter(|e| {
@@ -337,8 +338,8 @@ fn spatial_run(problem: &ChainProblem<'_>, exact: &Equilibrium) -> SpatialRun {
         for b in (0..n).filter(|&i| single(i)) {
             let expected = exact.wrench.moment().dot(&w(b).cross(&w(a)));
             let difference = h[(a, b)] - h[(b, a)];
-            rule = rule.max((difference - expected).abs() / size);
-            asymmetry = asymmetry.max(difference.abs() / size);
+            rule.add((difference - expected).abs() / size);
+            asymmetry.add(difference.abs() / size);
         }
     }
     let mut rng = Rng(n as u64);
@@ -348,8 +349,8 @@ fn spatial_run(problem: &ChainProblem<'_>, exact: &Equilibrium) -> SpatialRun {
     let newton = newton_iteration(problem, Some(start), &settings).unwrap();
     SpatialRun {
         moment: exact.wrench.moment().norm(),
-        rule,
-        asymmetry,
+        rule: rule.value(),
+        asymmetry: asymmetry.value(),
         report,
         newton_errors: newton.path.iter().map(|s| error(s, exact)).collect(),
         mu: oracle_rate(problem, exact),
@@ -376,7 +377,7 @@ fn oracle_rate(problem: &ChainProblem<'_>, e: &Equilibrium) -> f64 {
         .collect();
     let scaled = DMatrix::from_fn(6, n, |r, c| j[(r, c)] * unit[c]);
     let eigen = (scaled.transpose() * &scaled).symmetric_eigen();
-    let most = eigen.eigenvalues.amax();
+    let most = eigen.eigenvalues.largest_entry();
     let null: Vec<_> = (0..n)
         .filter(|&i| eigen.eigenvalues[i] < 1e-13 * most)
         .map(|i| eigen.eigenvectors.column(i).into_owned())
@@ -390,15 +391,13 @@ fn oracle_rate(problem: &ChainProblem<'_>, e: &Equilibrium) -> f64 {
     // With an end: at equal absolute values the iteration may go on for ever.
     let schur = nalgebra::linalg::Schur::try_new(m, f64::EPSILON, 10_000);
     let eigenvalues = schur.expect("a Schur form").complex_eigenvalues();
-    eigenvalues
-        .iter()
-        .fold(0.0_f64, |most, mu| most.max(mu.norm()))
+    largest(eigenvalues.iter().map(|mu| mu.norm()))
 }
 
 /// Largest `e_{k+1} / e_k^2` where rounding plays no part, and the last error.
 pub fn quadratic(errors: &[f64]) -> (f64, f64) {
     let constants = errors.windows(2).filter(|w| w[0] > 1e-7 && w[1] > 1e-13);
-    let worst = constants.fold(0.0_f64, |m, w| m.max(w[1] / (w[0] * w[0])));
+    let worst = largest(constants.map(|w| w[1] / (w[0] * w[0])));
     (worst, *errors.last().unwrap())
 }
 

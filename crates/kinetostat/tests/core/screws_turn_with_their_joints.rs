@@ -7,6 +7,7 @@ use kinetostat::{
     ActuatorSpec, Chain, Limb, LimbPosture, Mechanism, MotionKind, Platform, Pose, Twist,
     inverse_kinematics, moved, pose_residual, unloaded_tip,
 };
+use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6, vector};
 
 use crate::common::machines::{Orthoglide, orthoglide_point};
@@ -100,23 +101,23 @@ const LEADS: [f64; 4] = [0.005, -0.005, 0.04, -0.04];
 
 /// Largest difference of commands, m.
 pub fn commands_apart() -> f64 {
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for lead in LEADS {
         let machine = hexapod(Rod::Screw(lead));
         for tool in places() {
             let posture = machine.posture(&tool).unwrap();
             for (i, c) in posture.commands().iter().enumerate() {
-                worst = worst.max((c - command(i, &tool, lead)).abs());
+                worst.add((c - command(i, &tool, lead)).abs());
             }
         }
     }
-    worst
+    worst.value()
 }
 
 /// Largest difference of the stiffness from `sum k g g^T`, `g` the gradient of the closed form by
 /// differences, as a share of the diagonal entries.
 pub fn stiffness_apart() -> f64 {
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for lead in LEADS {
         let machine = hexapod(Rod::Screw(lead));
         for tool in places().into_iter().take(6) {
@@ -130,12 +131,12 @@ pub fn stiffness_apart() -> f64 {
                 for c in 0..6 {
                     let size = (dense[(r, r)] * dense[(c, c)]).sqrt();
                     let gap = k.cartesian.matrix[(r, c)] - dense[(r, c)];
-                    worst = worst.max((gap / size).abs());
+                    worst.add((gap / size).abs());
                 }
             }
         }
     }
-    worst
+    worst.value()
 }
 
 /// Differences of sixth order.
@@ -177,8 +178,11 @@ fn a_screw_without_lead_is_a_plain_ram() {
             assert!((x - y).abs() < 1e-14, "{x} {y}");
         }
         let (k, l) = (a.stiffness().unwrap(), b.stiffness().unwrap());
-        let apart = (k.cartesian.matrix - l.cartesian.matrix).amax();
-        assert!(apart < 1e-13 * l.cartesian.matrix.amax(), "{apart:e}");
+        let apart = (k.cartesian.matrix - l.cartesian.matrix).largest_entry();
+        assert!(
+            apart < 1e-13 * l.cartesian.matrix.largest_entry(),
+            "{apart:e}"
+        );
     }
 }
 

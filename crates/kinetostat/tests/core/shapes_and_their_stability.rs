@@ -11,6 +11,7 @@ use kinetostat::{
     Pose, Prescribed, Settings, Twist, Wrench, moved, solve_chain,
 };
 use kinetostat::{Limb, LimbPosture, Mechanism, Platform, ShapeVerdict};
+use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 use proptest::prelude::*;
 
@@ -46,7 +47,7 @@ fn brute(problem: &ChainProblem<'_>, e: &Equilibrium) -> Brute {
     let row = |i: usize| if i < 3 { 1.0 } else { scale.length };
     let j = DMatrix::from_fn(6, n, |i, c| j[(i, c)] * row(i) * unit[c]);
     let eigen = (j.transpose() * &j).symmetric_eigen();
-    let most = eigen.eigenvalues.amax();
+    let most = eigen.eigenvalues.largest_entry();
     let null: Vec<_> = (0..n)
         .filter(|&i| eigen.eigenvalues[i] < 1e-14 * most)
         .map(|i| eigen.eigenvectors.column(i).into_owned())
@@ -487,7 +488,10 @@ fn energy_around_a_column_has_a_minimum_below_its_load_and_none_above() {
         assert_eq!(change > 0.0, minimum, "share {share}: {change:e}");
         let frames = Frames::new(&chain, &problem.base, &e.coordinates, &[]);
         let moved = frames.jacobian(frames.tip()) * nalgebra::DVector::from_row_slice(mode);
-        assert!(moved.amax() < 1e-9, "the mode moves the end: {moved}");
+        assert!(
+            moved.largest_entry() < 1e-9,
+            "the mode moves the end: {moved}"
+        );
     }
 }
 

@@ -6,6 +6,7 @@ use kinetostat::{
     Inapplicable, Kinematics, Load, MotionKind, Prescribed, ShapeStability, SpringBlock, SpringLaw,
     Wrench, load_energy,
 };
+use kinetostat_testing::Worst;
 use nalgebra::{DMatrix, Isometry3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 use crate::oracle::Frames;
@@ -291,9 +292,10 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
     let lack = Wrench(problem.end.wrench.0 - e.wrench.0).rotated(&back);
     let unit = scale.stiffness.sqrt();
     let natural = unit * scale.length;
-    let mut loads = 1e-9 * natural;
+    let mut loads = Worst::new();
+    loads.add(1e-9 * natural);
     for k in 0..6 {
-        loads = loads.max(e.wrench.0[k].abs() / if k < 3 { unit } else { natural });
+        loads.add(e.wrench.0[k].abs() / if k < 3 { unit } else { natural });
     }
     let kinetostat_tip = frames.miss(frames.tip(), &e.tip).fixed_rows::<3>(0).norm();
     assert!(kinetostat_tip <= 1e-11 * reach, "tip: {kinetostat_tip:e}");
@@ -306,14 +308,15 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
     }
     let torque = frames.torque(&all);
     let mut spring = vec![0.0; n];
-    let mut exact = 1e-13_f64;
+    let mut exact = Worst::new();
+    exact.add(1e-13);
     for block in chain.springs() {
         let own = block_torque(block, &e.coordinates, &problem.posture, scale.length);
         let (own, exactness) = own.unwrap_or_else(|| {
             let range = block.first..block.first + block.len();
             (e.spring_torques[range].to_vec(), 1e-13)
         });
-        exact = exact.max(exactness);
+        exact.add(exactness);
         for (i, t) in own.into_iter().enumerate() {
             spring[block.first + i] += t;
         }
@@ -336,12 +339,11 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
         }
     }
     for i in 0..n {
-        let size = torque[i]
-            .abs()
-            .max(spring[i].abs())
-            .max(e.spring_torques[i].abs());
-        loads = loads.max(size * factor[i]);
+        for size in [torque[i], spring[i], e.spring_torques[i]] {
+            loads.add(size * factor[i]);
+        }
     }
+    let (loads, exact) = (loads.value(), exact.value());
     // Rounding: of a chain of this size, and of loads that cancel.
     let force: f64 = all.iter().map(|(_, w)| w.force().norm()).sum();
     let moment: f64 = all.iter().map(|(_, w)| w.moment().norm()).sum();

@@ -4,6 +4,7 @@ use kinetostat::{
     Chain, ChainBuilder, Direction, Limb, LinkSpec, Mechanism, Platform, Pose, Wrench,
     pose_residual,
 };
+use kinetostat_testing::Worst;
 use nalgebra::{Matrix3, Vector3, Vector6, vector};
 
 use super::random::Random;
@@ -162,21 +163,17 @@ pub fn apart(a: (&[Direction], f64), b: (&[Direction], f64)) -> f64 {
     if own.len() != other.len() {
         return f64::INFINITY;
     }
-    let mut worst = 0.0_f64;
+    let mut worst = Worst::new();
     for (i, (sign, _, first)) in own.iter().enumerate() {
         for (j, (_, _, second)) in own.iter().enumerate() {
             let parts = other
                 .iter()
                 .map(|(s, r, _)| s * r.dot(first) * r.dot(second));
-            let off = (parts.sum::<f64>() - if i == j { *sign } else { 0.0 }).abs();
-            worst = if off.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(off)
-            };
+            worst.add(parts.sum::<f64>() - if i == j { *sign } else { 0.0 });
         }
     }
-    worst
+    // Two sets without a direction are the same.
+    if own.is_empty() { 0.0 } else { worst.value() }
 }
 
 /// One machine of rods in series.

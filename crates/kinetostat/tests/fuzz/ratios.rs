@@ -4,6 +4,7 @@ use kinetostat::{
     Chain, ChainProblem, DirectionKind, EndCondition, LinkSpec, MotionKind, Pose, Settings, Wrench,
     solve_chain, unloaded_stiffness,
 };
+use kinetostat_testing::{largest, least};
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use super::random::Random;
@@ -29,9 +30,10 @@ pub fn case(random: &mut Random) {
         _ => Rotation3::new(random.axis() * random.between(0.0, 3.0)),
     };
     let axes = *turn.matrix();
-    let (most, least) = values
-        .iter()
-        .fold((0.0_f64, f64::INFINITY), |(m, l), v| (m.max(*v), l.min(*v)));
+    let (most, least) = (
+        largest(values.iter().copied()),
+        least(values.iter().copied()),
+    );
     let mut builder = Chain::builder("ratio");
     let whole = random.once_in(2) && most / least < 1e9;
     if whole {
@@ -102,14 +104,14 @@ pub fn stiff_link(random: &mut Random) {
     );
     // One segment or many: the same cantilever.
     let soft = found.directions.iter().map(|d| d.stiffness_n_per_m);
-    let soft = soft.fold(f64::INFINITY, f64::min);
+    let soft = least(soft);
     let own = k.fixed_view::<6, 6>(0, 0).symmetric_eigenvalues().min();
     let one = Chain::builder("one").link_with("wire", &LinkSpec::matrix(k, length));
     let one = one.build().expect("a chain");
     let home = (one.home_coordinates(), one.home_commands());
     let once = unloaded_stiffness(&one, &Pose::identity(), &home.0, &home.1).expect("a stiffness");
     let once = once.directions.iter().map(|d| d.stiffness_n_per_m);
-    let once = once.fold(f64::INFINITY, f64::min);
+    let once = least(once);
     assert!((once / own - 1.0).abs() < 1e-6, "{once:e} {own:e}");
     assert!(
         (soft / own - 1.0).abs() < 1e-6,

@@ -6,6 +6,7 @@ use kinetostat::{
     ActuatorSpec, Chain, ChainBlocks, ChainBuilder, DirectionKind, Limb, Mechanism, MotionKind,
     Platform, Pose, unloaded_stiffness,
 };
+use kinetostat_testing::Worst;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::random::Random;
@@ -119,7 +120,7 @@ fn machine(random: &mut Random) {
     let mut builder = Mechanism::builder("six struts");
     let tool = builder.platform(Platform::new("tool", home));
     let mut asked = Matrix6::zeros();
-    let mut most = 0.0_f64;
+    let mut most = Worst::new();
     for i in 0..6 {
         let (mut foot, mut hand) = (whole(random, 5), whole(random, 2));
         (foot.z, hand.z) = (0.0, -hand.z.abs());
@@ -129,7 +130,7 @@ fn machine(random: &mut Random) {
         let (along, arm) = (way.normalize(), hand.cross(&way.normalize()));
         let wrench = Vector6::new(along.x, along.y, along.z, arm.x, arm.y, arm.z);
         asked += axial * wrench * wrench.transpose();
-        most = most.max(axial);
+        most.add(axial);
         builder = builder.limb(Limb {
             name,
             from: 0,
@@ -139,6 +140,7 @@ fn machine(random: &mut Random) {
             actual: chain,
         });
     }
+    let most = most.of(6);
     let machine = builder.build().expect("a machine");
     let posture = machine.posture(&home).expect("home");
     let k = posture.stiffness().expect("a stiffness");

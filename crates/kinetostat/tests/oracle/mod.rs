@@ -6,6 +6,7 @@
 //! only the description of chains and mechanisms and the algebra of poses is shared.
 
 use kinetostat::{Anchor, Chain, Element, Mechanism, MotionKind, PlatformLoad, Pose, Wrench};
+use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 /// Rotation by `angle` about the unit vector `axis`, Rodrigues' formula written out.
@@ -228,7 +229,7 @@ pub fn balanced_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let mut s = a.clone();
     for _ in 0..12 {
         for i in 0..n {
-            let m = s.row(i).amax();
+            let m = s.row(i).largest_entry();
             if m > 0.0 {
                 let f = 1.0 / m.sqrt();
                 s.row_mut(i).scale_mut(f);
@@ -236,7 +237,7 @@ pub fn balanced_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
             }
         }
         for j in 0..n {
-            let m = s.column(j).amax();
+            let m = s.column(j).largest_entry();
             if m > 0.0 {
                 let f = 1.0 / m.sqrt();
                 s.column_mut(j).scale_mut(f);
@@ -477,16 +478,16 @@ impl<'m> Flat<'m> {
                     step[tool + k] = 0.0;
                 }
             }
-            let mut angle = 0.0_f64;
+            let mut angle = Worst::new();
             let mut at = 6 * (self.platforms.len() - 1);
             for x in &self.coordinates {
-                angle = angle.max(step.rows(at + 6, x.len()).amax());
+                angle.add(step.rows(at + 6, x.len()).largest_entry());
                 at += 6 + x.len();
             }
-            let length = (0.3 / angle.max(1e-300)).min(1.0);
+            let now = angle.value();
+            let length = (0.3 / now.max(1e-300)).min(1.0);
             self.load += load * length;
             *self = self.moved(&(&step * length));
-            let now = angle;
             if now < 1e-14 || (now < 1e-10 && now >= 0.5 * before) {
                 return;
             }

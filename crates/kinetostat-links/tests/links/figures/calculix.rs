@@ -11,6 +11,7 @@ use kinetostat_links::{
     condense, free_test, identify, judge, read_displacements, read_nodes, read_superelement,
     unit_loads,
 };
+use kinetostat_testing::{largest, largest_size};
 use nalgebra::{Matrix6, Rotation3, Vector3};
 
 use crate::{apart, at_most};
@@ -156,7 +157,7 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
     println!("averaged interface softer than the rigid one by {shares:.3?} %");
     at_most(
         "ccx: averaged interface against the rigid one, softer by",
-        shares.iter().fold(0.0, |m, x| m.max(*x)),
+        largest(shares.iter().copied()),
         6.0,
         "% of a diagonal entry",
     );
@@ -181,7 +182,7 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
     );
     at_most(
         "ccx: the same without Poisson's ratio, bending",
-        100.0 * [1, 2, 4, 5].map(share).into_iter().fold(0.0, f64::max),
+        100.0 * largest([1, 2, 4, 5].map(share)),
         0.2,
         "%",
     );
@@ -200,7 +201,7 @@ fn condensed_by_ccx(whole: &Superelement, part: &Superelement) -> bool {
             [((a, b), v), ((b, a), v)]
         })
         .collect();
-    let largest = part.entries.iter().fold(0.0_f64, |a, e| a.max(e.2.abs()));
+    let largest = largest_size(part.entries.iter().map(|e| e.2));
     part.entries.iter().any(|&(i, j, v)| {
         let pair = (part.dofs[i as usize], part.dofs[j as usize]);
         (v - entries.get(&pair).copied().unwrap_or(0.0)).abs() > 1e-9 * largest

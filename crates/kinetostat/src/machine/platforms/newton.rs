@@ -11,8 +11,27 @@ use crate::machine::platforms::solver::{MechanismBalance, PlatformSolver};
 use crate::machine::state::MechanismState;
 use crate::spatial::{MotionKind, Pose, Twist, Wrench, moved};
 
+/// A step that was gone by some share of its length.
+struct Trial {
+    length: f64,
+    /// Sum of the squared residuals before it.
+    merit: f64,
+    /// The loads' Hessian is left out: the step is taken as it is.
+    lagged: bool,
+}
+
+/// What a trial is worth.
+enum Rating {
+    Accepted,
+    /// No step makes it better, and it is as good as rounding lets it be.
+    Rounding,
+    /// The length to try next.
+    Shorter(f64),
+}
+
 impl PlatformSolver<'_> {
-    /// Newton at one share of the load.
+    /// Newton at one share of the load; the first `picard` steps leave the loads' Hessian out.
+    /// Returns iterations and the last residual, `Err` if it did not converge.
     pub fn solve(
         &mut self,
         share: f64,
@@ -21,7 +40,7 @@ impl PlatformSolver<'_> {
         self.share = share;
         self.rate = None;
         let mut before: Option<f64> = None;
-        let (mut now, mut lack) = self.evaluate();
+        let (mut now, mut unbalanced) = self.evaluate();
         // A tangent that gains this much in one step (squared) serves for the next step too.
         const STILL_GOOD: f64 = 1e-5;
         let mut fresh = true;
@@ -31,82 +50,60 @@ impl PlatformSolver<'_> {
             }
             let here = self.state.clone();
             let old = (!fresh)
-                .then(|| self.newton(&lack, &here, Tangents::Old))
+                .then(|| self.newton(&unbalanced, &here, Tangents::Old))
                 .flatten();
             let reused = old.is_some();
             let new = Tangents::New {
                 with_hessian: iteration >= picard,
             };
-            let Some((step, steps)) = old.or_else(|| self.newton(&lack, &here, new)) else {
+            let Some((step, steps)) = old.or_else(|| self.newton(&unbalanced, &here, new)) else {
                 return Err((iteration, now));
             };
             let mut length = self.longest(&step, &steps);
-            let extent = self.extent(steps.iter());
-            let correction: f64 = steps
-                .iter()
-                .zip(&self.factors)
-                .flat_map(|(step, units)| step.iter().zip(units))
-                .map(|(change, unit)| (change / unit).powi(2))
-                .sum();
+            let correction = self.correction(&steps);
             let start = self.place();
-            // Where platforms go where their limbs lead, large corrections are judged as those of
-            // chains. Limbs that constrain each other are judged by the residual, and stay on their branch.
-            let by_motion = self.follows();
+            let merit = now.merit;
             loop {
                 let reached = self.go(&start, &step, &steps, length);
-                let merit = now.merit;
                 let (next, missing) = self.evaluate();
-                let better = next.merit <= merit * (1.0 - 0.1 * length);
-                let lagged = match by_motion {
-                    true => iteration + 1 < picard,
-                    false => iteration < picard,
+                let trial = Trial {
+                    length,
+                    merit,
+                    // Of the report's own steps the last one leads over to Newton where motion decides.
+                    lagged: iteration + usize::from(self.follows()) < picard,
                 };
-                let fine = self.converged(&next) || lagged;
-                let less = better && (extent < SMALL || !by_motion);
-                let mut accepted = reached && (fine || less);
-                // Rounding: no further progress is possible and the conditions nearly hold.
-                let close = next.closure_m <= 100.0 * self.settings.closure * self.length
-                    && next.torque <= 10.0 * self.settings.torque * next.loads
-                    && next.force <= 10.0 * self.settings.torque * next.forces;
-                if reached && !accepted && !better && close {
-                    return Ok((iteration, next));
-                }
-                let mut shorter = 0.5 * length;
-                if reached && !accepted && by_motion {
-                    let again = self.newton(&missing, &start.state, Tangents::Old);
-                    let bent = again.map_or(f64::INFINITY, |(_, again)| {
-                        let off = again.iter().zip(&steps);
-                        let off: Vec<_> = off.map(|(a, s)| a - s * (1.0 - length)).collect();
-                        self.extent(off.iter())
-                    });
-                    accepted = bent <= 0.5 * length * extent;
-                    let wanted = 0.5 * length * length * extent / bent;
-                    shorter = wanted.max(0.1 * length).min(shorter);
-                }
-                if accepted {
-                    let moved = length * correction.sqrt();
+                let next_length = match reached {
+                    true => match self.rated(&trial, &start, &steps, &next, &missing) {
+                        Rating::Accepted => None,
+                        Rating::Rounding => return Ok((iteration, next)),
+                        Rating::Shorter(length) => Some(length),
+                    },
+                    false => Some(0.5 * length),
+                };
+                let Some(shorter) = next_length else {
+                    let moved = length * correction;
                     self.rate = before.filter(|b| *b > 0.0).map(|b| moved / b);
                     before = Some(moved);
                     fresh = iteration < picard || next.merit > STILL_GOOD * merit;
-                    (now, lack) = (next, missing);
+                    (now, unbalanced) = (next, missing);
                     break;
-                }
-                if reused && by_motion {
+                };
+                if reused && self.follows() {
                     // The tangents do not serve any more.
                     self.put(start);
-                    (now, lack) = self.evaluate();
+                    (now, unbalanced) = self.evaluate();
                     fresh = true;
                     break;
                 }
                 length = shorter;
                 if length < 1e-3 {
                     self.put(start);
-                    if iteration >= picard || !by_motion {
+                    if iteration >= picard || !self.follows() {
                         return Err((iteration, now));
                     }
                     // Loads lagged lead nowhere from here: Newton at once.
                     picard = 0;
-                    (now, lack) = self.evaluate();
+                    (now, unbalanced) = self.evaluate();
                     break;
                 }
             }
@@ -116,6 +113,57 @@ impl PlatformSolver<'_> {
         } else {
             Err((self.settings.iterations, now))
         }
+    }
+
+    /// What a step of some length is worth. Where platforms go where their limbs lead, large
+    /// corrections are rated as those of chains, by motion. Limbs that constrain each other are rated
+    /// by the residual, and stay on their branch.
+    fn rated(
+        &mut self,
+        trial: &Trial,
+        start: &Place,
+        steps: &[DVector<f64>],
+        next: &MechanismBalance,
+        missing: &[Wrench],
+    ) -> Rating {
+        let length = trial.length;
+        let by_motion = self.follows();
+        let extent = self.extent(steps.iter());
+        let better = next.merit <= trial.merit * (1.0 - 0.1 * length);
+        if self.converged(next) || trial.lagged || better && (extent < SMALL || !by_motion) {
+            return Rating::Accepted;
+        }
+        // Rounding: no further progress is possible and the conditions nearly hold.
+        let close = next.closure_m <= 100.0 * self.settings.closure * self.length
+            && next.torque <= 10.0 * self.settings.torque * next.loads
+            && next.force <= 10.0 * self.settings.torque * next.forces;
+        if !better && close {
+            return Rating::Rounding;
+        }
+        let half = 0.5 * length;
+        if !by_motion {
+            return Rating::Shorter(half);
+        }
+        let again = self.newton(missing, &start.state, Tangents::Old);
+        let bent = again.map_or(f64::INFINITY, |(_, again)| {
+            let off = again.iter().zip(steps);
+            let off: Vec<_> = off.map(|(a, s)| a - s * (1.0 - length)).collect();
+            self.extent(off.iter())
+        });
+        if bent <= 0.5 * length * extent {
+            return Rating::Accepted;
+        }
+        let wanted = 0.5 * length * length * extent / bent;
+        Rating::Shorter(wanted.max(0.1 * length).min(half))
+    }
+
+    /// Size of a correction of all limbs' wrenches and coordinates, balanced.
+    fn correction(&self, steps: &[DVector<f64>]) -> f64 {
+        let own = steps.iter().zip(&self.factors);
+        let squares = own
+            .flat_map(|(step, units)| step.iter().zip(units))
+            .map(|(change, unit)| (change / unit).powi(2));
+        squares.sum::<f64>().sqrt()
     }
 
     /// Longest share of a step over which the linearisation says something.

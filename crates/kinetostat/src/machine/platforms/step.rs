@@ -14,6 +14,23 @@ use crate::machine::state::MechanismState;
 use crate::model::chain::Scale;
 use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
 
+/// Conditions on the motions of the platforms besides their balance.
+struct Conditions {
+    /// Rows by which their units are chosen.
+    sizes: RigidRows,
+    /// The rows themselves, with the nominal target in the place of what is held.
+    rigid: RigidRows,
+    /// Motions on which their wrenches work, one row each.
+    reactions: Sparse,
+    /// What the rows must come to.
+    needed: DVector<f64>,
+}
+
+/// Whether an unknown of the platforms' motions is one of the tool that the target's motion replaces.
+fn is_exchanged(exchanged: &[bool; 6], tool: usize, unknown: usize) -> bool {
+    (tool..tool + 6).contains(&unknown) && exchanged[unknown - tool]
+}
+
 impl PlatformSolver<'_> {
     /// Solves every limb's bordered system for closure, end, command and base motions.
     pub fn linearise(&mut self, with_hessian: bool) {
@@ -218,8 +235,12 @@ impl PlatformSolver<'_> {
     }
 
     /// One Newton step, arms and loads as at a state: the present one, or the one where the limbs
-    /// were linearised.
-    pub fn platform_step(&self, lack: &[Wrench], at: &MechanismState) -> Option<PlatformStep> {
+    /// were linearised. `unbalanced` is the wrench that every platform lacks.
+    pub fn platform_step(
+        &self,
+        unbalanced: &[Wrench],
+        at: &MechanismState,
+    ) -> Option<PlatformStep> {
         let m = self.mechanism;
         let p = m.platforms.len() - 1;
         if self.unknowns == Unknowns::Held && p == 1 {
@@ -231,8 +252,58 @@ impl PlatformSolver<'_> {
             });
         }
         let (mut a, by_target) = self.tangents(at);
-        let mut b = DMatrix::zeros(6 * p, 1);
-        for (k, w) in lack.iter().enumerate().skip(1) {
+        let mut b = self.condensed_residuals(unbalanced, at);
+        let tool = 6 * (m.tool - 1);
+        let exchanged = self.exchanged();
+        a.entries
+            .retain(|(_, j, _)| !is_exchanged(&exchanged, tool, *j));
+        for k in (0..6).filter(|&k| exchanged[k]) {
+            a.add(0, tool + k, &by_target.column(k));
+        }
+        let mut conditions = self.conditions(at, &exchanged);
+        if self.unknowns == Unknowns::Held {
+            self.hold_tool(&mut a, &mut b, &mut conditions);
+        }
+        let count = conditions.rigid.count();
+        b = b.resize(6 * p + count, 1, 0.0);
+        b.view_mut((6 * p, 0), (count, 1))
+            .copy_from(&conditions.needed);
+        let scale = Scale {
+            length: self.length,
+            stiffness: self.stiffness,
+        };
+        let Conditions {
+            sizes,
+            rigid,
+            reactions,
+            ..
+        } = &conditions;
+        PlatformSystem::with_reactions(a, sizes, rigid, reactions, scale).solve(&mut b);
+        let finite = b.iter().all(|x| x.is_finite());
+        finite.then(|| self.step_from(&b, &exchanged))
+    }
+
+    /// Directions of the tool that are held while the nominal target moves in their place.
+    fn exchanged(&self) -> [bool; 6] {
+        match self.unknowns {
+            Unknowns::Target(held) => held,
+            _ => [false; 6],
+        }
+    }
+
+    /// Number of conditions of the guide.
+    fn guide_rows(&self) -> usize {
+        match self.unknowns {
+            Unknowns::Guided => self.guide.hands.ncols(),
+            _ => 0,
+        }
+    }
+
+    /// What the platforms lack once every limb has closed its own residuals, 6P x 1.
+    fn condensed_residuals(&self, unbalanced: &[Wrench], at: &MechanismState) -> DMatrix<f64> {
+        let m = self.mechanism;
+        let mut b = DMatrix::zeros(6 * (m.platforms.len() - 1), 1);
+        for (k, w) in unbalanced.iter().enumerate().skip(1) {
             b.view_mut((6 * (k - 1), 0), (6, 1)).copy_from(&w.0);
         }
         for (i, limb) in m.limbs.iter().enumerate() {
@@ -252,25 +323,16 @@ impl PlatformSolver<'_> {
                 rows += reaction;
             }
         }
+        b
+    }
+
+    /// What limbs that cannot move and the guide of the tool demand of the platforms' motions.
+    fn conditions(&self, at: &MechanismState, exchanged: &[bool; 6]) -> Conditions {
+        let m = self.mechanism;
         let tool = 6 * (m.tool - 1);
-        let held = match self.unknowns {
-            Unknowns::Target(held) => held,
-            _ => [false; 6],
-        };
-        let own = tool..tool + 6;
-        // What is held does not move: its unknown is another, or it asks for nothing.
-        let replaced = |j: usize| own.contains(&j) && held[j - tool];
-        a.entries.retain(|(_, j, _)| !replaced(*j));
-        for k in (0..6).filter(|&k| held[k]) {
-            a.add(0, tool + k, &by_target.column(k));
-        }
         let root = self.stiffness.sqrt();
         let (mut sizes, mut needed) = self.rigid_rows(at);
-        let guided = match self.unknowns {
-            Unknowns::Guided => self.guide.hands.ncols(),
-            _ => 0,
-        };
-        let first = needed.len();
+        let (first, guided) = (needed.len(), self.guide_rows());
         if guided > 0 {
             let (pose, from) = (&self.state.platforms[m.tool], &at.platforms[m.tool]);
             let row = sizes.grow(m.tool - 1, guided);
@@ -284,67 +346,70 @@ impl PlatformSolver<'_> {
         let (mut rigid, mut reactions) = (sizes.clone(), sizes.matrix.clone());
         reactions.entries.retain(|(i, _, _)| *i < first);
         reactions.add(first, tool, &(self.guide.hands.transpose() * root));
+        let replaced = |j: usize| is_exchanged(exchanged, tool, j);
         rigid.matrix.entries.retain(|(_, j, _)| !replaced(*j));
         let by_target = self.rigid_rows_by_target();
-        for k in (0..6).filter(|&k| held[k]) {
+        for k in (0..6).filter(|&k| exchanged[k]) {
             rigid.matrix.add(0, tool + k, &by_target.column(k));
         }
-        if self.unknowns == Unknowns::Held {
-            // The tool stays; the other platforms find their places.
-            a.entries
-                .retain(|(i, j, _)| !own.contains(i) && !own.contains(j));
-            for entries in [&mut rigid.matrix.entries, &mut reactions.entries] {
-                entries.retain(|(_, j, _)| !own.contains(j));
-            }
-            for k in 0..6 {
-                let unit = if k < 3 {
-                    1.0
-                } else {
-                    self.length * self.length
-                };
-                a.entries.push((tool + k, tool + k, self.stiffness * unit));
-                b[(tool + k, 0)] = 0.0;
-            }
+        Conditions {
+            sizes,
+            rigid,
+            reactions,
+            needed,
         }
-        let count = rigid.count();
-        b = b.resize(6 * p + count, 1, 0.0);
-        b.view_mut((6 * p, 0), (count, 1)).copy_from(&needed);
-        let scale = Scale {
-            length: self.length,
-            stiffness: self.stiffness,
-        };
-        PlatformSystem::with_reactions(a, &sizes, &rigid, &reactions, scale).solve(&mut b);
-        if b.iter().any(|x| !x.is_finite()) {
-            return None;
+    }
+
+    /// The tool stays; the other platforms find their places.
+    fn hold_tool(&self, a: &mut Sparse, b: &mut DMatrix<f64>, conditions: &mut Conditions) {
+        let tool = 6 * (self.mechanism.tool - 1);
+        let own = tool..tool + 6;
+        a.entries
+            .retain(|(i, j, _)| !own.contains(i) && !own.contains(j));
+        let (rigid, reactions) = (&mut conditions.rigid.matrix, &mut conditions.reactions);
+        for entries in [&mut rigid.entries, &mut reactions.entries] {
+            entries.retain(|(_, j, _)| !own.contains(j));
         }
+        for k in 0..6 {
+            let unit = match k < 3 {
+                true => 1.0,
+                false => self.length * self.length,
+            };
+            a.entries.push((tool + k, tool + k, self.stiffness * unit));
+            b[(tool + k, 0)] = 0.0;
+        }
+    }
+
+    /// The step that the solution of the platforms' system stands for.
+    fn step_from(&self, solution: &DMatrix<f64>, exchanged: &[bool; 6]) -> PlatformStep {
+        let m = self.mechanism;
+        let p = m.platforms.len() - 1;
         let mut motions: Vec<Twist> = (0..p)
-            .map(|k| Twist(b.fixed_view::<6, 1>(6 * k, 0).into_owned()))
+            .map(|k| Twist(solution.fixed_view::<6, 1>(6 * k, 0).into_owned()))
             .collect();
         let mut target = Twist::zero();
-        for k in (0..6).filter(|&k| held[k]) {
+        for k in (0..6).filter(|&k| exchanged[k]) {
             target.0[k] = motions[m.tool - 1].0[k];
             motions[m.tool - 1].0[k] = 0.0;
         }
         let mut at = 6 * p;
-        let carried = self
-            .linear
-            .iter()
-            .map(|linear| {
-                let k = linear.rigid.ncols();
-                let wrench = &linear.rigid * b.view((at, 0), (k, 1));
-                at += k;
-                Wrench(wrench.fixed_view::<6, 1>(0, 0).into_owned())
-            })
-            .collect();
+        let carried = self.linear.iter().map(|linear| {
+            let k = linear.rigid.ncols();
+            let wrench = &linear.rigid * solution.view((at, 0), (k, 1));
+            at += k;
+            Wrench(wrench.fixed_view::<6, 1>(0, 0).into_owned())
+        });
+        let carried = carried.collect();
         // Reactions of the rows, on the right-hand side; what acts is a share of the wrench.
-        let push = &self.guide.hands * b.view((at, 0), (guided, 1)) * (-root / self.share);
-        let push = Wrench(push.fixed_view::<6, 1>(0, 0).into_owned());
-        Some(PlatformStep {
+        let root = self.stiffness.sqrt();
+        let reactions = solution.view((at, 0), (self.guide_rows(), 1));
+        let push = &self.guide.hands * reactions * (-root / self.share);
+        PlatformStep {
             motions,
             target,
             carried,
-            push,
-        })
+            push: Wrench(push.fixed_view::<6, 1>(0, 0).into_owned()),
+        }
     }
 
     /// Changes of wrench and coordinates of every limb that follow from a platform step.

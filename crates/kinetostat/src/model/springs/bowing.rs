@@ -1,4 +1,4 @@
-//! A beam that bends also shortens: the default energy of a link's segment (theory note, section 4).
+//! A beam that bends also shortens: the default energy of a link's segment (book: Conventions, Links that bend).
 //!
 //! The spring sits at the far end of a segment of length `h`; `x y z rx ry rz` are its motions,
 //! translations first. A cubic deflection `w(s)` with `w(h) = w`, `w'(h) = p` takes the length

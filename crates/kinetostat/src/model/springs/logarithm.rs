@@ -1,4 +1,4 @@
-//! Energies of a segment in exponential coordinates (theory note, section 4).
+//! Energies of a segment in exponential coordinates (book: Conventions, Links that bend).
 //!
 //! An energy is a function of the relative pose of a segment's ends; the coordinates in which that
 //! pose is written do not matter. The chain keeps the six motions "translations first", whose pose

@@ -1,0 +1,128 @@
+//! What may explain the difference of measured poses from computed ones: a sign, an offset, a coupling, a frame.
+
+use kinetostat::Pose;
+
+/// A frame that is elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Frame {
+    /// Model's base from the machine's: measured = base * computed.
+    Base(Pose),
+    /// Behind the model's tool: measured = computed * tool.
+    Tool(Pose),
+}
+
+/// Where the model's tool is for what the pendant shows (m, rad).
+pub type Forward<'a> = dyn Fn(&[f64]) -> Option<Pose> + 'a;
+
+/// An axis of the pendant, as the file declares it; m and rad.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// It turns; if not, it slides.
+    pub turns: bool,
+    /// What it shows while the model's joints are at zero.
+    pub zero: f64,
+    /// What it shows per unit of its own joint.
+    pub ratio: f64,
+    /// Axes whose joints it shows too, with what it shows per unit of theirs. Only axes that show
+    /// nothing but their own joint.
+    pub coupled: Vec<(usize, f64)>,
+}
+
+/// What is taken to be wrong about the coupling of an axis with the joint of another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coupling {
+    /// None is declared; to what is shown the other axis' joint has to be added, `share` times.
+    Missing {
+        /// The axis, from 0.
+        axis: usize,
+        /// The other one.
+        other: usize,
+        /// How many times the other joint is added.
+        share: f64,
+    },
+    /// Declared, and the machine has it with the other sign.
+    Reversed {
+        /// The axis, from 0.
+        axis: usize,
+        /// The other one.
+        other: usize,
+    },
+    /// Declared, and the machine has none.
+    Absent {
+        /// The axis, from 0.
+        axis: usize,
+        /// The other one.
+        other: usize,
+    },
+}
+
+/// What the pendant is taken to show instead: `s x + o`, one axis with a share of another; and a frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Explanation {
+    /// Axes whose sign is the other one.
+    pub reversed: Vec<usize>,
+    /// Axis and offset, m or rad.
+    pub offsets: Vec<(usize, f64)>,
+    /// At most one coupling.
+    pub coupling: Option<Coupling>,
+    /// At most one frame.
+    pub frame: Option<Frame>,
+}
+
+impl Explanation {
+    /// What the pendant would show if the machine were as the file declares it. The machine shows
+    /// `x = s a q + k c p + z` for its joint `q` and the coupled joint `p`, the file says
+    /// `a q + c p + z`: that is `s (x - z) + z + (1 - s k) c p`.
+    pub(crate) fn applied(&self, joints: &[f64], axes: &[Axis]) -> Vec<f64> {
+        let mut out = joints.to_vec();
+        for &i in &self.reversed {
+            out[i] = 2.0 * axes[i].zero - joints[i];
+        }
+        for &(i, by) in &self.offsets {
+            out[i] += by;
+        }
+        // Only axes without a coupling of their own are read here: they are done already.
+        let joint = |out: &[f64], j: usize| (out[j] - axes[j].zero) / axes[j].ratio;
+        for (i, axis) in axes.iter().enumerate() {
+            for &(j, ratio) in &axis.coupled {
+                let sign = if self.reversed.contains(&i) {
+                    -1.0
+                } else {
+                    1.0
+                };
+                let has = match self.coupling {
+                    Some(Coupling::Reversed { axis, other }) if (axis, other) == (i, j) => -1.0,
+                    Some(Coupling::Absent { axis, other }) if (axis, other) == (i, j) => 0.0,
+                    _ => 1.0,
+                };
+                let missing = 1.0 - sign * has;
+                if missing != 0.0 {
+                    out[i] += missing * ratio * joint(&out, j);
+                }
+            }
+        }
+        if let Some(Coupling::Missing { axis, other, share }) = self.coupling {
+            out[axis] += share * (out[other] - axes[other].zero);
+        }
+        out
+    }
+
+    /// Fewer and plainer changes first; a fitted number is dearer than a quarter turn.
+    pub(crate) fn cost(&self) -> usize {
+        let offsets: usize = self
+            .offsets
+            .iter()
+            .map(|o| if quarter(o.1) { 2 } else { 3 })
+            .sum();
+        2 * self.reversed.len()
+            + offsets
+            + 2 * usize::from(self.coupling.is_some())
+            + 3 * usize::from(self.frame.is_some())
+    }
+}
+
+/// A whole number of quarter turns.
+pub(crate) fn quarter(angle: f64) -> bool {
+    let quarters = angle / std::f64::consts::FRAC_PI_2;
+    (quarters - quarters.round()).abs() < 1e-6
+}

@@ -1,0 +1,100 @@
+//! What a pendant shows, and where the model's tool is then.
+
+use kinetostat::{MotionKind, Pose};
+use kinetostat_model::Model;
+
+use crate::forward::ForwardKinematics;
+use crate::measured_poses::explanation::Axis;
+
+/// The pendant of a model: the axes of its controller, or else its actuators.
+#[derive(Clone, Copy, Debug)]
+pub struct Pendant<'m> {
+    model: &'m Model,
+    forward: ForwardKinematics<'m>,
+}
+
+/// Why the model has no pose for what a pendant shows.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PendantPoseError {
+    /// Another number of values than axes.
+    #[error("the number of joints does not fit")]
+    JointCount,
+    /// The machine cannot stand there.
+    #[error(transparent)]
+    Posture(#[from] kinetostat::Error),
+}
+
+impl<'m> Pendant<'m> {
+    /// The pendant of a model.
+    #[must_use]
+    pub fn of(model: &'m Model) -> Self {
+        Self {
+            model,
+            forward: ForwardKinematics::of(&model.mechanism),
+        }
+    }
+
+    /// Thousands of poses can be computed: the machine is a plain product of its joints.
+    #[must_use]
+    pub fn is_quick(&self) -> bool {
+        self.forward.is_plain_product()
+    }
+
+    /// What the model says of each axis; `kinds` are those of the axes.
+    #[must_use]
+    pub fn axes(&self, kinds: &[MotionKind]) -> Vec<Axis> {
+        let turns = |i: usize| kinds[i] == MotionKind::Revolute;
+        let Some(controller) = &self.model.controller else {
+            let plain = |i| Axis {
+                turns: turns(i),
+                zero: 0.0,
+                ratio: 1.0,
+                coupled: Vec::new(),
+            };
+            return (0..kinds.len()).map(plain).collect();
+        };
+        let (axes, map) = (controller.axes(), controller.map());
+        let zeros = controller
+            .pendant(&vec![0.0; axes.len()])
+            .unwrap_or_else(|| vec![0.0; axes.len()]);
+        let plain = |i: usize| (0..axes.len()).all(|j| j == axes[i].joint || map[(i, j)] == 0.0);
+        let declared = axes.iter().enumerate().map(|(i, axis)| Axis {
+            turns: turns(i),
+            zero: zeros[i] * axis.unit.in_si(),
+            ratio: map[(i, axis.joint)],
+            coupled: (0..axes.len())
+                .filter(|&j| j != i && plain(j) && map[(i, axes[j].joint)] != 0.0)
+                .map(|j| (j, map[(i, axes[j].joint)]))
+                .collect(),
+        });
+        declared.collect()
+    }
+
+    /// Commands of the model, m or rad, for what the pendant shows, m or rad.
+    fn commands(&self, shown: &[f64]) -> Option<Vec<f64>> {
+        match &self.model.controller {
+            None => Some(shown.to_vec()),
+            Some(controller) => {
+                let in_units = shown.iter().zip(controller.axes());
+                let pendant: Vec<f64> = in_units.map(|(x, a)| x / a.unit.in_si()).collect();
+                controller.joints(&pendant)
+            }
+        }
+    }
+
+    /// The tool in the base for what the pendant shows, m or rad.
+    ///
+    /// # Errors
+    /// The number of values is another one, or the machine cannot stand there.
+    pub fn pose(&self, shown: &[f64]) -> Result<Pose, PendantPoseError> {
+        let commands = self.commands(shown).ok_or(PendantPoseError::JointCount)?;
+        Ok(*self.model.mechanism.posture_at(&commands)?.target())
+    }
+
+    /// As [`Self::pose`], as fast as it can be.
+    #[must_use]
+    pub fn tool(&self, shown: &[f64]) -> Option<Pose> {
+        self.forward.tool(&self.commands(shown)?)
+    }
+}

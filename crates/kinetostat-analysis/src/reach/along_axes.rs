@@ -1,0 +1,209 @@
+//! The reach of a machine with loops: along the base's axes from home, and a box that the tool fills.
+
+use std::fmt;
+
+use kinetostat::{Pose, Posture};
+use kinetostat_machining::natural_length;
+use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
+
+use crate::reach::by_commands::{CommandReach, reach_by_commands};
+use crate::reach::error::ReachError;
+
+/// How far the tool gets from home by inverse kinematics, within the limits of the actuators.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReachAlongAxes {
+    /// The tool turns on these paths as the machine turns it, kept as near to its orientation at home as can
+    /// be; if not, it does not turn.
+    pub orientation_follows: bool,
+    /// How far it gets from home along -x, +x, -y, +y, -z, +z of the base, mm.
+    pub along_axes_mm: [[f64; 2]; 3],
+    /// What ends these paths.
+    pub ends: [[ReachEnd; 2]; 3],
+    /// Two corners of a box around home of which corners, edges and faces were reached, mm, base axes; none
+    /// if even a small one has gaps.
+    pub box_mm: Option<[[f64; 3]; 2]>,
+    /// Of a machine that moves only while its tool turns: where its commands lead, whatever the orientation.
+    pub by_commands: Option<CommandReach>,
+}
+
+/// What ends a path of the tool.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum ReachEnd {
+    /// Nothing within ten times the machine.
+    NotFollowedFarther,
+    /// The limbs cannot follow.
+    #[default]
+    Limbs,
+    /// An actuator of this name is at its limit.
+    Limit(String),
+    /// The machine does not move this way at all.
+    Immovable,
+}
+
+impl fmt::Display for ReachEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFollowedFarther => f.write_str("nothing: it was not followed farther"),
+            Self::Limbs => f.write_str("the limbs cannot follow"),
+            Self::Limit(actuator) => write!(f, "limit of '{actuator}'"),
+            Self::Immovable => f.write_str("the machine does not move this way"),
+        }
+    }
+}
+
+pub(crate) fn reach_along_axes(home: &Posture<'_>) -> Result<ReachAlongAxes, ReachError> {
+    if let Some((name, _, _)) = home.limit_violations().first() {
+        return Err(ReachError::HomeOutsideLimits {
+            actuator: name.clone(),
+        });
+    }
+    let m = home.mechanism();
+    let length = natural_length(m);
+    let follows = m.turns_as_it_moves();
+    let mut along = [[0.0; 2]; 3];
+    let mut ends = <[[ReachEnd; 2]; 3]>::default();
+    let path = |path: usize| {
+        let mut direction = Vector3::zeros();
+        direction[path / 2] = if path.is_multiple_of(2) { -1.0 } else { 1.0 };
+        march(home, follows, &direction, length)
+    };
+    let (paths, by_commands) = rayon::join(
+        || (0..6).into_par_iter().map(path).collect::<Vec<_>>(),
+        || follows.then(|| reach_by_commands(m).ok()),
+    );
+    for (path, (far, end)) in paths.into_iter().enumerate() {
+        along[path / 2][path % 2] = 1e3 * far;
+        ends[path / 2][path % 2] = end;
+    }
+    let unlimited = || {
+        let mut actuators = m.limbs().iter().flat_map(|l| l.nominal.actuators());
+        actuators.all(|a| a.limits.is_none())
+    };
+    let unbounded = |end: &ReachEnd| *end == ReachEnd::NotFollowedFarther;
+    if ends.iter().flatten().any(unbounded) && unlimited() {
+        return Err(ReachError::NoLimits);
+    }
+    Ok(ReachAlongAxes {
+        orientation_follows: follows,
+        along_axes_mm: along,
+        ends,
+        box_mm: filled_box(home, follows, &along),
+        by_commands: by_commands.flatten(),
+    })
+}
+
+/// The posture at a place near another one, or what forbids it.
+fn at<'m>(
+    from: &Posture<'m>,
+    follows: bool,
+    shift: &Vector3<f64>,
+    home: &Pose,
+) -> Result<Posture<'m>, ReachEnd> {
+    let mut target = *home;
+    target.translation.vector += shift;
+    let (m, place) = (from.mechanism(), &target.translation.vector);
+    let posture = match follows {
+        true => m.posture_following_straight(place, &home.rotation, from),
+        false => m.posture_near(&target, from),
+    };
+    let posture = posture.map_err(|_| ReachEnd::Limbs)?;
+    match posture.limit_violations().first() {
+        Some((name, _, _)) => Err(ReachEnd::Limit(name.clone())),
+        None => Ok(posture),
+    }
+}
+
+/// How far (m) along a direction, and what ends it.
+fn march(
+    home: &Posture<'_>,
+    follows: bool,
+    direction: &Vector3<f64>,
+    length: f64,
+) -> (f64, ReachEnd) {
+    let origin = *home.target();
+    let mut last = home.clone();
+    let (mut good, mut step) = (0.0, 0.02 * length);
+    let (mut bad, mut end) = loop {
+        let next = good + step;
+        match at(&last, follows, &(direction * next), &origin) {
+            Ok(posture) => {
+                last = posture;
+                good = next;
+                step *= 1.3;
+            }
+            Err(reason) => break (next, reason),
+        }
+        if good > 10.0 * length {
+            return (good, ReachEnd::NotFollowedFarther);
+        }
+    };
+    // A place that follows costs many times as much as one with its orientation held.
+    for _ in 0..if follows { 10 } else { 14 } {
+        let middle = 0.5 * (good + bad);
+        match at(&last, follows, &(direction * middle), &origin) {
+            Ok(posture) => {
+                last = posture;
+                good = middle;
+            }
+            Err(reason) => (bad, end) = (middle, reason),
+        }
+    }
+    if good < 1e-4 * length {
+        return (0.0, ReachEnd::Immovable);
+    }
+    (good, end)
+}
+
+/// The largest of some boxes of the proportions of `along` (mm) whose corners, edges and faces can
+/// be reached; none if even a small one has gaps.
+fn filled_box(home: &Posture<'_>, follows: bool, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
+    if along.iter().flatten().all(|x| *x == 0.0) {
+        return None;
+    }
+    let origin = *home.target();
+    let reached = |scale: f64| {
+        let mut shifts: Vec<Vector3<f64>> = Vec::new();
+        for code in 0..27_usize {
+            let part = |axis: usize| match (code / 3_usize.pow(axis as u32)) % 3 {
+                0 => -along[axis][0],
+                1 => 0.0,
+                _ => along[axis][1],
+            };
+            let shift = Vector3::new(part(0), part(1), part(2)) * (1e-3 * scale);
+            if shift.norm() > 0.0 && !shifts.contains(&shift) {
+                shifts.push(shift);
+            }
+        }
+        // In steps, so that every limb stays in its own way of assembly.
+        shifts.par_iter().all(|shift| {
+            let mut last = home.clone();
+            [0.35, 0.7, 1.0].into_iter().all(|share| {
+                let next = at(&last, follows, &(shift * share), &origin);
+                next.map(|posture| last = posture).is_ok()
+            })
+        })
+    };
+    let (mut good, mut bad) = (0.0, 1.0);
+    if reached(1.0) {
+        good = 1.0;
+    }
+    for _ in 0..if follows { 5 } else { 7 } {
+        if good >= 1.0 {
+            break;
+        }
+        let middle = 0.5 * (good + bad);
+        if reached(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    let centre = Point3::from(origin.translation.vector * 1e3);
+    (good > 0.0).then(|| {
+        let corner = |side: usize, sign: f64| -> [f64; 3] {
+            std::array::from_fn(|k| centre[k] + sign * good * along[k][side])
+        };
+        [corner(0, -1.0), corner(1, 1.0)]
+    })
+}

@@ -1,0 +1,42 @@
+//! How far the tool gets: an arm's reach by search over its joints, a parallel machine's by inverse
+//! kinematics around home.
+//!
+//! It takes the posture at home and gives lengths in mm, base axes. Collisions are not looked at, nor are
+//! limits of passive joints where the machine has loops.
+
+mod along_axes;
+mod arm;
+mod by_commands;
+mod error;
+
+use kinetostat::Posture;
+
+pub use along_axes::{ReachAlongAxes, ReachEnd};
+pub use arm::ArmReach;
+pub use by_commands::{CommandReach, reach_by_commands};
+pub use error::ReachError;
+
+/// Machines of more limbs take too long.
+const MOST_LIMBS: usize = 24;
+
+/// How far the tool gets.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reach {
+    /// A machine of one limb between base and tool.
+    Arm(ArmReach),
+    /// Every other machine.
+    AlongAxes(Box<ReachAlongAxes>),
+}
+
+/// Reach of a machine from its posture at home.
+///
+/// # Errors
+/// See [`ReachError`].
+pub fn reach(home: &Posture<'_>) -> Result<Reach, ReachError> {
+    let m = home.mechanism();
+    match m.limbs() {
+        [limb] if m.platforms().len() == 2 => arm::arm_reach(m, limb).map(Reach::Arm),
+        limbs if limbs.len() > MOST_LIMBS => Err(ReachError::TooManyLimbs { most: MOST_LIMBS }),
+        _ => along_axes::reach_along_axes(home).map(|r| Reach::AlongAxes(Box::new(r))),
+    }
+}

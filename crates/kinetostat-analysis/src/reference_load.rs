@@ -1,0 +1,89 @@
+//! A machine under reference loads: how far its tool moves, and how wrong the stiffness at rest would be.
+
+use kinetostat::{Error, MechanismEquilibrium, Posture, Wrench};
+use kinetostat_machining::natural_length;
+use nalgebra::Vector3;
+
+/// Size of the loads that are assumed if none is given, N.
+pub const REFERENCE_N: f64 = 1000.0;
+
+/// A deflection by this share of the natural length is small: the unloaded stiffness is then off
+/// by about as much.
+pub const SMALL: f64 = 0.01;
+
+/// From this share of the natural length on, to first order, an assumed load is not even tried.
+pub const TOO_MUCH: f64 = 0.2;
+
+/// What became of a load.
+#[derive(Debug)]
+pub enum LoadOutcome {
+    /// Not tried: to first order the tool would move this far, m.
+    TooMuch(f64),
+    /// It pushes in a free direction.
+    Free,
+    /// No equilibrium was found.
+    NoEquilibrium(Error),
+    /// The machine carries it.
+    Carried(Box<CarriedLoad>),
+}
+
+/// A machine under a load.
+#[derive(Debug)]
+pub struct CarriedLoad {
+    /// The equilibrium.
+    pub state: MechanismEquilibrium,
+    /// How far the tool moves from where it is at rest, m.
+    pub moved: f64,
+    /// By how much the compliance at rest would tell a wrong motion, as a share of the motion.
+    pub linear_error: f64,
+}
+
+/// The loads that are assumed: [`REFERENCE_N`] both ways along the axes of the base.
+#[must_use]
+pub fn reference_forces() -> Vec<Vector3<f64>> {
+    (0..6)
+        .map(|k| {
+            let sign = if k % 2 == 0 {
+                REFERENCE_N
+            } else {
+                -REFERENCE_N
+            };
+            Vector3::ith(k / 2, sign)
+        })
+        .collect()
+}
+
+/// A machine under forces on its tool (N, base axes), one after the other, from its equilibrium at rest. With
+/// `assumed`, the first one that is far too much ends the list.
+#[must_use]
+pub fn under_forces(
+    posture: &Posture<'_>,
+    rest: &MechanismEquilibrium,
+    forces: &[Vector3<f64>],
+    assumed: bool,
+) -> Vec<(Vector3<f64>, LoadOutcome)> {
+    let compliance = rest.compliance();
+    let length = natural_length(posture.mechanism());
+    let mut list = Vec::new();
+    for force in forces {
+        let linear: Vector3<f64> = compliance.springs.fixed_view::<3, 3>(0, 0) * force;
+        if assumed && linear.norm() > TOO_MUCH * length {
+            list.push((*force, LoadOutcome::TooMuch(linear.norm())));
+            break;
+        }
+        let outcome = match posture.deflected_by(&Wrench::new(*force, Vector3::zeros())) {
+            Ok(state) => {
+                let moved = state.displacement.linear() - rest.displacement.linear();
+                LoadOutcome::Carried(Box::new(CarriedLoad {
+                    moved: moved.norm(),
+                    linear_error: (moved - linear).norm() / moved.norm().max(1e-15),
+                    state,
+                }))
+            }
+            Err(Error::FreeDirection { .. }) => LoadOutcome::Free,
+            Err(error) => LoadOutcome::NoEquilibrium(error),
+        };
+        list.push((*force, outcome));
+    }
+    list
+}

@@ -1,0 +1,152 @@
+//! The rotation of the tool, continuous along every branch of a curve: a rotation vector by itself
+//! ends at half a turn, where it jumps to the other side.
+
+use std::f64::consts::TAU;
+
+use kinetostat::{CurvePoint, Curves, Pose};
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// Continuous rotation vectors of the tool from where the curve starts, base axes, rad.
+#[derive(Clone, Debug)]
+pub struct ContinuousRotation {
+    start: UnitQuaternion<f64>,
+    /// Of every point of every branch; empty where no rotation is shown.
+    branches: Vec<Vec<Vector3<f64>>>,
+}
+
+impl ContinuousRotation {
+    /// No rotation: everything it is asked for is zero.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            start: UnitQuaternion::identity(),
+            branches: Vec::new(),
+        }
+    }
+
+    /// Of all branches. `value`: the parameter at the start, where the tool is at `start`.
+    #[must_use]
+    pub fn of(curves: &Curves<'_>, start: &Pose, value: f64) -> Self {
+        let mut turns = Self {
+            start: start.rotation,
+            branches: Vec::new(),
+        };
+        for branch in &curves.branches {
+            let points = &branch.points;
+            // Where its number of turns is known: where it leaves another branch, or nearest to the
+            // start.
+            let crossing = branch.origin.and_then(|s| curves.specials.get(s));
+            let (anchor, known) = match crossing {
+                Some(s) => (
+                    nearest(points, |p| apart(p, &s.point)),
+                    turns.whole(curves, &s.point),
+                ),
+                None => (
+                    nearest(points, |p| {
+                        (p.parameter - value).abs() + turns.within(p).norm()
+                    }),
+                    Vector3::zeros(),
+                ),
+            };
+            let mut list = vec![Vector3::zeros(); points.len()];
+            if let Some(first) = points.get(anchor) {
+                list[anchor] = continued(turns.within(first), &known);
+            }
+            for i in anchor + 1..points.len() {
+                list[i] = continued(turns.within(&points[i]), &list[i - 1]);
+            }
+            for i in (0..anchor).rev() {
+                list[i] = continued(turns.within(&points[i]), &list[i + 1]);
+            }
+            turns.branches.push(list);
+        }
+        turns
+    }
+
+    /// Within half a turn.
+    fn within(&self, p: &CurvePoint) -> Vector3<f64> {
+        (p.equilibrium.tip.rotation * self.start.inverse()).scaled_axis()
+    }
+
+    /// The continuous rotation vector of any equilibrium, as at the nearest point of a branch.
+    fn whole(&self, curves: &Curves<'_>, p: &CurvePoint) -> Vector3<f64> {
+        let here = self.within(p);
+        let mut best = (f64::INFINITY, here);
+        for (branch, list) in curves.branches.iter().zip(&self.branches) {
+            for (other, turn) in branch.points.iter().zip(list) {
+                let d = apart(other, p);
+                if d < best.0 {
+                    best = (d, *turn);
+                }
+            }
+        }
+        continued(here, &best.1)
+    }
+
+    /// What the continuous rotation vector of point `i` of branch `k` has more than the one within
+    /// half a turn; zero where no rotation is shown.
+    #[must_use]
+    pub fn of_point(&self, curves: &Curves<'_>, k: usize, i: usize) -> Vector3<f64> {
+        let whole = self.branches.get(k).and_then(|list| list.get(i));
+        let point = curves.branches.get(k).and_then(|b| b.points.get(i));
+        match (whole, point) {
+            (Some(whole), Some(point)) => whole - self.within(point),
+            _ => Vector3::zeros(),
+        }
+    }
+
+    /// The same for any equilibrium.
+    #[must_use]
+    pub fn at(&self, curves: &Curves<'_>, p: &CurvePoint) -> Vector3<f64> {
+        if self.branches.is_empty() {
+            return Vector3::zeros();
+        }
+        self.whole(curves, p) - self.within(p)
+    }
+}
+
+/// The rotation of `within` half a turn, by as many whole turns more as bring it next to `before`.
+fn continued(within: Vector3<f64>, before: &Vector3<f64>) -> Vector3<f64> {
+    // After whole turns the axis is lost in rounding: it is the last one.
+    let axis = if within.norm() > 1e-5 {
+        within.normalize()
+    } else if before.norm() > 1e-5 {
+        before.normalize()
+    } else {
+        return within;
+    };
+    within + axis * (TAU * ((before - within).dot(&axis) / TAU).round())
+}
+
+fn nearest(points: &[CurvePoint], off: impl Fn(&CurvePoint) -> f64) -> usize {
+    let off = points.iter().map(off).enumerate();
+    off.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |b| b.0)
+}
+
+/// How far two states are from each other; coordinates in m and rad.
+fn apart(a: &CurvePoint, b: &CurvePoint) -> f64 {
+    let (a, b) = (&a.equilibrium.coordinates, &b.equilibrium.coordinates);
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_go_on_beyond_one_and_come_back() {
+        let axis = Vector3::new(0.6, 0.0, -0.8);
+        let mut before = Vector3::zeros();
+        let there = (0..=60).map(|k| 0.21 * f64::from(k));
+        let back = (0..60).rev().map(|k| 0.21 * f64::from(k));
+        for angle in there.chain(back) {
+            let q = UnitQuaternion::from_scaled_axis(axis * angle);
+            before = continued(q.scaled_axis(), &before);
+            assert!((before - axis * angle).norm() < 1e-9, "{angle}: {before}");
+        }
+        // Exactly one turn, but for rounding in any direction.
+        let rounding = Vector3::new(1e-9, -2e-9, 1e-9);
+        let one = continued(rounding, &(axis * 6.2));
+        assert!((one - axis * TAU).norm() < 1e-8, "{one}");
+    }
+}

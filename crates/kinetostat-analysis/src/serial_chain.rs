@@ -1,0 +1,194 @@
+//! The chain of a machine with one limb, commanded for a place, with everything that acts on it.
+
+use kinetostat::{
+    Chain, ChainProblem, CurvePoint, Curves, EndCondition, Kinematics, Load, Mechanism, MotionKind,
+    Parameter, Pose, Posture, Role, SingularValues, Twist, moved,
+};
+use nalgebra::DMatrix;
+
+use crate::movable::MovableDirections;
+
+/// A serial chain from the base to the tool's tip.
+#[derive(Clone, Debug)]
+pub struct SerialChain {
+    /// With the tool's tip as its end.
+    pub chain: Chain,
+    /// Where it begins.
+    pub base: Pose,
+    /// Commands of its actuators, m or rad.
+    pub commands: Vec<f64>,
+    /// Coordinates of the commanded, unloaded posture, m or rad.
+    pub posture: Vec<f64>,
+    /// Gravity and everything else that acts all the time.
+    pub loads: Vec<Load>,
+    /// Where the tool is commanded to be.
+    pub place: Pose,
+}
+
+/// Whether a machine is one chain from the base to the tool.
+#[must_use]
+pub fn is_serial_chain(mechanism: &Mechanism) -> bool {
+    matches!(mechanism.limbs(), [limb] if limb.from == 0 && limb.to == mechanism.tool())
+}
+
+impl SerialChain {
+    /// The chain of a machine that [`is_serial_chain`], as it stands; its tool is commanded to be at `place`.
+    ///
+    /// # Errors
+    /// The end of the chain cannot be moved to the tool's tip.
+    pub fn of(posture: &Posture<'_>, place: Pose) -> kinetostat::Result<Self> {
+        let m = posture.mechanism();
+        let (tool, limb) = (m.tool(), &m.limbs()[0]);
+        let joints = &posture.limbs()[0];
+        let offset = limb.platform_from_tip.inverse();
+        // The old end keeps what acts on it; results refer to the tool's tip.
+        let chain = if offset == Pose::identity() {
+            limb.actual.clone()
+        } else {
+            let free = ["flange", "flange of the tool", "last frame of the chain"];
+            let taken = limb.actual.nodes();
+            let name = free.iter().find(|n| !taken.iter().any(|t| t == *n));
+            limb.actual
+                .with_end(name.copied().unwrap_or("old tip"), &offset)?
+        };
+        let gravity = m.gravity();
+        let platform = &m.platforms()[tool];
+        let mut loads = Vec::new();
+        if gravity.norm() > 0.0 && !chain.bodies().is_empty() {
+            loads.push(Load::gravity(gravity));
+        }
+        loads.extend(m.loads(0).iter().cloned());
+        if gravity.norm() > 0.0 && platform.mass > 0.0 {
+            loads.push(Load::counterweight(
+                chain.tip(),
+                platform.centre_of_mass,
+                platform.mass,
+                gravity,
+            ));
+        }
+        Ok(Self {
+            base: m.platforms()[0].home,
+            commands: joints.commands.clone(),
+            posture: joints.coordinates.clone(),
+            loads,
+            place,
+            chain,
+        })
+    }
+
+    /// The chain with an end condition, to be solved or followed.
+    #[must_use]
+    pub fn problem(&self, end: EndCondition) -> ChainProblem<'_> {
+        ChainProblem {
+            chain: &self.chain,
+            base: self.base,
+            commands: self.commands.clone(),
+            posture: self.posture.clone(),
+            loads: self.loads.clone(),
+            end,
+        }
+    }
+
+    /// Motions that the end can make near the commanded posture, whatever moves: columns of an
+    /// orthonormal basis, rotations at the natural length. What is missing is rigid everywhere: a
+    /// planar chain does not leave its plane.
+    #[must_use]
+    pub fn movable(&self) -> MovableDirections {
+        let n = self.chain.coordinate_count();
+        let length = self.chain.scale().length;
+        let sizes = [0.0, 0.4, -0.9, 1.7];
+        let mut all = DMatrix::zeros(6, n * sizes.len());
+        for (k, size) in sizes.into_iter().enumerate() {
+            let x: Vec<f64> = self
+                .posture
+                .iter()
+                .zip(self.chain.coordinates())
+                .enumerate()
+                .map(|(i, (x, c))| {
+                    let unit = match c.kind {
+                        MotionKind::Revolute => 1.0,
+                        MotionKind::Prismatic => 0.1 * length,
+                    };
+                    // Irregular, so that no posture is singular by symmetry.
+                    x + size * unit * (0.4 + 0.6 * ((i + k) as f64 * 0.618_034).fract())
+                })
+                .collect();
+            let kinematics = Kinematics::new(&self.chain, &self.base, &x, &self.commands, false);
+            let jacobian = kinematics.jacobian(self.chain.tip());
+            for j in 0..n {
+                for i in 0..6 {
+                    let unit = if i < 3 { 1.0 / length } else { 1.0 };
+                    all[(i, k * n + j)] = unit * jacobian[(i, j)];
+                }
+                // Each coordinate counts alike, in whatever unit it is.
+                let size = all.column(k * n + j).norm();
+                if size > 0.0 {
+                    all.column_mut(k * n + j).unscale_mut(size);
+                }
+            }
+        }
+        MovableDirections {
+            basis: SingularValues::of(&all).range(1e-8),
+            length,
+        }
+    }
+
+    /// Index of the branch that comes nearest to a point.
+    #[must_use]
+    pub fn nearest_branch(&self, curves: &Curves<'_>, p: &CurvePoint) -> usize {
+        let x = &p.equilibrium.coordinates;
+        let coordinates = self.chain.coordinates();
+        let length = self.chain.scale().length;
+        let distance = |other: &CurvePoint| {
+            x.iter()
+                .zip(&other.equilibrium.coordinates)
+                .zip(coordinates)
+                .map(|((a, b), c)| {
+                    let d = a - b;
+                    match (c.kind, c.role) {
+                        (MotionKind::Prismatic, _) => (d / length).powi(2),
+                        (_, Role::Passive) => {
+                            let turn = std::f64::consts::TAU;
+                            (d - turn * (d / turn).round()).powi(2)
+                        }
+                        _ => d * d,
+                    }
+                })
+                .sum::<f64>()
+        };
+        let mut best = (f64::INFINITY, 0);
+        for (k, branch) in curves.branches.iter().enumerate() {
+            for point in &branch.points {
+                let d = distance(point);
+                if d < best.0 {
+                    best = (d, k);
+                }
+            }
+        }
+        best.1
+    }
+}
+
+/// The problem at a value of a curve's parameter: its end moved, or its loads grown. Loads on nodes grow as far as
+/// they are dead forces.
+#[must_use]
+pub fn problem_at<'a>(
+    problem: &ChainProblem<'a>,
+    parameter: &Parameter,
+    value: f64,
+) -> ChainProblem<'a> {
+    let mut there = problem.clone();
+    match parameter {
+        Parameter::Displacement(twist) => {
+            there.end.pose = moved(&problem.end.pose, &Twist(twist.0 * value));
+        }
+        Parameter::Load(pattern) => {
+            there.end.wrench = problem.end.wrench + pattern.end * value;
+            there.loads.extend(pattern.loads.iter().map(|l| match l {
+                Load::Dead { node, wrench } => Load::dead(*node, *wrench * value),
+                other => other.clone(),
+            }));
+        }
+    }
+    there
+}

@@ -1,0 +1,281 @@
+//! `kinetostat check job.toml`: what a job asks, and whether it can be asked so. The program is read
+//! and its ends are put into the machine; nothing is solved along it and nothing is written.
+
+use std::path::Path;
+
+use kinetostat::Mechanism;
+use kinetostat_machining::number::counted;
+use kinetostat_machining::{LoadAlongPath, Placement, Warning, load_in_words};
+use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::may_be_written;
+use crate::job::all_faults::{RunQuery, with_all_others};
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::job_file::JobFile;
+use crate::job::machine::machine_setup;
+use crate::job::output_paths::OutputPaths;
+use crate::job::setting::{Setting, setting};
+use crate::job::{program, run_warnings};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::layout::{item, listed, wrapped};
+use crate::ui::numbers::{short, triple};
+use crate::ui::{json, warnings};
+
+/// What a job says, stable names with units.
+#[derive(Serialize)]
+struct JobFindings {
+    schema: u32,
+    kinetostat_version: &'static str,
+    job: String,
+    model: String,
+    model_source: String,
+    model_deviations: Vec<String>,
+    tool: String,
+    placement: String,
+    load: String,
+    program: ProgramFinding,
+    /// The ends of the program along every axis of the part.
+    ends: Vec<EndFinding>,
+    outputs: Vec<OutputFinding>,
+    warnings: Vec<Warning>,
+}
+
+#[derive(Serialize)]
+struct ProgramFinding {
+    name: String,
+    lines: usize,
+    blocks: usize,
+    feed_moves: usize,
+    rapid_moves: usize,
+    feed_length_mm: f64,
+    /// Smallest and largest coordinates, program axes; none without a motion.
+    smallest_mm: Option<[f64; 3]>,
+    largest_mm: Option<[f64; 3]>,
+}
+
+#[derive(Serialize)]
+struct EndFinding {
+    /// As in `smallest x`.
+    end: String,
+    line: usize,
+    position_mm: [f64; 3],
+    reached: bool,
+    /// Why it is not.
+    problem: Option<String>,
+}
+
+#[derive(Serialize)]
+struct OutputFinding {
+    what: &'static str,
+    path: String,
+    exists: bool,
+}
+
+pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
+    let files = InputFiles::default();
+    let flags = ProgramArgs::default();
+    let found = findings(&files, path, &flags).map_err(|failure| {
+        let query = RunQuery {
+            job: Some(path),
+            model: None,
+            program: &flags,
+            writing: WritingFlags::default(),
+        };
+        with_all_others(&files, &query, failure)
+    })?;
+    let text = in_words(&found);
+    json::print_answer(&text, &found, json)?;
+    match found.ends.iter().filter(|e| !e.reached).count() {
+        0 => Ok(()),
+        n => Err(Failure::unanswered(format!(
+            "the machine does not reach {n} of the {} ends of the program; see above",
+            found.ends.len()
+        ))),
+    }
+}
+
+fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobFindings> {
+    let job = JobFile::read(files, path)?;
+    let mut setting = setting(files, Some(&job), flags, &WritingFlags::default())?;
+    let (machine, model) = machine_setup(files, Some(&job), None, flags, &mut setting.inputs)?;
+    let (program, motion) = program::read_program(&setting)?;
+    let mut warnings = run_warnings::of_run(&model, Some(&job));
+    warnings.extend(kinetostat_machining::of_program(&motion, None));
+    warnings.extend(kinetostat_machining::origin_in_metres(
+        &machine.mechanism,
+        &machine.placement,
+        &motion,
+    ));
+    outputs_can_be(&setting)?;
+    let feed = |kind: MoveKind| motion.moves.iter().filter(move |m| m.kind == kind);
+    let corners = extent(&motion);
+    let q = &machine.question;
+    Ok(JobFindings {
+        schema: 1,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        job: path.display().to_string(),
+        model: q.model.clone(),
+        model_source: q.model_source.clone(),
+        model_deviations: q.model_deviations.clone(),
+        tool: q.tool.clone(),
+        placement: q.placement.clone(),
+        load: load_in_words(
+            &machine.mechanism,
+            &LoadAlongPath::new(machine.load, &motion),
+        ),
+        program: ProgramFinding {
+            name: setting.program_name.clone(),
+            lines: program.line_count(),
+            blocks: program.block_count(),
+            feed_moves: feed(MoveKind::Feed).count(),
+            rapid_moves: feed(MoveKind::Rapid).count(),
+            feed_length_mm: feed(MoveKind::Feed)
+                .filter(|m| m.known == Knowledge::Whole)
+                .map(kinetostat_program::Move::length_mm)
+                .sum(),
+            smallest_mm: corners.map(|(low, _)| low.into()),
+            largest_mm: corners.map(|(_, high)| high.into()),
+        },
+        ends: ends(&machine.mechanism, &machine.placement, &motion),
+        outputs: outputs(&setting.targets),
+        warnings,
+    })
+}
+
+/// All points where a move ends, mm, with their lines.
+fn points(motion: &ToolPath) -> impl Iterator<Item = (usize, Vector3<f64>)> + '_ {
+    motion
+        .moves
+        .iter()
+        .filter(|m| m.known != Knowledge::Nothing)
+        .map(|m| (m.line, m.end))
+}
+
+fn extent(motion: &ToolPath) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    points(motion)
+        .map(|(_, p)| (p, p))
+        .reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))
+}
+
+/// The ends of the program along every axis, put into the machine.
+fn ends(mechanism: &Mechanism, placement: &Placement, motion: &ToolPath) -> Vec<EndFinding> {
+    let mut found = Vec::new();
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let by =
+            |a: &(usize, Vector3<f64>), b: &(usize, Vector3<f64>)| a.1[axis].total_cmp(&b.1[axis]);
+        let ends = [
+            ("smallest", points(motion).min_by(by)),
+            ("largest", points(motion).max_by(by)),
+        ];
+        for (word, end) in ends {
+            let Some((line, position)) = end else {
+                continue;
+            };
+            let posture = mechanism.posture(&placement.tool_pose(&position));
+            found.push(EndFinding {
+                end: format!("{word} {name}"),
+                line,
+                position_mm: position.into(),
+                reached: posture.is_ok(),
+                problem: posture.err().map(|error| Failure::from(error).plain),
+            });
+        }
+    }
+    found
+}
+
+/// What a compensation would refuse of its outputs, files that exist apart: these are reported in the list.
+fn outputs_can_be(setting: &Setting) -> Answer<()> {
+    let mut others: Vec<(&'static str, &Path)> = Vec::new();
+    for (what, path) in setting.targets.named() {
+        may_be_written(what, path, &setting.inputs, &others)?;
+        others.push((what, path));
+    }
+    Ok(())
+}
+
+fn outputs(targets: &OutputPaths) -> Vec<OutputFinding> {
+    targets
+        .named()
+        .map(|(what, path)| OutputFinding {
+            what,
+            path: path.display().to_string(),
+            exists: path.exists(),
+        })
+        .collect()
+}
+
+fn in_words(f: &JobFindings) -> String {
+    let mut out = wrapped(&format!("{}: a job for `kinetostat compensate`", f.job), 0);
+    out.push('\n');
+    let p = &f.program;
+    let corners = match (p.smallest_mm, p.largest_mm) {
+        (Some(low), Some(high)) => format!(
+            ", from {} to {} mm",
+            triple(low, short),
+            triple(high, short)
+        ),
+        _ => ", no motion".to_owned(),
+    };
+    let lines = [
+        format!("Model: {} ({})", f.model, f.model_source),
+        format!(
+            "Program: {}, {} in {}; {} of {} mm in all, {}{corners}",
+            p.name,
+            counted(p.blocks, "block"),
+            counted(p.lines, "line"),
+            counted(p.feed_moves, "feed move"),
+            short(p.feed_length_mm),
+            counted(p.rapid_moves, "rapid move")
+        ),
+        format!("Placement: {}", f.placement),
+        format!("Tool: {}", f.tool),
+        format!("Load: {}", f.load),
+    ];
+    for line in lines {
+        out.push_str(&wrapped(&line, 0));
+    }
+    for deviation in &f.model_deviations {
+        out.push_str(&item(deviation));
+    }
+    let missed: Vec<&EndFinding> = f.ends.iter().filter(|e| !e.reached).collect();
+    if missed.is_empty() && !f.ends.is_empty() {
+        out.push_str(&wrapped(
+            "The machine reaches the ends of the program along x, y and z.",
+            0,
+        ));
+    }
+    if !missed.is_empty() {
+        out.push_str("\nNot reached\n");
+    }
+    for end in missed {
+        out.push_str(&item(&format!(
+            "{} (line {}), {} mm: {}",
+            end.end,
+            end.line,
+            triple(end.position_mm, short),
+            end.problem.as_deref().unwrap_or_default()
+        )));
+    }
+    let rows: Vec<Vec<String>> = f
+        .outputs
+        .iter()
+        .map(|o| {
+            let state = match o.exists {
+                true => "exists: needs --force-overwrite",
+                false => "new",
+            };
+            [o.what, &o.path, state].map(str::to_owned).to_vec()
+        })
+        .collect();
+    out.push_str(&format!("\nOutputs\n{}", listed(&rows, 2)));
+    out.push_str(&warnings::warnings(&f.warnings));
+    out.push_str(&format!(
+        "\nNext\n  kinetostat compensate {}\n",
+        crate::ui::safe_text::safe(&f.job)
+    ));
+    out
+}

@@ -1,0 +1,259 @@
+//! The command line: one variant per command, with the options of its folder.
+//!
+//! It takes the words of the command line, negative numbers among them made readable, and gives a [`Command`].
+
+pub(crate) mod negative_numbers;
+
+use clap::{Parser, Subcommand};
+
+use crate::assemble::arguments::AssembleArgs;
+use crate::check::arguments::CheckArgs;
+use crate::compensate::arguments::CompensateArgs;
+use crate::curve::arguments::CurveArgs;
+use crate::deflect::arguments::DeflectArgs;
+use crate::demo::arguments::DemoArgs;
+use crate::equilibria::arguments::EquilibriaArgs;
+use crate::import::arguments::ImportArgs;
+use crate::map::arguments::MapArgs;
+use crate::model::arguments::ModelArgs;
+use crate::options::EXIT_CODES;
+use crate::reproduce::arguments::ReproduceArgs;
+use crate::shell::arguments::{CompletionsArgs, ManArgs};
+use crate::stiffness::arguments::StiffnessArgs;
+
+/// Elastostatics of robots that machine: how far a machine bends along a program, and a program
+/// that cuts where it should.
+#[derive(Debug, Parser)]
+#[command(
+    name = "kinetostat",
+    version,
+    max_term_width = 80,
+    arg_required_else_help = true,
+    subcommand_required = true,
+    after_help = EXIT_CODES,
+    after_long_help = concat!(
+        "Examples:\n",
+        "  kinetostat demo\n",
+        "      a first look: mills a circle on a bending machine and opens no network\n",
+        "  kinetostat deflect job.toml\n",
+        "      how far is the tool off along the program?\n",
+        "  kinetostat compensate job.toml\n",
+        "      write the program that cuts where it should\n",
+        "  kinetostat curve three_link_z --direction -1 0 0 --displacement-mm 0 400\n",
+        "      push a chain together: which force, and where does it buckle?\n",
+        "  kinetostat check my_robot.toml\n",
+        "      what does the model file say, in words?\n\n",
+        "Exit codes:\n",
+        "  0    answered\n",
+        "  1    wrong input: a file, a number or an option; the message says which\n",
+        "  2    no answer: not converged, or a point that cannot be reached\n",
+        "  3    compensated and written, but the tolerance is missed; the line is said\n",
+        "  130  stopped with Ctrl-C; nothing was written",
+    )
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Demo(DemoArgs),
+    Compensate(Box<CompensateArgs>),
+    Deflect(Box<DeflectArgs>),
+    Stiffness(StiffnessArgs),
+    Map(Box<MapArgs>),
+    Assemble(Box<AssembleArgs>),
+    Curve(Box<CurveArgs>),
+    Equilibria(Box<EquilibriaArgs>),
+    Check(CheckArgs),
+    Import(Box<ImportArgs>),
+    Reproduce(ReproduceArgs),
+    Model(ModelArgs),
+    Completions(CompletionsArgs),
+    Man(ManArgs),
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+    use clap::builder::ValueParser;
+    use std::ffi::OsString;
+
+    use crate::command_line::negative_numbers::{no_number, plain_numbers};
+    use crate::options::{number, small, whole};
+
+    use super::*;
+
+    /// Every option of every command that takes numbers, with the words that lead to it.
+    fn options_of_numbers(
+        command: &clap::Command,
+        way: &[String],
+        found: &mut Vec<(Vec<String>, String, usize)>,
+    ) {
+        let numbers = [
+            ValueParser::from(number).type_id(),
+            ValueParser::from(whole).type_id(),
+            ValueParser::from(small).type_id(),
+        ];
+        for argument in command.get_arguments() {
+            if numbers.contains(&argument.get_value_parser().type_id()) {
+                let name = argument.get_long().expect("numbers are options");
+                let count = argument.get_num_args().expect("built").min_values();
+                found.push((way.to_vec(), format!("--{name}"), count));
+            }
+        }
+        for inner in command.get_subcommands() {
+            let mut way = way.to_vec();
+            way.push(inner.get_name().to_owned());
+            options_of_numbers(inner, &way, found);
+        }
+    }
+
+    #[test]
+    fn negative_numbers_of_all_kinds_are_numbers_for_every_option() {
+        let mut command = Cli::command();
+        command.build();
+        let mut options = Vec::new();
+        options_of_numbers(&command, &["kinetostat".to_owned()], &mut options);
+        assert!(options.len() >= 50, "{}", options.len());
+        let number = ValueParser::from(number).type_id();
+        let real = |(way, name, _): &&(Vec<String>, String, usize)| {
+            let mut of = &command;
+            for word in &way[1..] {
+                of = of.find_subcommand(word).expect("a command");
+            }
+            let mut all = of.get_arguments();
+            let own = all.find(|a| a.get_long().is_some_and(|long| name[2..] == *long));
+            own.is_some_and(|a| a.get_value_parser().type_id() == number)
+        };
+        for (way, name, count) in options.iter().filter(real) {
+            for written in ["-5e-12", "-1.5E+3", "-2e3", "-.5", "-0", "-1e-320", "-7.25"] {
+                let mut words = way.clone();
+                words.push(name.clone());
+                words.extend(std::iter::repeat_n(written.to_owned(), *count));
+                let words = plain_numbers(words.into_iter().map(OsString::from));
+                // What else the command needs is missing here; no number may be the reason.
+                if let Err(error) = Cli::try_parse_from(words) {
+                    use clap::error::ErrorKind as Kind;
+                    assert!(
+                        matches!(
+                            error.kind(),
+                            Kind::MissingRequiredArgument | Kind::ArgumentConflict
+                        ),
+                        "{name} {written} of {way:?}: {error}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_no_option() {
+        let said = |line: &str| no_number(&line.split(' ').map(OsString::from).collect::<Vec<_>>());
+        for word in ["-inf", "-Infinity", "-nan", "-NaN"] {
+            let found = said(&format!("kinetostat deflect m --at 1 {word} 0 --json")).unwrap();
+            assert!(
+                found.starts_with(&format!("--at: '{word}' is no finite number")),
+                "{found}"
+            );
+            assert!(said(&format!("kinetostat check -- {word}")).is_none());
+        }
+        assert!(said("kinetostat deflect m --at 1 -5e-12 0 -h").is_none());
+    }
+
+    #[test]
+    fn a_wrong_number_is_said_with_its_option() {
+        let mut command = Cli::command();
+        command.build();
+        let mut options = Vec::new();
+        options_of_numbers(&command, &["kinetostat".to_owned()], &mut options);
+        assert!(options.len() >= 60, "{}", options.len());
+        for (way, name, count) in &options {
+            let refused = |values: &[&str]| {
+                let mut words = way.clone();
+                words.push(name.clone());
+                words.extend(values.iter().map(|&value| value.to_owned()));
+                let words = plain_numbers(words.into_iter().map(OsString::from));
+                let error = Cli::try_parse_from(words).expect_err("a wrong value");
+                let said = error.to_string();
+                let first = said.lines().next().unwrap_or_default();
+                assert!(first.contains(name), "{way:?} {name} {values:?}: {said}");
+            };
+            for wrong in [
+                "text", "nan", "inf", "1e400", "-1e400", "1,5", "0x10", "5mm", "",
+            ] {
+                for at in 0..(*count).max(1) {
+                    let mut values = vec!["1"; (*count).max(1)];
+                    values[at] = wrong;
+                    refused(&values);
+                }
+            }
+            // Too few; a value that may be left out is none too few.
+            if *count > 0 {
+                refused(&vec!["1"; count - 1]);
+            }
+        }
+    }
+
+    /// Options whose text holds numbers: the test `numbers_inside_texts_are_refused_with_their_option` has
+    /// them all.
+    #[test]
+    fn the_options_with_numbers_inside_their_text_are_known() {
+        fn texts(command: &clap::Command, found: &mut std::collections::BTreeSet<String>) {
+            for argument in command.get_arguments() {
+                let names = argument.get_value_names().unwrap_or_default();
+                if names.iter().any(|name| name.contains('=')) {
+                    found.insert(argument.get_long().expect("an option").to_owned());
+                }
+            }
+            for inner in command.get_subcommands() {
+                texts(inner, found);
+            }
+        }
+        let mut found = std::collections::BTreeSet::new();
+        texts(&Cli::command(), &mut found);
+        let known = [
+            "axes",
+            "grow",
+            "home",
+            "joints",
+            "limit",
+            "load",
+            "part-orientation",
+            "pendant",
+            "rotation",
+            "section",
+            "tool-orientation",
+            "work-offset",
+        ];
+        assert_eq!(found, known.map(String::from).into());
+    }
+
+    #[test]
+    fn plain_numbers_keep_their_value_and_words_stay() {
+        let reported = |word: &str| {
+            let words = plain_numbers(["k".into(), word.into()].into_iter());
+            words[1].to_str().expect("text").to_owned()
+        };
+        for written in [
+            "-5e-12",
+            "-1.7976931348623157e308",
+            "-5e-324",
+            "-0.1e1",
+            "-123.456e-7",
+        ] {
+            let plain = reported(written);
+            let [a, b]: [f64; 2] = [written, &plain].map(|t| t.parse().expect("a number"));
+            assert_eq!(a.to_bits(), b.to_bits(), "{written}");
+            assert!(!plain.contains(['e', 'E']), "{plain}");
+        }
+        for word in [
+            "-e", "--at", "-1e999", "-inf", "5e3", "--e5", "-5", "file-1e5",
+        ] {
+            assert_eq!(reported(word), word);
+        }
+        let after = plain_numbers(["--".into(), "-1e3".into()].into_iter());
+        assert_eq!(after[1], "-1e3");
+    }
+}

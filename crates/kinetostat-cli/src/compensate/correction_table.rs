@@ -1,0 +1,267 @@
+//! `kinetostat compensate --map`: a program corrected from a table.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_machining::number::{
+    MISSING, Rounding, fixed, largest, largest_length, significant, with_unit,
+};
+use kinetostat_machining::{
+    RESULT_SCHEMA, RunError, TableCorrection, ToleranceVerdict, Warning, WarningCode,
+    correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
+    unchanged_in_words, wide_table,
+};
+use kinetostat_program::{
+    Accounting, CorrectionMap, Path as ToolPath, WriteOptions, verify_written,
+};
+use serde::Serialize;
+
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing, Outputs};
+use crate::job::program;
+use crate::job::setting::Setting;
+use crate::program::report;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::layout::{columns, wrapped};
+use crate::ui::progress::Progress;
+use crate::ui::{fault_list, json, warnings};
+
+/// Result of a program corrected from a table.
+#[derive(Serialize)]
+struct MapResult<'a> {
+    schema: u32,
+    kinetostat_version: &'static str,
+    program: &'a str,
+    map: String,
+    accounting: &'a Accounting,
+    /// No correction could be written: the program came back byte for byte.
+    unchanged: bool,
+    /// It came back so because it keeps the tolerance as it is.
+    within_tolerance_before: bool,
+    /// How the written program stands to its tolerance, as for a model.
+    tolerance: ToleranceVerdict,
+    /// Places of the written program at which the table was asked again.
+    places_checked: usize,
+    /// Largest distance between where the program goes as it is and where the table wants it.
+    max_position_error_before_mm: f64,
+    /// Largest distance there between where the program goes and where the table wants it.
+    max_position_error_after_mm: f64,
+    /// What that may be at most.
+    max_position_error_allowed_mm: f64,
+    largest_distance_mm: f64,
+    largest_speed_error_percent: f64,
+    warnings: Vec<Warning>,
+}
+
+/// More faults than this are not looked for in a table.
+const FAULTS_OF_A_TABLE: usize = 1000;
+
+pub(crate) fn from_map(
+    files: &InputFiles,
+    map: &Path,
+    setting: &Setting,
+    existing: Existing,
+    to_screen: bool,
+) -> Answer<()> {
+    let t = &setting.targets;
+    if t.report.is_some() || t.points.is_some() {
+        return Err(Failure::input(
+            "--map writes no --report and no --points: a table of corrections says nothing about loads and stiffness; leave these options out",
+        ));
+    }
+    let field = read_table(files, map)?;
+    let (program, path) = program::read_program(setting)?;
+    let mut inputs = setting.inputs.clone();
+    inputs.push(map.to_owned());
+    let mut outputs = Outputs::new(existing, inputs);
+    let mut claim = |what, target: &Option<PathBuf>| {
+        target
+            .as_deref()
+            .map(|path| outputs.claim(what, path))
+            .transpose()
+    };
+    let (out, json_out) = (
+        claim("corrected program", &t.program)?,
+        claim("result", &t.json)?,
+    );
+    let mut writing = setting.writing.clone();
+    let name = map
+        .file_name()
+        .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    if let Some(header) = &mut writing.header {
+        *header = vec![
+            format!("version {}", env!("CARGO_PKG_VERSION")),
+            format!("corrections from the table {name}"),
+        ];
+    }
+    let refuse = |error| {
+        Failure::from(kinetostat_machining::RunError::Write(error)).within(&setting.program_name)
+    };
+    let progress = Progress::new();
+    let made = correct_by_table(&program, &path, &field, &writing, &progress).map_err(refuse)?;
+    let (written, against) = (&made.written, &made.against);
+    let a = &written.accounting;
+    let beyond = of_accounting(&setting.limits, a);
+    if !beyond.is_empty() {
+        return Err(Failure::from(RunError::BeyondLimits(beyond)).within(&setting.program_name));
+    }
+    let check =
+        verify_written(&program, &path, written, &setting.reading, &writing).map_err(refuse)?;
+    progress.finish();
+    let unchanged = written.bytes == program.bytes();
+    let farthest = match unchanged {
+        true => &against.before,
+        false => &against.after,
+    };
+    let tolerance = of_table(farthest, against.allowed_mm, a);
+    let warnings = warnings_of(setting, &path, &field, &made, &tolerance, &writing);
+    let result = MapResult {
+        schema: RESULT_SCHEMA,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        program: &setting.program_name,
+        map: name,
+        accounting: a,
+        unchanged,
+        within_tolerance_before: made.keeps_as_it_is,
+        tolerance,
+        places_checked: against.places,
+        max_position_error_before_mm: against.before.distance_mm,
+        max_position_error_after_mm: farthest.distance_mm,
+        max_position_error_allowed_mm: against.allowed_mm,
+        largest_distance_mm: check.largest_distance_mm,
+        largest_speed_error_percent: 100.0 * check.largest_speed_error,
+        warnings,
+    };
+    if let Some(index) = json_out {
+        outputs.fill(index, json::json(&result)?.as_bytes())?;
+    }
+    if let Some(index) = out {
+        outputs.fill(index, &written.bytes)?;
+    }
+    let paths = outputs.commit()?;
+    let mut text = words(&result);
+    text.push_str(&warnings::warnings(&result.warnings));
+    text.push_str(&outputs::written(&paths));
+    json::print_answer(&text, &result, to_screen)?;
+    report::refuse_missed_tolerance(&result.tolerance, result.program)
+}
+
+/// The table of corrections; of a faulty one all faults.
+fn read_table(files: &InputFiles, map: &Path) -> Answer<CorrectionMap> {
+    let bytes = files.bytes("map", map)?;
+    CorrectionMap::read(&bytes).map_err(|first| {
+        let all = CorrectionMap::faults(&bytes, FAULTS_OF_A_TABLE);
+        let places = match all.len() {
+            FAULTS_OF_A_TABLE => "or more places of the table",
+            _ => "places of the table",
+        };
+        let message =
+            fault_list::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
+        Failure::input(message).within(&map.display().to_string())
+    })
+}
+
+fn warnings_of(
+    setting: &Setting,
+    path: &ToolPath,
+    field: &CorrectionMap,
+    made: &TableCorrection,
+    tolerance: &ToleranceVerdict,
+    writing: &WriteOptions,
+) -> Vec<Warning> {
+    let mut warnings = of_program(path, Some(&made.written.accounting.warnings));
+    let (largest_mm, largest_line) = made.largest_correction;
+    let odd = odd_correction(
+        &setting.limits,
+        largest_mm,
+        largest_line,
+        writing.tolerance_mm,
+    );
+    // What was left out was to be corrected all the same.
+    let nothing_left_out =
+        |w: &Warning| tolerance.held == Some(true) || w.code != WarningCode::SmallCorrection;
+    warnings.extend(odd.filter(nothing_left_out));
+    warnings.extend(wide_table(path, field));
+    warnings.extend(odd_tolerances(writing));
+    warnings
+}
+
+/// The result for a person: what is missed first, then the figures.
+fn words(result: &MapResult<'_>) -> String {
+    let a = result.accounting;
+    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    let mut text = wrapped(
+        &format!("{} corrected by the table {}", result.program, result.map),
+        0,
+    );
+    let said = result.tolerance.missed_in_words().or_else(|| {
+        let before = result.max_position_error_before_mm;
+        result
+            .unchanged
+            .then(|| unchanged_in_words(result.within_tolerance_before, before))
+    });
+    if let Some(said) = said {
+        text.push('\n');
+        text.push_str(&wrapped(&said, 2));
+    }
+    text.push('\n');
+    let per_second =
+        |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |rate| largest(rate, "1/s"));
+    let mean_per_second = |rate: Option<f64>| {
+        let nearest = |rate| with_unit(&significant(rate, 3, Rounding::Nearest), "1/s");
+        rate.map_or_else(|| MISSING.to_owned(), nearest)
+    };
+    let seconds = |time: Option<f64>| {
+        time.map_or_else(
+            || MISSING.to_owned(),
+            |time| with_unit(&fixed(time, 1), "s"),
+        )
+    };
+    text.push_str(&columns(
+        &[
+            row(
+                "largest correction",
+                largest_length(a.largest_correction_mm),
+            ),
+            row(
+                "farthest from where the table wants it",
+                largest_length(result.max_position_error_after_mm),
+            ),
+            row("places checked", result.places_checked.to_string()),
+            row("rounding", largest_length(a.largest_rounding_mm)),
+            row(
+                match a.feed_limited_pieces {
+                    0 => "speed along the part, error",
+                    _ => "error of the speed, feed not limited",
+                },
+                largest(result.largest_speed_error_percent, "%"),
+            ),
+            row("blocks read", a.blocks_in.to_string()),
+            row("blocks written", a.blocks_out.to_string()),
+            row("blocks unchanged", a.blocks_carried.to_string()),
+            row(
+                "length at feed, before",
+                with_unit(&fixed(a.feed_length_in_mm, 1), "mm"),
+            ),
+            row(
+                "length at feed, after",
+                with_unit(&fixed(a.feed_length_out_mm, 1), "mm"),
+            ),
+            row("time at feed, before", seconds(a.feed_time_in_s)),
+            row("time at feed, after", seconds(a.feed_time_out_s)),
+            row(
+                "blocks per second, before",
+                mean_per_second(a.mean_blocks_per_second_in),
+            ),
+            row(
+                "blocks per second, after",
+                mean_per_second(a.mean_blocks_per_second),
+            ),
+            row(
+                "most of 16 in a row, after",
+                per_second(a.peak_blocks_per_second),
+            ),
+        ],
+        2,
+    ));
+    text
+}

@@ -1,0 +1,274 @@
+//! The answer of `curve`: branches, named points, jumps and critical loads, with stable names and
+//! units.
+
+use kinetostat::{BranchEnd, SpecialKind};
+use kinetostat_machining::{Warning, WarningCode};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::curve::query::{CurveQuery, Measure};
+use crate::end_condition::coordinates::CoordinateName;
+use crate::end_condition::holding::Holding;
+use crate::place::query::PlaceAnswer;
+
+/// The answer, stable names with units.
+#[derive(Serialize)]
+pub(crate) struct CurveAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    pub(crate) place: PlaceAnswer,
+    pub(crate) question: String,
+    pub(crate) tool_held: Holding,
+    /// What grows: displacement, rotation or load.
+    pub(crate) grows: &'static str,
+    /// Coordinates of the chain, in the order of `coordinates` of every point.
+    pub(crate) coordinates: Vec<CoordinateName>,
+    pub(crate) named_points: Vec<NamedPoint>,
+    pub(crate) jumps: Vec<JumpAnswer>,
+    pub(crate) critical_loads: Vec<CriticalAnswer>,
+    pub(crate) branches: Vec<BranchAnswer>,
+    /// True if branches that cross were left out because there were too many.
+    pub(crate) more_branches: bool,
+    /// True if everything that acts has a potential: statements about energy hold.
+    pub(crate) conservative: bool,
+    pub(crate) warnings: Vec<Warning>,
+    /// `chain` or `machine`.
+    #[serde(skip)]
+    pub(crate) subject: &'static str,
+    #[serde(skip)]
+    pub(crate) units: Units,
+    /// What was asked and what the start's own branch covers of it, as the parameter is shown.
+    #[serde(skip)]
+    pub(crate) requested: (f64, f64),
+    #[serde(skip)]
+    pub(crate) reached: (f64, f64),
+}
+
+/// A chain that is turned over moves its tip by twice its length: what goes further is stretched.
+const STRETCHED: f64 = 2.5;
+
+impl CurveAnswer {
+    /// With a warning where the tool goes further than a machine of this length (m) can.
+    pub(crate) fn with_stretch_warning(mut self, length: f64) -> Self {
+        let points = self.branches.iter().flat_map(|b| &b.points);
+        let places = points.map(|p| Vector3::from(p.position_mm));
+        let start = self.branches.first().and_then(|b| b.points.first());
+        let farthest = start.map_or(0.0, |start| {
+            let start = Vector3::from(start.position_mm);
+            places.map(|p| (p - start).norm()).fold(0.0, f64::max)
+        });
+        if farthest > STRETCHED * 1e3 * length {
+            self.warnings.push(Warning::new(
+                WarningCode::LargeDisplacement,
+                format!(
+                    "the tool goes {} times as far as the machine is long: its springs are stretched beyond all sense; check the range and its unit",
+                    crate::ui::numbers::number(farthest / (1e3 * length), 2)
+                ),
+            ));
+        }
+        self
+    }
+}
+
+/// Names of the quantities of a curve.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Units {
+    pub(crate) displacement: &'static str,
+    pub(crate) displacement_unit: &'static str,
+    pub(crate) load: &'static str,
+    pub(crate) load_unit: &'static str,
+    pub(crate) slope_unit: &'static str,
+}
+
+impl Units {
+    pub(crate) fn of(question: &CurveQuery) -> Self {
+        match question.measure {
+            Measure::Force(_) => Self {
+                displacement: "displacement",
+                displacement_unit: "mm",
+                load: "force",
+                load_unit: "N",
+                slope_unit: "N/mm",
+            },
+            Measure::Moment(_) => Self {
+                displacement: "rotation",
+                displacement_unit: "deg",
+                load: "moment",
+                load_unit: "N m",
+                slope_unit: "N m/deg",
+            },
+            Measure::Work => Self {
+                displacement: "work per factor",
+                displacement_unit: "J",
+                load: "load factor",
+                load_unit: "",
+                slope_unit: "1/J",
+            },
+        }
+    }
+}
+
+/// An equilibrium on a curve. Of displacement, load and slope only those of one unit are given.
+#[derive(Clone, Serialize)]
+pub(crate) struct PointAnswer {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) factor: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) displacement_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) rotation_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) work_per_factor_j: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) force_along_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) moment_along_n_m: Option<f64>,
+    /// Null where the displacement stands still.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) slope_n_per_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) slope_n_m_per_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) slope_per_j: Option<f64>,
+    pub(crate) stable_under_dead_load: bool,
+    pub(crate) stable_under_prescribed_motion: bool,
+    /// Under the load, which has no potential, nothing goes away, but it may swing with growing
+    /// amplitude; whether it does depends on the masses.
+    pub(crate) may_flutter: bool,
+    /// Largest share of the way to buckling while the tool is held where it is, as in `deflect`; null
+    /// without inner freedom, and where a passive joint is pushed out of line.
+    pub(crate) share_to_buckling: Option<f64>,
+    pub(crate) spring_energy_j: f64,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rotation_vector_deg: [f64; 3],
+    pub(crate) coordinates: Vec<f64>,
+    /// Displacement, load and slope in the units of the answer.
+    #[serde(skip)]
+    pub(crate) shown: [f64; 3],
+}
+
+/// A point with a name.
+#[derive(Clone, Serialize)]
+pub(crate) struct NamedPoint {
+    pub(crate) name: String,
+    /// start, load_limit, displacement_limit, pitchfork, transcritical, multiple, crossing (of
+    /// machines), landing or end.
+    pub(crate) kind: &'static str,
+    pub(crate) in_words: String,
+    /// Numbers of the branches through it, from 1.
+    pub(crate) branches: Vec<usize>,
+    /// The critical mode (or the motion along the curve), largest component 1: m, rad.
+    pub(crate) mode: Vec<f64>,
+    pub(crate) mode_in_words: String,
+    /// Whether stability ends here: under a dead load, under prescribed motion.
+    #[serde(skip)]
+    pub(crate) limits: [bool; 2],
+    #[serde(flatten)]
+    pub(crate) point: PointAnswer,
+}
+
+/// A jump from a limit point.
+#[derive(Serialize)]
+pub(crate) struct JumpAnswer {
+    pub(crate) from: String,
+    /// dead_load or prescribed_motion.
+    pub(crate) under: &'static str,
+    /// Names of the points where it may land, nearest first; empty if no branch that was followed
+    /// holds a stable shape there.
+    pub(crate) to: Vec<String>,
+}
+
+/// A critical load factor.
+#[derive(Serialize)]
+pub(crate) struct CriticalAnswer {
+    /// shape (the tool held where it is) or shape_and_tool (as prescribed).
+    pub(crate) judged: &'static str,
+    /// From the stresses of the first load step alone; null if they never destabilise.
+    pub(crate) linear_factor: Option<f64>,
+    pub(crate) linear_mode_in_words: String,
+    /// On the path; null if none was met.
+    pub(crate) factor: Option<f64>,
+    /// Name as in named points; null where the held shape alone becomes critical.
+    pub(crate) kind: Option<&'static str>,
+    pub(crate) mode: Vec<f64>,
+    pub(crate) mode_in_words: String,
+    pub(crate) followed_to_factor: f64,
+    /// All loads have a potential; if not, the factor is that of divergence, flutter is left open.
+    pub(crate) conservative: bool,
+    /// Without a potential: below this factor nothing goes away, whatever the masses are; null with one, or
+    /// if none was met.
+    pub(crate) safe_below_factor: Option<f64>,
+    /// What is left open, in words; empty if nothing is.
+    pub(crate) caution: String,
+}
+
+/// A path of equilibria.
+#[derive(Serialize)]
+pub(crate) struct BranchAnswer {
+    pub(crate) number: usize,
+    /// Name of the point from which it was found; null for the start's and those of --all.
+    pub(crate) from: Option<String>,
+    /// Why it ends at its first and at its last point: range, angle, points, closed, lost, stalled.
+    pub(crate) ends: [BranchEnd; 2],
+    pub(crate) points: Vec<PointAnswer>,
+}
+
+/// What a special point is called.
+pub(crate) fn kind_name(kind: SpecialKind) -> &'static str {
+    match kind {
+        SpecialKind::LoadLimit => "load_limit",
+        SpecialKind::DisplacementLimit => "displacement_limit",
+        SpecialKind::Pitchfork => "pitchfork",
+        SpecialKind::Transcritical => "transcritical",
+        SpecialKind::StabilityChange => "crossing",
+        SpecialKind::Multiple { .. } => "multiple",
+    }
+}
+
+pub(crate) fn kind_in_words(kind: &str) -> &'static str {
+    match kind {
+        "load_limit" => "limit of the load",
+        "displacement_limit" => "limit of the motion",
+        "pitchfork" => "pitchfork",
+        "transcritical" => "transcritical crossing",
+        "multiple" => "several modes at once",
+        "crossing" => "stability changes",
+        "landing" => "after a jump",
+        "end" => "end",
+        _ => "start",
+    }
+}
+
+/// A, B, ... Z, AA, AB, ...
+pub(crate) fn letter(index: usize) -> String {
+    let mut rest = index;
+    let mut text = String::new();
+    loop {
+        text.insert(0, char::from(b'A' + u8::try_from(rest % 26).unwrap_or(0)));
+        if rest < 26 {
+            return text;
+        }
+        rest = rest / 26 - 1;
+    }
+}
+
+/// Smallest and largest of the values of a curve's parameter.
+pub(crate) fn reached(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
+}
+
+/// What grows, by name.
+pub(crate) fn grows(q: &CurveQuery) -> &'static str {
+    match (q.by_load(), q.measure) {
+        (true, _) => "load",
+        (false, Measure::Moment(_)) => "rotation",
+        (false, _) => "displacement",
+    }
+}

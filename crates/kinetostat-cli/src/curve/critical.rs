@@ -1,0 +1,60 @@
+//! Critical load factors of a chain.
+
+use kinetostat::{
+    ChainProblem, CriticalLoad, CurveSettings, Judged, Parameter, critical_load_factor,
+};
+use kinetostat_analysis::serial_chain::SerialChain;
+
+use crate::curve::answer::{CriticalAnswer, kind_name};
+use crate::curve::query::CurveQuery;
+use crate::end_condition::chain::mode_in_words;
+use crate::ui::failure::Answer;
+
+pub(crate) fn critical_loads(
+    chain: &SerialChain,
+    q: &CurveQuery,
+    problem: &ChainProblem<'_>,
+    settings: &CurveSettings,
+) -> Answer<Vec<CriticalAnswer>> {
+    let Parameter::Load(pattern) = &q.parameter else {
+        return Ok(Vec::new());
+    };
+    if q.range.1 <= 0.0 || q.range.0 > 0.0 {
+        return Ok(Vec::new());
+    }
+    let mut list = Vec::new();
+    for (judged, name) in [
+        (Judged::Shape, "shape"),
+        (Judged::ShapeAndEnd, "shape_and_tool"),
+    ] {
+        let found = critical_load_factor(problem, pattern, judged, settings)?;
+        list.push(critical_answer(chain, name, found));
+    }
+    Ok(list)
+}
+
+fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -> CriticalAnswer {
+    let mode = c.exact.as_ref().map_or_else(Vec::new, |e| e.mode.clone());
+    let caution = c.caution().unwrap_or_default();
+    CriticalAnswer {
+        judged,
+        linear_factor: c.linear,
+        linear_mode_in_words: if c.linear_mode.is_empty() {
+            String::new()
+        } else {
+            mode_in_words(chain, &c.linear_mode)
+        },
+        factor: c.exact.as_ref().map(|e| e.factor),
+        kind: c.exact.as_ref().and_then(|e| e.kind).map(kind_name),
+        mode_in_words: if mode.is_empty() {
+            String::new()
+        } else {
+            mode_in_words(chain, &mode)
+        },
+        mode,
+        followed_to_factor: c.reached,
+        conservative: c.conservative,
+        safe_below_factor: c.definite_until,
+        caution,
+    }
+}

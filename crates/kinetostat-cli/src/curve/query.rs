@@ -1,0 +1,308 @@
+//! The query of `curve`, from its options: what grows, how far, and what acts besides.
+
+use kinetostat::{EndCondition, Load, LoadPattern, Parameter, Twist, Wrench};
+use kinetostat_analysis::serial_chain::SerialChain;
+use nalgebra::{Vector3, Vector6};
+
+use crate::curve::arguments::CurveArgs;
+use crate::end_condition::chain::node_force;
+use crate::end_condition::holding::{Driven, Holding, axis_in_words, holding};
+use crate::end_condition::loads::{constant, constant_in_words, no_nodes, wrench};
+use crate::end_condition::moves::Moves;
+use crate::options::vector;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::{number, short, triple};
+
+/// In which quantity a curve is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Measure {
+    /// Displacement (mm) and force (N) along one line; the force per unit of the parameter's load.
+    Force(f64),
+    /// Rotation (deg) and moment (N m) about one line.
+    Moment(f64),
+    /// Several loads at once: work per unit factor (J) and factor.
+    Work,
+}
+
+/// A question of `curve`.
+#[derive(Clone, Debug)]
+pub(crate) struct CurveQuery {
+    pub(crate) holding: Holding,
+    pub(crate) parameter: Parameter,
+    pub(crate) driven: Option<Driven>,
+    pub(crate) measure: Measure,
+    /// Of the parameter: m, rad or a factor.
+    pub(crate) range: (f64, f64),
+    /// Of the force along the displacement, N or N m.
+    pub(crate) force_limits: Option<(f64, f64)>,
+    pub(crate) branches: usize,
+    pub(crate) points: usize,
+    pub(crate) all: bool,
+    /// What is asked, in words.
+    pub(crate) words: String,
+}
+
+impl CurveQuery {
+    pub(crate) fn by_load(&self) -> bool {
+        matches!(self.parameter, Parameter::Load(_))
+    }
+
+    /// The parameter's value nearest to none.
+    pub(crate) fn start(&self) -> f64 {
+        0.0_f64.clamp(self.range.0, self.range.1)
+    }
+
+    /// The parameter in the unit of the question (mm, deg or a factor).
+    pub(crate) fn shown(&self, value: f64) -> f64 {
+        match (&self.parameter, self.measure) {
+            (Parameter::Displacement(_), Measure::Moment(_)) => value.to_degrees(),
+            (Parameter::Displacement(_), _) => 1e3 * value,
+            (Parameter::Load(_), _) => value,
+        }
+    }
+}
+
+/// Two different numbers, the smaller first.
+fn ends(option: &str, values: &[f64]) -> Answer<(f64, f64)> {
+    let (a, b) = (values[0], values[1]);
+    if a == b {
+        return Err(Failure::input(format!(
+            "{option} goes from {a} to {b}: there is nothing between equal ends; give two different numbers"
+        )));
+    }
+    Ok((a.min(b), a.max(b)))
+}
+
+fn unit(option: &str, values: &[f64]) -> Answer<Vector3<f64>> {
+    let v = vector(option, values)?;
+    if v.norm() == 0.0 {
+        return Err(Failure::input(format!(
+            "{option} 0 0 0 is no direction; give one, as in {option} 1 0 0"
+        )));
+    }
+    Ok(v.normalize())
+}
+
+/// A number that was asked for, as short as it can be: a small one is never called nothing.
+fn given(value: f64) -> String {
+    match short(value).as_str() {
+        "0" | "-0" if value != 0.0 => number(value, 4),
+        text => text.to_owned(),
+    }
+}
+
+/// Three components that were asked for; what turning them left of nothing is nothing.
+fn given_triple(v: [f64; 3]) -> String {
+    let most = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    triple(v, |x| {
+        if x.abs() < 1e-12 * most {
+            "0".into()
+        } else {
+            given(x)
+        }
+    })
+}
+
+/// The question of `curve`. `chain`: for forces on its nodes; a machine has none here.
+pub(crate) fn curve_query(
+    moves: &Moves,
+    chain: Option<&SerialChain>,
+    args: &CurveArgs,
+) -> Answer<CurveQuery> {
+    let constant = constant(&args.end)?;
+    let place = moves.place;
+    let counts = [
+        ("--branches", args.branches, 1, 1000),
+        ("--points", args.points, 10, 100_000),
+    ];
+    for (option, value, low, high) in counts {
+        if value.is_some_and(|v| !(low..=high).contains(&v)) {
+            return Err(Failure::input(format!(
+                "{option} takes a number from {low} to {high}"
+            )));
+        }
+    }
+    let mut question = CurveQuery {
+        holding: Holding {
+            subject: moves.subject,
+            held: Vec::new(),
+            free: Vec::new(),
+            rigid: Vec::new(),
+            axes_rotation_vector_deg: [0.0; 3],
+            end: EndCondition::pose(place),
+        },
+        parameter: Parameter::Displacement(Twist::zero()),
+        driven: None,
+        measure: Measure::Work,
+        range: (0.0, 0.0),
+        force_limits: None,
+        branches: args.branches.unwrap_or(12),
+        points: args.points.unwrap_or(600),
+        all: args.all,
+        words: String::new(),
+    };
+    if let Some(limits) = &args.force_limits {
+        question.force_limits = Some(ends("--force-limits", limits)?);
+    }
+    match (&args.direction, &args.about, &args.factor) {
+        (Some(direction), None, None) => pushed(&mut question, direction, args)?,
+        (None, Some(about), None) => turned(&mut question, about, args)?,
+        (None, None, Some(range)) => question.range = ends("--factor", range)?,
+        _ => {
+            return Err(Failure::input(
+                "what shall grow? Either a displacement (--direction X Y Z --displacement-mm FROM TO, or --about X Y Z --turn-deg FROM TO) or a load (--force FX FY FZ --factor FROM TO)",
+            ));
+        }
+    }
+    if question.driven.is_some()
+        && (args.force.is_some() || args.moment.is_some() || !args.grow.is_empty())
+    {
+        return Err(Failure::input(
+            "--force, --moment and --grow are loads that grow with --factor; here the motion grows. A load that acts all the time is --constant-force, --constant-moment or --load NODE=FX,FY,FZ",
+        ));
+    }
+    if let Some(driven) = question.driven {
+        question.parameter = Parameter::Displacement(Twist(driven.twist()));
+        question.holding = holding(moves, &args.end, &place, constant, true, Some(&driven))?;
+    } else {
+        load_pattern(&mut question, moves, chain, args, constant)?;
+    }
+    question.words.push(' ');
+    question.words.push_str(&question.holding.in_words());
+    question.words.push_str(&constant_in_words(&args.end));
+    Ok(question)
+}
+
+/// The tool is pushed along a direction.
+fn pushed(question: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Answer<()> {
+    let range = args.displacement_mm.as_ref().ok_or_else(|| {
+        Failure::input(
+            "how far? --direction needs --displacement-mm FROM TO, as in --displacement-mm 0 20",
+        )
+    })?;
+    let (low, high) = ends("--displacement-mm", range)?;
+    question.range = (1e-3 * low, 1e-3 * high);
+    question.measure = Measure::Force(1.0);
+    let driven = Driven {
+        axis: unit("--direction", direction)?,
+        turns: false,
+    };
+    question.words = format!(
+        "The tool is pushed along {} from {} to {} mm; the force is what pushes it that way.",
+        axis_in_words(&driven.axis),
+        short(low),
+        short(high)
+    );
+    question.driven = Some(driven);
+    Ok(())
+}
+
+/// The tool is turned about a direction.
+fn turned(question: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<()> {
+    let range = args.turn_deg.as_ref().ok_or_else(|| {
+        Failure::input("how far? --about needs --turn-deg FROM TO, as in --turn-deg 0 5")
+    })?;
+    let (low, high) = ends("--turn-deg", range)?;
+    if low < -180.0 || high > 180.0 {
+        return Err(Failure::input(
+            "--turn-deg: the tool can be turned by -180 to 180 degrees",
+        ));
+    }
+    question.range = (low.to_radians(), high.to_radians());
+    question.measure = Measure::Moment(1.0);
+    let driven = Driven {
+        axis: unit("--about", about)?,
+        turns: true,
+    };
+    question.words = format!(
+        "The tool is turned about {} from {} to {} deg; the moment is what turns it that way.",
+        axis_in_words(&driven.axis),
+        short(low),
+        short(high)
+    );
+    question.driven = Some(driven);
+    Ok(())
+}
+
+/// The growing load of the options.
+fn load_pattern(
+    question: &mut CurveQuery,
+    moves: &Moves,
+    chain: Option<&SerialChain>,
+    args: &CurveArgs,
+    constant: Wrench,
+) -> Answer<()> {
+    let end = wrench(
+        ("--force", args.force.as_deref()),
+        ("--moment", args.moment.as_deref()),
+    )?;
+    let mut loads = Vec::new();
+    for text in &args.grow {
+        match chain {
+            Some(chain) => loads.push(node_force(chain, "--grow", text)?),
+            None => return Err(no_nodes("--grow")),
+        }
+    }
+    let (force, moment) = (end.force().norm(), end.moment().norm());
+    let sizes: Vec<f64> = loads
+        .iter()
+        .map(|l| match l {
+            Load::Dead { wrench, .. } => wrench.force().norm(),
+            _ => 0.0,
+        })
+        .collect();
+    if force == 0.0 && moment == 0.0 && sizes.iter().all(|s| *s == 0.0) {
+        return Err(Failure::input(
+            "which load shall grow? Give --force FX FY FZ, --moment MX MY MZ or --grow NODE=FX,FY,FZ, not all zero",
+        ));
+    }
+    question.measure = match (force > 0.0, moment > 0.0, sizes.as_slice()) {
+        (true, false, []) => Measure::Force(force),
+        (false, true, []) => Measure::Moment(moment),
+        (false, false, [size]) => Measure::Force(*size),
+        _ => Measure::Work,
+    };
+    let mut parts = Vec::new();
+    if force > 0.0 {
+        parts.push(format!(
+            "the force {} N on the tool",
+            given_triple(end.force().into())
+        ));
+    }
+    if moment > 0.0 {
+        parts.push(format!(
+            "the moment {} N m on the tool",
+            given_triple(end.moment().into())
+        ));
+    }
+    for load in &loads {
+        if let (Load::Dead { node, wrench }, Some(chain)) = (load, chain) {
+            parts.push(format!(
+                "the force {} N on '{}'",
+                given_triple(wrench.force().into()),
+                chain.chain.nodes()[*node]
+            ));
+        }
+    }
+    question.words = format!(
+        "The load grows from {} to {} times {}.",
+        given(question.range.0),
+        given(question.range.1),
+        parts.join(" with ")
+    );
+    let holding = holding(moves, &args.end, &moves.place, constant, false, None)?;
+    holding.accepts("the growing load", &end)?;
+    // Work of the wrench on the motions that the chain can make, moments at the natural length.
+    let length = moves.directions.length;
+    let pull = Vector6::from_fn(|i, _| if i < 3 { end.0[i] * length } else { end.0[i] });
+    if loads.is_empty() && (moves.directions.basis.transpose() * pull).norm() < 1e-9 * pull.norm() {
+        return Err(Failure::input(format!(
+            "the growing load does nothing: the {} is rigid in {}, where it acts. Choose another direction",
+            moves.subject,
+            holding.rigid.join(", ")
+        )));
+    }
+    question.holding = holding;
+    question.parameter = Parameter::Load(LoadPattern { end, loads });
+    Ok(())
+}

@@ -1,0 +1,61 @@
+//! Deflections along a program.
+
+use std::path::Path;
+
+use crate::deflect::arguments::DeflectArgs;
+use crate::files::input_files::InputFiles;
+use crate::files::outputs::{self, Existing};
+use crate::job::arguments::WritingFlags;
+use crate::job::job_file::JobFile;
+use crate::job::machine::machine_setup;
+use crate::job::setting::setting;
+use crate::job::{program, run_warnings};
+use crate::machine::model_warnings::with_model_warning;
+use crate::program::aim::Aim;
+use crate::program::outputs::RunOutputs;
+use crate::program::{report, solve, summary};
+use crate::ui::failure::Answer;
+
+pub(crate) fn along_program(args: &DeflectArgs, is_job: bool) -> Answer<()> {
+    let files = InputFiles::default();
+    let job = is_job
+        .then(|| JobFile::read(&files, Path::new(&args.subject)))
+        .transpose()?;
+    let named = (!is_job).then_some(args.subject.as_str());
+    let flags = WritingFlags {
+        json: args.json.as_deref(),
+        ..WritingFlags::default()
+    };
+    let mut setting = setting(&files, job.as_ref(), &args.program, &flags)?;
+    let mut chosen = setting.targets.clone();
+    // The job's outputs are those of the compensation: an analysis writes what is named here.
+    chosen.report.clone_from(&args.program.report);
+    chosen.points.clone_from(&args.program.points);
+    chosen.json = args.json.clone().filter(|p| p != Path::new("-"));
+    let existing = Existing::forced(args.program.force_overwrite);
+    let (machine, model) = machine_setup(
+        &files,
+        job.as_ref(),
+        named,
+        &args.program,
+        &mut setting.inputs,
+    )?;
+    program::read_program(&setting)?;
+    let mut outputs = RunOutputs::claim(Aim::Analyse, &chosen, existing, &setting.inputs)?;
+    let mut run = solve::solve(Aim::Analyse, &machine, &setting, args.program.threads)
+        .map_err(|failure| with_model_warning(failure, &model))?;
+    run.result
+        .warnings
+        .extend(run_warnings::of_run(&model, job.as_ref()));
+    outputs.list(args.program.all_points, &model);
+    outputs.fill(&run)?;
+    let note = outputs.note(&run);
+    let paths = outputs.files.commit()?;
+    let text = format!(
+        "{}{}{note}",
+        summary::of_run(&run.result),
+        outputs::written(&paths)
+    );
+    let to_screen = args.json.as_deref() == Some(Path::new("-"));
+    report::print_run(&text, to_screen.then_some(&run.result))
+}

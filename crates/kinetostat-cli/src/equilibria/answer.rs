@@ -1,0 +1,78 @@
+//! The answer of `equilibria`: every shape with its energy, stability and forces, and how complete
+//! the list is.
+
+use kinetostat_machining::Warning;
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::end_condition::coordinates::CoordinateName;
+use crate::end_condition::holding::Holding;
+use crate::place::query::PlaceAnswer;
+
+/// The answer, stable names with units.
+#[derive(Serialize)]
+pub(crate) struct EquilibriaAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    pub(crate) place: PlaceAnswer,
+    pub(crate) question: String,
+    pub(crate) tool_held: Holding,
+    /// Direction of `stiffness_n_per_mm`; null: the principal one with the smallest stiffness.
+    pub(crate) stiffness_along: Option<[f64; 3]>,
+    pub(crate) coordinates: Vec<CoordinateName>,
+    /// By rising energy.
+    pub(crate) equilibria: Vec<ShapeAnswer>,
+    pub(crate) coverage: Coverage,
+    pub(crate) conservative: bool,
+    pub(crate) warnings: Vec<Warning>,
+    /// Chain's shape per equilibrium, m.
+    #[serde(skip)]
+    pub(crate) outlines: Vec<Vec<Vector3<f64>>>,
+}
+
+/// One equilibrium.
+#[derive(Serialize)]
+pub(crate) struct ShapeAnswer {
+    pub(crate) number: usize,
+    /// Springs and loads, up to a constant; of the springs alone where a load has no potential.
+    pub(crate) energy_j: f64,
+    /// Under the conditions as prescribed.
+    pub(crate) stable: bool,
+    /// Under loads without a potential it does not go away, but it may swing with growing amplitude;
+    /// whether it does depends on the masses.
+    pub(crate) may_flutter: bool,
+    /// With the tool held.
+    pub(crate) shape_stable: bool,
+    /// mu; null without inner freedom, and where a passive joint is pushed out of line.
+    pub(crate) share_to_buckling: Option<f64>,
+    /// Motion of the coordinates in which it would buckle.
+    pub(crate) mode_in_words: String,
+    /// At a limit or bifurcation point, or one of a family that moves for nothing.
+    pub(crate) singular: bool,
+    pub(crate) found_by_spread_starts: usize,
+    /// Along the direction asked for; without one the smallest principal stiffness, rotations at the natural length. Null if infinite.
+    pub(crate) stiffness_n_per_mm: f64,
+    /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad); at the tool's tip.
+    pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rotation_vector_deg: [f64; 3],
+    pub(crate) coordinates: Vec<f64>,
+}
+
+/// How complete the list is.
+#[derive(Serialize)]
+pub(crate) struct Coverage {
+    pub(crate) starts: usize,
+    pub(crate) ended_within_bounds: usize,
+    pub(crate) ended_outside_bounds: usize,
+    /// Starts since the last new equilibrium.
+    pub(crate) fruitless: usize,
+    pub(crate) chance_of_more: f64,
+    pub(crate) chance_of_more_at_most: f64,
+    pub(crate) settled: bool,
+}

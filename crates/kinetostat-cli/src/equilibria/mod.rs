@@ -1,0 +1,62 @@
+//! `kinetostat equilibria`: all shapes that a chain or a machine can take.
+//!
+//! It takes a model, a place, and what holds the tool or acts on it, and gives every equilibrium with its energy,
+//! stability and forces, and how complete the list is.
+
+mod answer;
+pub(crate) mod arguments;
+mod chain;
+mod csv;
+mod machine;
+mod plot;
+mod query;
+mod text;
+
+use kinetostat_analysis::serial_chain::is_serial_chain;
+
+use crate::end_condition::answering::{CommandQuery, Shown, Work, answer_query};
+use crate::end_condition::chain::{moves_of, serial_chain};
+use crate::end_condition::loads::{refuse_nodes, with_loads};
+use crate::end_condition::machine::CommandedMachine;
+use crate::equilibria::answer::EquilibriaAnswer;
+use crate::equilibria::arguments::EquilibriaArgs;
+use crate::equilibria::query::equilibria_query;
+use crate::place::query::PlaceQuery;
+use crate::ui::failure::Answer;
+
+pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
+    let command = CommandQuery {
+        model: &args.model,
+        place: &args.place,
+        tool_length_mm: args.tool_length_mm,
+        outputs: &args.outputs,
+    };
+    let about = |query: &PlaceQuery| -> Answer<Work<EquilibriaAnswer>> {
+        if is_serial_chain(&query.mechanism) {
+            let chain = with_loads(serial_chain(query)?, &args.end)?;
+            let q = equilibria_query(&moves_of(&chain), args)?;
+            Ok(Box::new(move |place, names, stage| {
+                chain::solve(&chain, &q, place, names, stage)
+            }))
+        } else {
+            refuse_nodes(&args.end)?;
+            let machine = CommandedMachine::of(query)?;
+            let q = equilibria_query(&machine.moves, args)?;
+            Ok(Box::new(move |place, names, stage| {
+                machine::solve(&machine, &q, place, names, stage)
+            }))
+        }
+    };
+    answer_query(
+        &command,
+        about,
+        |answer| &mut answer.warnings,
+        |heading, answer| {
+            Ok(Shown {
+                text: text::in_words(heading, answer),
+                csv: csv::of_equilibria(answer)?,
+                svg: plot::plot(answer).shape_svg(),
+            })
+        },
+    )
+}

@@ -1,0 +1,261 @@
+//! The answer of `equilibria` for a person.
+
+use nalgebra::Vector3;
+
+use crate::equilibria::answer::{EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria::query::MOST_KNOWN;
+use crate::ui::layout::{WIDTH, columns, item, wrapped};
+use crate::ui::numbers::{fixed, number};
+use crate::ui::warnings;
+
+/// More equilibria than this are only counted on the screen.
+const MOST_SHOWN: usize = 20;
+
+pub(crate) fn in_words(heading: &str, a: &EquilibriaAnswer) -> String {
+    let mut out = heading.to_owned();
+    out.push_str(&wrapped(&a.question, 0));
+    out.push('\n');
+    out.push_str(&wrapped(&verdict(a), 2));
+    if !a.equilibria.is_empty() {
+        out.push('\n');
+        out.push_str(&table(a));
+        out.push('\n');
+        out.push_str(&joints(a));
+        if a.equilibria.len() > MOST_SHOWN {
+            out.push_str(&format!(
+                "  and {} more of higher energy; JSON and CSV have them\n",
+                a.equilibria.len() - MOST_SHOWN
+            ));
+        }
+        out.push_str(&modes(a));
+    }
+    out.push_str("\nHow complete this is\n");
+    for line in completeness(a) {
+        out.push_str(&item(&line));
+    }
+    out.push_str(&warnings::warnings(&a.warnings));
+    out
+}
+
+fn verdict(a: &EquilibriaAnswer) -> String {
+    let mut text = found(a);
+    if a.equilibria.iter().any(|e| e.may_flutter) {
+        text.push_str(" Under the load, which has no potential, some may swing with growing amplitude (flutter); whether they do depends on the masses, which are not asked for here.");
+    }
+    text
+}
+
+fn found(a: &EquilibriaAnswer) -> String {
+    let stable = a.equilibria.iter().filter(|e| e.stable).count();
+    match a.equilibria.len() {
+        0 => "No equilibrium was found. This does not say that there is none: the tool may be out of reach, and near a posture in which the chain is stretched out and locked the search may miss some (`kinetostat curve` follows them there from a nearer place).".into(),
+        1 if stable == 1 => "One equilibrium, and it is stable.".into(),
+        1 => "One equilibrium, and it is NOT stable.".into(),
+        n => {
+            let of = match stable {
+                0 => "none of them is stable".to_owned(),
+                1 => "one of them is stable".to_owned(),
+                n => format!(
+                    "{n} of them are stable: the {} may snap between these",
+                    a.tool_held.subject
+                ),
+            };
+            format!("{n} equilibria; {of}.")
+        }
+    }
+}
+
+fn table(a: &EquilibriaAnswer) -> String {
+    let along = match a.stiffness_along {
+        Some(d) => format!(
+            "N/mm along {}",
+            crate::end_condition::holding::axis_in_words(&Vector3::from(d))
+        ),
+        None => "smallest principal, N/mm".to_owned(),
+    };
+    let energy = if a.conservative {
+        "energy, J"
+    } else {
+        "spring energy, J"
+    };
+    // Forces that some equilibrium has.
+    let component = |e: &ShapeAnswer, k: usize| {
+        if k < 3 {
+            e.force_n[k]
+        } else {
+            e.moment_n_m[k - 3]
+        }
+    };
+    let most = |list: std::ops::Range<usize>| {
+        a.equilibria
+            .iter()
+            .flat_map(|e| list.clone().map(move |k| component(e, k).abs()))
+            .fold(0.0, f64::max)
+    };
+    let most = [most(0..3), most(3..6)];
+    let names = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];
+    let shown: Vec<usize> = (0..6)
+        .filter(|&k| {
+            let level = most[k / 3];
+            level > 1e-9
+                && a.equilibria
+                    .iter()
+                    .any(|e| component(e, k).abs() > 1e-7 * level)
+        })
+        .collect();
+    let mut header = vec![
+        "no".to_owned(),
+        energy.to_owned(),
+        "stable".to_owned(),
+        "to buckling".to_owned(),
+        along,
+    ];
+    header.extend(shown.iter().map(|&k| names[k].to_owned()));
+    let mut rows = vec![header];
+    for e in a.equilibria.iter().take(MOST_SHOWN) {
+        let verdict = match (e.stable, e.shape_stable, e.singular) {
+            (_, _, true) => "at a limit",
+            _ if e.may_flutter => "may swing",
+            (true, ..) => "yes",
+            (false, true, _) => "shape only",
+            (false, false, _) => "NO",
+        };
+        let mut row = vec![
+            e.number.to_string(),
+            number(e.energy_j, 6),
+            verdict.to_owned(),
+            e.share_to_buckling
+                .map_or_else(|| "-".to_owned(), kinetostat_machining::number::share),
+            number(e.stiffness_n_per_mm, 5),
+        ];
+        row.extend(shown.iter().map(|&k| {
+            let x = component(e, k);
+            if x.abs() <= 1e-9 * most[k / 3] {
+                "0".to_owned()
+            } else {
+                number(x, 6)
+            }
+        }));
+        rows.push(row);
+    }
+    columns(&rows, 2)
+}
+
+/// Joints of every equilibrium, as many as the screen is wide.
+fn joints(a: &EquilibriaAnswer) -> String {
+    let moving: Vec<usize> = (0..a.coordinates.len())
+        .filter(|&i| a.coordinates[i].kind != "spring" || a.coordinates.len() <= 8)
+        .collect();
+    let mut rows = vec![
+        std::iter::once("no".to_owned())
+            .chain(moving.iter().map(|&i| {
+                let c = &a.coordinates[i];
+                format!("{}, {}", c.name, c.unit)
+            }))
+            .collect::<Vec<String>>(),
+    ];
+    for e in a.equilibria.iter().take(MOST_SHOWN) {
+        let mut row = vec![e.number.to_string()];
+        row.extend(moving.iter().map(|&i| fixed(e.coordinates[i], 3)));
+        rows.push(row);
+    }
+    let text = columns(&rows, 2);
+    let wide = text.lines().any(|l| l.chars().count() > WIDTH);
+    if wide || moving.is_empty() {
+        return "  The joints are in the JSON and in the CSV.\n".into();
+    }
+    text
+}
+
+fn modes(a: &EquilibriaAnswer) -> String {
+    let mut out = String::new();
+    for e in a.equilibria.iter().filter(|e| !e.shape_stable).take(4) {
+        if !e.mode_in_words.is_empty() {
+            out.push_str(&item(&format!(
+                "{} gives way with {}",
+                e.number, e.mode_in_words
+            )));
+        }
+    }
+    if out.is_empty() {
+        out
+    } else {
+        format!("\n{out}")
+    }
+}
+
+fn completeness(a: &EquilibriaAnswer) -> Vec<String> {
+    let c = &a.coverage;
+    let mut list = Vec::new();
+    let seldom = a
+        .equilibria
+        .iter()
+        .map(|e| e.found_by_spread_starts)
+        .min()
+        .unwrap_or(0);
+    let machine = a.tool_held.subject == "machine";
+    let spread = match machine {
+        true => {
+            "from places and orientations of the tool spread around the commanded one (and beyond singular postures nearby), every second one with turned joints"
+        }
+        false => "evenly spread over all joint angles within 180 deg",
+    };
+    let mut text = format!(
+        "{} starts, {spread}: {} ended at an equilibrium",
+        c.starts, c.ended_within_bounds
+    );
+    if c.ended_outside_bounds > 0 {
+        text.push_str(&format!(
+            ", {} at {}",
+            c.ended_outside_bounds,
+            match machine {
+                true => "one that is not listed: a slide turned inside out, or unstable and far away (more than three times the machine's size, or springs out of all proportion)",
+                false => "one beyond these bounds",
+            }
+        ));
+    }
+    match seldom {
+        0 => {}
+        1 => text.push_str("; each one listed was found at least once"),
+        n => text.push_str(&format!("; each one listed was found at least {n} times")),
+    }
+    list.push(text);
+    list.push(if !c.settled && a.equilibria.len() >= MOST_KNOWN {
+        format!(
+            "the search ended when {MOST_KNOWN} were known; those of high energy strain the machine far beyond what it is made for"
+        )
+    } else if c.settled {
+        format!(
+            "the search ended because the last {} starts found nothing new",
+            c.fruitless
+        )
+    } else {
+        "the search ended before it was complete: --starts N and --fruitless N let it go on"
+            .to_owned()
+    });
+    if !a.equilibria.is_empty() {
+        list.push(format!(
+            "the next such start would find a new one with a chance of {} %, and with 95 % confidence of at most {} %",
+            number(100.0 * c.chance_of_more, 2),
+            number(100.0 * c.chance_of_more_at_most, 2)
+        ));
+    }
+    if machine && !a.tool_held.free.is_empty() {
+        list.push(
+            "the tool was held at these places and let go; from the commanded place and from every equilibrium found it was driven along each of its free motions to every place where that takes no force, and let go beside unstable ones. Loops that can be assembled another way (a leg mirrored or bent far) are easily missed: these chances do not count them".to_owned(),
+        );
+    }
+    if a.equilibria.iter().any(|e| e.found_by_spread_starts == 0) {
+        list.push(
+            "some were reached only along a curve or from another equilibrium (mirrored, or along its mode): such shapes are easily missed"
+                .to_owned(),
+        );
+    }
+    if a.equilibria.iter().any(|e| e.singular) {
+        list.push(
+            "one is degenerate: at a limit or bifurcation point, or one of a family that moves for nothing"
+                .to_owned(),
+        );
+    }
+    list
+}

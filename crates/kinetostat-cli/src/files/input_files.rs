@@ -1,0 +1,117 @@
+//! Files that a command reads, with words for everything that can be wrong with them. The demo
+//! reads its own files from memory before they are on disk.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use kinetostat_model::{Model, preset_text, read_model};
+
+use crate::ui::failure::{Answer, Failure};
+
+/// Largest program or map that is read, bytes.
+const MOST_BYTES: u64 = 512 << 20;
+
+/// Largest job file.
+const MOST_JOB_BYTES: u64 = 1 << 20;
+
+/// Files on disk, and some that are not there yet.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct InputFiles {
+    memory: BTreeMap<PathBuf, Vec<u8>>,
+}
+
+impl InputFiles {
+    /// Puts a file in front of the disk.
+    pub(crate) fn insert(&mut self, path: PathBuf, bytes: impl Into<Vec<u8>>) {
+        self.memory.insert(path, bytes.into());
+    }
+
+    /// The bytes of a file; `what` names its part in the question.
+    pub(crate) fn bytes(&self, what: &str, path: &Path) -> Answer<Vec<u8>> {
+        match self.memory.get(path) {
+            Some(bytes) => Ok(bytes.clone()),
+            None => read(what, path, MOST_BYTES),
+        }
+    }
+
+    /// A job file's text.
+    pub(crate) fn job(&self, path: &Path) -> Answer<String> {
+        let bytes = match self.memory.get(path) {
+            Some(bytes) => bytes.clone(),
+            None => read("job file", path, MOST_JOB_BYTES)?,
+        };
+        let refuse =
+            |message: &str| Failure::input(format!("the job file '{}' {message}", path.display()));
+        if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+            return Err(refuse("is written in UTF-16; save it as UTF-8"));
+        }
+        if bytes.contains(&0) {
+            return Err(refuse("is a binary file; name a job file in TOML"));
+        }
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            let line = error.as_bytes()[..at]
+                .iter()
+                .filter(|b| **b == b'\n')
+                .count()
+                + 1;
+            refuse(&format!(
+                "is not UTF-8 text at line {line}; save it as UTF-8"
+            ))
+        })?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
+        if text.trim().is_empty() {
+            return Err(refuse(
+                "is empty; start from the one that `kinetostat demo` writes",
+            ));
+        }
+        Ok(text)
+    }
+
+    /// A model by the name of a preset or the path of a file. `base` is the directory that relative
+    /// paths start from.
+    pub(crate) fn model(&self, named: &str, base: &Path) -> Answer<(Model, Option<PathBuf>)> {
+        if preset_text(named).is_some() {
+            return Ok((Model::preset(named)?, None));
+        }
+        let path = base.join(named);
+        if let Some(bytes) = self.memory.get(&path) {
+            let text = String::from_utf8_lossy(bytes).into_owned();
+            return Ok((Model::from_toml(&text, named)?, Some(path)));
+        }
+        let like_a_path = named.contains(['/', '\\', '.']) || path.exists();
+        if like_a_path {
+            return Ok((read_model(&path)?, Some(path)));
+        }
+        Ok((Model::preset(named)?, None))
+    }
+}
+
+fn read(what: &str, path: &Path, most: u64) -> Answer<Vec<u8>> {
+    let refuse =
+        |message: &str| Failure::input(format!("the {what} '{}' {message}", path.display()));
+    if path.is_dir() {
+        return Err(refuse("is a directory; name a file in it"));
+    }
+    let file = File::open(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => refuse("does not exist; check the path"),
+        ErrorKind::PermissionDenied => refuse("may not be read; ask for the right to read it"),
+        ErrorKind::NotADirectory => {
+            refuse("cannot be read: a part of the path is a file, not a directory")
+        }
+        _ => refuse(&format!("cannot be read: {error}")),
+    })?;
+    let mut bytes = Vec::new();
+    file.take(most + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| refuse(&format!("cannot be read: {error}")))?;
+    if bytes.len() as u64 > most {
+        return Err(refuse(&format!(
+            "is larger than {} MB, which no {what} is",
+            most >> 20
+        )));
+    }
+    Ok(bytes)
+}

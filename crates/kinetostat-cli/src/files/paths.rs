@@ -1,0 +1,94 @@
+//! Paths: directories, the same file under two names, and places inside a directory.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// Whether two files hold the same, if both can be read.
+pub(crate) fn same_bytes(one: &Path, other: &Path) -> Option<bool> {
+    Some(fs::read(one).ok()? == fs::read(other).ok()?)
+}
+
+/// The directory of a file.
+pub(crate) fn parent_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// The same file under two names: links of either kind included.
+pub(crate) fn same_file(one: &Path, other: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        if let (Ok(a), Ok(b)) = (fs::metadata(one), fs::metadata(other)) {
+            return a.dev() == b.dev() && a.ino() == b.ino();
+        }
+    }
+    same_place(one, other)
+}
+
+/// The same name in the same directory, whether or not there is a file.
+pub(crate) fn same_place(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| {
+        let parent = fs::canonicalize(parent_of(path)).ok()?;
+        Some(parent.join(path.file_name()?))
+    };
+    match (place(one), place(other)) {
+        (Some(a), Some(b)) => a == b,
+        _ => false,
+    }
+}
+
+/// An output named by a job file: below the job's own directory and nowhere else.
+pub(crate) fn inside(root: &Path, written: &str) -> Result<PathBuf, String> {
+    let path = Path::new(written);
+    let plain = path
+        .components()
+        .all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
+    // A drive letter or a backslash means a place elsewhere on another system.
+    if !plain || written.contains('\\') || written.contains(':') || written.trim().is_empty() {
+        return Err(
+            "a job file writes only into its own directory and below: use a relative path without '..'; an option on the command line may name any place"
+                .into(),
+        );
+    }
+    let target = root.join(path);
+    let (Ok(root), Ok(parent)) = (fs::canonicalize(root), fs::canonicalize(parent_of(&target)))
+    else {
+        // A missing directory is reported when the output is claimed.
+        return Ok(target);
+    };
+    if !parent.starts_with(&root) {
+        return Err(format!(
+            "a link leads out of the job's directory to '{}'",
+            parent.display()
+        ));
+    }
+    Ok(target)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_job_stays_in_its_directory() {
+        let here = tempfile::tempdir().unwrap();
+        for good in ["a.ngc", "./a.ngc", "sub/a.ngc", "a b.ngc", "größer.ngc"] {
+            assert!(inside(here.path(), good).is_ok(), "{good}");
+        }
+        for bad in [
+            "../a",
+            "/a",
+            "sub/../../a",
+            "",
+            " ",
+            "C:\\a",
+            "\\\\server\\a",
+            "NUL:",
+        ] {
+            assert!(inside(here.path(), bad).is_err(), "{bad}");
+        }
+    }
+}

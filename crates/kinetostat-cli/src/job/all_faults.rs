@@ -1,0 +1,189 @@
+//! All faults of a job file in one run: what is wrong is taken out of the file and the rest is read
+//! again, until nothing is left to say.
+
+use std::ops::Range;
+use std::path::Path;
+
+use kinetostat_model::exact;
+use serde_spanned::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::files::input_files::InputFiles;
+use crate::job::arguments::{ProgramArgs, WritingFlags};
+use crate::job::format::Job;
+use crate::job::job_file::JobFile;
+use crate::job::machine::machine_setup;
+use crate::job::program;
+use crate::job::setting::setting;
+use crate::job::source::Source;
+use crate::job::toml_tree::{holds, table_of, take};
+use crate::ui::failure::{Answer, Code, Failure};
+
+/// More faults than this are not looked for.
+const MOST: usize = 100;
+
+/// The query of a run along a program: enough to read everything that its job file says.
+pub(crate) struct RunQuery<'a> {
+    pub(crate) job: Option<&'a Path>,
+    pub(crate) model: Option<&'a str>,
+    pub(crate) program: &'a ProgramArgs,
+    pub(crate) writing: WritingFlags<'a>,
+}
+
+/// The failure of a run, or all faults of its job file if there are more.
+pub(crate) fn with_all_others(files: &InputFiles, query: &RunQuery<'_>, first: Failure) -> Failure {
+    match query.job {
+        Some(path) if first.code == Code::WrongInput => {
+            all(files, path, query, &first).unwrap_or(first)
+        }
+        _ => first,
+    }
+}
+
+fn all(files: &InputFiles, path: &Path, query: &RunQuery<'_>, first: &Failure) -> Option<Failure> {
+    let text = files.job(path).ok()?;
+    let name = path.display().to_string();
+    let source = Source {
+        file: &name,
+        text: &text,
+    };
+    let mut tree = DeTable::parse(&text).ok()?;
+    let mut found = Vec::new();
+    let mut taken = Vec::new();
+    // What has the wrong form: unknown keys, words for numbers, numbers that are none.
+    for span in source.not_finite(&tree) {
+        add(&mut found, source.not_finite_number(span.clone()));
+        take(tree.get_mut(), span, &mut taken);
+    }
+    while read(&tree)
+        .is_err_and(|error| put_right(&source, &mut tree, &error, &mut found, &mut taken))
+    {}
+    // What has no meaning: each part of the question as far as it can be read.
+    if let Ok(job) = read(&tree)
+        && let Err(failure) = Job::version(source, &job)
+    {
+        add(&mut found, failure);
+    }
+    let parts: [Part<'_>; 3] = [
+        &|job| setting(files, Some(job), query.program, &query.writing).map(drop),
+        &|job| {
+            let mut inputs = Vec::new();
+            machine_setup(files, Some(job), query.model, query.program, &mut inputs).map(drop)
+        },
+        &|job| {
+            // Without a model that can be read: tool, placement and load all the same.
+            let mut job = job.clone();
+            job.job.deviation.clear();
+            let mut inputs = Vec::new();
+            machine_setup(
+                files,
+                Some(&job),
+                Some("orthoglide"),
+                query.program,
+                &mut inputs,
+            )
+            .map(drop)
+        },
+    ];
+    for part in parts {
+        for _ in 0..MOST {
+            let Ok(job) = read(&tree) else {
+                break;
+            };
+            let job = JobFile {
+                path: path.to_owned(),
+                text: text.clone(),
+                job,
+            };
+            let Err(failure) = part(&job) else { break };
+            if failure.code != Code::WrongInput {
+                break;
+            }
+            let Some(span) = failure.place.clone() else {
+                add(&mut found, failure);
+                break;
+            };
+            if !follows(&span, &taken) {
+                add(&mut found, failure);
+            }
+            if !take(tree.get_mut(), span, &mut taken) {
+                break;
+            }
+        }
+    }
+    // The program's own faults, where everything that says how to read it is right.
+    if let Ok(job) = JobFile::read(files, path)
+        && let Ok(setting) = setting(files, Some(&job), query.program, &query.writing)
+        && let Err(failure) = program::read_program(&setting)
+    {
+        add(&mut found, failure);
+    }
+    add(&mut found, first.clone());
+    // In the order of the file; what has no line there comes last.
+    found.sort_by_key(|f| f.place.as_ref().map_or(usize::MAX, |span| span.start));
+    Some(Failure::together(found))
+}
+
+fn read(tree: &Spanned<DeTable<'_>>) -> Result<Job, toml::de::Error> {
+    exact(toml::de::Deserializer::from(tree.clone()))
+}
+
+/// Whether a place holds something that was taken out with a message of its own: what is missing there,
+/// or left over, follows from that.
+fn follows(place: &Range<usize>, taken: &[(String, Range<usize>)]) -> bool {
+    taken.iter().any(|(_, span)| holds(place, span))
+}
+
+fn add(found: &mut Vec<Failure>, failure: Failure) {
+    // A message of several faults holds those that were found before.
+    if !found
+        .iter()
+        .any(|known| failure.plain.contains(&known.plain))
+    {
+        found.push(failure);
+    }
+}
+
+/// Notes what the reader does not accept and takes it out, or puts in what is missing; false where
+/// that leads nowhere.
+fn put_right(
+    source: &Source<'_>,
+    tree: &mut Spanned<DeTable<'_>>,
+    error: &toml::de::Error,
+    found: &mut Vec<Failure>,
+    taken: &mut Vec<(String, Range<usize>)>,
+) -> bool {
+    let span = error.span().unwrap_or(0..0);
+    let missing = Source::missing(error);
+    // What was taken out above with a message of its own is not missing.
+    let was_there = match &missing {
+        Some(missing) => taken
+            .iter()
+            .any(|(key, place)| key == missing && (span.is_empty() || holds(&span, place))),
+        None => follows(&span, taken),
+    };
+    if !was_there {
+        let before = found.len();
+        add(found, source.content(error));
+        if found.len() == before || before >= MOST {
+            return false;
+        }
+    }
+    if let Some(key) = missing {
+        // Version 1, and any number for a number.
+        let Ok(value) = DeValue::parse("1") else {
+            return false;
+        };
+        let key = Spanned::new(span.clone(), key.into());
+        let at = table_of(tree.get_mut(), &span);
+        let table = match at {
+            Some(table) => table,
+            None => tree.get_mut(),
+        };
+        return table.insert(key, value).is_none();
+    }
+    take(tree.get_mut(), span, taken)
+}
+
+/// Reads a part of the question from a job.
+type Part<'a> = &'a dyn Fn(&JobFile) -> Answer<()>;

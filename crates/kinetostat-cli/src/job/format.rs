@@ -1,0 +1,241 @@
+//! Job files: one TOML file that says model, program, placement, load, tolerances and outputs of a
+//! run, units in the keys. Options on the command line go over it.
+
+use std::collections::BTreeMap;
+
+use kinetostat_model::schema::{Deviation, Placement as PoseTable};
+use serde::Deserialize;
+use serde_spanned::Spanned;
+
+use crate::job::source::Source;
+use crate::ui::failure::Failure;
+
+/// The version that is read here.
+const SCHEMA: u32 = 1;
+
+/// A job file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Job {
+    /// Version of the format: 1.
+    pub schema: Spanned<u32>,
+    /// Name of a preset, or path of a model file.
+    pub model: Option<Spanned<String>>,
+    /// Path of the program.
+    pub program: Option<Spanned<String>>,
+    /// Errors of manufacture and assembly, added to those of the model.
+    #[serde(default)]
+    pub deviation: Vec<Spanned<Deviation>>,
+    #[serde(default)]
+    pub placement: PlacementTable,
+    #[serde(default)]
+    pub tool: ToolTable,
+    /// Several tools, by number; without any, `tool` is the only one.
+    #[serde(default)]
+    pub tools: Vec<Spanned<NumberedTool>>,
+    #[serde(default)]
+    pub load: LoadTable,
+    #[serde(default)]
+    pub reading: ReadingTable,
+    #[serde(default)]
+    pub tolerances: TolerancesTable,
+    #[serde(default)]
+    pub output: OutputTable,
+    /// Limits moved by their names.
+    #[serde(default)]
+    pub limits: BTreeMap<Spanned<String>, Spanned<f64>>,
+}
+
+/// Where the program lies in the machine.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlacementTable {
+    /// Where the program's zero point lies, base axes, mm.
+    pub part_origin_mm: Option<[f64; 3]>,
+    /// Orientation of the program's axes in the base.
+    pub part_orientation: Option<Spanned<PoseTable>>,
+    /// Orientation of the tool in the base; without it, the one that the tool has at home.
+    pub tool_orientation: Option<Spanned<PoseTable>>,
+    /// Whether that orientation is held, or only kept near to; without it, held by machines that can.
+    pub orientation: Option<OrientationWord>,
+    /// Length in the machine per length in the program.
+    pub scale: Option<Spanned<f64>>,
+}
+
+/// What the machine does with its orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum OrientationWord {
+    /// The orientation asked for, everywhere
+    Held,
+    /// The nearest to it that the machine can have
+    Follows,
+}
+
+/// The tool on the flange.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ToolTable {
+    /// Distance of the tip along z of the flange, mm.
+    pub length_mm: Option<Spanned<f64>>,
+    /// Or the whole pose of the tip in the flange.
+    pub pose: Option<Spanned<PoseTable>>,
+}
+
+/// A tool that the program takes by its number.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NumberedTool {
+    /// Number in the T words of the program.
+    pub number: u32,
+    /// Distance of the tip along z of the flange, mm.
+    pub length_mm: Option<Spanned<f64>>,
+    /// Or the whole pose of the tip in the flange.
+    pub pose: Option<Spanned<PoseTable>>,
+    /// What acts on it; without this, the job's `[load]`.
+    pub load: Option<LoadTable>,
+}
+
+/// What acts on the tool.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LoadTable {
+    /// The same force everywhere, N.
+    pub force_n: Option<[f64; 3]>,
+    /// The same moment about the tip everywhere, N m.
+    pub moment_n_m: Option<[f64; 3]>,
+    /// Axes of both.
+    pub axes: Option<Axes>,
+    /// Or a force that turns with the feed.
+    pub milling: Option<Spanned<MillingTable>>,
+    /// Only below this height of the program, mm.
+    pub below_z_mm: Option<f64>,
+    /// Corners up to this angle turn the load gently.
+    pub gentle_corner_deg: Option<Spanned<f64>>,
+    /// Length over which the load turns there, mm.
+    pub turning_length_mm: Option<Spanned<f64>>,
+    /// What it is on the steps written at sharp corners, of this tool.
+    pub at_corners: Option<CornerWord>,
+}
+
+/// The load on the steps that are written at sharp corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CornerWord {
+    /// It turns evenly while the tool steps
+    Turns,
+    /// It is that of a cut along the step
+    FollowsFeed,
+}
+
+/// Axes of a constant load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Axes {
+    /// Axes of the machine's base
+    Base,
+    /// Axes of the tool
+    Tool,
+    /// x along the feed, z along the part's z
+    Feed,
+}
+
+/// Milling force.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MillingTable {
+    /// To the right of the feed, N.
+    pub radial_n: f64,
+    /// Along the feed, N.
+    pub tangential_n: f64,
+    /// Along z of the part, N.
+    pub axial_n: f64,
+}
+
+/// How the program is read.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ReadingTable {
+    pub units: Option<UnitsWord>,
+    pub arc_tolerance_mm: Option<Spanned<f64>>,
+    pub block_delete: Option<BlockDeleteWord>,
+    /// A B C U V W stand still while the tool cuts.
+    pub axes_stand_still: Option<bool>,
+    pub start_position_mm: Option<[f64; 3]>,
+    pub work_offset_mm: Option<Spanned<BTreeMap<String, [f64; 3]>>>,
+}
+
+/// Units of a program that does not name them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum UnitsWord {
+    /// Millimetres, as after G21
+    Mm,
+    /// Inches, as after G20
+    Inch,
+}
+
+/// The machine's switch for blocks marked with `/`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum BlockDeleteWord {
+    /// The marked blocks are run
+    Run,
+    /// The marked blocks are carried along and not run
+    Skip,
+}
+
+/// How exactly the program is written.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TolerancesTable {
+    pub path_um: Option<Spanned<f64>>,
+    pub chord_um: Option<Spanned<f64>>,
+    pub decimals: Option<Spanned<u8>>,
+    pub max_blocks_per_second: Option<Spanned<f64>>,
+    pub max_feed_factor: Option<Spanned<f64>>,
+    pub backward_step_um: Option<Spanned<f64>>,
+}
+
+/// What is written.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OutputTable {
+    pub program: Option<Spanned<String>>,
+    pub report: Option<Spanned<String>>,
+    pub json: Option<Spanned<String>>,
+    pub points: Option<Spanned<String>>,
+    pub header: Option<bool>,
+}
+
+impl Job {
+    /// Reads a job file's text.
+    pub(crate) fn read(source: Source<'_>) -> Result<Self, Failure> {
+        let job: Self = source.read()?;
+        Self::version(source, &job)?;
+        Ok(job)
+    }
+
+    /// The version is one that is read here.
+    pub(crate) fn version(source: Source<'_>, job: &Self) -> Result<(), Failure> {
+        if *job.schema.get_ref() == SCHEMA {
+            return Ok(());
+        }
+        Err(source.error(
+            job.schema.span(),
+            &format!(
+                "this is version {} of the format; version {SCHEMA} is read here",
+                job.schema.get_ref()
+            ),
+            "use the program that wrote the file, or convert the file",
+        ))
+    }
+}
+
+/// Whether a TOML text looks like a job file rather than a model file.
+pub(crate) fn looks_like_a_job(text: &str) -> bool {
+    toml::de::DeTable::parse(text).is_ok_and(|tree| {
+        let has = |key: &str| tree.get_ref().iter().any(|(k, _)| k.get_ref() == key);
+        !has("mechanism") && !has("platform") && (has("program") || has("model"))
+    })
+}

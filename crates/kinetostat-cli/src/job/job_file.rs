@@ -1,0 +1,64 @@
+//! A job file that has been read, with its text for messages.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat_machining::{Warning, WarningCode};
+use serde_spanned::Spanned;
+
+use crate::files::input_files::InputFiles;
+use crate::job::format::Job;
+use crate::job::source::Source;
+use crate::ui::failure::{Answer, Failure};
+
+/// A job file that has been read: its text is kept for messages.
+#[derive(Clone, Debug)]
+pub(crate) struct JobFile {
+    pub(crate) path: PathBuf,
+    pub(crate) text: String,
+    pub(crate) job: Job,
+}
+
+impl JobFile {
+    pub(crate) fn read(files: &InputFiles, path: &Path) -> Answer<Self> {
+        let text = files.job(path)?;
+        let name = path.display().to_string();
+        let job = Job::read(Source {
+            file: &name,
+            text: &text,
+        })?;
+        Ok(Self {
+            path: path.to_owned(),
+            text,
+            job,
+        })
+    }
+
+    /// Angles in it that were most likely written in the other unit.
+    pub(crate) fn odd_angles(&self) -> Vec<Warning> {
+        let file = self.path.display().to_string();
+        let source = Source {
+            file: &file,
+            text: &self.text,
+        };
+        let found = kinetostat_model::odd_angles(&self.text).into_iter();
+        found
+            .map(|(span, message)| {
+                Warning::at_line(WarningCode::OddPlacement, source.line(span), message)
+                    .of_file(file.clone())
+            })
+            .collect()
+    }
+
+    /// Directory that the job's relative paths start from.
+    pub(crate) fn base(&self) -> PathBuf {
+        self.path.parent().map(Path::to_owned).unwrap_or_default()
+    }
+
+    pub(crate) fn error<T>(&self, at: &Spanned<T>, message: &str, help: &str) -> Failure {
+        Source {
+            file: &self.path.display().to_string(),
+            text: &self.text,
+        }
+        .error(at.span(), message, help)
+    }
+}

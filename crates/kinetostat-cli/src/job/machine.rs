@@ -1,0 +1,166 @@
+//! The machine of a run: model, deviations, tool, placement and load, from a job file and options.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat::Mechanism;
+use kinetostat_machining::{Bounds, Placement, ProgramLoad, Question, ToolGiven};
+use kinetostat_model::Model;
+use kinetostat_program::WriteOptions;
+
+use crate::files::hash::{FNV1A, fnv1a};
+use crate::files::input_files::InputFiles;
+use crate::files::origin;
+use crate::job::arguments::ProgramArgs;
+use crate::job::job_file::JobFile;
+use crate::job::load::load;
+use crate::job::placement::{placement, placement_in_words};
+use crate::job::tools::{numbered_tools, tool};
+use crate::machine::model_warnings::deviations_in_words;
+use crate::machine::stiffness_list;
+use crate::place::orientation;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::short;
+
+/// The machine with its tool, where the program lies, and what acts.
+pub(crate) struct MachineSetup {
+    pub(crate) mechanism: Mechanism,
+    pub(crate) placement: Placement,
+    pub(crate) load: ProgramLoad,
+    /// Tools by number, each with its machine and load.
+    pub(crate) tools: Vec<(u32, Mechanism, ProgramLoad)>,
+    pub(crate) question: Question,
+    /// Ratings, tool and workspace; limits are those of the run.
+    pub(crate) bounds: Bounds,
+    /// Tolerance of a program that states none, mm, and where it comes from.
+    pub(crate) usual_tolerance: (f64, String),
+    /// Of the model's text and deviations.
+    pub(crate) fingerprint: u64,
+}
+
+/// The machine, its tool, the placement and the load.
+pub(crate) fn machine_setup(
+    files: &InputFiles,
+    job: Option<&JobFile>,
+    flag_model: Option<&str>,
+    flags: &ProgramArgs,
+    inputs: &mut Vec<PathBuf>,
+) -> Answer<(MachineSetup, Model)> {
+    let table = job.and_then(|j| j.job.model.as_ref());
+    let (named, base) = match (flag_model, table) {
+        (Some(named), _) => (named.to_owned(), PathBuf::new()),
+        (None, Some(named)) => (
+            named.get_ref().clone(),
+            job.map(JobFile::base).unwrap_or_default(),
+        ),
+        (None, None) => {
+            return Err(Failure::input(match job {
+                Some(j) => format!(
+                    "the job file '{}' names no model; write  model = \"orthoglide\"  at its top, or give --model MODEL",
+                    j.path.display()
+                ),
+                None => "no model is named; give a job file, or --model MODEL (a preset or a file); the presets are listed by `kinetostat model list`".to_owned(),
+            }));
+        }
+    };
+    let (model, path) = files.model(&named, &base)?;
+    inputs.extend(path.clone());
+    let model_file = match &path {
+        Some(path) => origin::file("model", path, &files.bytes("model", path)?),
+        None => origin::file(
+            "model",
+            Path::new(&format!("preset {named}")),
+            model.text.as_bytes(),
+        ),
+    };
+    let model = with_deviations(model, job)?;
+    let fingerprint = fingerprint(&model);
+    let (tool, mut tool_words) = tool(job, flags)?;
+    let mechanism = model.mechanism.with_tool(&tool);
+    let placement = placement(job, flags, &mechanism)?;
+    let load = load(job, job.map(|j| &j.job.load), flags)?;
+    let mut given = vec![ToolGiven {
+        number: None,
+        pose: tool,
+        stated: flags.tool_length_mm.is_some()
+            || job.is_some_and(|j| j.job.tool.length_mm.is_some() || j.job.tool.pose.is_some()),
+    }];
+    let tools = numbered_tools(job, flags, &model.mechanism, &mut tool_words, &mut given)?;
+    let source = match &path {
+        Some(_) => named,
+        None => format!("preset {named}"),
+    };
+    let question = Question {
+        model: model.name().to_owned(),
+        model_source: source,
+        model_deviations: deviations_in_words(&model),
+        placement: placement_in_words(&placement),
+        tool: tool_words,
+        tool_orientation: orientation::in_words(&placement.tool_orientation),
+        stiffnesses: stiffness_list::stiffnesses(&model),
+        files: vec![model_file],
+        ..Question::default()
+    };
+    Ok((
+        MachineSetup {
+            mechanism,
+            placement,
+            load,
+            tools,
+            question,
+            bounds: Bounds {
+                ratings: model.ratings(),
+                tools: given,
+                workspace: model.workspace(),
+                ..Bounds::default()
+            },
+            usual_tolerance: usual_tolerance(&model),
+            fingerprint,
+        },
+        model,
+    ))
+}
+
+/// A program need not be better than its machine repeats: a third of that. Arms repeat within about
+/// 0.06 mm.
+fn usual_tolerance(model: &Model) -> (f64, String) {
+    match model.document.mechanism.repeatability_mm {
+        Some(mm) => (
+            mm / 3.0,
+            format!("a third of the machine's repeatability, {} mm", short(mm)),
+        ),
+        None if model.is_arm() => (
+            0.02,
+            "usual for an arm; the model states no repeatability".to_owned(),
+        ),
+        None => (
+            WriteOptions::default().tolerance_mm,
+            "the smallest in use; the model states no repeatability".to_owned(),
+        ),
+    }
+}
+
+fn with_deviations(model: Model, job: Option<&JobFile>) -> Answer<Model> {
+    let Some(j) = job.filter(|j| !j.job.deviation.is_empty()) else {
+        return Ok(model);
+    };
+    let mut model = model;
+    for deviation in &j.job.deviation {
+        model = model
+            .deviating(deviation.get_ref().clone())
+            .map_err(|error| {
+                let (message, help) = error.problems().first().map_or_else(
+                    || (error.to_string(), String::new()),
+                    |p| (p.message.clone(), p.help.clone()),
+                );
+                j.error(deviation, &message, &help)
+            })?;
+    }
+    Ok(model)
+}
+
+/// A number that changes with every character of the model and with its deviations (FNV-1a): it
+/// tells in a program's header which model it was made for.
+fn fingerprint(model: &Model) -> u64 {
+    let text = model.to_toml().unwrap_or_else(|_| model.text.clone());
+    fnv1a(FNV1A, text.as_bytes())
+}

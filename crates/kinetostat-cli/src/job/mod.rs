@@ -1,0 +1,23 @@
+//! The job of a run along a program, from a job file and options; options go over the file.
+//!
+//! It takes both and gives two parts: the [`setting`] (program, how it is read and written, limits, outputs) and
+//! the [`machine`] (model, tool, placement, load). What is wrong is reported with its line, all of it at once
+//! ([`all_faults`]).
+
+pub(crate) mod all_faults;
+pub(crate) mod arguments;
+pub(crate) mod format;
+pub(crate) mod job_file;
+mod limits;
+mod load;
+pub(crate) mod machine;
+pub(crate) mod output_paths;
+mod placement;
+pub(crate) mod program;
+mod reading;
+pub(crate) mod run_warnings;
+pub(crate) mod setting;
+pub(crate) mod source;
+mod toml_tree;
+mod tools;
+mod values;

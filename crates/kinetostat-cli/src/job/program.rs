@@ -1,0 +1,20 @@
+//! The program of a run, read and interpreted.
+
+use kinetostat_program::{Path as ToolPath, Program, faults, interpret};
+
+use crate::job::setting::Setting;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::fault_list::faults_in_words;
+
+/// Reads and interprets a program.
+pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
+    let read = Program::read(setting.program.clone()).and_then(|program| {
+        let path = interpret(&program, &setting.reading)?;
+        Ok((program, path))
+    });
+    read.map_err(|error| {
+        let all = faults(setting.program.clone(), &setting.reading);
+        let message = faults_in_words("lines", &error, &all, |fault| fault.reason.as_str());
+        Failure::input(message).within(&setting.program_name)
+    })
+}

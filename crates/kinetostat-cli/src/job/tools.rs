@@ -1,0 +1,111 @@
+//! The tool of a run, or its tools by number.
+
+use kinetostat::{Mechanism, Pose};
+use kinetostat_machining::{ProgramLoad, ToolGiven, straight_tool};
+use serde_spanned::Spanned;
+
+use crate::job::arguments::ProgramArgs;
+use crate::job::job_file::JobFile;
+use crate::job::load::load;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::numbers::{short, triple};
+
+/// The tools of `[[tools]]`, and all tools in words.
+pub(crate) fn numbered_tools(
+    job: Option<&JobFile>,
+    flags: &ProgramArgs,
+    mechanism: &Mechanism,
+    words: &mut String,
+    given: &mut Vec<ToolGiven>,
+) -> Answer<Vec<(u32, Mechanism, ProgramLoad)>> {
+    let mut tools: Vec<(u32, Mechanism, ProgramLoad)> = Vec::new();
+    let Some(j) = job.filter(|j| !j.job.tools.is_empty()) else {
+        return Ok(tools);
+    };
+    if flags.tool_length_mm.is_some() {
+        return Err(Failure::input(
+            "--tool-length-mm gives one length, but the job file has several tools under [[tools]]; change the length there, or leave the option out",
+        ));
+    }
+    let mut all = Vec::new();
+    given.clear();
+    for entry in &j.job.tools {
+        let tool = entry.get_ref();
+        if tools.iter().any(|(number, ..)| *number == tool.number) {
+            return Err(j.error(
+                entry,
+                &format!("tool {} is given twice", tool.number),
+                "give each number once",
+            ));
+        }
+        if tool.length_mm.is_none() && tool.pose.is_none() {
+            return Err(j.error(
+                entry,
+                &format!("tool {} has no length", tool.number),
+                "write length_mm = ..., or pose = { position_mm = [...], ... }",
+            ));
+        }
+        let (pose, text) = tool_of(j, tool.length_mm.as_ref(), tool.pose.as_ref())?;
+        let load = load(job, Some(tool.load.as_ref().unwrap_or(&j.job.load)), flags)?;
+        all.push(format!("tool {}: {text}", tool.number));
+        given.push(ToolGiven {
+            number: Some(tool.number),
+            pose,
+            stated: true,
+        });
+        tools.push((tool.number, mechanism.with_tool(&pose), load));
+    }
+    *words = all.join("; ");
+    Ok(tools)
+}
+
+fn straight(length_mm: f64) -> Answer<(Pose, String)> {
+    if !length_mm.is_finite() || length_mm.abs() > 1e5 {
+        return Err(Failure::input(format!(
+            "the tool's length is {length_mm} mm; tools are shorter than 100 m"
+        )));
+    }
+    let words = if length_mm == 0.0 {
+        "none: the platform's own point".to_owned()
+    } else {
+        format!("{} mm along z of the flange", short(length_mm))
+    };
+    Ok((straight_tool(1e-3 * length_mm), words))
+}
+
+pub(crate) fn tool(job: Option<&JobFile>, flags: &ProgramArgs) -> Answer<(Pose, String)> {
+    if let Some(length) = flags.tool_length_mm {
+        return straight(length);
+    }
+    match job {
+        Some(j) => tool_of(j, j.job.tool.length_mm.as_ref(), j.job.tool.pose.as_ref()),
+        None => straight(0.0),
+    }
+}
+
+fn tool_of(
+    j: &JobFile,
+    length: Option<&Spanned<f64>>,
+    pose: Option<&Spanned<kinetostat_model::schema::Placement>>,
+) -> Answer<(Pose, String)> {
+    match (length, pose) {
+        (Some(_), Some(pose)) => Err(j.error(
+            pose,
+            "the tool is given twice: 'length_mm' and 'pose'",
+            "keep one of them",
+        )),
+        (Some(length), None) => straight(*length.get_ref()),
+        (None, Some(table)) => {
+            let pose = table
+                .get_ref()
+                .pose()
+                .map_err(|(message, help)| j.error(table, &message, &help))?;
+            let tip = pose.translation.vector * 1e3;
+            Ok((
+                pose,
+                format!("tip at {} mm in the flange", triple(tip.into(), short)),
+            ))
+        }
+        (None, None) => straight(0.0),
+    }
+}

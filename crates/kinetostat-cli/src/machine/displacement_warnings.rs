@@ -1,0 +1,30 @@
+//! Warnings of displacements that are no deflections any more: the machine folds over, or snaps.
+
+use kinetostat::LoadLimit;
+use kinetostat_machining::{Warning, WarningCode};
+
+use crate::ui::numbers::{fixed, number, triple};
+
+/// A displacement by this share of the machine's size is no deflection any more.
+const LARGE: f64 = 0.05;
+
+/// The tool moves by `far`, which is no deflection any more of a machine of this size, m.
+pub(crate) fn folds(far: f64, size: f64) -> Option<Warning> {
+    (far > LARGE * size).then(|| {
+        Warning::new(WarningCode::LargeDisplacement, format!(
+            "the tool moves by {} % of the machine's size: the machine folds over under this load; check the force and the stiffnesses",
+            number(100.0 * far / size, 2)
+        ))
+    })
+}
+
+/// The answer lies beyond a limit point of the load.
+pub(crate) fn snaps(limit: &LoadLimit) -> Warning {
+    let d = 1e3 * limit.displacement.linear();
+    let said = format!(
+        "the machine SNAPS on the way to this load: from rest it carries only {} of it, up to a limit point of the load at {} mm; what is told here is another equilibrium behind it. `kinetostat curve` shows the way, `kinetostat equilibria` all of them",
+        number(limit.share, 4),
+        triple(d.into(), |x| fixed(x, 4))
+    );
+    Warning::new(WarningCode::Snaps, said)
+}

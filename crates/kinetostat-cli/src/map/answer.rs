@@ -1,0 +1,250 @@
+//! The figures of a map, gathered block by block.
+
+use kinetostat_machining::{Grid, MapPlace, PlaceState, Warning};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::map::arguments::Quantity;
+
+/// The answer, stable names with units.
+#[derive(Serialize)]
+pub(crate) struct MapAnswer {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    /// Of the tool, everywhere, base axes.
+    pub(crate) rotation_vector_deg: [f64; 3],
+    /// Where the orientation follows: how far the tool turns from that one at most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) max_tool_turn_deg: Option<f64>,
+    pub(crate) grid: GridAnswer,
+    pub(crate) loaded: bool,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    pub(crate) deviations: Vec<String>,
+    pub(crate) places: Places,
+    pub(crate) figures: Vec<FigureAnswer>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+#[derive(Serialize)]
+pub(crate) struct GridAnswer {
+    pub(crate) from_mm: [f64; 3],
+    pub(crate) to_mm: [f64; 3],
+    pub(crate) places: [usize; 3],
+}
+
+impl From<Grid> for GridAnswer {
+    fn from(grid: Grid) -> Self {
+        Self {
+            from_mm: grid.from_mm,
+            to_mm: grid.to_mm,
+            places: grid.counts,
+        }
+    }
+}
+
+/// How many places have which answer.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(crate) struct Places {
+    pub(crate) asked: usize,
+    pub(crate) regular: usize,
+    pub(crate) singular: usize,
+    pub(crate) unstable: usize,
+    pub(crate) outside_limits: usize,
+    pub(crate) unreachable: usize,
+    pub(crate) no_answer: usize,
+}
+
+impl Places {
+    fn count(&mut self, state: PlaceState) {
+        self.asked += 1;
+        *match state {
+            PlaceState::Regular => &mut self.regular,
+            PlaceState::Singular => &mut self.singular,
+            PlaceState::Unstable => &mut self.unstable,
+            PlaceState::OutsideLimits => &mut self.outside_limits,
+            PlaceState::Unreachable => &mut self.unreachable,
+            PlaceState::Unanswered => &mut self.no_answer,
+        } += 1;
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.asked += other.asked;
+        self.regular += other.regular;
+        self.singular += other.singular;
+        self.unstable += other.unstable;
+        self.outside_limits += other.outside_limits;
+        self.unreachable += other.unreachable;
+        self.no_answer += other.no_answer;
+    }
+
+    /// Places that have figures.
+    pub(crate) fn with_figures(&self) -> usize {
+        self.regular + self.singular + self.unstable
+    }
+}
+
+/// Extremes and mean of one figure over all places where it is a number.
+#[derive(Serialize)]
+pub(crate) struct FigureAnswer {
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
+    pub(crate) least: Option<Extreme>,
+    pub(crate) most: Option<Extreme>,
+    pub(crate) mean: Option<f64>,
+}
+
+/// A value and where it is.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Extreme {
+    pub(crate) value: f64,
+    pub(crate) position_mm: [f64; 3],
+}
+
+impl Quantity {
+    pub(crate) const UNLOADED: [Self; 4] = [Self::Softest, Self::X, Self::Y, Self::Z];
+    pub(crate) const LOADED: [Self; 6] = [
+        Self::Softest,
+        Self::X,
+        Self::Y,
+        Self::Z,
+        Self::Displacement,
+        Self::Rotation,
+    ];
+
+    pub(crate) fn of(self, place: &MapPlace) -> f64 {
+        let size = |v: [f64; 3]| Vector3::from(v).norm();
+        match self {
+            Self::Softest => place.smallest_stiffness_n_per_mm,
+            Self::X => place.stiffness_n_per_mm[0],
+            Self::Y => place.stiffness_n_per_mm[1],
+            Self::Z => place.stiffness_n_per_mm[2],
+            Self::Displacement => size(place.displacement_mm),
+            Self::Rotation => size(place.rotation_deg),
+        }
+    }
+
+    /// Name in the JSON.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Softest => "smallest_stiffness_n_per_mm",
+            Self::X => "stiffness_x_n_per_mm",
+            Self::Y => "stiffness_y_n_per_mm",
+            Self::Z => "stiffness_z_n_per_mm",
+            Self::Displacement => "displacement_mm",
+            Self::Rotation => "rotation_deg",
+        }
+    }
+
+    pub(crate) fn unit(self) -> &'static str {
+        match self {
+            Self::Softest | Self::X | Self::Y | Self::Z => "N/mm",
+            Self::Displacement => "mm",
+            Self::Rotation => "deg",
+        }
+    }
+
+    pub(crate) fn in_words(self) -> &'static str {
+        match self {
+            Self::Softest => "smallest stiffness against a force",
+            Self::X => "stiffness against a force along x",
+            Self::Y => "stiffness against a force along y",
+            Self::Z => "stiffness against a force along z",
+            Self::Displacement => "displacement",
+            Self::Rotation => "rotation",
+        }
+    }
+}
+
+/// What is gathered of a figure.
+#[derive(Clone, Copy, Debug, Default)]
+struct Gathered {
+    least: Option<Extreme>,
+    most: Option<Extreme>,
+    sum: f64,
+    count: usize,
+}
+
+impl Gathered {
+    fn take(&mut self, value: f64, position_mm: [f64; 3]) {
+        if !value.is_finite() {
+            return;
+        }
+        let own = Extreme { value, position_mm };
+        self.add(&Self {
+            least: Some(own),
+            most: Some(own),
+            sum: value,
+            count: 1,
+        });
+    }
+
+    /// Takes what came after; of equal values the first place is kept.
+    fn add(&mut self, other: &Self) {
+        if let Some(least) = other.least
+            && self.least.is_none_or(|own| least.value < own.value)
+        {
+            self.least = Some(least);
+        }
+        if let Some(most) = other.most
+            && self.most.is_none_or(|own| most.value > own.value)
+        {
+            self.most = Some(most);
+        }
+        self.sum += other.sum;
+        self.count += other.count;
+    }
+}
+
+/// Figures of some places; blocks are added in the order of the grid.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Figures {
+    pub(crate) places: Places,
+    /// How far the tool turns where the orientation follows.
+    pub(crate) largest_turn_deg: f64,
+    figures: [Gathered; Quantity::LOADED.len()],
+}
+
+impl Figures {
+    pub(crate) fn of(places: &[MapPlace]) -> Self {
+        let mut own = Self::default();
+        for place in places {
+            own.places.count(place.state);
+            // Places without figures have none.
+            own.largest_turn_deg = own.largest_turn_deg.max(place.tool_turn_deg);
+            for (figure, quantity) in own.figures.iter_mut().zip(Quantity::LOADED) {
+                figure.take(quantity.of(place), place.position_mm);
+            }
+        }
+        own
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.places.add(&other.places);
+        self.largest_turn_deg = self.largest_turn_deg.max(other.largest_turn_deg);
+        for (own, other) in self.figures.iter_mut().zip(&other.figures) {
+            own.add(other);
+        }
+    }
+
+    pub(crate) fn answer(&self, loaded: bool) -> Vec<FigureAnswer> {
+        let shown = if loaded {
+            &Quantity::LOADED[..]
+        } else {
+            &Quantity::UNLOADED[..]
+        };
+        let figures = self.figures.iter().zip(shown);
+        figures
+            .map(|(own, quantity)| FigureAnswer {
+                name: quantity.name(),
+                unit: quantity.unit(),
+                least: own.least,
+                most: own.most,
+                mean: (own.count > 0).then(|| own.sum / own.count as f64),
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,80 @@
+//! The query of `map`: grid and load.
+
+use kinetostat::Wrench;
+use kinetostat_machining::Grid;
+use nalgebra::Vector3;
+
+use crate::map::arguments::MapArgs;
+use crate::options::vector;
+use crate::ui::failure::{Answer, Failure};
+
+/// More places are a slip of the pen: their table would fill a disk.
+const MOST_PLACES: usize = 100_000_000;
+
+/// Places along an axis unless said otherwise.
+const USUAL: usize = 21;
+
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+
+pub(crate) fn grid(args: &MapArgs, home_mm: [f64; 3]) -> Answer<Grid> {
+    let mut grid = Grid {
+        from_mm: home_mm,
+        to_mm: home_mm,
+        counts: [1; 3],
+    };
+    let requested = [&args.x, &args.y, &args.z];
+    if requested.iter().all(|a| a.is_none()) {
+        return Err(Failure::input(
+            "a map needs places; give at least one of --x, --y and --z, as in --x -100 100 21 (from, to in mm, how many)",
+        ));
+    }
+    for (k, values) in requested.into_iter().enumerate() {
+        let Some(values) = values else { continue };
+        let name = AXES[k];
+        if values.iter().take(2).any(|x| x.abs() > 1e7) {
+            return Err(Failure::input(format!(
+                "--{name} leads more than 10 km away; coordinates are in mm"
+            )));
+        }
+        (grid.from_mm[k], grid.to_mm[k], grid.counts[k]) = match values[..] {
+            [at] => (at, at, 1),
+            [from, to] if from == to => (from, to, 1),
+            [from, to] => (from, to, USUAL),
+            [from, to, n] if n.fract() == 0.0 && n >= 1.0 && n <= MOST_PLACES as f64 => {
+                if (n == 1.0) != (from == to) {
+                    return Err(Failure::input(format!(
+                        "--{name} {from} {to} {n}: two places or more lie between different ends, one place where they are the same"
+                    )));
+                }
+                (from, to, n as usize)
+            }
+            _ => {
+                return Err(Failure::input(format!(
+                    "--{name}: write one position, or from, to (mm) and a whole number of places, as in --{name} -100 100 21"
+                )));
+            }
+        };
+    }
+    if grid.len() > MOST_PLACES {
+        return Err(Failure::input(format!(
+            "the grid has {} places; {MOST_PLACES} are the most",
+            grid.len()
+        )));
+    }
+    Ok(grid)
+}
+
+pub(crate) fn load(args: &MapArgs) -> Answer<Option<Wrench>> {
+    if args.force.is_none() && args.moment.is_none() {
+        return Ok(None);
+    }
+    let part = |name: &str, values: &Option<Vec<f64>>| match values {
+        Some(v) => vector(name, v),
+        None => Ok(Vector3::zeros()),
+    };
+    let (force, moment) = (
+        part("--force", &args.force)?,
+        part("--moment", &args.moment)?,
+    );
+    Ok(Some(Wrench::new(force, moment)))
+}

@@ -1,0 +1,59 @@
+//! What options of several commands share: numbers, vectors, and the exit codes of their help.
+
+use nalgebra::Vector3;
+
+use crate::ui::failure::{Answer, Failure};
+
+pub(crate) const EXIT_CODES: &str = "\
+Exit codes:
+  0    answered
+  1    wrong input: a file, a number or an option; the message says which
+  2    no answer: not converged, or a point that cannot be reached
+  3    compensated and written, but the tolerance is missed; the line is said
+  130  stopped with Ctrl-C; nothing was written";
+
+/// A finite number with a decimal point.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err("a finite number is needed".to_owned()),
+        Err(_) if text.contains(',') => Err(
+            "a number is needed, with a decimal point and not a comma, and a space before the next"
+                .to_owned(),
+        ),
+        Err(_) => {
+            Err("a number is needed, as in 12.5; the unit is in the option's name".to_owned())
+        }
+    }
+}
+
+/// A whole number.
+pub(crate) fn whole(text: &str) -> Result<usize, String> {
+    text.trim()
+        .parse()
+        .map_err(|_| "a whole number is needed, as in 2".to_owned())
+}
+
+pub(crate) fn small(text: &str) -> Result<u8, String> {
+    text.trim()
+        .parse()
+        .map_err(|_| "a whole number from 3 to 8 is needed".to_owned())
+}
+
+pub(crate) fn finite(name: &str, values: &[f64]) -> Answer<()> {
+    match values.iter().find(|v| !v.is_finite()) {
+        Some(v) => Err(Failure::input(format!(
+            "{name} holds {v}: finite numbers are needed"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Three numbers of an option.
+pub(crate) fn vector(name: &str, values: &[f64]) -> Answer<Vector3<f64>> {
+    finite(name, values)?;
+    match values {
+        [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
+        _ => Err(Failure::input(format!("{name} needs three numbers"))),
+    }
+}

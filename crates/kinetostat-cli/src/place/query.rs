@@ -1,0 +1,248 @@
+//! A model, its tool, a place in the workspace and a load: what `deflect --at` and `stiffness` ask.
+
+use std::path::{Path, PathBuf};
+
+use kinetostat::{Mechanism, Pose, Posture, Wrench};
+use kinetostat_machining::{
+    NearSingular, Warning, large_load, near_singular, odd_tool_length, straight_tool,
+};
+use kinetostat_model::{Controller, Model};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::files::input_files::InputFiles;
+use crate::machine::model_warnings::{deviations_in_words, of_model};
+use crate::machine::unstable_joints::load_names;
+use crate::options::vector;
+use crate::place::arguments::PlaceArgs;
+use crate::place::joints::{self, JointValue};
+use crate::place::orientation;
+use crate::place::reachable::{Followed, followed, reachable};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::layout::wrapped;
+use crate::ui::numbers::{short, triple};
+
+/// Everything about one place.
+pub(crate) struct PlaceQuery {
+    pub(crate) name: String,
+    pub(crate) source: String,
+    pub(crate) tool_words: String,
+    pub(crate) mechanism: Mechanism,
+    /// Names of the loads on every limb.
+    pub(crate) load_names: Vec<Vec<String>>,
+    /// Springs, gas springs, tensions and counterweights in words: they act without a load on the tool.
+    pub(crate) own_loads: Vec<String>,
+    pub(crate) target: Pose,
+    pub(crate) at_home: bool,
+    /// Joints and how far the tool has turned from the orientation it is kept near to, deg, where the
+    /// place is asked for by its position only.
+    pub(crate) followed: Option<Followed>,
+    /// Commands, m or rad, where the place is given by them.
+    pub(crate) joints: Option<Vec<f64>>,
+    pub(crate) controller: Option<Controller>,
+    pub(crate) wrench: Wrench,
+    pub(crate) inputs: Vec<PathBuf>,
+    pub(crate) deviations: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+pub(crate) fn place_query(
+    files: &InputFiles,
+    model: &str,
+    place: &PlaceArgs,
+    tool_length_mm: Option<f64>,
+    force: Option<&[f64]>,
+    moment: Option<&[f64]>,
+) -> Answer<PlaceQuery> {
+    let (read, path) = files.model(model, Path::new(""))?;
+    place_query_of(&read, path, model, place, tool_length_mm, force, moment)
+}
+
+/// The same for a model that was read already, under the name it was `asked` for.
+pub(crate) fn place_query_of(
+    read: &Model,
+    path: Option<PathBuf>,
+    named: &str,
+    place: &PlaceArgs,
+    tool_length_mm: Option<f64>,
+    force: Option<&[f64]>,
+    moment: Option<&[f64]>,
+) -> Answer<PlaceQuery> {
+    let length = tool_length_mm.unwrap_or(0.0);
+    if !length.is_finite() || length.abs() > 1e5 {
+        return Err(Failure::input(format!(
+            "--tool-length-mm is {length}; tools are shorter than 100 m"
+        )));
+    }
+    let mechanism = read.mechanism.with_tool(&straight_tool(1e-3 * length));
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let joints = joints::given(read, place)?;
+    let wanted = match &place.rotation {
+        Some(text) => Some(orientation::option_or_follows("--rotation", text)?),
+        None => None,
+    };
+    let rotation = wanted.flatten().unwrap_or(home.rotation);
+    let target = match (&place.at, &joints) {
+        (None, None) => Pose::from_parts(home.translation, rotation),
+        (None, Some(joints)) => *mechanism.posture_at(joints)?.target(),
+        (Some(at), _) => {
+            let position = vector("--at", at)? * 1e-3;
+            if position.norm() > 1e4 {
+                return Err(Failure::input(
+                    "--at lies more than 10 km away; coordinates are in mm",
+                ));
+            }
+            Pose::from_parts(position.into(), rotation)
+        }
+    };
+    let mut warnings: Vec<Warning> = of_model(read).collect();
+    warnings.extend(odd_tool_length(&mechanism, length));
+    let (target, followed) = match (&joints, wanted) {
+        (Some(_), _) => (target, None),
+        (None, Some(None)) => followed(&mechanism, &target, true, &mut warnings)?,
+        (None, _) => match reachable(&mechanism, target, &mut warnings) {
+            Ok(target) => (target, None),
+            // Unless an orientation was asked for, no machine is held to what it cannot do.
+            Err(_) if wanted.is_none() && mechanism.turns_as_it_moves() => {
+                followed(&mechanism, &target, false, &mut warnings)?
+            }
+            Err(error) => return Err(error),
+        },
+    };
+    let load = |name: &str, values: Option<&[f64]>| {
+        values.map_or_else(|| Ok(Vector3::zeros()), |v| vector(name, v))
+    };
+    let wrench = Wrench::new(load("--force", force)?, load("--moment", moment)?);
+    warnings.extend(large_load(&wrench));
+    Ok(PlaceQuery {
+        name: read.name().to_owned(),
+        source: match &path {
+            Some(_) => named.to_owned(),
+            None => format!("preset {named}"),
+        },
+        tool_words: if length == 0.0 {
+            "none: the platform's own point".to_owned()
+        } else {
+            format!("{} mm along z of the flange", short(length))
+        },
+        load_names: load_names(read),
+        own_loads: own_loads(read),
+        target,
+        at_home: !place.given(),
+        followed,
+        joints,
+        controller: read.controller.clone(),
+        wrench,
+        inputs: path.into_iter().collect(),
+        deviations: deviations_in_words(read),
+        warnings,
+        mechanism,
+    })
+}
+
+/// Loads of the model between nodes and platforms, in words.
+fn own_loads(model: &Model) -> Vec<String> {
+    let document = &model.document;
+    let between = document
+        .load
+        .iter()
+        .map(|load| format!("'{}'", load.name()));
+    let of_limbs = document.limb.iter().flat_map(|limb| {
+        let loads = limb.load.iter();
+        loads.map(|load| format!("'{}' of limb '{}'", load.name(), limb.name))
+    });
+    between.chain(of_limbs).collect()
+}
+
+impl PlaceQuery {
+    /// The machine commanded for the place, within the limits of its actuators.
+    pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
+        let posture = self.standing()?;
+        posture.within_limits()?;
+        Ok(posture)
+    }
+
+    pub(crate) fn standing(&self) -> kinetostat::Result<Posture<'_>> {
+        self.standing_in(&self.mechanism)
+    }
+
+    /// Another machine of the same nominal geometry, commanded for the place.
+    pub(crate) fn standing_in<'m>(
+        &self,
+        mechanism: &'m Mechanism,
+    ) -> kinetostat::Result<Posture<'m>> {
+        match (&self.joints, &self.followed) {
+            (Some(joints), _) => mechanism.posture_at(joints),
+            (None, Some(f)) => mechanism.posture_from_joints(&self.target, f.limbs.clone()),
+            (None, None) => mechanism.posture(&self.target),
+        }
+    }
+
+    /// The singular posture near the place, if there is one.
+    pub(crate) fn near_singular(&self) -> Option<NearSingular> {
+        near_singular(&self.standing().ok()?)
+    }
+
+    /// What the pendant shows there; nothing where no controller is declared.
+    pub(crate) fn on_pendant(&self, posture: &Posture<'_>) -> Vec<JointValue> {
+        joints::on_pendant(self.controller.as_ref(), &posture.commands())
+    }
+
+    pub(crate) fn answer(&self) -> PlaceAnswer {
+        PlaceAnswer {
+            position_mm: (self.target.translation.vector * 1e3).into(),
+            rotation_vector_deg: self
+                .target
+                .rotation
+                .scaled_axis()
+                .map(f64::to_degrees)
+                .into(),
+            tool_turn_deg: self.followed.as_ref().map(|f| f.turned_deg),
+            axes: "base",
+            reference_point: "tip of the tool",
+        }
+    }
+
+    /// What was asked, in words.
+    pub(crate) fn heading(&self) -> String {
+        let position = self.target.translation.vector * 1e3;
+        let mut out = wrapped(
+            &format!(
+                "{} ({}), {} {} mm, tool {}",
+                self.name,
+                self.source,
+                if self.at_home { "at home," } else { "at" },
+                triple(position.into(), short),
+                orientation::in_words(&self.target.rotation)
+            ),
+            0,
+        );
+        if self
+            .tool_words
+            .starts_with(|c: char| c.is_ascii_digit() || c == '-')
+        {
+            out.push_str(&wrapped(&format!("tool: {}", self.tool_words), 0));
+        }
+        if let Some(commands) = &self.joints {
+            let values = joints::of_model(&self.mechanism, commands);
+            out.push_str(&joints::in_words("joints of the model", &values));
+        }
+        for deviation in &self.deviations {
+            out.push_str(&wrapped(deviation, 0));
+        }
+        out.push('\n');
+        out
+    }
+}
+
+/// The place of a query.
+#[derive(Serialize)]
+pub(crate) struct PlaceAnswer {
+    pub(crate) position_mm: [f64; 3],
+    pub(crate) rotation_vector_deg: [f64; 3],
+    /// Where the orientation follows: how far the tool has turned from the one it is kept near to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) tool_turn_deg: Option<f64>,
+    pub(crate) axes: &'static str,
+    pub(crate) reference_point: &'static str,
+}

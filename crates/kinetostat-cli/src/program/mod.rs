@@ -1,0 +1,11 @@
+//! A run along a program: solved, written to its files, summarised.
+//!
+//! It takes the setting and the machine of a job and gives the run, its files and its text: what `compensate`,
+//! `deflect` and `demo` share.
+
+pub(crate) mod aim;
+pub(crate) mod outputs;
+mod points_table;
+pub(crate) mod report;
+pub(crate) mod solve;
+pub(crate) mod summary;

@@ -1,0 +1,94 @@
+//! What a run along a program writes: claimed before the work begins, filled after it.
+
+use std::path::PathBuf;
+
+use kinetostat_machining::Run;
+use kinetostat_model::Model;
+
+use crate::files::outputs::{Existing, Outputs};
+use crate::job::output_paths::OutputPaths;
+use crate::program::aim::Aim;
+use crate::program::points_table::{self, Listing};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::json::json;
+use crate::ui::layout;
+
+/// Claimed outputs of a run by what they hold.
+pub(crate) struct RunOutputs {
+    pub(crate) files: Outputs,
+    pub(crate) program: Option<usize>,
+    pub(crate) report: Option<usize>,
+    pub(crate) json: Option<usize>,
+    pub(crate) points: Option<usize>,
+    pub(crate) listing: Listing,
+}
+
+impl RunOutputs {
+    /// Claims every target before the long work begins.
+    pub(crate) fn claim(
+        aim: Aim,
+        targets: &OutputPaths,
+        existing: Existing,
+        inputs: &[PathBuf],
+    ) -> Answer<Self> {
+        let mut outputs = Outputs::new(existing, inputs.to_vec());
+        let mut claim = |what, target: &Option<PathBuf>| {
+            target
+                .as_deref()
+                .map(|path| outputs.claim(what, path))
+                .transpose()
+        };
+        let program = match aim {
+            Aim::Compensate => claim("compensated program", &targets.program)?,
+            Aim::Analyse => None,
+        };
+        Ok(Self {
+            program,
+            report: claim("report", &targets.report)?,
+            json: claim("result", &targets.json)?,
+            points: claim("table of points", &targets.points)?,
+            listing: Listing::default(),
+            files: outputs,
+        })
+    }
+
+    /// How points are listed.
+    pub(crate) fn list(&mut self, all: bool, model: &Model) {
+        self.listing = Listing {
+            all,
+            controller: model.controller.clone(),
+        };
+    }
+
+    /// What a person should know about the files.
+    pub(crate) fn note(&self, run: &Run) -> String {
+        self.points
+            .and_then(|_| points_table::note(&run.result.question, &run.points, &self.listing))
+            .map_or_else(String::new, |note| {
+                format!("\n{}", layout::wrapped(&note, 2))
+            })
+    }
+
+    /// Writes a run beside its targets; nothing is in place yet.
+    pub(crate) fn fill(&mut self, run: &Run) -> Answer<()> {
+        if let (Some(index), Some(written)) = (self.program, &run.written) {
+            self.files.fill(index, &written.bytes)?;
+        }
+        if let Some(index) = self.json {
+            self.files.fill(index, json(&run.result)?.as_bytes())?;
+        }
+        if let Some(index) = self.points {
+            let outputs = &mut self.files;
+            points_table::table(&run.result.question, &run.points, &self.listing, |bytes| {
+                outputs.append(index, bytes)
+            })?;
+            outputs.complete(index)?;
+        }
+        if let Some(index) = self.report {
+            let page = kinetostat_report::html_of_run(run)
+                .map_err(|error| Failure::input(format!("the report cannot be made: {error}")))?;
+            self.files.fill(index, page.as_bytes())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,23 @@
+//! How a run ends: its text and JSON on the screen, and whether its tolerance is held.
+
+use kinetostat_machining::{RunResult, ToleranceVerdict};
+
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::json::print_answer;
+use crate::ui::screen::{self, Stream};
+
+/// A written program that misses its tolerance has an exit code of its own; files are in place.
+pub(crate) fn refuse_missed_tolerance(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> {
+    match tolerance.missed_in_words() {
+        Some(text) => Err(Failure::tolerance_missed(text).within(program)),
+        None => Ok(()),
+    }
+}
+
+/// Where the text for people goes, and the JSON on the standard output if it is wanted there.
+pub(crate) fn print_run(text: &str, result: Option<&RunResult>) -> Answer<()> {
+    match result {
+        Some(result) => print_answer(text, result, true),
+        None => screen::print(Stream::Out, text),
+    }
+}

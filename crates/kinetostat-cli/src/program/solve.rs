@@ -1,0 +1,128 @@
+//! The machine solved along a program, from the job to the run: shared by `compensate`, `deflect` and `demo`.
+
+use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
+use kinetostat_machining::{
+    Bounds, LoadAlongPath, Run, Task, Tool, Warning, WarningCode, analyse, compensate_program,
+    load_in_words, origin_in_metres,
+};
+
+use crate::job::machine::MachineSetup;
+use crate::job::program::read_program;
+use crate::job::setting::Setting;
+use crate::program::aim::Aim;
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::progress::Progress;
+use crate::ui::threads::in_threads;
+
+/// The tools of a job, where it names several.
+pub(crate) fn tools(machine: &MachineSetup) -> Vec<Tool<'_>> {
+    machine
+        .tools
+        .iter()
+        .map(|(number, mechanism, load)| Tool {
+            number: *number,
+            mechanism,
+            load: *load,
+        })
+        .collect()
+}
+
+/// Solves the machine along the program.
+pub(crate) fn solve(
+    aim: Aim,
+    machine: &MachineSetup,
+    setting: &Setting,
+    threads: Option<usize>,
+) -> Answer<Run> {
+    let (program, path) = read_program(setting)?;
+    let tools = tools(machine);
+    let mut question = machine.question.clone();
+    question.program.clone_from(&setting.program_name);
+    question.files.insert(0, setting.program_file.clone());
+    question.files.extend(setting.job_file.clone());
+    question.date = crate::files::origin::day();
+    let mut writing = setting.writing.clone();
+    question.tolerance_from = "as stated".to_owned();
+    if aim == Aim::Compensate {
+        let (usual_mm, from) = &machine.usual_tolerance;
+        // Of the machine, where the program may be scaled.
+        let usual_mm = usual_mm / machine.placement.scale;
+        let [path_stated, chord_stated] = setting.stated;
+        if !path_stated {
+            // The bounds of a tolerance; of a program without a scale no machine is outside.
+            if !(1e-6..=10.0).contains(&usual_mm) {
+                return Err(Failure::input(format!(
+                    "the scale {}: with it the machine's tolerance of {} is {} of the program, where 0.000001 to 10 mm are allowed; correct the scale (--scale, or scale under [placement] in the job), or state the tolerance (--tolerance-um, or path_um under [tolerances])",
+                    setting_of(machine.placement.scale),
+                    length_setting(machine.usual_tolerance.0),
+                    length_setting(usual_mm)
+                )));
+            }
+            writing.tolerance_mm = usual_mm;
+            question.tolerance_from.clone_from(from);
+        }
+        if !chord_stated {
+            // Never finer than the program of a machine that is not known.
+            let in_proportion = 0.8 * usual_mm.min(writing.tolerance_mm);
+            writing.chord_tolerance_mm = writing.chord_tolerance_mm.max(in_proportion);
+        }
+    }
+    if let Some(header) = &mut writing.header {
+        *header = vec![
+            format!("version {}", env!("CARGO_PKG_VERSION")),
+            format!(
+                "model {} ({}), fingerprint {:016x}",
+                question.model, question.model_source, machine.fingerprint
+            ),
+            format!(
+                "load {}",
+                load_in_words(
+                    &machine.mechanism,
+                    &LoadAlongPath::with_tools(machine.load, &path, &tools)
+                )
+            ),
+            format!("tool {}", question.tool),
+            format!("placement {}", question.placement),
+        ];
+    }
+    let task = Task {
+        mechanism: &machine.mechanism,
+        program: &program,
+        reading: setting.reading.clone(),
+        path: &path,
+        placement: machine.placement,
+        load: machine.load,
+        tools: &tools,
+        writing,
+        question,
+        bounds: Bounds {
+            limits: setting.limits,
+            ..machine.bounds.clone()
+        },
+    };
+    let progress = Progress::new();
+    let work = || match aim {
+        Aim::Analyse => analyse(&task, &progress),
+        Aim::Compensate => compensate_program(&task, &progress),
+    };
+    let result = in_threads(threads, work)?;
+    progress.finish();
+    let mut run = result.map_err(|error| {
+        let failure = Failure::from(error).within(&setting.program_name);
+        // What is no warning without an answer may be the reason why there is none.
+        match origin_in_metres(&machine.mechanism, &machine.placement, &path) {
+            Some(doubt) => failure.with_reason(&doubt.message),
+            None => failure,
+        }
+    })?;
+    if let Some(limit) = setting.max_blocks_per_second
+        && let Some(most) = run.result.summary.blocks_per_second
+        && most > limit
+    {
+        run.result.warnings.push(Warning::new(WarningCode::BlocksPerSecond, format!(
+            "the written program asks for up to {} blocks per second, more than the {limit} that were stated: the machine may stutter. Widen the tolerance (path_um, chord_um) or cut more slowly",
+            largest(most, "")
+        )));
+    }
+    Ok(run)
+}

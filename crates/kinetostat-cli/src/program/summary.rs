@@ -1,0 +1,204 @@
+//! A run in words: the verdict, then the figures in a table, readable at 80 columns.
+
+use kinetostat_machining::number::{
+    MISSING, Rounding, against, largest, largest_length, significant, with_unit,
+};
+use kinetostat_machining::{Figures, PointResult, RunResult};
+
+use crate::ui::layout::{columns, wrapped};
+use crate::ui::numbers::{fixed, triple};
+use crate::ui::warnings::warnings;
+
+/// The result of a run for a person.
+pub(crate) fn of_run(result: &RunResult) -> String {
+    let mut out = String::new();
+    let q = &result.question;
+    out.push_str(&wrapped(
+        &format!("{} on {} ({})", q.program, q.model, q.model_source),
+        0,
+    ));
+    out.push('\n');
+    out.push_str(&wrapped(&verdict(result), 2));
+    out.push('\n');
+    out.push_str(&figures(result));
+    out.push('\n');
+    out.push_str(&actuators(result));
+    out.push_str(&worst(result));
+    out.push_str(&warnings(&result.warnings));
+    out
+}
+
+/// One or two sentences that answer the question.
+pub(crate) fn verdict(result: &RunResult) -> String {
+    let figures = Figures::of(result);
+    let mut text = if let Some(unchanged) = result.unchanged_in_words() {
+        format!(
+            "{unchanged} The tool is up to {} off its path.",
+            figures.error_after
+        )
+    } else if result.question.compensated {
+        let held = result.tolerance.held == Some(true);
+        let missed = result.tolerance.missed_in_words();
+        let first = missed.map_or_else(String::new, |missed| format!("{missed} "));
+        let (after, allowed) = against(
+            result.summary.max_position_error_after_mm,
+            result.tolerance.allowed_mm,
+        );
+        let bound = match held {
+            true => format!(", inside the {allowed} that are allowed"),
+            false => String::new(),
+        };
+        format!(
+            "{first}As programmed, the tool would be up to {} off its path. With the compensated program it stays within {after}{bound}, solved again from the bytes as written. These figures are the model's: they are as true as its stiffnesses and masses.",
+            figures.error_before
+        )
+    } else {
+        format!(
+            "As programmed, the tool is up to {} off its path.",
+            figures.error_before
+        )
+    };
+    if let Some(own) = result.own_weight_in_words() {
+        text.push(' ');
+        text.push_str(&own);
+    }
+    if let Some(corners) = result.corners_in_words() {
+        text.push(' ');
+        text.push_str(&corners);
+    }
+    if !result.summary.stable {
+        text.push_str(" THE MACHINE IS NOT STABLE under this load: do not run this program.");
+    }
+    text
+}
+
+/// The figures: a name, and what it is before and after.
+fn figures(result: &RunResult) -> String {
+    let s = &result.summary;
+    let f = Figures::of(result);
+    let mut rows = Vec::new();
+    let compensated = result.question.compensated;
+    let mut row = |name: &str, before: &str, after: &str| {
+        let cells = match compensated {
+            true => vec![name, before, after],
+            false => vec![name, before],
+        };
+        rows.push(cells.into_iter().map(str::to_owned).collect());
+    };
+    if compensated {
+        row("", "before", "after");
+    }
+    row("largest position error", &f.error_before, &f.error_after);
+    row("root mean square of it", &f.rms_before, &f.rms_after);
+    if compensated {
+        row("of that by rounding", "", &f.rounding);
+        let allowed = against(s.max_position_error_after_mm, result.tolerance.allowed_mm).1;
+        row("error allowed in all", "", &allowed);
+        row("largest correction", "", &f.correction);
+        row("tool tilt that stays", "", &f.rotation);
+        // Pieces whose feed is limited are slower, and have a row of their own.
+        let speed = match s.feed_limited_pieces {
+            0 => "speed along the part, error",
+            _ => "its error where no feed is limited",
+        };
+        if s.feed_limited_pieces > 0 {
+            let slowest = s.slowest_limited_speed_percent.unwrap_or(f64::NAN);
+            let slowest = with_unit(&significant(slowest, 2, Rounding::Down), "%");
+            row("slowest speed along the part", "", &slowest);
+        }
+        row(speed, "", &f.speed);
+        let of = |count: usize| count.to_string();
+        if s.feed_limited_pieces > 0 {
+            row(
+                "pieces slower, feed limited",
+                "",
+                &of(s.feed_limited_pieces),
+            );
+        }
+        if let Some(longest) = &f.corner_step {
+            row("corner steps", "", &of(s.corner_steps));
+            row("longest of them", "", longest);
+            let backwards = largest_length(s.largest_backward_step_mm);
+            row("longest way backwards", "", &backwards);
+        }
+        let mm = |value: f64| with_unit(&significant(value, 5, Rounding::Nearest), "mm");
+        let (before, after) = (mm(s.feed_length_before_mm), mm(s.feed_length_after_mm));
+        row("length at feed", &before, &after);
+        if let (Some(before), Some(after)) = (s.feed_time_before_s, s.feed_time_after_s) {
+            let seconds = |value: f64| with_unit(&significant(value, 4, Rounding::Nearest), "s");
+            row("time at feed", &seconds(before), &seconds(after));
+        }
+        row("blocks", &of(s.blocks), &of(s.blocks_out));
+        row("bytes", &of(s.bytes_in), &of(s.bytes_out));
+        if let Some(shortest) = &f.shortest_piece {
+            row("shortest piece of a divided block", "", shortest);
+        }
+        let rate =
+            |rate: Option<f64>| rate.map_or_else(|| MISSING.to_owned(), |r| largest(r, "1/s"));
+        let mean = |rate: Option<f64>| {
+            let nearest = |r| with_unit(&significant(r, 3, Rounding::Nearest), "1/s");
+            rate.map_or_else(|| MISSING.to_owned(), nearest)
+        };
+        row(
+            "blocks per second",
+            &mean(s.mean_blocks_per_second_before),
+            &mean(s.mean_blocks_per_second_after),
+        );
+        row(
+            "most of 16 in a row",
+            &rate(s.peak_blocks_per_second_before),
+            &rate(s.peak_blocks_per_second_after),
+        );
+    } else {
+        row("tilt of the tool", &f.rotation, "");
+        row("blocks", &s.blocks.to_string(), "");
+    }
+    let mut last = |name: &str, value: &str| match compensated {
+        true => row(name, "", value),
+        false => row(name, value, ""),
+    };
+    last("path at feed", &f.feed_length);
+    last("points solved", &s.points.to_string());
+    last("smallest stiffness against a force", &f.stiffness);
+    if let Some(share) = &f.share_to_buckling {
+        last("share of the way to buckling", share);
+    }
+    columns(&rows, 2)
+}
+
+fn actuators(result: &RunResult) -> String {
+    let f = Figures::of(result);
+    let compensated = result.question.compensated;
+    let mut rows = vec![vec!["actuator".to_owned(), "largest force".to_owned()]];
+    if compensated {
+        rows[0].push("largest change".to_owned());
+    }
+    for (i, actuator) in result.question.actuators.iter().enumerate() {
+        let mut row = vec![actuator.name.clone(), f.actuator_force[i].clone()];
+        if compensated {
+            row.push(f.actuator_correction[i].clone());
+        }
+        rows.push(row);
+    }
+    columns(&rows, 2)
+}
+
+fn worst(result: &RunResult) -> String {
+    if result.worst_points.is_empty() {
+        return String::new();
+    }
+    let size = |p: &PointResult| p.error_before_mm.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut rows = vec![
+        ["where it is worst", "program place, mm", "error"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for point in result.worst_points.iter().take(3) {
+        rows.push(vec![
+            format!("line {}", point.line),
+            triple(point.position_mm, |x| fixed(x, 2)),
+            largest_length(size(point)),
+        ]);
+    }
+    format!("\n{}", columns(&rows, 2))
+}

@@ -1,0 +1,56 @@
+//! `kinetostat completions` and `kinetostat man`: completions for a shell, and manual pages.
+//!
+//! It takes the command line itself, from above, and gives files made of it.
+
+pub(crate) mod arguments;
+
+use std::path::Path;
+
+use crate::files::outputs::{Existing, Outputs, written};
+use crate::shell::arguments::{CompletionsArgs, ManArgs};
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::screen::{self, Stream};
+
+pub(crate) fn completions(args: &CompletionsArgs, mut command: clap::Command) -> Answer<()> {
+    let mut bytes = Vec::new();
+    clap_complete::generate(args.shell, &mut command, "kinetostat", &mut bytes);
+    screen::print_bytes(&bytes)
+}
+
+pub(crate) fn man(args: &ManArgs, mut root: clap::Command) -> Answer<()> {
+    root.build();
+    let page = |command: &clap::Command| -> Answer<Vec<u8>> {
+        let mut bytes = Vec::new();
+        clap_mangen::Man::new(command.clone())
+            .render(&mut bytes)
+            .map_err(|error| Failure::input(format!("the manual page cannot be made: {error}")))?;
+        Ok(bytes)
+    };
+    let Some(directory) = &args.out else {
+        return screen::print_bytes(&page(&root)?);
+    };
+    let existing = if args.force_overwrite {
+        Existing::Replace
+    } else {
+        Existing::KeepSame
+    };
+    let mut outputs = Outputs::new(existing, Vec::new());
+    let mut all = vec![("kinetostat".to_owned(), root.clone())];
+    collect(&root, "kinetostat", &mut all);
+    for (name, command) in &all {
+        let target = Path::new(directory).join(format!("{name}.1"));
+        let index = outputs.claim("manual page", &target)?;
+        outputs.fill(index, &page(command)?)?;
+    }
+    let paths = outputs.commit()?;
+    screen::print(Stream::Out, written(&paths).trim_start())
+}
+
+/// All subcommands, named as in `kinetostat-model-show`.
+fn collect(command: &clap::Command, prefix: &str, all: &mut Vec<(String, clap::Command)>) {
+    for sub in command.get_subcommands().filter(|s| s.get_name() != "help") {
+        let name = format!("{prefix}-{}", sub.get_name());
+        all.push((name.clone(), sub.clone()));
+        collect(sub, &name, all);
+    }
+}

@@ -1,0 +1,190 @@
+//! The answer of `stiffness`, stable names with units.
+
+use kinetostat::{
+    CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, Posture,
+    Wrench,
+};
+use kinetostat_machining::{NearSingular, Warning, WarningCode};
+use nalgebra::Matrix6;
+use serde::Serialize;
+
+use crate::machine::principal_directions::{Principal, principal, uneven};
+use crate::place::joints::{self, JointValue};
+use crate::place::query::{PlaceAnswer, PlaceQuery};
+
+/// The answer, stable names with units.
+#[derive(Serialize)]
+pub(crate) struct Stiffness {
+    pub(crate) schema: u32,
+    pub(crate) kinetostat_version: &'static str,
+    pub(crate) model: String,
+    pub(crate) model_source: String,
+    pub(crate) tool: String,
+    pub(crate) place: PlaceAnswer,
+    /// Commands of the actuators there.
+    pub(crate) joints: Vec<JointValue>,
+    /// What the controller shows, in the order of its axes; empty without a section `controller`.
+    pub(crate) pendant: Vec<JointValue>,
+    pub(crate) loaded: bool,
+    pub(crate) force_n: [f64; 3],
+    pub(crate) moment_n_m: [f64; 3],
+    /// Rows: force (N), moment (N m); columns: displacement (m), rotation (rad).
+    pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
+    /// The same as the terminal shows it: rows N and N m, columns per mm and per rad.
+    pub(crate) stiffness_n_n_m_per_mm_rad: [[f64; 6]; 6],
+    /// Inverse, m and rad per N and N m, zero along rigid directions; none where a direction is free.
+    pub(crate) compliance_m_rad_per_n: Option<[[f64; 6]; 6]>,
+    /// The same as the terminal shows it: micrometres and microradians per N and N m.
+    pub(crate) compliance_um_urad_per_n_n_m: Option<[[f64; 6]; 6]>,
+    /// Where directions are free: the motion under a load that pushes along none of them, up to
+    /// motions along them.
+    pub(crate) compliance_besides_free_motions_m_rad_per_n: Option<[[f64; 6]; 6]>,
+    /// Smallest stiffness against a force: in its softest direction, the tool free to turn; null if no
+    /// force moves the tool. As in `map`, `deflect` and along programs.
+    pub(crate) smallest_stiffness_n_per_mm: f64,
+    /// What acts in the model and is not in the unloaded stiffness: springs and other loads between
+    /// nodes and platforms, and weight.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) left_out: Vec<String>,
+    /// The same figures with what is left out: the tangent at rest, without a load on the tool.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) at_rest: Option<AtRest>,
+    pub(crate) rank: usize,
+    pub(crate) free_directions: usize,
+    pub(crate) rigid_directions: usize,
+    pub(crate) negative_directions: usize,
+    pub(crate) principal_directions: Vec<Principal>,
+    pub(crate) limbs: Vec<LimbShare>,
+    /// The nearest singular posture, where one is near.
+    pub(crate) near_singularity: Option<NearSingular>,
+    pub(crate) warnings: Vec<Warning>,
+}
+
+/// Stiffness of the machine as it stands, without a load on the tool.
+#[derive(Serialize)]
+pub(crate) struct AtRest {
+    pub(crate) stiffness_n_m_rad: [[f64; 6]; 6],
+    pub(crate) smallest_stiffness_n_per_mm: f64,
+    pub(crate) stable: bool,
+}
+
+#[derive(Serialize)]
+pub(crate) struct LimbShare {
+    pub(crate) name: String,
+    pub(crate) rank: usize,
+    pub(crate) free: usize,
+    pub(crate) rigid: usize,
+    pub(crate) negative: usize,
+    pub(crate) redundant_passive_joints: Vec<String>,
+}
+
+/// Directions with the joints and springs behind them, the stiff ones too.
+pub(crate) fn with_causes(
+    directions: &[Direction],
+    behind: impl Fn(&Direction) -> Vec<kinetostat::Share>,
+) -> Vec<Direction> {
+    let mut list = directions.to_vec();
+    for direction in &mut list {
+        if direction.kind != DirectionKind::Rigid {
+            direction.behind = behind(direction);
+        }
+    }
+    list
+}
+
+/// Names what acts in the model and is not in its unloaded stiffness, and adds the stiffness with it.
+pub(crate) fn with_own_loads(answer: &mut Stiffness, query: &PlaceQuery, posture: &Posture<'_>) {
+    if query.own_loads.is_empty() {
+        return;
+    }
+    answer.left_out.clone_from(&query.own_loads);
+    match posture.deflected_by(&Wrench::zero()) {
+        Ok(rest) => {
+            answer.at_rest = Some(AtRest {
+                stiffness_n_m_rad: rows(&rest.stiffness.matrix),
+                smallest_stiffness_n_per_mm: 1e-3 * rest.stiffness_against_force(),
+                stable: rest.stable(),
+            });
+        }
+        Err(error) => answer.warnings.push(Warning::new(
+            WarningCode::NoEquilibrium,
+            format!("there is no stiffness with what acts in the model besides: {error}"),
+        )),
+    }
+}
+
+pub(crate) fn answer(
+    query: &PlaceQuery,
+    posture: &Posture<'_>,
+    (loaded, against_force): (bool, f64),
+    cartesian: &CartesianStiffness,
+    compliance: &CartesianCompliance,
+    directions: &[Direction],
+    limbs: &[&ChainStiffness],
+) -> Stiffness {
+    let count = |kind| directions.iter().filter(|d| d.kind == kind).count();
+    let free = count(DirectionKind::Free);
+    let held = free + count(DirectionKind::Rigid) < 6;
+    let near_singularity = query.near_singular();
+    let mut warnings = query.warnings.clone();
+    warnings.extend(near_singularity.iter().map(NearSingular::warning));
+    warnings.extend(uneven(&query.mechanism, directions));
+    Stiffness {
+        schema: 2,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model: query.name.clone(),
+        model_source: query.source.clone(),
+        tool: query.tool_words.clone(),
+        place: query.answer(),
+        joints: joints::of_model(&query.mechanism, &posture.commands()),
+        pendant: query.on_pendant(posture),
+        loaded,
+        force_n: query.wrench.force().into(),
+        moment_n_m: query.wrench.moment().into(),
+        stiffness_n_m_rad: rows(&cartesian.matrix),
+        stiffness_n_n_m_per_mm_rad: std::array::from_fn(|i| {
+            std::array::from_fn(|j| per_column(j) * cartesian.matrix[(i, j)])
+        }),
+        compliance_m_rad_per_n: (free == 0).then(|| rows(&compliance.springs)),
+        compliance_um_urad_per_n_n_m: (free == 0).then(|| rows(&(MICRO * compliance.springs))),
+        compliance_besides_free_motions_m_rad_per_n: (free > 0 && held)
+            .then(|| rows(&compliance.springs)),
+        smallest_stiffness_n_per_mm: 1e-3 * against_force,
+        left_out: Vec::new(),
+        at_rest: None,
+        free_directions: free,
+        rigid_directions: count(DirectionKind::Rigid),
+        negative_directions: count(DirectionKind::Negative),
+        rank: directions
+            .iter()
+            .filter(|d| d.kind != DirectionKind::Free)
+            .count(),
+        principal_directions: directions.iter().map(principal).collect(),
+        limbs: limbs
+            .iter()
+            .zip(query.mechanism.limbs())
+            .map(|(k, limb)| LimbShare {
+                name: limb.name.clone(),
+                rank: k.rank,
+                free: k.count(DirectionKind::Free),
+                rigid: k.count(DirectionKind::Rigid),
+                negative: k.count(DirectionKind::Negative),
+                redundant_passive_joints: k.redundant_passive.clone(),
+            })
+            .collect(),
+        warnings,
+        near_singularity,
+    }
+}
+
+/// From m and rad to micrometres and microradians.
+pub(crate) const MICRO: f64 = 1e6;
+
+/// From per m and per rad to per mm and per rad, as stiffness is shown.
+pub(crate) fn per_column(column: usize) -> f64 {
+    if column < 3 { 1e-3 } else { 1.0 }
+}
+
+fn rows(m: &Matrix6<f64>) -> [[f64; 6]; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))
+}

@@ -1,0 +1,63 @@
+//! `kinetostat stiffness`: the 6 x 6 matrix of the tool at a place, with units, axes and reference point.
+//!
+//! It takes a model, a place and perhaps a load, and gives stiffness and compliance, their principal directions,
+//! and the share of each limb.
+
+mod answer;
+pub(crate) mod arguments;
+mod text;
+
+use kinetostat::{ChainStiffness, Direction};
+
+use crate::files::input_files::InputFiles;
+use crate::place::query::place_query;
+use crate::stiffness::answer::{answer, with_causes, with_own_loads};
+use crate::stiffness::arguments::StiffnessArgs;
+use crate::stiffness::text::in_words;
+use crate::ui::failure::Answer;
+use crate::ui::json;
+
+pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
+    let query = place_query(
+        &InputFiles::default(),
+        &args.model,
+        &args.place,
+        args.tool_length_mm,
+        args.force.as_deref(),
+        args.moment.as_deref(),
+    )?;
+    let posture = query.posture()?;
+    let loaded = args.force.is_some() || args.moment.is_some();
+    let answer = if loaded {
+        let e = posture.deflected_by(&query.wrench)?;
+        let limbs: Vec<&ChainStiffness> = e.limbs.iter().map(|l| &l.stiffness).collect();
+        let behind = |d: &Direction| e.behind(&query.mechanism, &d.twist);
+        let directions = with_causes(&e.directions, behind);
+        answer(
+            &query,
+            &posture,
+            (true, e.stiffness_against_force()),
+            &e.stiffness,
+            &e.compliance(),
+            &directions,
+            &limbs,
+        )
+    } else {
+        let k = posture.stiffness()?;
+        let limbs: Vec<&ChainStiffness> = k.limbs.iter().collect();
+        let directions = with_causes(&k.directions, |d| k.behind(&posture, &d.twist));
+        let mut answer = answer(
+            &query,
+            &posture,
+            (false, k.stiffness_against_force()),
+            &k.cartesian,
+            &k.compliance(),
+            &directions,
+            &limbs,
+        );
+        with_own_loads(&mut answer, &query, &posture);
+        answer
+    };
+    let text = in_words(&query, &answer);
+    json::print_answer(&text, &answer, args.json)
+}

@@ -1,0 +1,175 @@
+//! Why a command ends without an answer, and its exit code.
+
+use std::fmt::Display;
+use std::ops::Range;
+
+use kinetostat_machining::RunError;
+use kinetostat_machining::number::apart;
+use kinetostat_model::{ModelError, shortened};
+use kinetostat_program::WriteError;
+
+use crate::ui::pose::pose_in_words;
+use crate::ui::safe_text::safe;
+
+/// Exit codes, as in the table of `kinetostat --help`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Code {
+    /// The question is wrong: a file, a number, an option.
+    WrongInput = 1,
+    /// The question is right but has no answer: no convergence, a point out of reach.
+    Unanswered = 2,
+    /// A program was written, but it misses its tolerance.
+    ToleranceMissed = 3,
+    /// Ctrl-C.
+    Stopped = 130,
+}
+
+/// What is reported before the program ends.
+#[derive(Clone, Debug)]
+pub(crate) struct Failure {
+    pub(crate) code: Code,
+    /// Plain text, safe for a terminal.
+    pub(crate) plain: String,
+    /// The same with colours, where there are some.
+    pub(crate) styled: Option<String>,
+    /// Where in the job file, bytes.
+    pub(crate) place: Option<Range<usize>>,
+}
+
+pub(crate) type Answer<T> = Result<T, Failure>;
+
+impl Failure {
+    /// Wrong input.
+    pub(crate) fn input(message: impl Display) -> Self {
+        Self::new(Code::WrongInput, message)
+    }
+
+    /// No answer exists or none was found.
+    pub(crate) fn unanswered(message: impl Display) -> Self {
+        Self::new(Code::Unanswered, message)
+    }
+
+    /// A written program that misses its tolerance.
+    pub(crate) fn tolerance_missed(message: impl Display) -> Self {
+        Self::new(Code::ToleranceMissed, message)
+    }
+
+    pub(crate) fn new(code: Code, message: impl Display) -> Self {
+        Self {
+            code,
+            plain: safe(&shortened(&message.to_string())),
+            styled: None,
+            place: None,
+        }
+    }
+
+    /// Several failures, reported one after the other.
+    pub(crate) fn together(failures: Vec<Self>) -> Self {
+        let styled = |f: &Self| {
+            let plain = || format!("\u{1b}[1;31merror\u{1b}[0m: {}", f.plain);
+            f.styled.clone().unwrap_or_else(plain)
+        };
+        let styled: Vec<String> = failures.iter().map(styled).collect();
+        let plain: Vec<String> = failures.iter().map(|f| f.plain.clone()).collect();
+        Self {
+            code: Code::WrongInput,
+            plain: plain.join("\n\nerror: "),
+            styled: Some(styled.join("\n\n")),
+            place: None,
+        }
+    }
+
+    /// Found at a place of the job file: the text with its line is whole, and safe.
+    pub(crate) fn located(plain: String, styled: String, place: Range<usize>) -> Self {
+        Self {
+            code: Code::WrongInput,
+            plain,
+            styled: Some(styled),
+            place: Some(place),
+        }
+    }
+
+    /// The same failure, with what may be its reason.
+    pub(crate) fn with_reason(mut self, reason: &str) -> Self {
+        if self.code != Code::Stopped {
+            self.plain = format!("{}. Perhaps the reason: {}", self.plain, safe(reason));
+            self.styled = None;
+        }
+        self
+    }
+
+    /// The same failure, reported to be in a file.
+    pub(crate) fn within(mut self, place: &str) -> Self {
+        self.plain = format!("{}: {}", safe(place), self.plain);
+        self.styled = None;
+        self
+    }
+}
+
+impl From<ModelError> for Failure {
+    fn from(error: ModelError) -> Self {
+        let plain = error.rendered(false);
+        Self {
+            code: Code::WrongInput,
+            // The model crate has made its text safe; its line structure is wanted.
+            plain: plain.strip_prefix("error: ").unwrap_or(&plain).to_owned(),
+            styled: Some(error.rendered(true)),
+            place: None,
+        }
+    }
+}
+
+/// What a run that Ctrl-C ended says.
+pub(crate) const STOPPED: &str = "stopped on request; nothing was written";
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Cancelled | RunError::Write(WriteError::Cancelled) => {
+                Self::new(Code::Stopped, STOPPED)
+            }
+            error if error.is_unanswered() => Self::unanswered(error),
+            error => Self::input(error),
+        }
+    }
+}
+
+impl From<kinetostat::Error> for Failure {
+    fn from(error: kinetostat::Error) -> Self {
+        let advice = match &error {
+            kinetostat::Error::Unreachable { .. } | kinetostat::Error::OutsideLimits { .. } => {
+                "; choose a place inside the workspace, or check the model's limits and the tool's length"
+            }
+            kinetostat::Error::NotConverged { limit: Some(_), .. } => {
+                "; `kinetostat curve` shows how, `kinetostat equilibria` finds the others"
+            }
+            kinetostat::Error::NotConverged { .. } => {
+                "; the load may be beyond what the machine can carry here: try a part of it"
+            }
+            kinetostat::Error::FreeDirection { .. } => {
+                "; leave that part of the load out, or check passive joints and platform"
+            }
+            _ => "",
+        };
+        let reported = match &error {
+            // Millimetres and degrees, as the place was asked for.
+            kinetostat::Error::Unreachable {
+                place,
+                distance_m,
+                angle_rad,
+                nearest,
+            } => format!(
+                "{place}: the place cannot be reached; the nearest that was found is {} away: {}",
+                apart(1e3 * distance_m, angle_rad.to_degrees()),
+                pose_in_words(nearest)
+            ),
+            other => other.to_string(),
+        };
+        let message = format!("{reported}{advice}");
+        if error.is_unanswered() {
+            Self::unanswered(message)
+        } else {
+            Self::input(message)
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Numbers and vectors as people read them.
+
+use kinetostat_machining::number as formatter;
+use kinetostat_machining::number::without_zeros;
+
+/// A number with `digits` significant digits, for tables: the one formatter of all commands and of the
+/// report, in engineering notation where plain notation would be long.
+pub(crate) fn number(value: f64, digits: i32) -> String {
+    let digits = usize::try_from(digits).unwrap_or(1);
+    formatter::significant(value, digits, formatter::Rounding::Nearest)
+}
+
+/// A number with fixed decimals, for components beside each other; never `-0.000`.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+    formatter::fixed(value, decimals)
+}
+
+/// Components of a load in brackets, at four decimals, small ones with three digits; what is rounding beside the
+/// largest is zero.
+pub(crate) fn load_triple(v: [f64; 3]) -> String {
+    let most = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    triple(v, |x| match x.abs() <= 1e-12 * most {
+        true => "0".to_owned(),
+        false if x.abs() < 0.01 => formatter::short(x),
+        false => short(x),
+    })
+}
+
+/// Three components in brackets.
+pub(crate) fn triple(v: [f64; 3], shown: impl Fn(f64) -> String) -> String {
+    format!("({}, {}, {})", shown(v[0]), shown(v[1]), shown(v[2]))
+}
+
+/// A number as short as it can be at four decimals.
+pub(crate) fn short(value: f64) -> String {
+    without_zeros(&fixed(value, 4)).to_owned()
+}

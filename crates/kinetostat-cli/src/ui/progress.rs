@@ -1,0 +1,212 @@
+//! Progress of long work on a terminal, and Ctrl-C.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use kinetostat_machining::Watch;
+use kinetostat_program::Monitor;
+
+use crate::ui::failure::{Code, Failure, STOPPED};
+use crate::ui::screen;
+
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Time that work has to stop by itself and to say so.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Ctrl-C asks the work to stop. What does not look, a single place or a drawing, is ended a second
+/// later, after removing temporary files.
+pub(crate) fn catch_interrupts(remove_temporary: fn()) {
+    let handler = move || {
+        STOP.store(true, Ordering::SeqCst);
+        std::thread::sleep(PATIENCE);
+        remove_temporary();
+        screen::complain(&Failure::new(Code::Stopped, STOPPED));
+        std::process::exit(Code::Stopped as i32);
+    };
+    // Without a handler Ctrl-C ends the program at once: worse, but no reason to refuse.
+    let _ = ctrlc::set_handler(handler);
+}
+
+/// A stage of which it is known how long it is, and one of which it is not. With the longest name,
+/// nine digits on both sides and an estimate of days both stay within 80 columns.
+const KNOWN: &str = "{msg:35!} {bar:12} {pos:>9}/{len:9} {eta:>4} left";
+
+const OPEN: &str = "{msg:35!} {pos:>9} points, {elapsed:>4}";
+
+/// Shows stages with an estimate of the time left, if somebody watches.
+pub(crate) struct Progress {
+    bar: Option<ProgressBar>,
+    stage: Mutex<(String, usize)>,
+}
+
+impl Progress {
+    pub(crate) fn new() -> Self {
+        let bar = screen::watched()
+            .then(|| ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(8)));
+        Self {
+            bar,
+            stage: Mutex::new((String::new(), 0)),
+        }
+    }
+
+    pub(crate) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.finish();
+    }
+}
+
+impl Watch for Progress {
+    fn stage(&self, name: &str, total: usize) {
+        let Some(bar) = &self.bar else { return };
+        let Ok(mut stage) = self.stage.lock() else {
+            return;
+        };
+        if stage.0 == name && stage.1 == total {
+            return;
+        }
+        // A total that grows on the way is no total: from then on only what is done is shown.
+        let open = total == 0 || stage.0 == name;
+        if let Ok(style) = ProgressStyle::with_template(if open { OPEN } else { KNOWN }) {
+            bar.set_style(style);
+        }
+        if stage.0 != name {
+            bar.set_message(name.to_owned());
+            bar.set_position(0);
+            bar.reset_eta();
+            bar.reset_elapsed();
+            name.clone_into(&mut stage.0);
+        }
+        if !open {
+            bar.set_length(total as u64);
+        }
+        stage.1 = total;
+    }
+
+    fn advance(&self, done: usize) {
+        if let Some(bar) = &self.bar {
+            bar.set_position(done as u64);
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        STOP.load(Ordering::SeqCst)
+    }
+}
+
+impl Monitor for Progress {
+    fn progress(&self, done: usize, _so_far: usize) {
+        // Every division asks for more points: nobody knows how many there will be.
+        self.stage("corrections", 0);
+        self.advance(done);
+    }
+
+    fn cancelled(&self) -> bool {
+        Watch::cancelled(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use indicatif::TermLike;
+
+    use super::*;
+
+    /// A terminal of 200 columns that remembers the last line.
+    #[derive(Clone, Debug, Default)]
+    struct Screen(Arc<Mutex<String>>);
+
+    impl Screen {
+        fn line(&self) -> String {
+            self.0.lock().expect("a line").trim_end().to_owned()
+        }
+    }
+
+    impl TermLike for Screen {
+        fn width(&self) -> u16 {
+            200
+        }
+        fn move_cursor_up(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_down(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_right(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn move_cursor_left(&self, _: usize) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn write_line(&self, text: &str) -> std::io::Result<()> {
+            self.write_str(text)
+        }
+        fn write_str(&self, text: &str) -> std::io::Result<()> {
+            if !text.trim().is_empty() {
+                text.clone_into(&mut self.0.lock().expect("a line"));
+            }
+            Ok(())
+        }
+        fn clear_line(&self) -> std::io::Result<()> {
+            Ok(())
+        }
+        fn flush(&self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn shown(progress: &Progress, screen: &Screen) -> String {
+        if let Some(bar) = &progress.bar {
+            bar.force_draw();
+        }
+        screen.line()
+    }
+
+    /// The longest names of stages, the largest counts, and a total that would grow.
+    #[test]
+    fn the_line_fits_80_columns_and_shows_no_total_that_grows() {
+        let screen = Screen::default();
+        let target = ProgressDrawTarget::term_like(Box::new(screen.clone()));
+        let progress = Progress {
+            bar: Some(ProgressBar::with_draw_target(None, target)),
+            stage: Mutex::new((String::new(), 0)),
+        };
+        let names = [
+            "corrections",
+            "check of the written program",
+            "deflections of the written program",
+            "numbers of the report",
+        ];
+        for name in names {
+            for (total, done) in [(123_456_789, 100_000_000), (223_456_789, 200_000_000)] {
+                progress.stage(name, total);
+                progress.advance(done);
+                let line = shown(&progress, &screen);
+                let width = line.chars().count();
+                assert!((40..=80).contains(&width), "{width}: {line:?}");
+                assert!(line.starts_with(name), "{line:?}");
+                assert!(line.contains(&done.to_string()), "{line:?}");
+                let total_shown = line.contains(&total.to_string());
+                assert_eq!(total_shown, total == 123_456_789, "{line:?}");
+            }
+        }
+        progress.stage("another", 0);
+        Monitor::progress(&progress, 10, 20);
+        let line = shown(&progress, &screen);
+        assert!(
+            line.contains("10 points") && !line.contains("20"),
+            "{line:?}"
+        );
+    }
+}

@@ -1,0 +1,80 @@
+//! The only module that prints. Results go to the standard output, everything about them to the
+//! standard error; with `--json` the text for people goes there too.
+
+use std::io::{ErrorKind, IsTerminal, Write};
+
+use clap::error::ErrorKind as ClapKind;
+use kinetostat_model::shortened;
+
+use crate::ui::failure::{Answer, Failure};
+use crate::ui::safe_text::safe;
+
+/// Where the text for people goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stream {
+    Out,
+    Err,
+}
+
+/// Prints text as it is.
+pub(crate) fn print(stream: Stream, text: &str) -> Answer<()> {
+    let result = match stream {
+        Stream::Out => write(&mut anstream::stdout().lock(), text.as_bytes()),
+        Stream::Err => write(&mut anstream::stderr().lock(), text.as_bytes()),
+    };
+    unless_closed(result)
+}
+
+/// Prints bytes to the standard output without looking at them.
+pub(crate) fn print_bytes(bytes: &[u8]) -> Answer<()> {
+    unless_closed(write(&mut std::io::stdout().lock(), bytes))
+}
+
+fn write(to: &mut dyn Write, bytes: &[u8]) -> std::io::Result<()> {
+    to.write_all(bytes)?;
+    to.flush()
+}
+
+fn unless_closed(result: std::io::Result<()>) -> Answer<()> {
+    match result {
+        // The reader has seen enough (`| head`): that is no failure.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(Failure::input(format!(
+            "the standard output cannot be written: {}",
+            crate::ui::system_error::in_words(&error)
+        ))),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Tells why the command ends. Nothing can be done if even that fails.
+pub(crate) fn complain(failure: &Failure) {
+    let mut to = anstream::stderr().lock();
+    let text = match &failure.styled {
+        // anstream takes the colours out where the terminal has none.
+        Some(styled) => format!("{styled}\n"),
+        None => format!("\u{1b}[1;31merror\u{1b}[0m: {}\n", failure.plain),
+    };
+    let _ = write(&mut to, text.as_bytes());
+}
+
+/// Tells what is wrong with a command line, in the words of its reader; a word of kilobytes is cut.
+pub(crate) fn complain_of_line(error: &clap::Error) {
+    let asked_for = matches!(
+        error.kind(),
+        ClapKind::DisplayHelp
+            | ClapKind::DisplayVersion
+            | ClapKind::DisplayHelpOnMissingArgumentOrSubcommand
+    );
+    let whole = error.render().to_string();
+    let text = shortened(&safe(&whole));
+    let _ = match asked_for || text == whole {
+        true => error.print(),
+        false => write(&mut anstream::stderr().lock(), text.as_bytes()),
+    };
+}
+
+/// Whether a person watches the standard error.
+pub(crate) fn watched() -> bool {
+    std::io::stderr().is_terminal()
+}

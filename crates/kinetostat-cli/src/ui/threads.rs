@@ -1,0 +1,23 @@
+//! Work on a stated number of threads.
+
+use crate::ui::failure::{Answer, Failure};
+
+/// Runs `work` on a number of threads.
+pub(crate) fn in_threads<R: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> R + Send,
+) -> Answer<R> {
+    let Some(count) = threads else {
+        return Ok(work());
+    };
+    if !(1..=1024).contains(&count) {
+        return Err(Failure::input(format!(
+            "--threads {count}: 1 to 1024 threads can be used"
+        )));
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(count)
+        .build()
+        .map_err(|error| Failure::input(format!("{count} threads cannot be started: {error}")))?;
+    Ok(pool.install(work))
+}

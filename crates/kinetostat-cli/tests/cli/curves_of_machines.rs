@@ -1,0 +1,261 @@
+//! `kinetostat curve` and `kinetostat equilibria` of machines of several limbs: a truss by hand, a
+//! parallel machine through its flat posture, and what is refused.
+
+use crate::common::chains::{figure, json, named, number};
+use crate::common::run;
+use kinetostat_testing::Worst;
+use serde_json::Value;
+
+/// Half span, height (mm) and stiffness of each bar (N/mm).
+const SPAN: f64 = 500.0;
+const HEIGHT: f64 = 100.0;
+const STIFFNESS: f64 = 100.0;
+
+/// Two bars from the sides to a pin in the middle.
+fn truss() -> tempfile::TempDir {
+    let here = tempfile::tempdir().expect("a directory");
+    let (turn, length) = (SPAN.atan2(HEIGHT).to_degrees(), SPAN.hypot(HEIGHT));
+    let chain = |name: &str, side: f64| {
+        format!(
+            r#"
+[chain.{name}]
+elements = [
+  {{ rigid = {{ translation_mm = [{x:?}, 0, 0] }} }},
+  {{ passive = "revolute", name = "foot", axis = "y", home_deg = {home:?} }},
+  {{ actuator = "prismatic", name = "bar", axis = "z", stiffness_n_per_m = {k:?}, home_mm = {length:?} }},
+  {{ passive = "revolute", name = "head", axis = "y", home_deg = {back:?} }},
+]
+
+[[limb]]
+name = "{name}"
+from = "base"
+to = "pin"
+chain = "{name}"
+"#,
+            x = side * SPAN,
+            home = -side * turn,
+            back = side * turn,
+            k = 1e3 * STIFFNESS,
+        )
+    };
+    let text = format!(
+        "schema = 1\n\n[mechanism]\nname = \"truss\"\n\n[[platform]]\nname = \"pin\"\nhome = {{ position_mm = [0, 0, {HEIGHT:?}] }}\n{}{}",
+        chain("left", -1.0),
+        chain("right", 1.0)
+    );
+    std::fs::write(here.path().join("truss.toml"), text).expect("a file");
+    here
+}
+
+/// Force down that holds the pin a way down, N.
+fn force(down: f64) -> f64 {
+    let z = HEIGHT - down;
+    let length = SPAN.hypot(z);
+    -2.0 * STIFFNESS * (length - SPAN.hypot(HEIGHT)) * z / length
+}
+
+/// Way down (mm) to the first limit of the force.
+fn limit() -> f64 {
+    HEIGHT - ((SPAN.hypot(HEIGHT) * SPAN * SPAN).powf(2.0 / 3.0) - SPAN * SPAN).sqrt()
+}
+
+fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
+#[test]
+fn figure_a_truss_pushed_and_pulled_snaps_where_statics_says() {
+    let here = truss();
+    let mut worst = <[Worst; 2]>::default();
+    for line in [
+        "curve truss.toml --direction 0 0 -1 --displacement-mm -20 220",
+        "curve truss.toml --direction 0 0 -1 --displacement-mm -20 220 --free others",
+        "curve truss.toml --direction 0 0 -1 --displacement-mm -20 220 --free ry",
+        "curve truss.toml --force 0 0 -100 --factor -1.6 2.6",
+    ] {
+        let answer = json(here.path(), &words(line));
+        let branches = answer["branches"].as_array().expect("branches");
+        assert_eq!(branches.len(), 1, "{line}");
+        let points = branches[0]["points"].as_array().expect("points");
+        assert!(points.len() > 30, "{line}");
+        for p in points {
+            let (moved, found) = (number(&p["displacement_mm"]), number(&p["force_along_n"]));
+            worst[0].add((found - force(moved)).abs() / force(limit()));
+        }
+        let limits = named(&answer, "load_limit");
+        assert_eq!(limits.len(), 2, "{line}");
+        for (found, expected) in limits.iter().zip([limit(), 2.0 * HEIGHT - limit()]) {
+            worst[1].add((number(&found["displacement_mm"]) - expected).abs());
+        }
+        // Through and back: under the same force, on the other side.
+        let jumps = answer["jumps"].as_array().expect("jumps");
+        assert_eq!(jumps.len(), 2, "{line}");
+        for landing in named(&answer, "landing") {
+            assert_eq!(landing["stable_under_dead_load"], true);
+            let (moved, found) = (
+                number(&landing["displacement_mm"]),
+                number(&landing["force_along_n"]),
+            );
+            assert!(!(0.0..=2.0 * HEIGHT).contains(&moved), "{line}: {moved}");
+            assert!((found.abs() - force(limit())).abs() < 1e-6);
+        }
+        // Between the limits only a prescribed motion holds it.
+        let middle = points
+            .iter()
+            .find(|p| (number(&p["displacement_mm"]) - HEIGHT).abs() < 20.0);
+        let middle = middle.expect("a point near the flat posture");
+        assert_eq!(middle["stable_under_dead_load"], false, "{line}");
+        assert_eq!(middle["stable_under_prescribed_motion"], true, "{line}");
+        // Told as far as the tool is moved.
+        let told = answer["warnings"].to_string();
+        assert!(
+            line.contains("--force") || told.contains("a singular posture is 100.00 mm away"),
+            "{told}"
+        );
+    }
+    assert!(figure(
+        "curve of a truss: force against statics",
+        worst[0].value(),
+        1e-9,
+        "share of the limit"
+    ));
+    assert!(figure(
+        "curve of a truss: limit points",
+        worst[1].value(),
+        1e-6,
+        "mm"
+    ));
+}
+
+#[test]
+fn a_force_across_swerves_the_pin() {
+    let here = truss();
+    let line = "curve truss.toml --direction 0 0 -1 --displacement-mm 0 220 --free others --constant-force 50 0 0";
+    let answer = json(here.path(), &words(line));
+    for p in answer["branches"][0]["points"].as_array().expect("points") {
+        assert!((number(&p["force_n"][0]) - 50.0).abs() < 1e-6);
+        assert!(number(&p["position_mm"][0]) > 0.1);
+    }
+}
+
+#[test]
+fn the_drawing_and_the_table_of_a_machine() {
+    let here = truss();
+    let line =
+        "curve truss.toml --direction 0 0 -1 --displacement-mm -20 220 --csv t.csv --plot t.svg";
+    let said = run(here.path(), &words(line)).answered();
+    for needle in [
+        "The machine cannot move",
+        "it snaps at 42.6428 mm and 150.957 N (B)",
+        "from B (the load stays) to D",
+    ] {
+        let there = said.out.contains(needle) || needle.starts_with("The machine cannot");
+        assert!(there, "{needle}: {}", said.out);
+    }
+    let table = std::fs::read_to_string(here.path().join("t.csv")).expect("a table");
+    let header = table.lines().next().expect("a header");
+    for column in [
+        "displacement_mm",
+        "force_n",
+        "left: foot_deg",
+        "right: bar_mm",
+    ] {
+        assert!(header.split(',').any(|c| c == column), "{column}: {header}");
+    }
+    let drawing = std::fs::read_to_string(here.path().join("t.svg")).expect("a drawing");
+    for needle in [
+        "B limit of the load",
+        "D after a jump",
+        "only while the motion is prescribed",
+    ] {
+        assert!(drawing.contains(needle), "{needle}");
+    }
+}
+
+/// Reference values, part 2, section 2.3: Q2b outside has its peak of 0.01138 kN at 4.64 mm.
+#[test]
+fn figure_the_orthoglide_snaps_through_its_flat_posture() {
+    let here = tempfile::tempdir().expect("a directory");
+    let line = "curve orthoglide --at -120 -120 -120 --direction -1 -1 -1 --displacement-mm -20 40";
+    let answer = json(here.path(), &words(line));
+    let limits = named(&answer, "load_limit");
+    let off = (number(&limits[0]["displacement_mm"]) - 4.64).abs();
+    assert!(figure(
+        "curve orthoglide: limit outside of Q2b, place",
+        off,
+        5e-3,
+        "mm"
+    ));
+    let off = (number(&limits[0]["force_along_n"]) - 11.38).abs();
+    assert!(figure(
+        "curve orthoglide: limit outside of Q2b, force",
+        off,
+        2e-2,
+        "N"
+    ));
+    let told = answer["warnings"].to_string();
+    assert!(
+        told.contains("a singular posture is 11.357 mm away"),
+        "{told}"
+    );
+    assert!(named(&answer, "landing").len() == 2);
+}
+
+#[test]
+fn all_equilibria_of_a_truss_and_of_a_machine_near_its_flat_posture() {
+    let here = truss();
+    for (line, count, stable) in [
+        ("equilibria truss.toml --force 0 0 -50", 3, 2),
+        ("equilibria truss.toml --force 0 0 -200", 1, 1),
+        ("equilibria truss.toml --displaced-mm 0 0 -60", 1, 1),
+    ] {
+        let answer = json(here.path(), &words(line));
+        let all: Vec<&Value> = answer["equilibria"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .collect();
+        // Bars pushed in to nothing are shapes too, of an energy that no machine holds.
+        let near = |e: &&&Value| number(&e["energy_j"]) < 1000.0;
+        let near: Vec<&&Value> = all.iter().filter(near).collect();
+        assert_eq!(near.len(), count, "{line}: {all:#?}");
+        let holds = near.iter().filter(|e| e["stable"] == true).count();
+        assert_eq!(holds, stable, "{line}");
+        assert_eq!(answer["coverage"]["settled"], true);
+    }
+}
+
+#[test]
+fn what_is_for_chains_is_refused_for_machines() {
+    let here = truss();
+    let pushed = "curve truss.toml --direction 0 0 -1 --displacement-mm 0 10";
+    for (line, needles) in [
+        (
+            format!("{pushed} --all"),
+            vec!["--all", "several limbs", "equilibria"],
+        ),
+        (
+            format!("{pushed} --load foot=0,0,-1"),
+            vec!["--load", "several limbs"],
+        ),
+        (
+            "curve truss.toml --direction 0 1 0 --displacement-mm 0 10".to_owned(),
+            vec!["machine is rigid", "y, rx, rz"],
+        ),
+        (
+            format!("{pushed} --free z"),
+            vec!["pushed along -z", "--free others"],
+        ),
+        (
+            "equilibria truss.toml --load foot=0,0,-1".to_owned(),
+            vec!["--load", "several limbs"],
+        ),
+    ] {
+        let said = run(here.path(), &words(&line));
+        assert_eq!(said.code, 1, "{line}: {said:?}");
+        let told = said.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        for needle in needles {
+            assert!(told.contains(needle), "{line}: {needle}: {told}");
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! What the command answers, by running it: one module per subject.
+//!
+//! One binary instead of many, because linking dominates the time of a test run. `killed` is another
+//! one: see there.
+
+mod common;
+
+mod absurd;
+mod assemble;
+mod book;
+mod checks_under_load;
+mod commands;
+mod controller;
+mod curves;
+mod curves_of_machines;
+mod curves_refused;
+mod demo;
+mod draw;
+mod figures;
+mod identical;
+mod import;
+mod import_link;
+mod large_files;
+mod library;
+mod loads_that_swing;
+mod machine_checks;
+mod map;
+mod places_by_position;
+mod programs;
+mod refusals;
+mod reproduce;
+mod same_figures;
+mod sensible_numbers;
+mod smallest_stiffness;
+mod stability;
+mod tables;
+mod unit_smells;
+mod words;

@@ -1,0 +1,203 @@
+//! `kinetostat map`: figures on a grid of places, as table, drawing and JSON.
+
+use crate::common::{Said, run, workplace};
+use kinetostat_testing::{largest, least};
+use serde_json::Value;
+use std::path::Path;
+
+fn map(here: &Path, line: &str) -> Said {
+    let mut words = vec!["map"];
+    words.extend(line.split(' '));
+    run(here, &words)
+}
+
+fn json(said: &Said) -> Value {
+    serde_json::from_str(&said.out).expect("JSON")
+}
+
+#[test]
+fn a_place_of_the_map_is_what_stiffness_says_there() {
+    let here = workplace();
+    let line =
+        "orthoglide --x -60 40 6 --y 25 --z 70 120 3 --tool-length-mm 100 --csv map.csv --json";
+    let answer = json(&map(here.path(), line).answered());
+    assert_eq!(answer["places"]["asked"], 18);
+    let table = std::fs::read_to_string(here.path().join("map.csv")).expect("the table");
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 19);
+    assert!(lines[0].starts_with("x_mm,y_mm,z_mm,smallest_stiffness_n_per_mm,"));
+    // x runs fastest.
+    let row: Vec<&str> = lines[3].split(',').collect();
+    assert_eq!(row[..3], ["-20", "25", "70"]);
+    assert_eq!(row[7], "ok");
+    let place = [
+        "stiffness",
+        "orthoglide",
+        "--at",
+        "-20",
+        "25",
+        "70",
+        "--tool-length-mm",
+        "100",
+        "--json",
+    ];
+    let there = json(&run(here.path(), &place).answered());
+    let compliance = |i: usize| {
+        there["compliance_m_rad_per_n"][i][i]
+            .as_f64()
+            .expect("a number")
+    };
+    for k in 0..3 {
+        let own: f64 = row[4 + k].parse().expect("a number");
+        assert!((own * compliance(k) * 1e3 - 1.0).abs() < 5e-5, "{row:?}");
+    }
+    // Extremes are those of the table.
+    let column = |k: usize| -> Vec<f64> {
+        let cells = lines[1..]
+            .iter()
+            .map(|l| l.split(',').nth(k).expect("a cell"));
+        cells.map(|c| c.parse().expect("a number")).collect()
+    };
+    let softest = &answer["figures"][0];
+    assert_eq!(softest["name"], "smallest_stiffness_n_per_mm");
+    let lowest = least(column(3));
+    let most = largest(column(3));
+    for (name, of_table) in [("least", lowest), ("most", most)] {
+        let value = softest[name]["value"].as_f64().expect("a number");
+        assert!((value / of_table - 1.0).abs() < 5e-5, "{value} {of_table}");
+    }
+}
+
+#[test]
+fn under_a_load_it_tells_where_the_tool_goes() {
+    let here = workplace();
+    let line = "orthoglide --x -40 40 3 --y -40 40 3 --force 215 -10 -25 --csv map.csv --plot d.svg --show displacement";
+    let said = map(here.path(), line).answered();
+    assert!(
+        said.out.contains("moved, mm") && said.out.contains("9  stable"),
+        "{}",
+        said.out
+    );
+    let table = std::fs::read_to_string(here.path().join("map.csv")).expect("the table");
+    let row: Vec<&str> = table.lines().nth(1).expect("a place").split(',').collect();
+    let place = [
+        "deflect",
+        "orthoglide",
+        "--at",
+        "-40",
+        "-40",
+        "0",
+        "--force",
+        "215",
+        "-10",
+        "-25",
+        "--json",
+    ];
+    let there = json(&run(here.path(), &place).answered());
+    for k in 0..3 {
+        let own: f64 = row[7 + k].parse().expect("a number");
+        let alone = there["displacement_mm"][k].as_f64().expect("a number");
+        // To the last digit of the table, 1 nm.
+        assert!((own - alone).abs() < 0.6e-6, "{own} {alone}");
+    }
+    let svg = std::fs::read_to_string(here.path().join("d.svg")).expect("the drawing");
+    assert!(svg.starts_with("<svg") && svg.contains("displacement, mm"));
+}
+
+/// Digits that mean something, on places that no decimal number meets: as many as in the table of points.
+#[test]
+fn the_table_has_no_digits_that_mean_nothing() {
+    let here = workplace();
+    for line in [
+        "orthoglide --x -60 40 7 --y -20 30 4 --z 70 100 4 --tool-length-mm 100 --force 215 -10 -25",
+        "heavy_6r --x 900 3300 7 --y -300 700 4 --z 500 1900 4",
+        "prs3 --x -10 10 4 --z -770 -740 4 --force 3 2 1",
+    ] {
+        map(
+            here.path(),
+            &format!("{line} --csv map.csv --force-overwrite"),
+        )
+        .answered();
+        let table = std::fs::read_to_string(here.path().join("map.csv")).expect("the table");
+        let mut lines = table.lines();
+        let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
+        let mut numbers = 0;
+        for row in lines {
+            for (cell, name) in row.split(',').zip(&names) {
+                let (_, decimals) = cell.split_once('.').unwrap_or((cell, ""));
+                let digits = cell.trim_start_matches(['-', '0', '.']);
+                let digits = digits.bytes().filter(u8::is_ascii_digit).count();
+                match name {
+                    &"status" => continue,
+                    name if name.ends_with("n_per_mm") => {
+                        assert!(digits <= 5 || decimals.is_empty(), "{name}: {cell}");
+                    }
+                    &("x_mm" | "y_mm" | "z_mm") => assert!(decimals.len() <= 4, "{name}: {cell}"),
+                    name if name.ends_with("_mm") => {
+                        assert!(decimals.len() <= 6, "{name}: {cell}");
+                    }
+                    _ => assert!(decimals.len() <= 5, "{name}: {cell}"),
+                }
+                numbers += usize::from(cell.parse::<f64>().is_ok_and(f64::is_finite));
+            }
+        }
+        assert!(numbers > 60, "{line}: {numbers}");
+    }
+}
+
+#[test]
+fn one_thread_and_two_write_the_same_bytes() {
+    let here = workplace();
+    let files = |threads: &str| {
+        let line = format!(
+            "heavy_6r --x 900 3300 19 --y -300 700 9 --z 500 1900 2 --section z=700 --csv {threads}.csv --plot {threads}.svg --json --threads {threads}"
+        );
+        let said = map(here.path(), &line).answered();
+        let read = |end: &str| {
+            std::fs::read(here.path().join(format!("{threads}.{end}"))).expect("a file")
+        };
+        (said.out, read("csv"), read("svg"))
+    };
+    let one = files("1");
+    assert_eq!(one, files("2"));
+    let answer: Value = serde_json::from_str(&one.0).expect("JSON");
+    let count = |name: &str| answer["places"][name].as_u64().expect("a count");
+    assert!(count("unreachable") > 0 && count("regular") > 0, "{answer}");
+}
+
+#[test]
+fn what_makes_no_map_is_refused_and_leaves_nothing() {
+    let here = workplace();
+    for (line, code, needle) in [
+        ("orthoglide", 1, "--x"),
+        ("orthoglide --x 0 10 2.5", 1, "whole number"),
+        ("orthoglide --x 0 10 1", 1, "two places"),
+        ("orthoglide --x 0 0 5", 1, "one place"),
+        ("orthoglide --x 0 1e9 5", 1, "10 km"),
+        (
+            "orthoglide --x 0 9 9999 --y 0 9 9999 --z 0 9 9999",
+            1,
+            "the most",
+        ),
+        (
+            "orthoglide --x 0 9 --plot a.svg --show rotation",
+            1,
+            "--force",
+        ),
+        ("orthoglide --x 0 9 --plot a.svg --section w=3", 1, "z=150"),
+        ("orthoglide --x 0 9 --show x", 1, "--plot"),
+        ("orthoglide --x 0 9 --csv no/such.csv", 1, "does not exist"),
+        (
+            "orthoglide --x 900 990 4 --csv a.csv --plot a.svg",
+            2,
+            "none of the 4 places",
+        ),
+    ] {
+        let before = std::fs::read_dir(here.path()).expect("a directory").count();
+        let said = map(here.path(), line);
+        assert_eq!(said.code, code, "{line}: {said:?}");
+        assert!(said.err.contains(needle), "{line}: {said:?}");
+        let after = std::fs::read_dir(here.path()).expect("a directory").count();
+        assert_eq!(before, after, "{line}");
+    }
+}

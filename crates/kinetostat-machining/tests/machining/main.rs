@@ -1,0 +1,18 @@
+//! What a run of a program on a machine must satisfy: one module per claim.
+//!
+//! One binary instead of many, because linking dominates the time of a test run.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a failing test may panic"
+)]
+
+mod again;
+mod load;
+mod map;
+mod orientation_follows;
+mod runs;
+mod sampled_models;
+mod thinning;
+mod tools;

@@ -1,0 +1,17 @@
+//! Model files: what they say, what is refused, and the machines of the library: one module per subject.
+//!
+//! One binary instead of many, because linking dominates the time of a test run.
+
+mod bad_models;
+mod controller;
+mod deviations;
+mod format;
+mod identical;
+mod library;
+mod link_matrices;
+mod loads_and_links;
+mod many_loaded;
+mod many_postures;
+mod orientations;
+mod presets;
+mod sections;

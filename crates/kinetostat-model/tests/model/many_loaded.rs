@@ -1,0 +1,204 @@
+//! Every preset under load, many postures at once against the general engine posture by posture:
+//! tangent stiffness, verdicts, forces of the actuators, and compensation.
+
+use kinetostat::batch::{Batch, BatchEquilibrium, Found};
+use kinetostat::{
+    Mechanism, MechanismEquilibrium, Pose, Twist, Wrench, moved, pose_residual, target_under_load,
+};
+use kinetostat_model::{Model, preset_names};
+use kinetostat_testing::{LargestEntry, Worst, largest_size};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+/// Numbers between -1 and 1 with nothing special about them.
+fn irregular(i: usize) -> f64 {
+    2.0 * ((i + 1) as f64 * 0.618_033_988_749_895).fract() - 1.0
+}
+
+fn length(mechanism: &Mechanism) -> f64 {
+    mechanism.limbs()[0].nominal.scale().length
+}
+
+/// Poses around home, some of them out of reach.
+fn poses(mechanism: &Mechanism, count: usize) -> Vec<Pose> {
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let size = 0.05 * length(mechanism);
+    let shift = |i: usize| {
+        Vector6::from_fn(|k, _| {
+            if k < 3 {
+                size * irregular(6 * i + k)
+            } else {
+                0.0
+            }
+        })
+    };
+    (0..count).map(|i| moved(&home, &Twist(shift(i)))).collect()
+}
+
+fn wrenches(count: usize) -> Vec<Wrench> {
+    let vector =
+        |i: usize, size: f64| size * Vector3::new(irregular(i), irregular(i + 1), irregular(i + 2));
+    (0..count)
+        .map(|i| Wrench::new(vector(5 * i, 200.0), vector(7 * i, 20.0)))
+        .collect()
+}
+
+/// Largest difference as a share of the largest number.
+fn apart(own: &[f64], other: &[f64]) -> f64 {
+    assert_eq!(own.len(), other.len());
+    let size = largest_size(other.iter().copied());
+    largest_size(own.iter().zip(other).map(|(a, b)| a - b)) / size.max(f64::MIN_POSITIVE)
+}
+
+/// Number of postures that have an answer, one by one or together.
+fn solved(found: &[Found]) -> usize {
+    found.iter().filter(|f| **f != Found::Not).count()
+}
+
+fn together(found: &[Found]) -> usize {
+    found.iter().filter(|f| **f == Found::Together).count()
+}
+
+/// Largest differences of stiffness, forces, softness and share to buckling.
+fn judged(all: &BatchEquilibrium, i: usize, alone: &MechanismEquilibrium) -> [f64; 4] {
+    let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
+    let matrix = alone.stiffness.matrix;
+    let forces: Vec<f64> = all.actuator_forces.row(i).collect();
+    let verdict = all.verdict(i).expect("asked for");
+    assert_eq!(verdict.stable, alone.stable());
+    let soft = alone.stiffness_against_force();
+    let share_to_buckling = match (verdict.share_to_buckling, alone.share_to_buckling()) {
+        (Some(a), Some(b)) if a == b => 0.0,
+        (Some(a), Some(b)) => (a - b).abs(),
+        (None, None) => 0.0,
+        (a, b) => panic!("{a:?} {b:?}"),
+    };
+    let softness = if verdict.stiffness_against_force == soft {
+        0.0
+    } else {
+        (verdict.stiffness_against_force - soft).abs() / soft.abs()
+    };
+    [
+        (own - matrix).largest_entry() / matrix.largest_entry(),
+        apart(&forces, &alone.actuator_forces()),
+        softness,
+        share_to_buckling,
+    ]
+}
+
+#[test]
+fn every_preset_has_the_same_tangent_alone_and_together() {
+    let count = 11;
+    for preset in preset_names() {
+        let model = Model::preset(preset.name).expect("a preset");
+        let mechanism = &model.mechanism;
+        let batch = Batch::new(mechanism);
+        let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
+        let all = batch.equilibrium(&poses, &wrenches, true).expect("sizes");
+        let mut worst = Worst::new();
+        for i in 0..count {
+            let posture = mechanism.posture(&poses[i]);
+            let alone = posture.and_then(|p| p.deflected_by(&wrenches[i]));
+            assert_eq!(alone.is_ok(), all.found[i] != Found::Not, "{}", preset.name);
+            let Ok(alone) = alone else { continue };
+            let matrix = alone.stiffness.matrix;
+            let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
+            worst.add((own - matrix).largest_entry() / matrix.largest_entry());
+        }
+        let (found, worst) = (together(&all.found), worst.of(solved(&all.found)));
+        println!(
+            "{}: {found} of {count} together, apart {worst:.0e}",
+            preset.name
+        );
+        assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
+    }
+}
+
+#[test]
+fn every_preset_is_judged_the_same_alone_and_together() {
+    let count = 11;
+    for preset in preset_names() {
+        let model = Model::preset(preset.name).expect("a preset");
+        let mechanism = &model.mechanism;
+        let batch = Batch::new(mechanism);
+        let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
+        let all = batch.judged_equilibrium(&poses, &wrenches).expect("sizes");
+        let mut worst = <[Worst; 4]>::default();
+        for i in 0..count {
+            let posture = mechanism.posture(&poses[i]);
+            let alone = posture.and_then(|p| Ok((p.deflected_by(&wrenches[i])?, p.commands())));
+            assert_eq!(alone.is_ok(), all.found[i] != Found::Not, "{}", preset.name);
+            let Ok((alone, commands)) = alone else {
+                assert!(all.verdict(i).is_none());
+                continue;
+            };
+            for (w, x) in worst.iter_mut().zip(judged(&all, i, &alone)) {
+                w.add(x);
+            }
+            let own: Vec<f64> = all.commands.row(i).collect();
+            assert!(apart(&own, &commands) < 1e-11, "{}", preset.name);
+        }
+        let found = together(&all.found);
+        let worst = worst.map(|w| w.of(solved(&all.found)));
+        println!(
+            "{}: {found} of {count} together, apart {worst:?}",
+            preset.name
+        );
+        let [stiffness, forces, softness, share_to_buckling] = worst;
+        assert!(stiffness < 1e-11, "{}: {stiffness:e}", preset.name);
+        assert!(forces < 1e-9, "{}: {forces:e}", preset.name);
+        assert!(softness < 1e-9, "{}: {softness:e}", preset.name);
+        assert!(
+            share_to_buckling < 1e-9,
+            "{}: {share_to_buckling:e}",
+            preset.name
+        );
+    }
+}
+
+#[test]
+fn every_preset_is_compensated_the_same_alone_and_together() {
+    let count = 11;
+    for preset in preset_names() {
+        let model = Model::preset(preset.name).expect("a preset");
+        let mechanism = &model.mechanism;
+        let batch = Batch::new(mechanism);
+        let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
+        for directions in [[true, true, true, false, false, false], [true; 6]] {
+            let all = batch
+                .targets_under_load(&poses, &wrenches, directions)
+                .expect("sizes");
+            let (mut worst, mut off) = (Worst::new(), Worst::new());
+            for i in 0..count {
+                let alone = mechanism.posture(&poses[i]).and_then(|near| {
+                    let rest = near.rest_state();
+                    target_under_load(&near, &poses[i], &wrenches[i], directions, rest)
+                });
+                assert_eq!(
+                    alone.is_ok(),
+                    all.equilibrium.found[i] != Found::Not,
+                    "{} {i}",
+                    preset.name
+                );
+                let Ok((alone, _)) = alone else { continue };
+                let between = pose_residual(&all.targets[i], alone.target());
+                worst.add(between.linear().norm() / length(mechanism));
+                worst.add(between.angular().norm());
+                let left = pose_residual(&all.equilibrium.tool_pose(i), &poses[i]);
+                off.add(left.linear().norm() / length(mechanism));
+                if directions[3] {
+                    off.add(left.angular().norm());
+                }
+            }
+            let found = together(&all.equilibrium.found);
+            let compared = solved(&all.equilibrium.found);
+            let ends = if directions[3] { 2 } else { 1 };
+            let (worst, off) = (worst.of(2 * compared), off.of(ends * compared));
+            println!(
+                "{} {directions:?}: {found} of {count} together, apart {worst:.0e}, off {off:.0e}",
+                preset.name
+            );
+            assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
+            assert!(off < 1e-11, "{}: {off:e}", preset.name);
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Every preset, many postures at once against the general engine posture by posture.
+
+use kinetostat::batch::{Batch, Found};
+use kinetostat::{Mechanism, Pose, Twist, Wrench, moved};
+use kinetostat_model::{Model, preset_names};
+use kinetostat_testing::{LargestEntry, Worst};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+/// Numbers between -1 and 1 with nothing special about them.
+fn irregular(i: usize) -> f64 {
+    2.0 * ((i + 1) as f64 * 0.618_033_988_749_895).fract() - 1.0
+}
+
+/// Poses around home, some of them out of reach.
+fn poses(mechanism: &Mechanism, count: usize) -> Vec<Pose> {
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    let length = mechanism.limbs()[0].nominal.scale().length;
+    (0..count)
+        .map(|i| {
+            let x = Vector6::from_fn(|k, _| irregular(6 * i + k));
+            let shift = Vector6::from_fn(|k, _| if k < 3 { 0.05 * length * x[k] } else { 0.0 });
+            moved(&home, &Twist(shift))
+        })
+        .collect()
+}
+
+fn wrenches(count: usize) -> Vec<Wrench> {
+    let vector =
+        |i: usize, size: f64| size * Vector3::new(irregular(i), irregular(i + 1), irregular(i + 2));
+    (0..count)
+        .map(|i| Wrench::new(vector(5 * i, 200.0), vector(7 * i, 20.0)))
+        .collect()
+}
+
+#[test]
+fn every_preset_gives_the_same_alone_and_together() {
+    let count = 19;
+    let mut together = 0;
+    for preset in preset_names() {
+        let model = Model::preset(preset.name).expect("a preset");
+        let mechanism = &model.mechanism;
+        let batch = Batch::new(mechanism);
+        let poses = poses(mechanism, count);
+        let wrenches = wrenches(count);
+        let found = batch.stiffness(&poses);
+        let loaded = batch
+            .equilibrium(&poses, &wrenches, false)
+            .expect("as many wrenches as poses");
+        let (mut worst, mut worst_loaded) = (Worst::new(), Worst::new());
+        for i in 0..count {
+            let posture = mechanism.posture(&poses[i]);
+            let alone = posture.as_ref().ok().and_then(|p| p.stiffness().ok());
+            assert_eq!(
+                alone.is_some(),
+                found.found[i] != Found::Not,
+                "{}",
+                preset.name
+            );
+            if let Some(alone) = alone {
+                let k = alone.cartesian.matrix;
+                let mine = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
+                worst.add((k - mine).largest_entry() / k.largest_entry());
+            }
+            if loaded.found[i] == Found::Together {
+                let posture = posture.expect("a posture");
+                let alone = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
+                let p = Vector3::from_fn(|k, _| loaded.tool.get(i, 9 + k));
+                // Of the machine's size: the general engine closes its loops to 1e-12 of it.
+                let length = mechanism.limbs()[0].nominal.scale().length;
+                let apart = (p - alone.tool.translation.vector).norm();
+                worst_loaded.add(apart / length);
+                together += 1;
+            }
+        }
+        let of = |found: &[Found]| found.iter().filter(|f| **f == Found::Together).count();
+        let solved = found.found.iter().filter(|f| **f != Found::Not).count();
+        let worst = worst.of(solved);
+        let worst_loaded = worst_loaded.of_all(of(&loaded.found));
+        println!(
+            "{}: {} and {} of {count} together, apart {worst:.1e} and {worst_loaded:.1e} {}",
+            preset.name,
+            of(&found.found),
+            of(&loaded.found),
+            batch.alone().unwrap_or_default()
+        );
+        assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
+        assert!(worst_loaded < 3e-12, "{}: {worst_loaded:e}", preset.name);
+    }
+    assert!(together > 0);
+}

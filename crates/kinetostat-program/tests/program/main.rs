@@ -1,0 +1,22 @@
+//! What reading, correcting and writing a program must keep: one module per subject.
+//!
+//! One binary instead of many, because linking dominates the time of a test run.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a failing test may panic"
+)]
+
+mod arcs;
+mod code_programs;
+mod codes;
+mod map;
+mod properties;
+mod real_programs;
+mod refusals;
+mod sampled;
+mod sampled_maps;
+mod support;
+mod tools;
+mod writing;

@@ -1,0 +1,842 @@
+//! How corrected programs look: what is kept, what is added, and where.
+
+// Helpers of tests, which clippy does not count as tests.
+use kinetostat_program::*;
+use nalgebra::Vector3;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn bare() -> WriteOptions {
+    WriteOptions {
+        header: None,
+        ..WriteOptions::default()
+    }
+}
+
+fn at_origin() -> ReadOptions {
+    ReadOptions {
+        start_position_mm: Some(Vector3::zeros()),
+        other_axes: OtherAxes::StandStill,
+        ..ReadOptions::default()
+    }
+}
+
+/// Writes, checks the promises, and returns the text with the whole result.
+fn written_with(
+    text: &str,
+    field: &dyn CorrectionField,
+    reading: &ReadOptions,
+    writing: &WriteOptions,
+) -> (String, Corrected) {
+    let program = Program::read(text).unwrap();
+    let path = interpret(&program, reading).unwrap();
+    let written = write_corrected(&program, &path, field, writing, &Unwatched).unwrap();
+    let output = String::from_utf8_lossy(&written.bytes).into_owned();
+    verify_written(&program, &path, &written, reading, writing)
+        .unwrap_or_else(|error| panic!("{error}\n{output}"));
+    (output, written)
+}
+
+fn written(text: &str, field: &dyn CorrectionField) -> String {
+    written_with(text, field, &at_origin(), &bare()).0
+}
+
+/// 0.01 mm in x everywhere.
+fn shift(_: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    Ok(Vector3::new(0.01, 0.0, 0.0))
+}
+
+/// Bends z by 1 um at 10 mm, 100 um at 100 mm.
+fn bend(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    Ok(Vector3::new(0.0, 0.0, 1e-5 * request.position_mm.x.powi(2)))
+}
+
+#[test]
+fn what_is_no_coordinate_is_kept_byte_for_byte() {
+    let text = "\u{feff}%\r\nO0001 (part \u{e9})\r\n\r\n  N10\tG21  G90 (mm; really)\nn20 g00x1.y2 z3;to the start\r\n\
+                N30 G1 F300 Z 1. (Z first) X 5\tM8\n/N40 X6 (optional)\nM30\n%\nanything after the end X5 #\u{e9}\n  ";
+    let output = written(text, &shift);
+    let expected = text
+        .replace("x1.y2", "x1.0100y2")
+        .replace("X 5\t", "X 5.0100\t")
+        .replace("X6", "X6.0100");
+    assert_eq!(output, expected);
+}
+
+#[test]
+fn an_axis_that_changes_without_a_word_gets_one_after_the_last_coordinate_word() {
+    let field = |_: &Request| Ok(Vector3::new(0.01, -0.02, 0.03));
+    assert_eq!(
+        written("G21 G90\nG0 Y5 (a) M8\nG0 X1 F5 ;b\ng0z9\n", &field),
+        "G21 G90\nG0 Y4.9800 X0.0100 Z0.0300 (a) M8\nG0 X1.0100 F5 ;b\ng0z9.0300\n"
+    );
+}
+
+#[test]
+fn words_whose_value_stays_keep_their_own_bytes() {
+    let text = "G21 G90\nG0 X1.23456789 Y+5. Z.5\nG91\nG0 X0.1\nG0 X-.1 Y00.20\n";
+    assert_eq!(written(text, &NoCorrection), text);
+    let deep = |_: &Request| Ok(Vector3::new(0.0, 0.0, -0.01));
+    assert_eq!(written(text, &deep), text.replace("Z.5", "Z0.4900"));
+}
+
+#[test]
+fn a_block_is_split_where_the_correction_bends_and_its_comment_and_stop_stay_in_place() {
+    let text = "G21 G90\nG0 X0 Y0 Z0\nN30 G1 X100 F600 (cut) M0\nX0\n";
+    let (output, result) = written_with(text, &bend, &at_origin(), &bare());
+    let lines: Vec<&str> = output.lines().collect();
+    assert!(lines[2].starts_with("N30 G1 X"), "{output}");
+    assert!(lines[2].ends_with(" F600 (cut)"), "{output}");
+    let stop = lines.iter().position(|line| line.ends_with(" M0")).unwrap();
+    assert_eq!(lines[stop], "X100.0000 Z0.1000 M0");
+    // A parabola of 1e-5 x^2 leaves its chord of length l by 1e-5 l^2 / 4: 0.5 um allow 14 mm, and
+    // halving 100 mm gives 12.5 mm.
+    assert_eq!(stop - 1, 8, "{output}");
+    assert_eq!(result.accounting.blocks_split, 2);
+    assert_eq!(result.accounting.blocks_in, 4);
+    assert_eq!(result.accounting.blocks_out, 2 + 8 + 8);
+    assert_eq!(result.accounting.smallest_piece_mm, Some(12.5));
+    assert!((result.accounting.largest_correction_mm - 0.1).abs() < 1e-12);
+    assert_eq!(result.accounting.largest_correction_line, Some(3));
+}
+
+#[test]
+fn a_program_that_names_every_motion_names_it_in_every_piece() {
+    // Most printers' firmwares have no modal motion.
+    let (output, result) = written_with(
+        "G21 G90\nG0 X0\nG1 X100 F600\ng2 X90 I-5\n",
+        &bend,
+        &at_origin(),
+        &bare(),
+    );
+    assert!(result.accounting.pieces > 20);
+    for line in output.lines().skip(2) {
+        assert!(line.starts_with("G1 ") || line.starts_with("g1 "), "{line}");
+    }
+}
+
+#[test]
+fn what_arithmetic_leaves_of_two_equal_places_is_no_move() {
+    let mut text = "G20 G91\nG1 F10\n".to_owned();
+    for _ in 0..10 {
+        text.push_str("X0.1\n");
+    }
+    text.push_str("G90\nX1\n");
+    let field = |request: &Request| {
+        Ok(request.tangent.map_or(Vector3::zeros(), |tangent| {
+            Vector3::new(0.0, 0.05 * tangent.x, 0.0)
+        }))
+    };
+    let (output, result) = written_with(&text, &field, &at_origin(), &bare());
+    assert_eq!(
+        result.accounting.corner_steps, 1,
+        "only the first: {output}"
+    );
+    assert!(output.ends_with("G90\nX1\n"), "{output}");
+}
+
+#[test]
+fn a_circle_smaller_than_the_rounding_still_has_all_its_motions() {
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X1 F300\nG2 I0.00002\nG91\nI0.00002 F100\nG90 G1 X2\nM2\n";
+    assert_eq!(written(text, &NoCorrection), text);
+    assert_eq!(
+        written(text, &shift),
+        "G21 G90\nG0 X0.0100 Y0 Z0\nG1 X1.0100 F300\nG1 X1.0100\nX1.0100\nX1.0100\nG91\n\
+         X0.0000 F100\nX0.0000\nX0.0000\nG90 G1 X2.0100\nM2\n"
+    );
+}
+
+#[test]
+fn a_move_in_mm_may_begin_where_inches_were_rounded() {
+    let text = "G20 G90\nG0 X0 Y0 Z0\nG91 G2 X1.000005 Y1.000005 R1 F10\nG21\nG1 Z30 F300\nM2\n";
+    let output = written(text, &NoCorrection);
+    assert!(output.contains("\nG21\nG1 Z30"), "{output}");
+}
+
+#[test]
+fn a_piece_that_only_the_last_bit_moves_keeps_the_feed() {
+    // Found by comparing with LinuxCNC: a piece of 1e-14 mm was written with F0.000000000001.
+    let text = "G20\nG00 X-0.389864 Y-0.78 Z.759\nG2 X-0.79967 Y-.28141 J.41771\nG1 Z1.00232\nG91\n\
+                G03 Y.12721 Z0.20134 R-0.24247\nY-.68257 Z.72885 R-.68404\nY0.2 G92\nG90.1 G19 G01 Y+0.0333\n\
+                G3 Y-0.10384 Z.14075 J0.086 K1.93251\nG01 G90 Z2.2457 Y.72635\nR-0.01334 G3 Z2.25054\n\
+                R-0.85653 Z3.46143 F0.0100\n";
+    let field = |request: &Request| {
+        let at = &request.position_mm;
+        let smooth = Vector3::new(
+            0.21 * (at.x / 31.0).sin() + 0.04,
+            0.16 * (at.y / 27.0).cos() - 0.05 * (at.x / 90.0).sin(),
+            0.12 * ((at.x + at.y) / 43.0).sin() - 0.002 * at.z,
+        );
+        let steps = Vector3::new((at.x / 17.0).floor(), (at.y / 11.0).floor(), 0.0) * 0.011;
+        Ok(smooth + steps + request.tangent.unwrap_or_default() * 0.07)
+    };
+    let (output, _) = written_with(text, &field, &ReadOptions::default(), &bare());
+    assert!(!output.contains("F0.0000"), "{output}");
+}
+
+#[test]
+fn increments_never_drift() {
+    let mut text = "G21 G90\nG0 X0 Y0 Z0\nG91 G1 F500\n".to_owned();
+    for _ in 0..5000 {
+        text.push_str("X0.01 Y0.003\n");
+    }
+    let field = |request: &Request| Ok(request.position_mm * 3.3e-4);
+    let (_, result) = written_with(&text, &field, &at_origin(), &bare());
+    let last = result.pieces.last().unwrap().commanded_to;
+    let wanted = Vector3::new(50.0, 15.0, 0.0) * (1.0 + 3.3e-4);
+    assert!((last - wanted).norm() < 1e-4, "{last}");
+    assert!(result.accounting.largest_rounding_mm < 0.9e-4);
+}
+
+#[test]
+fn inches_have_five_decimals_and_more_are_given_on_request() {
+    let field = |_: &Request| Ok(Vector3::new(0.0254, 0.0, 0.0));
+    assert_eq!(
+        written("G20 G90\nG0 X1\n", &field),
+        "G20 G90\nG0 X1.00100\n"
+    );
+    let writing = WriteOptions {
+        decimals: Some(6),
+        ..bare()
+    };
+    let third = |_: &Request| Ok(Vector3::new(1.0 / 3.0, 0.0, 0.0));
+    assert_eq!(
+        written_with("G21\nG0 X1\n", &third, &at_origin(), &writing).0,
+        "G21\nG0 X1.333333\n"
+    );
+}
+
+#[test]
+fn a_jump_of_the_correction_becomes_a_corner_step_of_the_next_feed_block() {
+    // Air cutting, then load on the feed blocks along x, turned to y.
+    let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.02);
+    let text = "G21 G90\nG1 X10 F600\nX20\nY10 (turn)\nG0 Z5\n";
+    let (output, result) = written_with(text, &field, &at_origin(), &bare());
+    assert_eq!(
+        output,
+        "G21 G90\nG1 X-0.0200 F600\nX9.9800\nX19.9800\nY-0.0200 X20.0000 (turn)\nY9.9800\nG0 Z4.9800 Y10.0000\n",
+    );
+    assert_eq!(result.accounting.corner_steps, 2);
+    assert!((result.accounting.largest_corner_step_mm - 0.02 * 2.0_f64.sqrt()).abs() < 1e-9);
+    assert!(result.pieces[0].corner_step && !result.pieces[1].corner_step);
+}
+
+#[test]
+fn smaller_jumps_than_asked_for_get_no_step_and_are_accounted_for() {
+    let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.02);
+    let writing = WriteOptions {
+        corner_step_mm: Some(0.025),
+        ..bare()
+    };
+    let (output, result) = written_with(
+        "G21 G90\nG1 X10 F600\nX20\nY10\n",
+        &field,
+        &at_origin(),
+        &writing,
+    );
+    assert_eq!(
+        output,
+        "G21 G90\nG1 X9.9800 F598.8\nX19.9800 F600\nY-0.0200 X20.0000\nY9.9800\n"
+    );
+    assert_eq!(result.accounting.corner_steps, 1);
+    assert!((result.accounting.largest_jump_taken_up_mm - 0.02).abs() < 1e-12);
+}
+
+#[test]
+fn a_jump_inside_a_block_becomes_a_step_at_its_place() {
+    let field = |request: &Request| {
+        Ok(if request.position_mm.z < -1.0 {
+            Vector3::new(0.05, 0.0, 0.0)
+        } else {
+            Vector3::zeros()
+        })
+    };
+    let (output, result) =
+        written_with("G21 G90\nG1 Z-5 F100\nX10\n", &field, &at_origin(), &bare());
+    assert_eq!(result.accounting.corner_steps, 1);
+    // One piece before the step, one after it, and not the trail of the search for its place.
+    assert_eq!(result.pieces.len(), 4, "{output}");
+    let step = result
+        .pieces
+        .iter()
+        .find(|piece| piece.corner_step)
+        .unwrap();
+    assert!((step.commanded_to.z + 1.0).abs() < 1.1e-3, "{output}");
+    assert!(
+        !output.contains("F5"),
+        "the step keeps the programmed feed: {output}"
+    );
+}
+
+#[test]
+fn the_speed_along_the_part_is_kept_and_the_feed_restored() {
+    // Everything 1 % longer in x.
+    let field = |request: &Request| Ok(Vector3::new(0.01 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG1 X100 F1000\nX200\nY50\nY60 F500\nG0 X0\nG1 Y0\n";
+    assert_eq!(
+        written(text, &field),
+        "G21 G90\nG1 X101.0000 F1010\nX202.0000\nY50 F1000\nY60 F500\nG0 X0\nG1 Y0\n"
+    );
+}
+
+#[test]
+fn inverse_time_is_shared_out_by_length() {
+    let text = "G21 G90 G93\nG0 X0\nG1 X100 F6 (ten seconds)\nY10 F60\n";
+    let (output, result) = written_with(text, &bend, &at_origin(), &bare());
+    let lines: Vec<&str> = output.lines().collect();
+    let pieces = result.accounting.pieces - 2;
+    assert_eq!(pieces, 8);
+    for line in &lines[2..2 + pieces] {
+        assert!(
+            line.contains("F48"),
+            "eight equal pieces of 1/6 min: {output}"
+        );
+    }
+    assert_eq!(lines[2 + pieces], "Y10 F60");
+}
+
+#[test]
+fn an_inverse_time_step_at_a_corner_has_the_programmed_speed() {
+    let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * 0.1);
+    let output = written("G21 G90 G93\nG1 X100 F2\n", &field);
+    // 200 mm/min over 0.1 mm is 2000 blocks in a minute.
+    assert_eq!(output, "G21 G90 G93\nG1 X0.1000 F2000\nG1 X100.1000 F2\n");
+}
+
+#[test]
+fn a_program_without_a_feed_gets_none_and_a_warning() {
+    let field = |request: &Request| Ok(Vector3::new(0.01 * request.position_mm.x, 0.0, 0.0));
+    let (output, result) = written_with("G21\nG1 X100\nX200\n", &field, &at_origin(), &bare());
+    assert_eq!(output, "G21\nG1 X101.0000\nX202.0000\n");
+    assert!(
+        result
+            .accounting
+            .warnings
+            .iter()
+            .any(|warning| warning.line == 2 && warning.text.contains("F"))
+    );
+}
+
+#[test]
+fn extra_axes_are_shared_out_absolute_and_relative() {
+    let text =
+        "G21 G90\nM82\nG92 E1 A0\nG0 X0\nG1 X100 E3.5 A90 F600\nM83\nG1 X0 E2.5\nG1 E-1 F300\nX5\n";
+    let (output, result) = written_with(text, &bend, &at_origin(), &bare());
+    assert!(
+        output.contains(
+            "G1 X12.5000 Z0.0016 E1.31250 A11.25000 F600\nX25.0000 Z0.0063 E1.62500 A22.50000\n"
+        ),
+        "{output}"
+    );
+    assert!(output.contains("X100.0000 Z0.1000 E3.5 A90\n"), "{output}");
+    let relative: f64 = output
+        .lines()
+        .skip_while(|line| *line != "M83")
+        .take_while(|line| !line.starts_with("G1 E-1"))
+        .filter_map(|line| {
+            line.split('E')
+                .nth(1)?
+                .split(' ')
+                .next()?
+                .parse::<f64>()
+                .ok()
+        })
+        .sum();
+    assert!((relative - 2.5).abs() < 1e-9, "{relative}");
+    assert_eq!(result.accounting.blocks_split, 2);
+    assert!(
+        output.contains("\nG1 E-1 F300\n"),
+        "a block without X Y Z is carried"
+    );
+}
+
+#[test]
+fn an_extra_axis_that_cannot_be_shared_out_is_refused_by_line() {
+    let refused = |text: &str| {
+        let program = Program::read(text).unwrap();
+        let path = interpret(&program, &at_origin()).unwrap();
+        write_corrected(&program, &path, &bend, &bare(), &Unwatched)
+            .unwrap_err()
+            .to_string()
+    };
+    let message = refused("G21 G90\nG0 X0\nG1 X100 A90 F600\n");
+    assert!(
+        message.starts_with("line 3: the block must be split, but its A word cannot be"),
+        "{message}"
+    );
+    assert!(
+        message.contains("a block with its place, or G92"),
+        "{message}"
+    );
+    let message = refused("G21 M82 G90\nM83\nG90\nG0 X0\nG1 X100 E5 F600\n");
+    assert!(message.starts_with("line 5: "), "{message}");
+    assert!(message.contains("write M82 or M83 again"), "{message}");
+}
+
+#[test]
+fn a_position_offset_takes_the_corrected_place_as_its_reference() {
+    let field = |request: &Request| Ok(Vector3::new(0.001 * request.position_mm.x, 0.0, 0.0));
+    // At X100 the tool is commanded to 100.1; G92 X0 makes that zero, so 50 further is 50.05.
+    let text =
+        "G21 G90\nG0 X100\nG92 X0\nG0 X50\nG92.1\nG0 X150\nG92 X5\nG92.2\nG0 X150\nG92.3\nG0 X5\n";
+    assert_eq!(
+        written(text, &field),
+        "G21 G90\nG0 X100.1000\nG92 X0\nG0 X50.0500\nG92.1\nG0 X150.1500\nG92 X5\nG92.2\nG0 X150.1500\nG92.3\nG0 X5\n"
+    );
+}
+
+#[test]
+fn an_offset_from_an_unknown_place_may_be_taken_away_at_the_end_or_suspended_for_a_while() {
+    let text = "G21 G90\nG92 X0 Y0 Z0\nG1 X50 F100\nG92.2\nG92.3\nG1 X60\nG92.1\nM2\n";
+    let (output, _) = written_with(text, &shift, &ReadOptions::default(), &bare());
+    assert!(
+        output.ends_with("G92.2\nG92.3\nG1 X60.0100\nG92.1\nM2\n"),
+        "{output}"
+    );
+}
+
+#[test]
+fn work_offsets_place_the_program_in_the_part() {
+    let mut reading = at_origin();
+    reading.work_offsets_mm[1] = Vector3::new(100.0, 0.0, 0.0);
+    let field = |request: &Request| Ok(Vector3::new(0.001 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG54 G0 X10\nG55 G0 X10\n";
+    let (output, result) = written_with(text, &field, &reading, &bare());
+    assert_eq!(output, "G21 G90\nG54 G0 X10.0100\nG55 G0 X10.1100\n");
+    assert_eq!(result.pieces[1].commanded_to.x, 110.11);
+}
+
+#[test]
+fn blocks_from_an_unknown_place_are_carried_and_never_sent_to_an_axis_they_do_not_name() {
+    let field = |_: &Request| Ok(Vector3::new(0.01, 0.02, 0.03));
+    let text = "G21 G90\nG1 Z5 F1500\nG0 X10\nG0 Y10\nG1 X20 F500\n";
+    let (output, result) = written_with(text, &field, &ReadOptions::default(), &bare());
+    assert_eq!(
+        output,
+        "G21 G90\nG1 Z5 F1500\nG0 X10\nG0 Y10.0200 X10.0100 Z5.0300\nG1 X20.0100 F500\n"
+    );
+    assert!(
+        result.accounting.warnings[0]
+            .text
+            .contains("2 blocks move before")
+    );
+    // With the start position given all blocks are corrected, the first by a step.
+    let (output, _) = written_with(text, &field, &at_origin(), &bare());
+    assert!(
+        output.starts_with("G21 G90\nG1 Z0.0300 X0.0100 Y0.0200 F1500\nG1 Z5.0300\nG0 X10.0100\n"),
+        "{output}"
+    );
+}
+
+#[test]
+fn an_axis_that_the_program_never_states_is_never_written() {
+    let field = |_: &Request| Ok(Vector3::new(0.01, 0.0, 0.03));
+    let (output, result) = written_with(
+        "G21\nG0 X1 Y1\nG1 X5 F100\n",
+        &field,
+        &ReadOptions::default(),
+        &bare(),
+    );
+    assert_eq!(output, "G21\nG0 X1.0100 Y1\nG1 X5.0100 F100\n");
+    assert_eq!(result.accounting.left_out_mm, 0.03);
+    assert!(
+        result
+            .accounting
+            .warnings
+            .iter()
+            .any(|warning| warning.text.contains("never states Z"))
+    );
+}
+
+#[test]
+fn the_header_is_in_the_files_own_style_below_tape_mark_and_number() {
+    let writing = WriteOptions {
+        header: Some(vec!["model heavy_6r (v1)\n500 N \u{2192} x".to_owned()]),
+        ..WriteOptions::default()
+    };
+    let head = |text: &str| written_with(text, &shift, &at_origin(), &writing).0;
+    assert_eq!(
+        head("%\r\nO12 (part)\r\nG21\r\nG0 X1.\r\n%\r\n"),
+        "%\r\nO12 (part)\r\n(kinetostat: compensated program)\r\n(kinetostat: model heavy_6r [v1])\r\n\
+         (kinetostat: 500 N ? x)\r\nG21\r\nG0 X1.0100\r\n%\r\n"
+    );
+    assert_eq!(
+        head("G21 ; mm\nG0 X1\n"),
+        "; kinetostat: compensated program\n; kinetostat: model heavy_6r [v1]\n; kinetostat: 500 N ? x\nG21 ; mm\nG0 X1.0100\n"
+    );
+    assert!(head("\u{feff}G21 G0 X1").starts_with("\u{feff}(kinetostat: compensated program)\n"));
+    // A copy gets none.
+    for text in ["%", "G21\nG0 X1\nG2 X3 I1 F100\n"] {
+        assert_eq!(
+            written_with(text, &NoCorrection, &at_origin(), &writing).0,
+            text
+        );
+    }
+}
+
+#[test]
+fn a_marked_program_is_refused_unless_asked_for_again() {
+    let text = "(kinetostat: compensated program)\nG21\nG0 X1\n";
+    let program = Program::read(text).unwrap();
+    assert!(program.is_marked_compensated());
+    let path = interpret(&program, &at_origin()).unwrap();
+    let refused = write_corrected(&program, &path, &shift, &bare(), &Unwatched).unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .starts_with("line 1: the program is marked as compensated already"),
+        "{refused}"
+    );
+    let writing = WriteOptions {
+        again: true,
+        ..bare()
+    };
+    assert!(write_corrected(&program, &path, &shift, &writing, &Unwatched).is_ok());
+}
+
+#[test]
+fn a_line_too_long_to_write_is_refused_by_its_number() {
+    let text = format!("G21\nG0 X1 ({})\n", "a".repeat(240));
+    let program = Program::read(text).unwrap();
+    let path = interpret(&program, &at_origin()).unwrap();
+    let message = write_corrected(&program, &path, &shift, &bare(), &Unwatched)
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        message,
+        "line 2: the line would be written with 253 bytes, 250 are allowed; shorten its comment or put the comment on a line of its own"
+    );
+}
+
+#[test]
+fn a_field_that_fails_names_line_and_place() {
+    let field = |request: &Request| {
+        if request.position_mm.x > 50.0 {
+            Err(FieldFailure::new("out of reach"))
+        } else {
+            Ok(Vector3::zeros())
+        }
+    };
+    let program = Program::read("G21\nG0 X0\nG1 X40 F100\nX60\n").unwrap();
+    let path = interpret(&program, &at_origin()).unwrap();
+    let error = write_corrected(&program, &path, &field, &bare(), &Unwatched).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "line 4: no correction at X60.0000 Y0.0000 Z0.0000 mm (100.0 % along the block): out of reach; nothing was written"
+    );
+    let infinite = |_: &Request| Ok(Vector3::new(f64::NAN, 0.0, 0.0));
+    let error = write_corrected(&program, &path, &infinite, &bare(), &Unwatched).unwrap_err();
+    assert!(error.to_string().contains("no finite number"), "{error}");
+}
+
+#[test]
+fn options_out_of_range_and_foreign_paths_are_refused() {
+    let program = Program::read("G21\nG0 X0\n").unwrap();
+    let path = interpret(&program, &at_origin()).unwrap();
+    for (writing, name) in [
+        (
+            WriteOptions {
+                tolerance_mm: f64::NAN,
+                ..bare()
+            },
+            "tolerance_mm is NaN",
+        ),
+        (
+            WriteOptions {
+                chord_tolerance_mm: 0.0,
+                ..bare()
+            },
+            "chord_tolerance_mm is 0",
+        ),
+        (
+            WriteOptions {
+                decimals: Some(2),
+                ..bare()
+            },
+            "decimals is 2",
+        ),
+        (
+            WriteOptions {
+                max_line_bytes: 10,
+                ..bare()
+            },
+            "max_line_bytes is 10",
+        ),
+    ] {
+        let message = write_corrected(&program, &path, &shift, &writing, &Unwatched)
+            .unwrap_err()
+            .to_string();
+        assert!(message.starts_with(name), "{message}");
+    }
+    let other = Program::read("G21\n(no motion here)\n").unwrap();
+    let error = write_corrected(&other, &path, &shift, &bare(), &Unwatched).unwrap_err();
+    assert_eq!(error, WriteError::ForeignPath { line: 2 });
+}
+
+#[test]
+fn a_field_without_end_is_stopped_at_the_largest_number_of_pieces() {
+    let noise = |request: &Request| {
+        Ok(Vector3::new(
+            (request.position_mm.x * 1e6).sin() * 0.1,
+            0.0,
+            0.0,
+        ))
+    };
+    let program = Program::read("G21\nG0 X0\nG1 X100 F100\n").unwrap();
+    let path = interpret(&program, &at_origin()).unwrap();
+    let writing = WriteOptions {
+        max_pieces: 1000,
+        ..bare()
+    };
+    let error = write_corrected(&program, &path, &noise, &writing, &Unwatched).unwrap_err();
+    assert_eq!(
+        error,
+        WriteError::TooManyPieces {
+            line: 3,
+            limit: 1000
+        }
+    );
+}
+
+#[test]
+fn a_monitor_sees_progress_and_can_stop_the_work() {
+    struct Stop(AtomicUsize);
+    impl Monitor for Stop {
+        fn progress(&self, done: usize, total: usize) {
+            assert!(done <= total);
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+        fn cancelled(&self) -> bool {
+            self.0.load(Ordering::Relaxed) >= 2
+        }
+    }
+    let mut text = "G21\nG0 X0\nG1 F100\n".to_owned();
+    for x in 0..20_000 {
+        text.push_str(&format!("X{x}\n"));
+    }
+    let program = Program::read(text).unwrap();
+    let path = interpret(&program, &at_origin()).unwrap();
+    let stop = Stop(AtomicUsize::new(0));
+    assert_eq!(
+        write_corrected(&program, &path, &shift, &bare(), &stop),
+        Err(WriteError::Cancelled)
+    );
+    assert_eq!(stop.0.load(Ordering::Relaxed), 2);
+}
+
+#[test]
+fn a_written_program_that_was_tampered_with_fails_its_last_check() {
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X100 F600 (cut)\nG2 X110 Y0 I5\nM2\n";
+    let program = Program::read(text).unwrap();
+    let path = interpret(&program, &at_origin()).unwrap();
+    let good =
+        write_corrected(&program, &path, &bend, &WriteOptions::default(), &Unwatched).unwrap();
+    let output = String::from_utf8(good.bytes.clone()).unwrap();
+    let check = |bytes: String| {
+        let bad = Corrected {
+            bytes: bytes.into_bytes(),
+            ..good.clone()
+        };
+        verify_written(
+            &program,
+            &path,
+            &bad,
+            &at_origin(),
+            &WriteOptions::default(),
+        )
+    };
+    assert!(check(output.clone()).is_ok());
+    let first = output
+        .lines()
+        .find(|line| line.contains("(cut)"))
+        .unwrap()
+        .to_owned();
+    for (from, to) in [
+        ("(cut)", "(cat)"),
+        ("F600", "F605"),
+        ("G21", "G20"),
+        ("M2", "M8"),
+        ("kinetostat: compensated", "nothing"),
+        (first.as_str(), ""),
+        ("X100.0000", "X100.0010"),
+        ("X100.0000", "X100.00"),
+        ("M2\n", "M2"),
+        ("X100.0000", "X100.0000 M8"),
+        ("X100.0000", "X100.0000 (new)"),
+    ] {
+        assert!(output.contains(from), "{from} is not in\n{output}");
+        let result = check(output.replacen(from, to, 1));
+        assert!(
+            matches!(result, Err(WriteError::Verification { .. })),
+            "{from} -> {to}: {result:?}"
+        );
+    }
+}
+
+#[test]
+fn a_position_offset_states_an_unknown_place() {
+    let field = |request: &Request| Ok(Vector3::new(0.001 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG92 X10 Y0 Z5\nG1 X110 F500\nG92 X0\nG1 X10\n";
+    let (output, result) = written_with(text, &field, &ReadOptions::default(), &bare());
+    // The first block begins with the correction of the place where the tool stands uncorrected; the
+    // stretch is 0.1 %, so F changes by as much.
+    assert_eq!(
+        output,
+        "G21 G90\nG92 X10 Y0 Z5\nG1 X10.0100 F500\nG1 X110.1100 F500.5\nG92 X0\nG1 X10.0100\n"
+    );
+    assert_eq!(
+        result.pieces[0].commanded_from,
+        Vector3::new(10.0, 0.0, 5.0)
+    );
+    assert!(result.accounting.warnings.is_empty());
+}
+
+#[test]
+fn a_tool_length_is_followed_when_a_rapid_states_the_height_again() {
+    let field = |_: &Request| Ok(Vector3::new(0.0, 0.0, 0.25));
+    let text =
+        "G21 G90 G17 G40 G49 G80\nT1 M6\nG0 X0 Y0\nG43 H1 Z50\nG1 Z-1 F100\nG0 Z50\nG49\nM30\n";
+    let output = written_with(text, &field, &ReadOptions::default(), &bare()).0;
+    assert_eq!(
+        output,
+        "G21 G90 G17 G40 G49 G80\nT1 M6\nG0 X0 Y0\nG43 H1 Z50.2500\nG1 Z-0.7500 F100\nG0 Z50.2500\nG49\nM30\n"
+    );
+}
+
+#[test]
+fn blocks_marked_for_deletion_are_run_or_skipped_as_told() {
+    let text = "G21 G90\nG0 X0\n/G0 X50 (optional)\nG91\nG0 X1\n";
+    let (run, result) = written_with(text, &shift, &at_origin(), &bare());
+    assert_eq!(
+        run,
+        "G21 G90\nG0 X0.0100\n/G0 X50.0100 (optional)\nG91\nG0 X1\n"
+    );
+    assert!(
+        result.accounting.warnings[0]
+            .text
+            .contains("block delete switch off")
+    );
+    let reading = ReadOptions {
+        block_delete: BlockDelete::Skip,
+        ..at_origin()
+    };
+    let (skipped, result) = written_with(text, &shift, &reading, &bare());
+    assert_eq!(
+        skipped,
+        "G21 G90\nG0 X0.0100\n/G0 X50 (optional)\nG91\nG0 X1\n"
+    );
+    assert_eq!(result.pieces.len(), 2);
+    assert_eq!(result.accounting.blocks_in, 5);
+}
+
+#[test]
+fn the_feed_mode_may_change_and_each_feed_is_shared_out_in_its_own_way() {
+    let stretch = |request: &Request| Ok(Vector3::new(0.01 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG1 X100 F1000\nG94\nG1 X200\nG93\nG1 X100 F2\nG95\nG1 X0 F0.2\n";
+    assert_eq!(
+        written(text, &stretch),
+        "G21 G90\nG1 X101.0000 F1010\nG94\nG1 X202.0000\nG93\nG1 X101.0000 F2\nG95\nG1 X0 F0.202\n"
+    );
+}
+
+/// Corrects only where the tool is below the surface.
+fn below(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
+    Ok(match request.position_mm.z < -0.5 {
+        true => Vector3::new(0.02, 0.0, 0.0),
+        false => Vector3::zeros(),
+    })
+}
+
+#[test]
+fn an_arc_without_correction_stays_an_arc_among_blocks_that_are_corrected() {
+    let text = "G21 G90\nG0 X10 Y0 Z0\nG3 X-10 I-10 F300\nG1 Z-1\nG1 Y5 F200\nG1 Z0 F300\nG2 X10 Y5 I10\nI-5\nM2\n";
+    let (output, result) = written_with(text, &below, &at_origin(), &WriteOptions::default());
+    for kept in ["\nG3 X-10 I-10 F300\n", "\nG2 X10 Y5 I10\nI-5\nM2\n"] {
+        assert!(output.contains(kept), "{output}");
+    }
+    assert!(output.contains("X-9.9800"), "{output}");
+    assert_eq!(
+        result.pieces.iter().filter(|piece| piece.kept_arc).count(),
+        3
+    );
+}
+
+#[test]
+fn an_arc_is_named_again_where_the_arc_before_it_was_divided() {
+    // Both circles are G2 by the first word; the first lies where corrections are.
+    let field = |request: &Request| {
+        let far = request.position_mm.x < 49.0;
+        Ok(Vector3::new(0.0, 0.0, if far { 0.03 } else { 0.0 }))
+    };
+    let text = "G21 G90 G17\nG0 X0 Y0 Z0\nG2 I5 F300\nG0 X50\nG2 I5\nG1 X40\nG2 I1\nG0 X60\nG2 X62 R1\nX60 R1\nM2\n";
+    let (output, _) = written_with(text, &field, &at_origin(), &bare());
+    assert!(output.contains("\nG2 I5\nG1 X"), "{output}");
+    assert!(output.ends_with("\nG2 X62 R1\nX60 R1\nM2\n"), "{output}");
+}
+
+#[test]
+fn the_feed_is_not_raised_beyond_its_factor_and_the_pieces_are_counted() {
+    // 40 mm of correction over 10 mm of part: five times the feed would be needed.
+    let field = |request: &Request| Ok(Vector3::new(4.0 * request.position_mm.x, 0.0, 0.0));
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nG93\nX0 F2\nM2\n";
+    let (output, result) = written_with(text, &field, &at_origin(), &bare());
+    assert_eq!(
+        output,
+        "G21 G90\nG0 X0 Y0 Z0\nG1 X50.0000 F120\nG93\nX0 F0.48\nM2\n"
+    );
+    let account = &result.accounting;
+    assert_eq!(
+        (account.feed_limited_pieces, account.feed_limited_line),
+        (2, Some(3))
+    );
+    assert!((account.slowest_limited_speed.unwrap() - 0.24).abs() < 1e-12);
+    assert_eq!(
+        (account.feed_length_in_mm, account.feed_length_out_mm),
+        (20.0, 100.0)
+    );
+    let seconds = (
+        account.feed_time_in_s.unwrap(),
+        account.feed_time_out_s.unwrap(),
+    );
+    assert!(
+        (seconds.0 - 36.0).abs() < 1e-9 && (seconds.1 - 150.0).abs() < 1e-9,
+        "{seconds:?}"
+    );
+    let free = WriteOptions {
+        max_feed_factor: 10.0,
+        ..bare()
+    };
+    let (output, _) = written_with(text, &field, &at_origin(), &free);
+    assert!(output.contains("G1 X50.0000 F500\nG93\nX0 F2"), "{output}");
+}
+
+#[test]
+fn a_step_that_cuts_backwards_is_warned_of_with_its_line() {
+    let field = |request: &Request| Ok(request.tangent.unwrap_or_default() * -0.2);
+    let text = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nY10\nX0\n";
+    let (_, result) = written_with(text, &field, &at_origin(), &bare());
+    let account = &result.accounting;
+    assert!(
+        (account.largest_backward_mm - 0.2).abs() < 1e-9,
+        "{account:?}"
+    );
+    assert_eq!(
+        (account.backward_steps, account.largest_backward_line),
+        (3, Some(3))
+    );
+    assert!(
+        account
+            .warnings
+            .iter()
+            .any(|warning| warning.line == 3 && warning.text.contains("cuts backwards"))
+    );
+    let wide = WriteOptions {
+        backward_step_mm: 0.3,
+        ..bare()
+    };
+    let (_, result) = written_with(text, &field, &at_origin(), &wide);
+    assert!(
+        result.accounting.warnings.is_empty(),
+        "{:?}",
+        result.accounting
+    );
+}

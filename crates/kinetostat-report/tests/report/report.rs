@@ -1,0 +1,271 @@
+//! The page holds what it must, whatever the data.
+
+use crate::common::*;
+use kinetostat_machining::{PointResult, RunResult};
+use kinetostat_report::{html, plot_preview_svg};
+
+fn fixtures() -> Vec<(&'static str, RunResult)> {
+    let mut one_point = circle_groove();
+    one_point.points.truncate(1);
+    one_point.points[0].kind = kinetostat_machining::PointKind::Feed;
+    one_point.worst_points = one_point.points.clone();
+    let mut not_converged = circle_groove();
+    not_converged.summary.converged = false;
+    let mut elongated = pocket_on_serial_robot(1500);
+    for point in elongated
+        .points
+        .iter_mut()
+        .chain(&mut elongated.worst_points)
+    {
+        point.position_mm[1] *= 0.4;
+        point.position_mm[0] *= 4.0;
+    }
+    let blank_points = RunResult {
+        points: vec![PointResult::default(); 3],
+        ..RunResult::default()
+    };
+    let mut many = pocket_on_serial_robot(300);
+    let repeated = many.question.actuators.clone();
+    many.question
+        .actuators
+        .extend(repeated.iter().cloned().cycle().take(20));
+    vec![
+        ("circle", circle_groove()),
+        ("pocket", pocket_on_serial_robot(4000)),
+        ("elongated", elongated),
+        ("analysis", analysis()),
+        ("unstable", unstable()),
+        ("not-converged", not_converged),
+        ("one-point", one_point),
+        ("empty", RunResult::default()),
+        ("blank-points", blank_points),
+        ("many-actuators", many),
+        ("hostile-numbers", hostile_numbers()),
+        ("hostile-text", hostile_text()),
+    ]
+}
+
+/// Text as a reader sees it, near enough for finding sentences.
+fn plain(page: &str) -> String {
+    page.replace('\u{202f}', " ")
+        .replace("&#x2f;", "/")
+        .replace("&#x27;", "'")
+}
+
+/// Fails unless every element that is opened is closed, in order.
+fn assert_balanced(name: &str, page: &str) {
+    let mut open: Vec<&str> = Vec::new();
+    let body = page.replace("<!DOCTYPE html>", "");
+    for tag in body.split('<').skip(1) {
+        let (tag, _) = tag.split_once('>').expect("every tag ends");
+        let word = tag
+            .trim_end_matches('/')
+            .split_whitespace()
+            .next()
+            .expect("a tag has a name");
+        if let Some(closed) = word.strip_prefix('/') {
+            assert_eq!(
+                open.pop(),
+                Some(closed),
+                "{name}: </{closed}> closes something else"
+            );
+        } else if !tag.ends_with('/') && word != "meta" && word != "br" {
+            open.push(word);
+        }
+    }
+    assert!(open.is_empty(), "{name}: {open:?} stay open");
+}
+
+/// Set `KINETOSTAT_REPORT_DIR` to keep the pages and look at them.
+#[test]
+fn every_page_is_sound() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = std::env::var_os("KINETOSTAT_REPORT_DIR")
+        .map_or_else(|| temporary.path().to_owned(), Into::into);
+    for (name, result) in fixtures() {
+        let page = html(&result).unwrap();
+        let picture = plot_preview_svg(&result);
+        std::fs::write(folder.join(format!("{name}.html")), &page).unwrap();
+        std::fs::write(folder.join(format!("{name}.svg")), &picture).unwrap();
+        assert_eq!(page, html(&result).unwrap(), "{name}: two runs differ");
+        assert_eq!(
+            picture,
+            plot_preview_svg(&result),
+            "{name}: two runs differ"
+        );
+        for (document, text) in [("page", &page), ("picture", &picture)] {
+            let name = format!("{document} {name}");
+            let links = text.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+            for word in [
+                "http:",
+                "https:",
+                "//",
+                "<script",
+                "<img",
+                "onerror=\"",
+                "javascript:",
+                "@import",
+                "url(",
+            ] {
+                assert!(!links.contains(word), "{name} contains {word}");
+            }
+            for word in [
+                "NaN", "inf ", ">inf", "-inf", "None", "Some(", "\u{202e}", "\u{0}",
+            ] {
+                let allowed = word == "None" && document == "page";
+                assert!(allowed || !text.contains(word), "{name} contains {word:?}");
+            }
+            assert_balanced(&name, text);
+            assert!(text.len() < 1_500_000, "{name} has {} bytes", text.len());
+        }
+        assert!(page.contains("default-src &#39;none&#39;") || page.contains("default-src 'none'"));
+    }
+}
+
+#[test]
+fn the_verdict_comes_first_and_in_words() {
+    let page = plain(&html(&circle_groove()).unwrap());
+    let start = page.find("class=\"verdict good\"").expect("a verdict");
+    assert!(start < page.find("class=\"cards").expect("cards"));
+    assert!(
+        page.contains("with the compensated program at most 0.528 µm."),
+        "the verdict names the error after: {}",
+        &page[start..start + 600]
+    );
+    assert!(page.contains("which a program of positions cannot correct"));
+    assert!(plain(&html(&analysis()).unwrap()).contains("This is an analysis only"));
+    assert!(plain(&html(&unstable()).unwrap()).contains("class=\"verdict stop\""));
+}
+
+#[test]
+fn sections_stand_in_order() {
+    let page = html(&circle_groove()).unwrap();
+    let headings = [
+        "How far the tool is off along the path",
+        "Where the tool goes",
+        "What the actuators carry",
+        "How stiff the machine is",
+        "The worst places",
+        "What was not corrected",
+        "<h2>Warnings",
+        "What was asked",
+    ];
+    let places: Vec<usize> = headings
+        .iter()
+        .map(|heading| page.find(heading).unwrap_or_else(|| panic!("no {heading}")))
+        .collect();
+    assert!(places.is_sorted(), "{places:?}");
+    assert_eq!(page.matches("class=\"plot wide\"").count(), 4);
+    assert_eq!(page.matches("class=\"plot narrow\"").count(), 4);
+}
+
+#[test]
+fn what_users_of_such_tools_ask_for_is_said() {
+    let page = plain(&html(&pocket_on_serial_robot(4000)).unwrap());
+    for text in [
+        "4 000 of 80 532 points shown: the worst of every stretch are among them.",
+        "path 0.5 µm, chords of arcs 0.2 µm",
+        "40 266 (1 220 345 bytes)",
+        "41 377 (1 301 002 bytes)",
+        "1 111 were divided, 0 corrected in one piece and 39 155 carried over byte for byte",
+        "Most blocks per second",
+        "Straight pieces written",
+        "N m",
+        "Corner steps",
+        "Rounding",
+    ] {
+        assert!(page.contains(text), "the page lacks {text:?}");
+    }
+    assert!(
+        !plain(&html(&circle_groove()).unwrap()).contains("points shown"),
+        "nothing is left out there"
+    );
+}
+
+#[test]
+fn worst_points_carry_line_numbers() {
+    let result = pocket_on_serial_robot(4000);
+    let page = plain(&html(&result).unwrap());
+    for point in &result.worst_points {
+        let digits = point.line.to_string();
+        let (thousands, rest) = digits.split_at(digits.len() - 3);
+        assert!(
+            page.contains(&format!("<td class=\"left total\">{thousands} {rest}<")),
+            "line {digits} is missing"
+        );
+    }
+    assert!(page.contains("class=\"mark-name\""));
+}
+
+#[test]
+fn missing_numbers_are_words() {
+    let page = html(&hostile_numbers()).unwrap();
+    assert!(page.contains("not available"));
+    assert!(page.contains("Points that lack a number"));
+    assert!(
+        !html(&circle_groove())
+            .unwrap()
+            .contains("Points that lack a number")
+    );
+}
+
+/// The plot, the card and the verdict speak of one bound: path, chords and rounding together.
+#[test]
+fn the_line_of_the_plot_is_the_bound_that_is_judged() {
+    let mut result = circle_groove();
+    let worst = result.summary.max_position_error_after_mm;
+    result.question.tolerance_mm = 3.0 * worst;
+    result.question.chord_tolerance_mm = 1.5 * worst;
+    result.summary.max_rounding_error_mm = 0.5 * worst;
+    assert!((result.allowed_mm() / (5.0 * worst) - 1.0).abs() < 1e-12);
+    let page = html(&result).expect("a page");
+    let told = |page: &str| page.matches("allowed").count();
+    assert!(told(&plain(&page)) >= 2, "card and plot");
+    assert!(page.contains("class=\"verdict good\""), "held");
+    result.question.tolerance_mm = 0.1 * worst;
+    result.question.chord_tolerance_mm = 0.0;
+    result.summary.max_rounding_error_mm = 0.0;
+    assert_eq!(result.holds_tolerance(), Some(false));
+    let page = html(&result).expect("a page");
+    assert!(page.contains("class=\"verdict attention\""), "missed");
+    assert!(page.contains("The tolerance is missed"), "said first");
+    result.summary.max_position_error_after_mm = f64::NAN;
+    assert_eq!(
+        result.holds_tolerance(),
+        Some(false),
+        "no number holds nothing"
+    );
+}
+
+/// A program of a hundred thousand points says no more than its drawings can show.
+#[test]
+fn the_page_of_a_long_program_is_short() {
+    let page = html(&pocket_on_serial_robot(100_000)).unwrap();
+    assert!(page.len() < 500_000, "{} bytes", page.len());
+}
+
+/// On telephones, in a type that is wider than most.
+#[test]
+fn no_title_of_a_plot_is_cut() {
+    for (name, result) in fixtures() {
+        let page = html(&result).unwrap();
+        for svg in page.split("<svg ").skip(1) {
+            let svg = format!("<svg {}", svg.split_inclusive("</svg>").next().unwrap());
+            let svg = roxmltree::Document::parse(&svg).expect("a drawing");
+            let size = svg.root_element().attribute("viewBox").unwrap();
+            let width: f64 = size.split(' ').nth(2).unwrap().parse().unwrap();
+            let titles = svg
+                .descendants()
+                .filter(|n| n.attribute("class") == Some("title"));
+            for title in titles {
+                let text = title.text().unwrap_or_default();
+                let left: f64 = title.attribute("x").unwrap().parse().unwrap();
+                let right = left + crate::common::letters::bold_width(text, 13.5);
+                assert!(
+                    left >= 0.0 && right <= width,
+                    "{name}: {text} to {right} of {width}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! The numbers of the report, computed again, beside reference values: one module per part of it.
+//!
+//! One binary instead of many, because linking dominates the time of a test run.
+
+mod chapters_2_to_5;
+mod orthoglide;
+mod registry;

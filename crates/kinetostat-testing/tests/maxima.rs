@@ -1,0 +1,193 @@
+//! The helper fails where `f64::max` and `amax` pass, and no test of the workspace goes around it.
+
+use std::fs;
+use std::panic::catch_unwind;
+use std::path::{Path, PathBuf};
+
+use kinetostat_testing::{LargestEntry, Worst, largest, largest_size, least};
+use nalgebra::{DMatrix, Matrix6, Vector3};
+
+fn worst(differences: &[f64]) -> Worst {
+    let mut worst = Worst::new();
+    differences.iter().for_each(|d| worst.add(*d));
+    worst
+}
+
+fn refuses<T>(of: impl FnOnce() -> T + std::panic::UnwindSafe) -> String {
+    let Err(why) = catch_unwind(of) else {
+        panic!("it was accepted")
+    };
+    let text = why.downcast_ref::<String>().cloned();
+    text.or_else(|| why.downcast_ref::<&str>().map(|t| (*t).to_owned()))
+        .expect("a message")
+}
+
+#[test]
+fn the_largest_size_counts() {
+    let found = worst(&[0.5, -2.0, 1.0]);
+    assert_eq!((found.value(), found.of(3), found.samples()), (2.0, 2.0, 3));
+    assert_eq!(found.measured(), Some(2.0));
+    assert!(found.holds(2.0) && !found.holds(1.9));
+    assert_eq!(worst(&[0.0]).value(), 0.0);
+    assert_eq!(worst(&[1.0, f64::INFINITY]).value(), f64::INFINITY);
+}
+
+#[test]
+fn a_nan_fails_wherever_it_stands() {
+    for place in 0..3 {
+        let mut differences = [1.0, 5.0, 2.0];
+        differences[place] = f64::NAN;
+        assert!(
+            differences.into_iter().fold(0.0, f64::max) < 6.0,
+            "the trap"
+        );
+        let found = worst(&differences);
+        assert!(!found.holds(f64::INFINITY));
+        assert!(found.measured().is_some_and(f64::is_nan));
+        let why = refuses(|| found.value());
+        assert!(why.contains("NaN"), "{why}");
+        assert!(why.contains(&format!("sample {} of 3", place + 1)), "{why}");
+        assert!(why.contains("maxima.rs"), "{why}");
+        refuses(|| found.of(3));
+        refuses(|| largest(differences));
+        refuses(|| largest_size(differences));
+        refuses(|| least(differences));
+        refuses(|| Vector3::from(differences).largest_entry());
+    }
+    assert_eq!(Vector3::new(f64::NAN, 5.0, 2.0).amax(), 5.0, "the trap");
+}
+
+#[test]
+fn samples_that_were_skipped_fail() {
+    assert!(!worst(&[]).holds(1.0));
+    assert_eq!(worst(&[]).of_all(0), 0.0);
+    assert_eq!(worst(&[]).measured(), None);
+    for why in [
+        refuses(|| worst(&[]).value()),
+        refuses(|| worst(&[]).of(0)),
+        refuses(|| worst(&[1.0, 2.0]).of(3)),
+        refuses(|| worst(&[1.0, 2.0]).of(1)),
+        refuses(|| worst(&[1.0]).of_all(0)),
+        refuses(|| worst(&[]).of_all(1)),
+    ] {
+        assert!(why.contains("compared"), "{why}");
+    }
+    refuses(|| largest([]));
+    refuses(|| largest_size([]));
+    refuses(|| least([]));
+    refuses(|| worst(&[]).all_apart(&[1.0], &[]));
+}
+
+#[test]
+fn the_place_of_the_worst_is_kept() {
+    let mut found = Worst::new();
+    for (place, d) in [("here", 1.0), ("there", -3.0), ("nowhere", 2.0)] {
+        found.add_at(d, || place);
+    }
+    assert_eq!(found.place(), "there");
+    let text = found.to_string();
+    assert!(text.starts_with("3e0 at there, sample 2 of 3"), "{text}");
+    found.add_at(f64::NAN, || "lost");
+    found.add_at(f64::INFINITY, || "far");
+    let why = refuses(|| found.value());
+    assert!(why.contains("at lost, sample 4 of 5"), "{why}");
+}
+
+#[test]
+fn differences_of_lists_matrices_and_printed_digits() {
+    let mut found = Worst::new();
+    found.all_apart(&[1.0, 2.0], &[1.5, 2.25]);
+    assert_eq!(found.of(2), 0.5);
+    let (one, size) = (Matrix6::identity(), Matrix6::identity() * 4.0);
+    let mut found = Worst::new();
+    found.matrix(&one, &Matrix6::zeros(), &size);
+    assert_eq!(found.of(36), 0.25);
+    let mut found = Worst::new();
+    found.printed(-0.000_617_541_7, -0.000_617_541_4, 7);
+    assert!((found.of(1) - 3.0).abs() < 1e-6);
+}
+
+#[test]
+fn extremes_of_numbers_and_matrices() {
+    assert_eq!(largest([-3.0, -1.0, -2.0]), -1.0);
+    assert_eq!(largest_size([-3.0, -1.0, 2.0]), 3.0);
+    assert_eq!(least([-1.0, -3.0, 2.0]), -3.0);
+    assert_eq!(Vector3::new(1.0, -4.0, 2.0).largest_entry(), 4.0);
+    assert_eq!(DMatrix::<f64>::zeros(0, 3).largest_entry(), 0.0);
+}
+
+/// Rust files of tests: folders `tests`, examples and benches that share their modules, and files of
+/// sources that are tests as a whole. Modules of tests within a source are read from their mark on.
+fn texts(folder: &Path, inside: bool, found: &mut Vec<(PathBuf, String)>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let name = path
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        if path.is_dir() {
+            let own = inside || ["tests", "benches", "examples"].contains(&name.as_str());
+            texts(&path, own, found);
+        } else if name.ends_with(".rs") {
+            let text = fs::read_to_string(&path).expect("a source");
+            let from = match text.find("#[cfg(test)]\nmod tests {") {
+                _ if inside || name.ends_with("tests.rs") => 0,
+                Some(at) => at,
+                None => continue,
+            };
+            found.push((path, text[from..].to_owned()));
+        }
+    }
+}
+
+/// Whether a line takes a maximum that forgets NaN: `x = x.max(..)`, `f64::max` as a function, a fold
+/// by `.max(`, and nalgebra's `amax`. Floors like `size.max(1e-9)` are fine: what they divide is NaN
+/// where their number is.
+fn forgets_nan(line: &str) -> bool {
+    let line = line.trim();
+    let grows = line.split_once(" = ").is_some_and(|(to, rest)| {
+        let to = to
+            .trim_start_matches("let ")
+            .trim_start_matches("mut ")
+            .trim_start_matches('*');
+        [".max(", ".min("].iter().any(|of| {
+            rest.strip_prefix(to)
+                .is_some_and(|rest| rest.starts_with(of))
+        })
+    });
+    let folds = line.contains("fold(") && (line.contains(".max(") || line.contains(".min("));
+    let named = ["f64::max)", "f64::min)", "f64::max(", ".amax()"];
+    grows || folds || named.iter().any(|n| line.contains(n))
+}
+
+#[test]
+fn no_test_takes_a_maximum_that_forgets_nan() {
+    for line in [
+        "worst = worst.max(d);",
+        "*w = w.max(x);",
+        "let gap = gap.max(turn);",
+        "worst[0] = worst[0].max((a - b).abs());",
+        ".fold(0.0, f64::max)",
+        "let m = x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));",
+        "assert!((a - b).amax() < 1e-9);",
+    ] {
+        assert!(forgets_nan(line), "{line}");
+    }
+    assert!(!forgets_nan("let unit = 1e-9 * energy.max(1e-12);"));
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    texts(&crates, false, &mut files);
+    files.retain(|(path, _)| !path.ends_with("kinetostat-testing/tests/maxima.rs"));
+    assert!(files.len() > 150, "{} files of tests", files.len());
+    let mut found = Vec::new();
+    for (path, text) in &files {
+        let lines = text.lines().filter(|line| forgets_nan(line));
+        found.extend(lines.map(|line| format!("{}: {}", path.display(), line.trim())));
+    }
+    assert!(
+        found.is_empty(),
+        "use kinetostat_testing:\n{}",
+        found.join("\n")
+    );
+}

@@ -1,0 +1,159 @@
+//! A machine compiled for many postures, and what is done with those that kernels leave over.
+
+use rayon::prelude::*;
+
+use super::group::Places;
+use super::plan::Plan;
+use super::run::Work;
+use super::status::Found;
+use super::table::BLOCK;
+use crate::error::{Error, Result};
+use crate::machine::inverse::limb::LimbPosture;
+use crate::machine::posture::Posture;
+use crate::model::chain::Chain;
+use crate::model::kinematics::unloaded_tip;
+use crate::model::mechanism::{Limb, Mechanism};
+
+/// Blocks of eight postures that a thread takes at a time.
+pub(super) const BLOCKS: usize = 32;
+
+/// A machine compiled for many postures.
+#[derive(Clone, Debug)]
+pub struct Batch<'m> {
+    pub(super) mechanism: &'m Mechanism,
+    /// Of every limb as drawn (unloaded) and as it is (loaded), or why there are none.
+    pub(super) nominal: std::result::Result<Vec<Plan>, String>,
+    pub(super) actual: std::result::Result<Vec<Plan>, String>,
+}
+
+impl<'m> Batch<'m> {
+    /// Compiles a machine.
+    #[must_use]
+    pub fn new(mechanism: &'m Mechanism) -> Self {
+        Self {
+            mechanism,
+            nominal: compiled(mechanism, |limb| &limb.nominal),
+            actual: unburdened(mechanism).and_then(|()| compiled(mechanism, |limb| &limb.actual)),
+        }
+    }
+
+    /// Why all loaded postures of this machine are solved alone, if they are.
+    #[must_use]
+    pub fn alone(&self) -> Option<&str> {
+        self.actual.as_ref().err().map(String::as_str)
+    }
+
+    /// Why all unloaded postures of this machine are solved alone, if they are.
+    #[must_use]
+    pub fn alone_unloaded(&self) -> Option<&str> {
+        self.nominal.as_ref().err().map(String::as_str)
+    }
+
+    pub(super) fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
+        let place = || format!("mechanism '{}'", self.mechanism.name());
+        let limbs = self.mechanism.limbs();
+        let serial = limbs.len() == 1
+            && limbs[0]
+                .nominal
+                .indices_of(crate::model::chain::Role::Passive)
+                .is_empty();
+        if !serial {
+            return Err(Error::model(
+                place(),
+                "commands alone lead to a pose in a serial machine without passive joints only",
+            ));
+        }
+        let each = limbs[0].nominal.actuators().len();
+        if each == 0 || !commands.len().is_multiple_of(each) {
+            return Err(Error::Size {
+                place: place(),
+                what: "commands",
+                expected: each * commands.len().div_ceil(each.max(1)),
+                found: commands.len(),
+            });
+        }
+        Ok(Places::Joints { commands, each })
+    }
+
+    /// Number of actuators.
+    pub(super) fn commands(&self) -> usize {
+        let limbs = self.mechanism.limbs().iter();
+        limbs.map(|l| l.nominal.actuators().len()).sum()
+    }
+
+    pub(super) fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture<'m>> {
+        match places {
+            Places::Poses(poses) => self.mechanism.posture(&poses[i]),
+            Places::Joints { commands, each } => {
+                let limb = &self.mechanism.limbs()[0];
+                let joints = LimbPosture {
+                    commands: commands[i * each..(i + 1) * each].to_vec(),
+                    coordinates: limb.nominal.home_coordinates(),
+                };
+                let base = self.mechanism.platforms()[limb.from].home;
+                let tip = unloaded_tip(&limb.nominal, &base, &joints.coordinates, &joints.commands);
+                let target = tip * limb.platform_from_tip.inverse();
+                self.mechanism.posture_from_joints(&target, vec![joints])
+            }
+        }
+    }
+}
+
+pub(super) fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usize) {
+    if count <= BLOCKS * BLOCK {
+        works.for_each(Work::run);
+    } else {
+        works
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .for_each(Work::run);
+    }
+}
+
+/// Nothing but weight acts on limbs and platforms, or what else.
+fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), String> {
+    for (i, limb) in mechanism.limbs().iter().enumerate() {
+        if !mechanism.loads(i).is_empty() {
+            return Err(format!("'{}' bears loads of its own", limb.name));
+        }
+    }
+    if !mechanism.platform_loads().is_empty() {
+        return Err("a platform bears loads of its own".into());
+    }
+    Ok(())
+}
+
+/// Plans of all limbs, or why there are none.
+fn compiled(
+    mechanism: &Mechanism,
+    chain: impl Fn(&Limb) -> &Chain,
+) -> std::result::Result<Vec<Plan>, String> {
+    if mechanism.platforms().len() != 2 {
+        return Err("it has platforms between base and tool".into());
+    }
+    let tool = mechanism.tool();
+    let limbs = mechanism.limbs().iter();
+    limbs
+        .map(|limb| {
+            if limb.from != 0 || limb.to != tool {
+                return Err(format!("'{}' does not lead from base to tool", limb.name));
+            }
+            Plan::new(chain(limb), &limb.platform_from_tip.inverse())
+        })
+        .collect()
+}
+
+/// Answers of those that were not found together; `None` where there is none.
+pub(super) fn left<T: Send>(
+    found: &[Found],
+    alone: impl Fn(usize) -> Result<T> + Sync,
+) -> Vec<(usize, Option<T>)> {
+    let left: Vec<usize> = (0..found.len())
+        .filter(|i| found[*i] != Found::Together)
+        .collect();
+    // None or one calls no threads.
+    if left.len() < 2 {
+        return left.into_iter().map(|i| (i, alone(i).ok())).collect();
+    }
+    left.into_par_iter().map(|i| (i, alone(i).ok())).collect()
+}

@@ -1,0 +1,145 @@
+//! Unloaded stiffness of many postures.
+
+use super::compiled::{BLOCKS, Batch, in_parallel, left};
+use super::group::Places;
+use super::run::Work;
+use super::status::Found;
+use super::table::{BLOCK, Table};
+use crate::error::Result;
+use crate::machine::posture::Posture;
+use crate::model::kinematics::Kinematics;
+use crate::spatial::Pose;
+
+/// Unloaded stiffness of many postures.
+#[derive(Clone, Debug, Default)]
+pub struct BatchStiffness {
+    /// Cartesian stiffness of the tool at its origin, base axes, 36 numbers row by row (N/m, N/rad,
+    /// N m/m, N m/rad), as in [`crate::UnloadedStiffness`].
+    pub stiffness: Table,
+    /// Jacobian of a serial machine, 6 x n row by row: twist of the tool (m, rad, base axes, at its
+    /// origin) per unit of every coordinate. Empty unless asked for.
+    pub jacobian: Table,
+    /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`]. Empty
+    /// where they were given.
+    pub commands: Table,
+    /// How each was found.
+    pub found: Vec<Found>,
+}
+
+impl Batch<'_> {
+    /// Stiffness of the unloaded machine as drawn with the tool at each of the poses.
+    #[must_use]
+    pub fn stiffness(&self, poses: &[Pose]) -> BatchStiffness {
+        let mut out = BatchStiffness::default();
+        self.stiffness_into(poses, &mut out);
+        out
+    }
+
+    /// The same into a result that is written over: a loop over blocks of postures allocates once.
+    pub fn stiffness_into(&self, poses: &[Pose], out: &mut BatchStiffness) {
+        self.unloaded(&Places::Poses(poses), false, out);
+    }
+
+    /// Stiffness, and Jacobian if asked for, of a serial machine with its actuators commanded to
+    /// `commands` (m or rad, one after the other for each posture).
+    ///
+    /// # Errors
+    /// [`Error::Size`] if the numbers are no whole postures, [`Error::Model`] for a machine of
+    /// several limbs or with passive joints.
+    pub fn stiffness_at_joints(&self, commands: &[f64], jacobian: bool) -> Result<BatchStiffness> {
+        let mut out = BatchStiffness::default();
+        self.stiffness_at_joints_into(commands, jacobian, &mut out)?;
+        Ok(out)
+    }
+
+    /// The same into a result that is written over.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness_at_joints`].
+    pub fn stiffness_at_joints_into(
+        &self,
+        commands: &[f64],
+        jacobian: bool,
+        out: &mut BatchStiffness,
+    ) -> Result<()> {
+        self.unloaded(&self.joints(commands)?, jacobian, out);
+        Ok(())
+    }
+
+    fn unloaded(&self, places: &Places<'_>, jacobian: bool, out: &mut BatchStiffness) {
+        let count = places.len();
+        let coordinates = self.mechanism.limbs()[0].nominal.coordinate_count();
+        let width = if jacobian { 6 * coordinates } else { 0 };
+        out.stiffness.reset(36, count);
+        out.jacobian.reset(width, count);
+        // Commands that were given are known.
+        let commands = match places {
+            Places::Poses(_) => self.commands(),
+            Places::Joints { .. } => 0,
+        };
+        out.commands.reset(commands, count);
+        out.found.clear();
+        out.found.resize(count, Found::Not);
+        if let Ok(nominal) = &self.nominal {
+            let parts = out.stiffness.parts(BLOCKS);
+            let works = parts
+                .zip(out.jacobian.parts(BLOCKS))
+                .zip(out.commands.parts(BLOCKS))
+                .zip(out.found.chunks_mut(BLOCK * BLOCKS))
+                .enumerate()
+                .map(
+                    |(k, (((stiffness, jacobian), commands), found))| Work::Unloaded {
+                        plans: nominal,
+                        places: places.from(k * BLOCKS * BLOCK),
+                        stiffness,
+                        jacobian,
+                        commands,
+                        found,
+                    },
+                );
+            in_parallel(works, count);
+        }
+        let alone = |i: usize| {
+            let posture = self.posture(places, i)?;
+            let found = posture.stiffness()?;
+            let columns = jacobian.then(|| self.jacobian(&posture));
+            Ok((found.cartesian.matrix, columns, posture.commands()))
+        };
+        for (i, answer) in left(&out.found, alone) {
+            let Some((matrix, columns, own)) = answer else {
+                out.stiffness.set_row(i, |_| f64::NAN);
+                out.jacobian.set_row(i, |_| f64::NAN);
+                out.commands.set_row(i, |_| f64::NAN);
+                continue;
+            };
+            out.stiffness.set_row(i, |k| matrix[(k / 6, k % 6)]);
+            out.commands.set_row(i, |k| own[k]);
+            if let Some(j) = columns {
+                out.jacobian
+                    .set_row(i, |k| j[(k / coordinates, k % coordinates)]);
+            }
+            out.found[i] = Found::Alone;
+        }
+    }
+
+    /// Jacobian of a serial machine as drawn, unloaded, at the tool's origin.
+    fn jacobian(&self, posture: &Posture<'_>) -> nalgebra::Matrix6xX<f64> {
+        let limb = &self.mechanism.limbs()[0];
+        let (base, own) = (
+            &self.mechanism.platforms()[limb.from].home,
+            &posture.limbs()[0],
+        );
+        let (x, commands) = (&own.coordinates, &own.commands);
+        let at = Kinematics::new(&limb.nominal, base, x, commands, false);
+        let mut j = at.jacobian(limb.nominal.tip());
+        let tip = at.tip_pose();
+        let tool = tip * limb.platform_from_tip.inverse();
+        let arm = tool.translation.vector - tip.translation.vector;
+        for mut twist in j.column_iter_mut() {
+            let turn = twist.fixed_rows::<3>(3).into_owned();
+            let mut linear = twist.fixed_rows_mut::<3>(0);
+            linear += turn.cross(&arm);
+        }
+        j
+    }
+}
