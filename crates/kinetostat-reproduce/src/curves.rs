@@ -174,6 +174,7 @@ pub(crate) fn word(kind: SpecialKind) -> &'static str {
         SpecialKind::DisplacementLimit => "displacement limit",
         SpecialKind::Pitchfork => "pitchfork",
         SpecialKind::Transcritical => "transcritical",
+        SpecialKind::StabilityChange => "change of stability",
         SpecialKind::Multiple { .. } => "multiple bifurcation",
     }
 }

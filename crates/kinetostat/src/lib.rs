@@ -107,6 +107,7 @@ mod spatial;
 pub use chain::compliance::CartesianCompliance;
 pub use chain::directions::{Direction, DirectionKind, Share};
 pub use chain::equilibrium::Equilibrium;
+pub use chain::found_by::FoundBy;
 pub use chain::graded::{uneven_in_words, uneven_springs_in_words};
 pub use chain::link_load::{LinkLoad, link_loads};
 pub use chain::potential::{is_conservative, load_energy};
@@ -116,18 +117,22 @@ pub use chain::stability::{ShapeStability, ShapeVerdict};
 pub use chain::stiffness::{ChainStiffness, unloaded_stiffness};
 pub use compensation::following::{compensate_following, target_under_load_following};
 pub use compensation::target::{Compensation, compensate, compensate_from, target_under_load};
-pub use continuation::curve::{Branch, BranchEnd, CurvePoint, Curves, Jump, Special, SpecialKind};
+pub use continuation::curve::{
+    Branch, BranchEnd, CurveEquilibrium, CurvePoint, CurveStability, Curves, Jump, Special,
+    SpecialKind,
+};
 pub use continuation::follow::follow;
 pub use continuation::held_curve::{HeldCurve, HeldPoint};
+pub use continuation::machine_curves::MachineCurves;
 pub use continuation::machine_path::{
     MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind,
 };
 pub use continuation::parameter::{LoadPattern, Parameter};
 pub use continuation::settings::CurveSettings;
-pub use equilibrium::all_of_chain::{
-    Bounds, Equilibria, FoundEquilibrium, SearchSettings, equilibria,
-};
+pub use continuation::tool_stability::MachineStability;
+pub use equilibrium::all_of_chain::{Equilibria, FoundEquilibrium, SearchSettings, equilibria};
 pub use equilibrium::all_of_machine::{MachineEquilibria, MachineFound, SpreadSettings};
+pub use equilibrium::bounds::Bounds;
 pub use equilibrium::chain::solve_chain;
 pub use equilibrium::critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
 pub use error::{Error, LoadLimit, Result};

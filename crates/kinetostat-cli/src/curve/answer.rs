@@ -225,6 +225,7 @@ pub(crate) fn kind_name(kind: SpecialKind) -> &'static str {
         SpecialKind::DisplacementLimit => "displacement_limit",
         SpecialKind::Pitchfork => "pitchfork",
         SpecialKind::Transcritical => "transcritical",
+        SpecialKind::StabilityChange => "crossing",
         SpecialKind::Multiple { .. } => "multiple",
     }
 }

@@ -238,6 +238,9 @@ fn special_in_words(s: &Special) -> String {
         }
         SpecialKind::Pitchfork => "pitchfork: two mirrored shapes branch off".to_owned(),
         SpecialKind::Transcritical => "two branches cross and both go on".to_owned(),
+        SpecialKind::StabilityChange => {
+            "stability changes here without a limit: another branch crosses".to_owned()
+        }
         SpecialKind::Multiple { modes } => format!("{modes} modes become critical together"),
     };
     format!("{text}{tail}")

@@ -1,6 +1,6 @@
 //! The answer at one place, stable names with units.
 
-use kinetostat::{DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture};
+use kinetostat::{DirectionKind, FoundBy, Mechanism, MechanismEquilibrium, MotionKind, Posture};
 use kinetostat_analysis::instability::InstabilityShares;
 use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
@@ -64,6 +64,9 @@ pub(crate) struct Deflection {
     pub(crate) energy_j: Option<f64>,
     pub(crate) converged: bool,
     pub(crate) iterations: usize,
+    /// How the equilibrium was found, where it was not directly from the commanded posture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) found_by: Option<FoundBy>,
     /// Last correction of the iteration by the one before it; none with fewer than two.
     pub(crate) rate_observed: Option<f64>,
     /// How far the loops are from closing; rotations at the machine's length.
@@ -201,6 +204,7 @@ pub(crate) fn answer(
         energy_j: loaded.energy,
         converged: true,
         iterations: loaded.residual.iterations,
+        found_by: Some(loaded.found_by).filter(|by| *by != FoundBy::Directly),
         rate_observed: loaded.residual.rate,
         closure_mm: 1e3 * loaded.residual.closure_m,
         near_singularity,

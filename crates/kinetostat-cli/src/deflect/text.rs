@@ -23,6 +23,9 @@ pub(crate) fn in_words(query: &PlaceQuery, a: &Deflection) -> String {
         ),
         2,
     ));
+    if let Some(by) = a.found_by.filter(|by| by.may_be_another_branch()) {
+        out.push_str(&wrapped(&format!("Note: {}.", by.sentence()), 2));
+    }
     out.push('\n');
     out.push_str(&vectors(a));
     out.push('\n');

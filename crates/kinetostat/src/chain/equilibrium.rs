@@ -15,6 +15,7 @@
 
 use nalgebra::DMatrix;
 
+use crate::chain::found_by::FoundBy;
 use crate::chain::residual::{Balance, Residual};
 use crate::chain::scaling::{LEAST_LOAD, natural};
 pub(crate) use crate::chain::scaling::{balance, disparate};
@@ -47,6 +48,8 @@ pub struct Equilibrium {
     pub stability: ShapeStability,
     /// How well the conditions hold.
     pub residual: Residual,
+    /// How it was found: whether a restart may have changed the branch.
+    pub found_by: FoundBy,
 }
 
 impl System {
@@ -132,6 +135,7 @@ impl System {
                 iterations,
                 rate: None,
             },
+            found_by: FoundBy::Directly,
         }
     }
 }

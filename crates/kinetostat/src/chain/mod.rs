@@ -16,6 +16,7 @@ pub(crate) mod compliance;
 pub(crate) mod directions;
 pub(crate) mod divergence;
 pub(crate) mod equilibrium;
+pub(crate) mod found_by;
 pub(crate) mod graded;
 pub(crate) mod link_load;
 pub(crate) mod material;

@@ -6,13 +6,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::Corrected;
-use crate::continuation::curve::{Special, SpecialKind};
+use crate::continuation::curve::{CurveStability, Special, SpecialKind};
 use crate::continuation::describe::describe;
 use crate::continuation::null_directions::NullDirections;
 use crate::continuation::segment::{Segment, largest_one};
 use crate::continuation::singular_point::{refine, tangents};
+use crate::continuation::system::{Corrected, CurveSystem, SpecialPoint};
 use crate::continuation::tangent::Tangent;
 
 /// Singular values below this share of the largest belong to directions in which branches may leave.
@@ -20,13 +19,13 @@ const NULL: f64 = 1e-5;
 
 /// The bifurcation point of a segment and its share of it; `even` where an even number of modes changes, which the
 /// determinant does not show.
-pub(crate) fn bifurcation(
-    system: &mut ChainSystem<'_, '_>,
-    segment: &Segment<'_>,
+pub(crate) fn bifurcation<S: CurveSystem>(
+    system: &mut S,
+    segment: &Segment<'_, S>,
     before: &Tangent,
     after: &Tangent,
     even: bool,
-) -> Option<(f64, Special)> {
+) -> Option<(f64, SpecialPoint<S>)> {
     let step = (&segment.there.z - &segment.here.z).norm();
     let share = match even {
         true => by_count(system, segment)?,
@@ -37,21 +36,21 @@ pub(crate) fn bifurcation(
         Some((c, _)) => c.z,
         None => &segment.here.z + (&segment.there.z - &segment.here.z) * share,
     };
-    system.dense = true;
+    system.set_dense(true);
     let special = classified(system, segment, &guess, step, even);
-    system.dense = false;
+    system.set_dense(false);
     special.map(|special| (share, special))
 }
 
 /// Where the number of unstable modes changes, by halving.
-fn by_count(system: &mut ChainSystem<'_, '_>, segment: &Segment<'_>) -> Option<f64> {
+fn by_count<S: CurveSystem>(system: &mut S, segment: &Segment<'_, S>) -> Option<f64> {
     let count = segment.here.unstable;
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
         let (c, _) = segment.at(system, middle)?;
         system.evaluate(&c.z);
-        let same = (0..2).all(|k| system.stability(&c, k == 0).unstable_modes == count[k]);
+        let same = (0..2).all(|k| system.stability(&c, k == 0).unstable_modes() == count[k]);
         match same {
             true => low = middle,
             false => high = middle,
@@ -60,10 +59,34 @@ fn by_count(system: &mut ChainSystem<'_, '_>, segment: &Segment<'_>) -> Option<f
     Some(0.5 * (low + high))
 }
 
+/// Where the number of unstable modes changes through parts that are condensed out of the unknowns.
+pub(crate) fn stability_change<S: CurveSystem>(
+    system: &mut S,
+    segment: &Segment<'_, S>,
+) -> Option<(f64, SpecialPoint<S>)> {
+    let (here, there) = (segment.here, segment.there);
+    if here.unstable == there.unstable {
+        return None;
+    }
+    let share = by_count(system, segment)?;
+    let (c, t) = segment.at(system, share)?;
+    let special = Special {
+        kind: SpecialKind::StabilityChange,
+        mode: largest_one(system.motion(&t.direction)),
+        point: describe(system, &c, t.direction),
+        accuracy: 1e-6,
+        branches: Vec::new(),
+        lost_branch: false,
+        stable_side: here.held.stable() || there.held.stable(),
+        directions: Vec::new(),
+    };
+    Some((share, special))
+}
+
 /// Where the determinant changes its sign.
-fn by_determinant(
-    system: &mut ChainSystem<'_, '_>,
-    segment: &Segment<'_>,
+fn by_determinant<S: CurveSystem>(
+    system: &mut S,
+    segment: &Segment<'_, S>,
     before: &Tangent,
     after: &Tangent,
 ) -> f64 {
@@ -74,15 +97,15 @@ fn by_determinant(
 }
 
 /// Which kind of bifurcation is at a place, and which branches cross there; with dense matrices.
-fn classified(
-    system: &mut ChainSystem<'_, '_>,
-    segment: &Segment<'_>,
+fn classified<S: CurveSystem>(
+    system: &mut S,
+    segment: &Segment<'_, S>,
     guess: &DVector<f64>,
     step: f64,
     even: bool,
-) -> Option<Special> {
+) -> Option<SpecialPoint<S>> {
     // Along a family the extended system is singular; the test function alone has found the place.
-    let refined = match even || system.family.is_some() {
+    let refined = match even || system.family().is_some() {
         true => None,
         false => refine(system, guess).filter(|z| (z - guess).norm() < 0.5 * step),
     };
@@ -90,7 +113,7 @@ fn classified(
     let only_located = refined.is_none();
     let z = refined.unwrap_or_else(|| guess.clone());
     let (_, balance, matrix) = system.linearised_densely(&z);
-    let found = match system.family.clone() {
+    let found = match system.family().cloned() {
         Some(family) => system.null_directions(&family.beside(&matrix)),
         None => system.null_directions(&matrix),
     };
@@ -123,7 +146,7 @@ fn classified(
         accuracy,
         branches: Vec::new(),
         lost_branch: false,
-        stable_side: here.held.stable || there.held.stable,
+        stable_side: here.held.stable() || there.held.stable(),
         directions: crossing.others,
     })
 }
@@ -153,15 +176,15 @@ struct Crossing {
 }
 
 /// A simple bifurcation: two branches.
-fn two_branches(
-    system: &mut ChainSystem<'_, '_>,
+fn two_branches<S: CurveSystem>(
+    system: &mut S,
     z: &DVector<f64>,
     matrix: &DMatrix<f64>,
     found: NullDirections,
     null: &[DVector<f64>],
     own: &DVector<f64>,
 ) -> Crossing {
-    let left = match system.family.clone() {
+    let left = match system.family().cloned() {
         Some(family) => system.null_directions(&family.beside_left(matrix)).left,
         None => found.left,
     };

@@ -4,41 +4,60 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::corrector::Row;
-use crate::continuation::curve::{Branch, BranchEnd, CurvePoint, Special, Stop, join};
+use crate::continuation::curve::{Branch, BranchEnd, CurveEquilibrium, Stop, join};
 use crate::continuation::describe::{describe, tangent};
 use crate::continuation::family::Family;
-use crate::continuation::state_distance::segment_distance;
-use crate::continuation::state_distance::{off_segment, wrapped, wraps};
+use crate::continuation::state_distance::{off_segment, wrapped};
+use crate::continuation::system::{BranchOf, CurveSystem, Point, Row, SpecialPoint};
 use crate::continuation::tracer::Tracer;
 use crate::error::Result;
+
+/// Branches that were followed.
+pub(crate) struct Traced<E: CurveEquilibrium> {
+    pub branches: Vec<Branch<E>>,
+    /// Some that cross were left out because there were too many.
+    pub more: bool,
+}
+
+impl<E: CurveEquilibrium> Default for Traced<E> {
+    fn default() -> Self {
+        Self {
+            branches: Vec::new(),
+            more: false,
+        }
+    }
+}
 
 /// No first step away from a bifurcation converged.
 struct NotFollowed;
 
 /// Family of a branch close to the special point from which it starts.
-fn beside_origin(branch: &Branch, special: &Special) -> Option<Arc<Family>> {
-    let apart = |p: &CurvePoint| (&p.z - &special.point.z).norm();
+fn beside_origin<S: CurveSystem>(
+    branch: &BranchOf<S>,
+    special: &SpecialPoint<S>,
+) -> Option<Arc<Family>> {
+    let apart = |p: &Point<S>| (&p.z - &special.point.z).norm();
     let beside = branch.points.iter().filter(|p| apart(p) > 0.0);
     beside
         .min_by(|a, b| apart(a).total_cmp(&apart(b)))
         .and_then(|p| p.family.clone())
 }
 
-impl Tracer<'_, '_, '_> {
+impl<S: CurveSystem> Tracer<'_, S> {
     /// Follows the curve through a state in both directions, and the branches that cross it; false if the state lies on
     /// a branch that is known.
     pub fn grow(
         &mut self,
         z: &DVector<f64>,
-        branches: &mut Vec<Branch>,
-        more: &mut bool,
-        stop: Stop<'_>,
+        traced: &mut Traced<S::Equilibrium>,
+        stop: Stop<'_, S::Equilibrium>,
     ) -> Result<bool> {
         let first = self.first_point(z)?;
+        let turns = self.system.full_turns();
+        let branches = &mut traced.branches;
         let on_branch = branches.iter().flat_map(|b| b.points.windows(2)).any(|w| {
             let step = (&w[1].z - &w[0].z).norm();
-            off_segment(&self.system, &first.z, &w[0].z, &w[1].z) < 0.02 * step
+            off_segment(&first.z, &w[0].z, &w[1].z, &turns) < 0.02 * step
         });
         if on_branch {
             return Ok(false);
@@ -48,14 +67,19 @@ impl Tracer<'_, '_, '_> {
         let mut next = self.specials.len();
         branches.push(self.both_directions(&first, own, stop));
         while next < self.specials.len() && stop.is_none() {
-            self.branches_through(next, branches, allowed, more);
+            self.branches_through(next, traced, allowed);
             next += 1;
         }
         Ok(true)
     }
 
     /// The curve through an ordinary point.
-    fn both_directions(&mut self, first: &CurvePoint, branch: usize, stop: Stop<'_>) -> Branch {
+    fn both_directions(
+        &mut self,
+        first: &Point<S>,
+        branch: usize,
+        stop: Stop<'_, S::Equilibrium>,
+    ) -> BranchOf<S> {
         let mut halves = Vec::new();
         for sign in [-1.0, 1.0] {
             // A search goes in one direction only: towards larger parameters.
@@ -78,10 +102,10 @@ impl Tracer<'_, '_, '_> {
     fn branches_through(
         &mut self,
         index: usize,
-        branches: &mut Vec<Branch>,
+        traced: &mut Traced<S::Equilibrium>,
         allowed: usize,
-        more: &mut bool,
     ) {
+        let branches = &mut traced.branches;
         let special = self.specials[index].clone();
         let mut followed: Vec<(DVector<f64>, Arc<Family>)> = Vec::new();
         for direction in &special.directions {
@@ -90,7 +114,7 @@ impl Tracer<'_, '_, '_> {
                 continue;
             }
             if branches.len() >= allowed {
-                *more |= self.settings.branches > 1;
+                traced.more |= self.settings.branches > 1;
                 break;
             }
             let mut halves = Vec::new();
@@ -116,7 +140,7 @@ impl Tracer<'_, '_, '_> {
                 .map(|h| h.unwrap_or((vec![middle.clone()], BranchEnd::Closed)))
                 .collect();
             let branch = join(whole, Some(index));
-            if let Some(family) = beside_origin(&branch, &special) {
+            if let Some(family) = beside_origin::<S>(&branch, &special) {
                 followed.push((direction.clone(), family));
             }
             self.specials[index].branches.push(branches.len());
@@ -127,16 +151,16 @@ impl Tracer<'_, '_, '_> {
     /// First point of another branch at a bifurcation, and the path from there; `None` where it is known already.
     fn switch(
         &mut self,
-        special: &Special,
+        special: &SpecialPoint<S>,
         direction: &DVector<f64>,
-        branches: &[Branch],
+        branches: &[BranchOf<S>],
         branch: usize,
-    ) -> std::result::Result<Option<(Vec<CurvePoint>, BranchEnd)>, NotFollowed> {
+    ) -> std::result::Result<Option<(Vec<Point<S>>, BranchEnd)>, NotFollowed> {
         let mut middle = special.point.clone();
         middle.tangent.clone_from(direction);
         let usual = 0.3 * self.longest(direction);
         for h in [usual, 0.2 * usual, 0.04 * usual, 3.0 * usual] {
-            self.system.family.clone_from(&special.point.family);
+            self.system.resume(&special.point);
             let straight = &middle.z + direction * h;
             let offset = direction.dot(&straight);
             let predicted = self.system.followed(&middle.z, straight);
@@ -149,14 +173,16 @@ impl Tracer<'_, '_, '_> {
             if (&c.z - &predicted).norm() > 0.4 * h {
                 continue;
             }
-            self.system.family = self.family_at(&c, direction);
+            let family = self.family_at(&c, direction);
+            self.system.set_family(family);
             let Some(next) = tangent(&self.system, &c.matrix, direction) else {
                 continue;
             };
+            let turns = self.system.full_turns();
             let covered = branches.iter().any(|b| {
                 b.points
                     .windows(2)
-                    .any(|w| off_segment(&self.system, &c.z, &w[0].z, &w[1].z) < 0.15 * h)
+                    .any(|w| off_segment(&c.z, &w[0].z, &w[1].z, &turns) < 0.15 * h)
             });
             if covered {
                 return Ok(None);
@@ -172,10 +198,10 @@ impl Tracer<'_, '_, '_> {
 
     fn run_from(
         &mut self,
-        middle: CurvePoint,
-        second: CurvePoint,
+        middle: Point<S>,
+        second: Point<S>,
         branch: usize,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
+    ) -> (Vec<Point<S>>, BranchEnd) {
         let origin = middle.z.clone();
         let (rest, mut end) = self.run_watching(second, branch, &origin);
         let mut points = vec![middle.clone()];
@@ -197,21 +223,20 @@ impl Tracer<'_, '_, '_> {
     /// As [`Self::run`] from an ordinary point; ends as closed where the path returns to `origin`.
     fn run_watching(
         &mut self,
-        second: CurvePoint,
+        second: Point<S>,
         branch: usize,
         origin: &DVector<f64>,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
+    ) -> (Vec<Point<S>>, BranchEnd) {
         let home = origin.clone();
-        let scales: Vec<f64> = wraps(&self.system);
-        let offset = self.system.reactions();
+        let turns = self.system.full_turns();
         let first = second.z.clone();
         let came = std::cell::Cell::new(0_usize);
         let previous = std::cell::RefCell::new(first.clone());
-        let returns = |p: &CurvePoint| {
+        let returns = |p: &Point<S>| {
             came.set(came.get() + 1);
             let last = previous.replace(p.z.clone());
-            let span = wrapped(&p.z, &last, &scales, offset).norm();
-            came.get() > 5 && segment_distance(&home, &last, &p.z, &scales, offset) < 0.05 * span
+            let span = wrapped(&p.z, &last, &turns).norm();
+            came.get() > 5 && off_segment(&home, &last, &p.z, &turns) < 0.05 * span
         };
         let (points, end) = self.run(second, true, branch, Some(&returns));
         let end = if end == BranchEnd::Found {

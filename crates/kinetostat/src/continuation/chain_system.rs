@@ -95,6 +95,11 @@ impl ChainSystem<'_, '_> {
         })
     }
 
+    /// Metres or radians per unit of a coordinate of a state.
+    pub fn unit_of_coordinate(&self, i: usize) -> f64 {
+        self.scaling[6 + i] * self.unit
+    }
+
     /// Coordinates (m, rad) of a state.
     pub fn coordinates(&self, z: &DVector<f64>) -> Vec<f64> {
         let r = self.reactions();

@@ -1,29 +1,9 @@
-//! Newton's iteration across a curve: equilibrium and one more condition.
+//! Newton's iteration of a chain across a curve: equilibrium and one more condition.
 
 use nalgebra::DVector;
 
-use crate::chain::residual::Balance;
 use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::curve_matrix::CurveMatrix;
-
-/// What closes the system of equilibrium along a curve.
-pub(crate) enum Row<'v> {
-    /// `normal . z = offset`.
-    Plane(&'v DVector<f64>, f64),
-    /// The parameter has this value.
-    Parameter(f64),
-    /// The conjugate has this value.
-    Conjugate(f64),
-}
-
-/// A state that satisfies equilibrium.
-pub(crate) struct Corrected {
-    pub z: DVector<f64>,
-    /// Of the curve at that state.
-    pub matrix: CurveMatrix,
-    pub balance: Balance,
-    pub iterations: usize,
-}
+use crate::continuation::system::{Corrected, Row};
 
 impl ChainSystem<'_, '_> {
     /// Newton from `z` on equilibrium and one more row.

@@ -8,6 +8,7 @@
 //! Shapes that a motion turns into each other at no cost (a round rod that buckles in any direction)
 //! are one family and one branch, followed at rest along that motion ([`CurvePoint::in_family`]).
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -40,23 +41,51 @@ pub enum BranchEnd {
     Found,
 }
 
+/// What is known of an equilibrium on a curve.
+pub trait CurveEquilibrium: Clone + Debug {
+    /// What is known of its stability.
+    type Stability: CurveStability;
+}
+
+/// Stability of an equilibrium on a curve.
+pub trait CurveStability: Clone + Debug {
+    /// It stays.
+    fn stable(&self) -> bool;
+    /// Number of independent motions in which it goes away.
+    fn unstable_modes(&self) -> usize;
+}
+
+impl CurveEquilibrium for Equilibrium {
+    type Stability = ShapeStability;
+}
+
+impl CurveStability for ShapeStability {
+    fn stable(&self) -> bool {
+        self.stable
+    }
+
+    fn unstable_modes(&self) -> usize {
+        self.unstable_modes
+    }
+}
+
 /// An equilibrium on a curve.
 #[derive(Clone, Debug)]
-pub struct CurvePoint {
+pub struct CurvePoint<E: CurveEquilibrium = Equilibrium> {
     /// Displacement (m, rad) or load factor.
     pub parameter: f64,
     /// Force (N, N m) along the displacement, or displacement along the load pattern (J per unit
     /// factor, since the curve's start).
     pub conjugate: f64,
     /// Coordinates, wrench, energy, stiffness and shape (the whole end held).
-    pub equilibrium: Equilibrium,
+    pub equilibrium: E,
     /// Load per displacement along the curve (N/m, N m/rad; for a load pattern factor per J):
     /// negative where a dead load runs away, infinite where the end is locked.
     pub slope: f64,
     /// Stability while the motion along the parameter's direction is prescribed.
-    pub held: ShapeStability,
+    pub held: E::Stability,
     /// Stability while a dead load acts along it instead.
-    pub dead: ShapeStability,
+    pub dead: E::Stability,
     /// Arc length since the branch's first point, natural units.
     pub arc: f64,
     pub(crate) z: DVector<f64>,
@@ -65,7 +94,7 @@ pub struct CurvePoint {
     pub(crate) family: Option<Arc<Family>>,
 }
 
-impl CurvePoint {
+impl<E: CurveEquilibrium> CurvePoint<E> {
     /// Number of unstable modes while the motion along the parameter is prescribed, and under a
     /// dead load.
     #[must_use]
@@ -103,6 +132,9 @@ pub enum SpecialKind {
     Pitchfork,
     /// Two branches cross and both go on.
     Transcritical,
+    /// Stability ends or comes back without a limit point and without a branch that the unknowns of the curve show:
+    /// a limb or a platform of a machine that moves while the tool stands still.
+    StabilityChange,
     /// Several modes become critical together.
     Multiple {
         /// Number of independent critical modes.
@@ -114,17 +146,20 @@ impl SpecialKind {
     /// True where branches cross.
     #[must_use]
     pub fn is_bifurcation(self) -> bool {
-        !matches!(self, Self::LoadLimit | Self::DisplacementLimit)
+        !matches!(
+            self,
+            Self::LoadLimit | Self::DisplacementLimit | Self::StabilityChange
+        )
     }
 }
 
 /// A limit point or a bifurcation point.
 #[derive(Clone, Debug)]
-pub struct Special {
+pub struct Special<E: CurveEquilibrium = Equilibrium> {
     /// Which kind.
     pub kind: SpecialKind,
     /// The equilibrium there.
-    pub point: CurvePoint,
+    pub point: CurvePoint<E>,
     /// Motion of all coordinates (m, rad; largest component 1): of the critical mode at a
     /// bifurcation, along the curve at a limit point.
     pub mode: Vec<f64>,
@@ -143,9 +178,9 @@ pub struct Special {
 
 /// A smooth path of equilibria.
 #[derive(Clone, Debug)]
-pub struct Branch {
+pub struct Branch<E: CurveEquilibrium = Equilibrium> {
     /// In order along the path.
-    pub points: Vec<CurvePoint>,
+    pub points: Vec<CurvePoint<E>>,
     /// Bifurcation point (index into [`Curves::specials`]) it was found from; `None`: the start.
     pub origin: Option<usize>,
     /// Why it ends, at the first and at the last point.
@@ -171,24 +206,27 @@ pub struct Curves<'a> {
 
 /// A jump from a limit point.
 #[derive(Clone, Debug)]
-pub struct Jump {
+pub struct Jump<E: CurveEquilibrium = Equilibrium> {
     /// The limit point: index into [`Curves::specials`].
     pub from: usize,
     /// True under a dead load (at a load limit), false under prescribed motion.
     pub dead_load: bool,
     /// Stable equilibria at the same load (displacement), nearest first; empty if no computed
     /// branch holds one.
-    pub to: Vec<CurvePoint>,
+    pub to: Vec<CurvePoint<E>>,
 }
 
 /// Tells that a point is what was looked for.
-pub(crate) type Stop<'s> = Option<&'s dyn Fn(&CurvePoint) -> bool>;
+pub(crate) type Stop<'s, E = Equilibrium> = Option<&'s dyn Fn(&CurvePoint<E>) -> bool>;
 
 /// One branch from its two halves, which share their first point.
-pub(crate) fn join(mut halves: Vec<(Vec<CurvePoint>, BranchEnd)>, origin: Option<usize>) -> Branch {
+pub(crate) fn join<E: CurveEquilibrium>(
+    mut halves: Vec<(Vec<CurvePoint<E>>, BranchEnd)>,
+    origin: Option<usize>,
+) -> Branch<E> {
     let (forward, last) = halves.pop().unwrap_or((Vec::new(), BranchEnd::Lost));
     let (backward, first) = halves.pop().unwrap_or((Vec::new(), BranchEnd::Lost));
-    let mut points: Vec<CurvePoint> = backward;
+    let mut points = backward;
     points.reverse();
     points.pop();
     for point in &mut points {

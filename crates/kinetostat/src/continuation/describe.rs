@@ -4,54 +4,49 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::Corrected;
-use crate::continuation::curve::CurvePoint;
+use crate::continuation::curve::{CurvePoint, CurveStability};
 use crate::continuation::curve_matrix::CurveMatrix;
+use crate::continuation::system::{Corrected, CurveSystem, Point};
 use crate::continuation::tangent::Tangent;
 
 /// Compliance, in natural units, below which a chain is locked along the load.
 const LOCKED: f64 = 1e-12;
 
 /// Tangent of the curve that is followed.
-pub(crate) fn tangent(
-    system: &ChainSystem<'_, '_>,
+pub(crate) fn tangent<S: CurveSystem>(
+    system: &S,
     matrix: &CurveMatrix,
     guide: &DVector<f64>,
 ) -> Option<Tangent> {
-    matrix.tangent(guide, system.family.as_deref())
+    matrix.tangent(guide, system.family().map(|f| &**f))
 }
 
 /// A point from a corrected state, with the family as it is there; the system is evaluated
 /// there.
-pub(crate) fn describe(
-    system: &mut ChainSystem<'_, '_>,
+pub(crate) fn describe<S: CurveSystem>(
+    system: &mut S,
     c: &Corrected,
     direction: DVector<f64>,
-) -> CurvePoint {
-    let before = system.family.clone();
+) -> Point<S> {
+    let before = system.family().cloned();
     if let Some(carried) = before.as_ref().and_then(|f| match &c.matrix {
         CurveMatrix::Dense(own) => f.carried(own, &direction),
         CurveMatrix::Swept(_) => None,
     }) {
-        system.family = Some(Arc::new(carried));
+        system.set_family(Some(Arc::new(carried)));
     }
     let point = described(system, c, direction);
-    system.family = before;
+    system.set_family(before);
     point
 }
 
-fn described(
-    system: &mut ChainSystem<'_, '_>,
-    c: &Corrected,
-    direction: DVector<f64>,
-) -> CurvePoint {
+fn described<S: CurveSystem>(system: &mut S, c: &Corrected, direction: DVector<f64>) -> Point<S> {
     system.evaluate(&c.z);
     let held = system.stability(c, true);
     let dead = system.stability(c, false);
     let m = system.count();
     let rate = system.conjugate_row(&c.matrix.gradient()).dot(&direction);
-    let change = direction[m] * system.sigma;
+    let change = direction[m] * system.sigma();
     let (load, displacement) = if system.is_load() {
         (change, rate)
     } else {
@@ -73,12 +68,12 @@ fn described(
         conjugate: system.conjugate(&c.z),
         equilibrium: system.equilibrium(c),
         slope,
-        unstable: [held.unstable_modes, dead.unstable_modes],
+        unstable: [held.unstable_modes(), dead.unstable_modes()],
         held,
         dead,
         arc: 0.0,
         z: c.z.clone(),
         tangent: direction,
-        family: system.family.clone(),
+        family: system.family().cloned(),
     }
 }

@@ -2,9 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::Row;
 use crate::continuation::family::Family;
+use crate::continuation::system::{CurveSystem, Row};
 use crate::linalg::complement::complement;
 
 /// Singular values below this share of the largest count as zero, if moved equilibria confirm it.
@@ -16,8 +15,8 @@ const MOVED: [f64; 3] = [0.03, 0.003, 0.0003];
 
 /// The family to which a state on a curve along `t` belongs, if any: null motions beside the
 /// curve's own, confirmed by equilibria a finite way along each of them, in both directions.
-pub(crate) fn family_of(
-    system: &mut ChainSystem<'_, '_>,
+pub(crate) fn family_of<S: CurveSystem>(
+    system: &mut S,
     z: &DVector<f64>,
     t: &DVector<f64>,
 ) -> Option<Family> {
@@ -44,7 +43,8 @@ pub(crate) fn family_of(
     let motions = &null * complement(&DMatrix::from_columns(&[own]));
     let lefts = found.left.columns(0, k).into_owned();
     let family = Family::new(motions, lefts);
-    let before = system.family.replace(family.clone().into());
+    let before = system.family().cloned();
+    system.set_family(Some(family.clone().into()));
     let sizes = family.motions.column_iter();
     let sizes: Vec<f64> = sizes
         .map(|v| system.size_of_motion(&v.into_owned()))
@@ -61,7 +61,7 @@ pub(crate) fn family_of(
         let v = v / size;
         MOVED.into_iter().any(|h| at_rest(&v, -h) && at_rest(&v, h))
     });
-    system.family = before;
+    system.set_family(before);
     system.evaluate(z);
     holds.then_some(family)
 }

@@ -2,8 +2,10 @@
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::ChainProblem;
+use crate::continuation::branch_switching::Traced;
 use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::curve::{Curves, Stop};
+use crate::continuation::curve::{CurvePoint, Curves, Jump, Stop};
+use crate::continuation::jumps::{crossings, jumps};
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracer::Tracer;
@@ -63,6 +65,42 @@ impl Curves<'_> {
         self.grow(start, value, None)
     }
 
+    /// Equilibria at one value of the parameter, on all branches.
+    ///
+    /// # Errors
+    /// None in practice: the problem was accepted when the curve was followed.
+    pub fn at(&self, value: f64) -> Result<Vec<CurvePoint>> {
+        Ok(crossings(&mut self.system()?, &self.branches, value, true))
+    }
+
+    /// Equilibria at one value of the conjugate (force along the displacement, or displacement
+    /// along the load pattern), on all branches.
+    ///
+    /// # Errors
+    /// None in practice: the problem was accepted when the curve was followed.
+    pub fn at_conjugate(&self, value: f64) -> Result<Vec<CurvePoint>> {
+        Ok(crossings(&mut self.system()?, &self.branches, value, false))
+    }
+
+    /// Where the chain goes from every limit point that a stable part of a branch runs into: stable
+    /// equilibria on the computed branches at the same dead load (load limits) or at the same
+    /// displacement (displacement limits), nearest first.
+    ///
+    /// # Errors
+    /// None in practice: the problem was accepted when the curve was followed.
+    pub fn jumps(&self) -> Result<Vec<Jump>> {
+        Ok(jumps(&mut self.system()?, &self.branches, &self.specials))
+    }
+
+    /// The chain's system in the units of this curve.
+    fn system(&self) -> Result<ChainSystem<'_, '_>> {
+        let solver = &self.settings.solver;
+        let mut system =
+            ChainSystem::new(&self.problem, Some(&self.parameter), solver)?.by_sweeps();
+        system.start(&self.start.0, &self.start.1, self.start.2)?;
+        Ok(system)
+    }
+
     fn grow(&mut self, start: &Equilibrium, value: f64, stop: Stop<'_>) -> Result<bool> {
         let (problem, parameter) = (self.problem.clone(), self.parameter.clone());
         let settings = self.settings.clone();
@@ -70,13 +108,15 @@ impl Curves<'_> {
             ChainSystem::new(&problem, Some(&parameter), &settings.solver)?.by_sweeps();
         system.start(&self.start.0, &self.start.1, self.start.2)?;
         let z = system.state(&start.coordinates, &start.wrench, value);
-        let mut tracer = Tracer {
-            system,
-            settings: &settings,
-            specials: std::mem::take(&mut self.specials),
+        let mut tracer = Tracer::new(system, &settings);
+        tracer.specials = std::mem::take(&mut self.specials);
+        let mut traced = Traced {
+            branches: std::mem::take(&mut self.branches),
+            more: self.more_branches,
         };
-        let answer = tracer.grow(&z, &mut self.branches, &mut self.more_branches, stop);
+        let answer = tracer.grow(&z, &mut traced, stop);
         self.specials = tracer.specials;
+        (self.branches, self.more_branches) = (traced.branches, traced.more);
         answer
     }
 }

@@ -10,6 +10,7 @@
 
 pub(crate) mod bifurcation;
 pub(crate) mod branch_switching;
+pub(crate) mod chain_curve;
 pub(crate) mod chain_linearisation;
 pub(crate) mod chain_stability;
 pub(crate) mod chain_start;
@@ -25,7 +26,9 @@ pub(crate) mod family_of;
 pub(crate) mod follow;
 pub(crate) mod held_curve;
 pub(crate) mod jumps;
+pub(crate) mod machine_curves;
 pub(crate) mod machine_path;
+pub(crate) mod machine_system;
 pub(crate) mod null_directions;
 pub(crate) mod parameter;
 pub(crate) mod segment;
@@ -33,5 +36,10 @@ pub(crate) mod settings;
 pub(crate) mod singular_point;
 pub(crate) mod special_points;
 pub(crate) mod state_distance;
+pub(crate) mod system;
 pub(crate) mod tangent;
+pub(crate) mod tool_conditions;
+pub(crate) mod tool_equilibrium;
+pub(crate) mod tool_stability;
+pub(crate) mod tool_steps;
 pub(crate) mod tracer;

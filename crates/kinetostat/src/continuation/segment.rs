@@ -1,36 +1,35 @@
 //! States between two neighbouring points of a curve, and zeros of functions there.
 
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::{Corrected, Row};
-use crate::continuation::curve::CurvePoint;
+use crate::continuation::system::{Corrected, CurveSystem, Point, Row};
 use crate::continuation::tangent::Tangent;
 
 /// States between two points of a curve, by their share of the step.
-pub(crate) struct Segment<'s> {
-    pub here: &'s CurvePoint,
-    pub there: &'s CurvePoint,
+pub(crate) struct Segment<'s, S: CurveSystem> {
+    pub here: &'s Point<S>,
+    pub there: &'s Point<S>,
 }
 
-impl Segment<'_> {
-    pub fn at(&self, system: &mut ChainSystem<'_, '_>, share: f64) -> Option<(Corrected, Tangent)> {
+impl<S: CurveSystem> Segment<'_, S> {
+    pub fn at(&self, system: &mut S, share: f64) -> Option<(Corrected, Tangent)> {
+        system.start_from(&self.here.equilibrium);
         let t = &self.here.tangent;
         let guess = &self.here.z + (&self.there.z - &self.here.z) * share;
         let c = system.correct(&guess, &Row::Plane(t, t.dot(&guess)), 10)?;
         if (&c.z - &guess).norm() > (&self.there.z - &self.here.z).norm() {
             return None;
         }
-        let next = c.matrix.tangent(t, system.family.as_deref())?;
+        let next = c.matrix.tangent(t, system.family().map(|f| &**f))?;
         Some((c, next))
     }
 
     /// Zero of a function of the state (Illinois), as a share of the step.
     pub fn root(
         &self,
-        system: &mut ChainSystem<'_, '_>,
+        system: &mut S,
         mut low: (f64, f64),
         mut high: (f64, f64),
         width: f64,
-        f: &dyn Fn(&mut ChainSystem<'_, '_>, &Corrected, &Tangent) -> f64,
+        f: &dyn Fn(&mut S, &Corrected, &Tangent) -> f64,
     ) -> f64 {
         let mut side = 0;
         for _ in 0..60 {
@@ -75,11 +74,11 @@ impl Segment<'_> {
 
 /// Where a function of the share of the step, `a` and `b` of one sign at the ends, comes nearest to
 /// zero or beyond it: parabolas through three values, a few times.
-pub(crate) fn dip(
-    system: &mut ChainSystem<'_, '_>,
+pub(crate) fn dip<S: CurveSystem>(
+    system: &mut S,
     a: f64,
     b: f64,
-    f: &dyn Fn(&mut ChainSystem<'_, '_>, f64) -> Option<f64>,
+    f: &dyn Fn(&mut S, f64) -> Option<f64>,
 ) -> Option<(f64, f64)> {
     let (mut low, mut high) = ((0.0, a), (1.0, b));
     let mut middle = (0.5, f(system, 0.5)?);

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::chain_system::ChainSystem;
+use crate::continuation::system::CurveSystem;
 
 /// Direction in which a curve starts: the null direction, and among several the one along which the
 /// parameter changes most.
-pub(crate) fn start_direction(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>) -> DVector<f64> {
+pub(crate) fn start_direction<S: CurveSystem>(system: &mut S, z: &DVector<f64>) -> DVector<f64> {
     let (_, _, matrix) = system.linearised_densely(z);
     let found = system.null_directions(&matrix);
     let m = matrix.nrows();
@@ -25,17 +25,14 @@ pub(crate) fn start_direction(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>
 const DIFFERENCE: f64 = 1e-5;
 
 /// Derivative of `G_z(z) ` along `p`, by central differences.
-fn change(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>, p: &DVector<f64>) -> DMatrix<f64> {
+fn change<S: CurveSystem>(system: &mut S, z: &DVector<f64>, p: &DVector<f64>) -> DMatrix<f64> {
     let (_, _, plus) = system.linearised_densely(&(z + p * DIFFERENCE));
     let (_, _, minus) = system.linearised_densely(&(z - p * DIFFERENCE));
     (plus - minus) / (2.0 * DIFFERENCE)
 }
 
 /// Newton on the extended system of a simple bifurcation point.
-pub(crate) fn refine(
-    system: &mut ChainSystem<'_, '_>,
-    guess: &DVector<f64>,
-) -> Option<DVector<f64>> {
+pub(crate) fn refine<S: CurveSystem>(system: &mut S, guess: &DVector<f64>) -> Option<DVector<f64>> {
     let m = system.count();
     let mut z = guess.clone();
     let (_, _, matrix) = system.linearised_densely(&z);
@@ -93,8 +90,8 @@ pub(crate) fn refine(
 
 /// Directions of the two branches through a simple bifurcation: roots of `a11 x^2 + 2 a12 x y + a22
 /// y^2 = 0`, `a_ij = psi^T G_zz phi_i phi_j`. The path's own comes first.
-pub(crate) fn tangents(
-    system: &mut ChainSystem<'_, '_>,
+pub(crate) fn tangents<S: CurveSystem>(
+    system: &mut S,
     z: &DVector<f64>,
     psi: &DVector<f64>,
     null: &[DVector<f64>],

@@ -11,12 +11,11 @@
 
 use nalgebra::DVector;
 
-use crate::continuation::bifurcation::bifurcation;
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::Corrected;
-use crate::continuation::curve::{CurvePoint, Special, SpecialKind};
+use crate::continuation::bifurcation::{bifurcation, stability_change};
+use crate::continuation::curve::{CurveStability, Special, SpecialKind};
 use crate::continuation::describe::describe;
 use crate::continuation::segment::{Segment, dip, largest_one};
+use crate::continuation::system::{Corrected, CurveSystem, Point, SpecialPoint};
 use crate::continuation::tangent::Tangent;
 
 /// A rate below this is zero: rates are those of unit tangents in comparable units.
@@ -24,20 +23,24 @@ const NO_RATE: f64 = 1e-9;
 
 /// Limit and bifurcation points between two neighbouring points of a curve; `None` if the test
 /// functions promise a bifurcation that is not there: the step jumped to another branch nearby.
-pub(crate) fn between(
-    system: &mut ChainSystem<'_, '_>,
-    known: &[Special],
-    here: &CurvePoint,
-    there: &CurvePoint,
+pub(crate) fn between<S: CurveSystem>(
+    system: &mut S,
+    known: &[SpecialPoint<S>],
+    here: &Point<S>,
+    there: &Point<S>,
     before: Option<&Tangent>,
     after: &Tangent,
-) -> Option<Vec<Special>> {
-    let mut found: Vec<(f64, Special)> = Vec::new();
+) -> Option<Vec<SpecialPoint<S>>> {
+    let mut found: Vec<(f64, SpecialPoint<S>)> = Vec::new();
     let segment = Segment { here, there };
     if let Some(before) = before {
         let u = |k: usize| here.unstable[k].abs_diff(there.unstable[k]);
         let even = before.sign == after.sign && (u(0) > 1 || u(1) > 1);
-        if before.sign != after.sign || even {
+        let hidden =
+            S::condensed_modes(&here.equilibrium) != S::condensed_modes(&there.equilibrium);
+        if hidden {
+            found.extend(stability_change(system, &segment));
+        } else if before.sign != after.sign || even {
             match bifurcation(system, &segment, before, after, even) {
                 Some(special) => found.push(special),
                 None if even => {}
@@ -51,7 +54,7 @@ pub(crate) fn between(
         };
         // The branch that turns back at a pitchfork has its limit there.
         let step = (&there.z - &here.z).norm();
-        let apart = |s: &Special| (&s.point.z - &c.z).norm();
+        let apart = |s: &SpecialPoint<S>| (&s.point.z - &c.z).norm();
         let least = 1e-5 * (1.0 + step);
         let pitchfork = found
             .iter()
@@ -68,8 +71,8 @@ pub(crate) fn between(
 }
 
 /// Rate of the parameter or of its conjugate along a tangent, in comparable units.
-fn rate(
-    system: &ChainSystem<'_, '_>,
+fn rate<S: CurveSystem>(
+    system: &S,
     conjugate: bool,
     gradient: &DVector<f64>,
     t: &DVector<f64>,
@@ -83,10 +86,10 @@ fn rate(
 }
 
 /// Shares of a segment at which the parameter or (`true`) its conjugate has an extreme.
-fn limits(system: &mut ChainSystem<'_, '_>, segment: &Segment<'_>) -> Vec<(bool, f64)> {
+fn limits<S: CurveSystem>(system: &mut S, segment: &Segment<'_, S>) -> Vec<(bool, f64)> {
     let mut shares: Vec<(bool, f64)> = Vec::new();
-    let (_, _, first) = system.gradient(&segment.here.z);
-    let (_, _, last) = system.gradient(&segment.there.z);
+    let first = system.gradient(&segment.here.z);
+    let last = system.gradient(&segment.there.z);
     for conjugate in [false, true] {
         let a = rate(system, conjugate, &first, &segment.here.tangent);
         let b = rate(system, conjugate, &last, &segment.there.tangent);
@@ -95,10 +98,10 @@ fn limits(system: &mut ChainSystem<'_, '_>, segment: &Segment<'_>) -> Vec<(bool,
         if a.abs() < NO_RATE || (b.abs() < NO_RATE && a.abs() < 1e-6) {
             continue;
         }
-        let here = |system: &mut ChainSystem<'_, '_>, c: &Corrected, t: &Tangent| {
+        let here = |system: &mut S, c: &Corrected, t: &Tangent| {
             rate(system, conjugate, &c.matrix.gradient(), &t.direction)
         };
-        let root = |system: &mut ChainSystem<'_, '_>, low: (f64, f64), high: (f64, f64)| {
+        let root = |system: &mut S, low: (f64, f64), high: (f64, f64)| {
             segment.root(system, low, high, 1e-13, &here)
         };
         if b.abs() < NO_RATE {
@@ -107,7 +110,7 @@ fn limits(system: &mut ChainSystem<'_, '_>, segment: &Segment<'_>) -> Vec<(bool,
             shares.push((conjugate, root(system, (0.0, a), (1.0, b))));
         } else if a.abs().min(b.abs()) < 0.5 {
             // Two limit points within one step: the rate dips through zero and comes back.
-            let f = |system: &mut ChainSystem<'_, '_>, share: f64| {
+            let f = |system: &mut S, share: f64| {
                 let (c, t) = segment.at(system, share)?;
                 Some(here(system, &c, &t))
             };
@@ -124,15 +127,18 @@ fn limits(system: &mut ChainSystem<'_, '_>, segment: &Segment<'_>) -> Vec<(bool,
 }
 
 /// A limit point from the state there and its tangent.
-fn limit_point(
-    system: &mut ChainSystem<'_, '_>,
-    segment: &Segment<'_>,
+fn limit_point<S: CurveSystem>(
+    system: &mut S,
+    segment: &Segment<'_, S>,
     conjugate: bool,
     c: &Corrected,
     t: Tangent,
-) -> Special {
+) -> SpecialPoint<S> {
     let load = conjugate != system.is_load();
-    let stable = |p: &CurvePoint| if load { p.dead.stable } else { p.held.stable };
+    let stable = |p: &Point<S>| match load {
+        true => p.dead.stable(),
+        false => p.held.stable(),
+    };
     Special {
         kind: match load {
             true => SpecialKind::LoadLimit,

@@ -5,9 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::{Corrected, Row};
-use crate::continuation::curve::{BranchEnd, CurvePoint, Special, Stop};
+use crate::continuation::curve::{BranchEnd, Stop};
 use crate::continuation::describe::{describe, tangent};
 use crate::continuation::family::Family;
 use crate::continuation::family_of::family_of;
@@ -15,9 +13,9 @@ use crate::continuation::settings::CurveSettings;
 use crate::continuation::singular_point::start_direction;
 use crate::continuation::special_points;
 use crate::continuation::state_distance::distance;
+use crate::continuation::system::{Corrected, CurveSystem, Point, Row, SpecialPoint};
 use crate::continuation::tangent::Tangent;
 use crate::error::Result;
-use crate::spatial::MotionKind;
 
 /// Attempted steps after which a branch must have come further.
 const ATTEMPTS: usize = 150;
@@ -50,14 +48,22 @@ impl Budget {
     }
 }
 
-pub(crate) struct Tracer<'p, 'a, 's> {
-    pub system: ChainSystem<'p, 'a>,
+pub(crate) struct Tracer<'s, S: CurveSystem> {
+    pub system: S,
     pub settings: &'s CurveSettings,
-    pub specials: Vec<Special>,
+    pub specials: Vec<SpecialPoint<S>>,
 }
 
-impl Tracer<'_, '_, '_> {
-    pub(super) fn first_point(&mut self, z: &DVector<f64>) -> Result<CurvePoint> {
+impl<'s, S: CurveSystem> Tracer<'s, S> {
+    pub fn new(system: S, settings: &'s CurveSettings) -> Self {
+        Self {
+            system,
+            settings,
+            specials: Vec::new(),
+        }
+    }
+
+    pub(super) fn first_point(&mut self, z: &DVector<f64>) -> Result<Point<S>> {
         let m = self.system.count();
         let mut z = z.clone();
         let mut best = None;
@@ -77,21 +83,13 @@ impl Tracer<'_, '_, '_> {
             best = Some((c, t));
         }
         let Some((c, mut t)) = best else {
-            let (_, balance) = self.system.evaluate(&z);
-            return Err(crate::error::Error::NotConverged {
-                place: format!("chain '{}'", self.system.problem.chain.name()),
-                iterations: 12,
-                residual_position_m: balance.closure * self.system.problem.chain.scale().length,
-                residual_torque: balance.torque / balance.loads.max(1e-9),
-                load_factor: 0.0,
-                last: self.system.coordinates(&z),
-                limit: None,
-            });
+            return Err(self.system.not_converged(&z, 12));
         };
         if t[m] < 0.0 {
             t *= -1.0;
         }
-        self.system.family = self.family_at(&c, &t);
+        let family = self.family_at(&c, &t);
+        self.system.set_family(family);
         if let Some(own) = tangent(&self.system, &c.matrix, &t) {
             t = own.direction;
         }
@@ -109,16 +107,7 @@ impl Tracer<'_, '_, '_> {
 
     /// Largest step along `t`.
     pub fn longest(&self, t: &DVector<f64>) -> f64 {
-        let chain = self.system.problem.chain;
-        let turn = self.settings.largest_turn;
-        let mut h = 2.0_f64;
-        for (dx, c) in self.system.motion(t).iter().zip(chain.coordinates()) {
-            let most = match c.kind {
-                MotionKind::Revolute => turn,
-                MotionKind::Prismatic => turn * chain.scale().length,
-            };
-            h = h.min(most / dx.abs().max(1e-300));
-        }
+        let mut h = self.system.longest_step(t, self.settings);
         let (low, high) = self.settings.range;
         let width = high - low;
         let most = self
@@ -126,7 +115,7 @@ impl Tracer<'_, '_, '_> {
             .largest_change
             .or_else(|| width.is_finite().then_some(width / 20.0));
         if let Some(most) = most.filter(|m| *m > 0.0) {
-            let change = (t[self.system.count()] * self.system.sigma).abs();
+            let change = (t[self.system.count()] * self.system.sigma()).abs();
             h = h.min(most / change.max(1e-300));
         }
         h
@@ -136,14 +125,14 @@ impl Tracer<'_, '_, '_> {
     /// ordinary one, whose test functions may be compared with the next.
     pub fn run(
         &mut self,
-        start: CurvePoint,
+        start: Point<S>,
         known: bool,
         branch: usize,
-        stop: Stop<'_>,
-    ) -> (Vec<CurvePoint>, BranchEnd) {
+        stop: Stop<'_, S::Equilibrium>,
+    ) -> (Vec<Point<S>>, BranchEnd) {
         let m = self.system.count();
         let mut points = vec![start];
-        self.system.family.clone_from(&points[0].family);
+        self.system.resume(&points[0]);
         if stop.is_some_and(|stop| stop(&points[0])) {
             return (points, BranchEnd::Found);
         }
@@ -198,7 +187,7 @@ impl Tracer<'_, '_, '_> {
             }
             let found = stop.is_some_and(|stop| stop(&point));
             budget.advanced((&point.z - &here.z).norm());
-            self.system.family.clone_from(&point.family);
+            self.system.resume(&point);
             probe = if point.family.is_some() {
                 self.probe(&point)
             } else {
@@ -217,11 +206,11 @@ impl Tracer<'_, '_, '_> {
     /// The point between two neighbours at which stability changes, by halving.
     pub fn stability_change(
         &mut self,
-        here: &CurvePoint,
-        there: &CurvePoint,
-        unstable: &dyn Fn(&CurvePoint) -> bool,
-    ) -> CurvePoint {
-        self.system.family.clone_from(&here.family);
+        here: &Point<S>,
+        there: &Point<S>,
+        unstable: &dyn Fn(&Point<S>) -> bool,
+    ) -> Point<S> {
+        self.system.resume(&here);
         let (mut low, mut high, mut best) = (0.0, 1.0, there.clone());
         for _ in 0..50 {
             let share = 0.5 * (low + high);
@@ -245,17 +234,13 @@ impl Tracer<'_, '_, '_> {
     }
 
     /// Test functions at a point.
-    pub fn probe(&mut self, point: &CurvePoint) -> Option<Tangent> {
+    pub fn probe(&mut self, point: &Point<S>) -> Option<Tangent> {
         let (_, _, matrix) = self.system.linearised(&point.z);
         tangent(&self.system, &matrix, &point.tangent)
     }
 
     /// One step of length `h`, `None` if it is too long.
-    pub(super) fn step(
-        &mut self,
-        here: &CurvePoint,
-        h: f64,
-    ) -> Option<(CurvePoint, Tangent, usize)> {
+    pub(super) fn step(&mut self, here: &Point<S>, h: f64) -> Option<(Point<S>, Tangent, usize)> {
         let t = &here.tangent;
         let straight = &here.z + t * h;
         let offset = t.dot(&straight);
@@ -274,7 +259,7 @@ impl Tracer<'_, '_, '_> {
     }
 
     /// Whether the last step left the limits.
-    pub(super) fn beyond(&self, here: &CurvePoint, point: &CurvePoint) -> Option<BranchEnd> {
+    pub(super) fn beyond(&self, here: &Point<S>, point: &Point<S>) -> Option<BranchEnd> {
         let left = |from: f64, to: f64, (low, high): (f64, f64)| {
             (to > high && to > from) || (to < low && to < from)
         };
@@ -287,18 +272,12 @@ impl Tracer<'_, '_, '_> {
         {
             return Some(BranchEnd::Range);
         }
-        let chain = self.system.problem.chain;
-        let far = point
-            .equilibrium
-            .coordinates
-            .iter()
-            .zip(chain.coordinates())
-            .any(|(x, c)| c.kind == MotionKind::Revolute && x.abs() > self.settings.largest_angle);
+        let far = (self.system).beyond_angle(&point.equilibrium, self.settings.largest_angle);
         far.then_some(BranchEnd::Angle)
     }
 
     /// The point at which the path crosses a limit between two points.
-    fn cut(&mut self, here: &CurvePoint, point: &CurvePoint) -> Option<(CurvePoint, Tangent)> {
+    fn cut(&mut self, here: &Point<S>, point: &Point<S>) -> Option<(Point<S>, Tangent)> {
         let cross = |from: f64, to: f64, (low, high): (f64, f64)| {
             let limit = if to > high { high } else { low };
             let crosses = (to > high && from < high) || (to < low && from > low);
@@ -330,8 +309,8 @@ impl Tracer<'_, '_, '_> {
     /// branch.
     pub(super) fn look_between(
         &mut self,
-        here: &CurvePoint,
-        point: &CurvePoint,
+        here: &Point<S>,
+        point: &Point<S>,
         before: Option<&Tangent>,
         after: &Tangent,
         branch: usize,

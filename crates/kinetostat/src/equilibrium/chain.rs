@@ -2,6 +2,7 @@
 
 use crate::chain::directions::DirectionKind;
 use crate::chain::equilibrium::Equilibrium;
+use crate::chain::found_by::FoundBy;
 use crate::chain::newton::{Attempt, Way};
 use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
 use crate::chain::residual::Balance;
@@ -22,7 +23,7 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
     solve_along(problem, settings, None).map(|(equilibrium, _)| equilibrium)
 }
 
-/// [`solve_chain`] by a path of choice; says which one was left at the end.
+/// [`solve_chain`] by an algorithm of choice (dense or by sweeps); with the one that was used at the end.
 pub(crate) fn solve_along(
     problem: &ChainProblem<'_>,
     settings: &Settings,
@@ -49,20 +50,25 @@ pub(crate) fn solve_along(
         let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) else {
             continue;
         };
-        let found = attempt.finish(x, wrench, iterations, &balance);
-        return Ok(led_to(problem, settings, path, &found.0).unwrap_or(found));
+        let mut found = attempt.finish(x, wrench, iterations, &balance);
+        if nudge != 0.0 {
+            found.0.found_by = FoundBy::OutOfLine;
+        }
+        return Ok(led_by_growing_load(problem, settings, path, &found.0).unwrap_or(found));
     }
     let mut failure = match grow_load(&mut attempt, false, 1.0) {
         Ok((x, wrench, iterations, balance)) => {
-            return Ok(attempt.finish(x, wrench, iterations, &balance));
+            let found = attempt.finish(x, wrench, iterations, &balance);
+            return Ok(found_by(found, FoundBy::GrowingLoad));
         }
         Err(failure) => failure,
     };
-    // On a straight way to a bent shape the chain is pressed and buckles; on a screw it is pulled.
+    // On a straight path to a bent shape the chain is pressed and buckles; on a screw it is pulled.
     if problem.end.prescribed == [Prescribed::Pose; 6] {
         match grow_load(&mut attempt, true, 1.0) {
             Ok((x, wrench, iterations, balance)) => {
-                return Ok(attempt.finish(x, wrench, iterations, &balance));
+                let found = attempt.finish(x, wrench, iterations, &balance);
+                return Ok(found_by(found, FoundBy::GrowingLoad));
             }
             Err(other) => {
                 failure.iterations += other.iterations;
@@ -75,10 +81,11 @@ pub(crate) fn solve_along(
             }
         }
     }
-    // The way from rest may end at a fold although equilibria exist elsewhere.
+    // The path from rest may end at a fold although equilibria exist elsewhere.
     for nudge in [0.3, 0.8, 1.5, 2.5] {
         if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
-            return Ok(attempt.finish(x, wrench, iterations, &balance));
+            let found = attempt.finish(x, wrench, iterations, &balance);
+            return Ok(found_by(found, FoundBy::OtherStart));
         }
     }
     if let Some(reason) = crate::equilibrium::no_equilibrium::why(problem) {
@@ -96,20 +103,26 @@ pub(crate) fn solve_along(
     })
 }
 
+/// The same, and how it was found.
+fn found_by(mut found: (Equilibrium, Path), by: FoundBy) -> (Equilibrium, Path) {
+    found.0.found_by = by;
+    found
+}
+
 /// How far the growing load came.
 struct Failure {
     /// Largest share with an equilibrium.
     share: f64,
     /// Coordinates of that equilibrium.
     last: Vec<f64>,
-    /// What it lacks at the full load.
+    /// Its residual at the full load.
     balance: Balance,
     iterations: usize,
 }
 
 /// The shape that stays and to which the growing load leads, where one step found another that does not and is
 /// far: it may have passed the former. A straight column, pressed, stays straight.
-fn led_to(
+fn led_by_growing_load(
     problem: &ChainProblem<'_>,
     settings: &Settings,
     path: Option<Path>,
@@ -123,6 +136,7 @@ fn led_to(
     let (x, wrench, iterations, balance) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
     let spent = found.residual.iterations + iterations;
     let grown = attempt.finish(x, wrench, spent, &balance);
+    let grown = found_by(grown, FoundBy::GrowingLoad);
     stays(problem, settings, &grown.0).then_some(grown)
 }
 
@@ -176,8 +190,8 @@ fn grow_load(
                 iterations += spent;
                 step *= 0.5;
                 if step < attempt.settings.smallest_load_step.max(1e-9) {
-                    let (closure, lack) = attempt.evaluate(&x, &wrench, 1.0);
-                    let balance = attempt.measure(&attempt.end_rows(&closure, &lack), &wrench);
+                    let (closure, residual) = attempt.evaluate(&x, &wrench, 1.0);
+                    let balance = attempt.measure(&attempt.end_rows(&closure, &residual), &wrench);
                     return Err(Failure {
                         share,
                         last: x,

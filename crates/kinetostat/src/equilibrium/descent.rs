@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::DirectionKind;
-use crate::continuation::machine_path::Path;
+use crate::continuation::tool_conditions::ToolConditions;
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::platforms::parts::Guide;
 use crate::spatial::{Twist, moved, pose_residual};
@@ -19,7 +19,7 @@ const LAST: f64 = 1e-7;
 /// Longest step.
 const LONGEST: f64 = 0.2;
 
-impl Path<'_, '_> {
+impl ToolConditions<'_, '_> {
     /// Where the machine goes to from a state in which its tool is held, if it is let go; `None` where
     /// its loads have no potential.
     pub(crate) fn descend(&self, start: MechanismEquilibrium) -> Option<MechanismEquilibrium> {

@@ -4,12 +4,13 @@
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::{Direction, DirectionKind, motion_in_words};
+use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
 use crate::chain::residual::Residual;
 use crate::chain::scaling::SHORT_STEP;
-use crate::continuation::machine_path::Path;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
+use crate::continuation::tool_conditions::ToolConditions;
 use crate::error::{Error, LoadLimit, Result};
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::platforms::parts::Unknowns;
@@ -84,7 +85,7 @@ impl<'m> Posture<'m> {
         for way in self.costless_ways(wrench) {
             match self.led(&way, wrench) {
                 Led::Rest(state) => {
-                    if let Some(found) = self.finished(state, wrench) {
+                    if let Some(found) = self.finished(state, wrench, FoundBy::OtherStart) {
                         return Ok(found);
                     }
                 }
@@ -96,7 +97,9 @@ impl<'m> Posture<'m> {
         if wrench.0.norm() > 0.0
             && let Ok((state, limit)) = self.under_growing_load(wrench)
         {
-            if let Some(found) = state.and_then(|state| self.finished(state, wrench)) {
+            if let Some(found) =
+                state.and_then(|state| self.finished(state, wrench, FoundBy::GrowingLoad))
+            {
                 return Ok(found);
             }
             if let Some(limit) = limit {
@@ -126,10 +129,12 @@ impl<'m> Posture<'m> {
         &self,
         state: MechanismState,
         wrench: &Wrench,
+        found_by: FoundBy,
     ) -> Option<(PlatformSolver<'m>, Residual)> {
         let mut solver = self.solver(state, Unknowns::Pose);
         solver.wrench = *wrench;
         let (iterations, balance) = solver.solve(1.0, 0).ok()?;
+        solver.found_by = found_by;
         Some((solver, balance.residual(iterations)))
     }
 
@@ -149,7 +154,7 @@ impl<'m> Posture<'m> {
         let mut settings = CurveSettings::within(0.0, 1.0);
         settings.points = (EFFORT / coordinates.max(1)).clamp(10, settings.points);
         let end = EndCondition::wrench(Wrench::zero());
-        let path = Path::new(self, &load, &end, &settings)?;
+        let path = ToolConditions::new(self, &load, &end, &settings)?;
         // Motions that cost nothing have no limit but rounding.
         let (whole, limit) = path.growing(|p| p.parameter <= LEAST_SHARE)?;
         let limit = limit.map(|p| LoadLimit {
@@ -195,7 +200,7 @@ impl<'m> Posture<'m> {
     /// Leads the tool along a motion while the whole load acts, the way it is pushed, until it needs
     /// no hand.
     fn led(&self, way: &Twist, wrench: &Wrench) -> Led {
-        let Ok(free) = Path::held_at(self, &EndCondition::wrench(*wrench)) else {
+        let Ok(free) = ToolConditions::held_at(self, &EndCondition::wrench(*wrench)) else {
             return Led::Lost(false);
         };
         let path = free.driven(

@@ -6,9 +6,14 @@
 
 pub(crate) mod all_of_chain;
 pub(crate) mod all_of_machine;
+pub(crate) mod bounds;
 pub(crate) mod chain;
+pub(crate) mod chain_search;
+pub(crate) mod chain_starts;
 pub(crate) mod critical;
 pub(crate) mod descent;
 pub(crate) mod growing_load;
 pub(crate) mod machine;
+pub(crate) mod machine_search;
 pub(crate) mod no_equilibrium;
+pub(crate) mod search;

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::chain::directions::{Direction, DirectionKind};
+use crate::chain::found_by::FoundBy;
 use crate::chain::link_load::{LinkLoad, link_loads};
 use crate::chain::potential::load_energy;
 use crate::chain::problem::{ChainProblem, EndCondition};
@@ -108,6 +109,8 @@ pub struct MechanismEquilibrium {
     pub limbs: Vec<LimbEquilibrium>,
     /// How well the conditions of equilibrium hold.
     pub residual: Residual,
+    /// How it was found: whether a restart may have changed the branch.
+    pub found_by: FoundBy,
     /// State from which a neighbouring equilibrium can be started.
     pub state: MechanismState,
     /// Platforms other than the tool keep their places while the tool is held.
@@ -224,6 +227,7 @@ pub(crate) fn conclude(
         length: m.scale().length,
         limbs,
         residual,
+        found_by: solver.found_by,
         state: solver.state.clone(),
     };
     Ok(answer.named(m))

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::{ChainProblem, check_numbers};
 use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::corrector::Row;
+use crate::continuation::system::Row;
 use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};

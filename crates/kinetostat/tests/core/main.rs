@@ -18,6 +18,7 @@ mod platforms;
 mod all_equilibria;
 mod beam_tables_3_2_and_3_3;
 mod bent_links_buckle;
+mod branches_of_machines;
 mod change_of_frame_and_reference_point;
 mod compensation_closes;
 mod condensed_equals_flattened;

@@ -2,6 +2,7 @@
 
 use nalgebra::{DVector, Vector6};
 
+use crate::chain::found_by::FoundBy;
 use crate::chain::scaling::{aside, step_limit};
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
@@ -313,6 +314,7 @@ impl PlatformSolver<'_> {
                 }
             }
         }
+        self.found_by = FoundBy::GrowingLoad;
         self.offsets.fill(Twist::zero());
         self.leads = false;
         Ok(self.residual(&last, iterations))

@@ -15,6 +15,7 @@
 use nalgebra::{DMatrix, Vector3, Vector6};
 
 use crate::chain::equilibrium::{System, balance, rounding};
+use crate::chain::found_by::FoundBy;
 use crate::chain::passive::balanced_jacobian;
 use crate::chain::residual::Balance;
 use crate::chain::scaling::LEAST_LOAD;
@@ -64,6 +65,8 @@ pub(crate) struct PlatformSolver<'m> {
     /// The tool is led to its place while the load grows, its limb after it.
     pub leads: bool,
     pub share: f64,
+    /// How the state was found.
+    pub found_by: FoundBy,
     /// See [`crate::Residual::rate`], of the limbs' wrenches and coordinates.
     pub rate: Option<f64>,
     pub length: f64,
@@ -149,6 +152,7 @@ impl<'m> PlatformSolver<'m> {
             tree: tree(mechanism),
             leads: false,
             share: 1.0,
+            found_by: FoundBy::Directly,
             rate: None,
             length,
             stiffness,

@@ -1,0 +1,325 @@
+//! The search of a machine's equilibria: places of its tool and joints spread evenly, those beyond a singular posture
+//! first; curves along every free motion of the tool; down the potential from beside unstable shapes.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{DMatrix, DVector, Vector6};
+use rayon::prelude::*;
+
+use crate::chain::directions::DirectionKind;
+use crate::continuation::settings::CurveSettings;
+use crate::continuation::tool_conditions::ToolConditions;
+use crate::equilibrium::bounds::Bounds;
+use crate::equilibrium::search::{Entry, Found, Searched};
+use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
+use crate::machine::platforms::parts::Unknowns;
+use crate::machine::state::MechanismState;
+use crate::model::chain::Role;
+use crate::model::kinematics::unloaded_tip;
+use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
+
+/// How far tools are put from the target, as shares of the machine's size.
+const AMPLITUDES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
+
+/// Starts that are made side by side.
+const TOGETHER: usize = 16;
+
+/// Curves are followed through so many equilibria at most.
+const FOLLOWED: usize = 24;
+
+/// How far curves are followed from the target, in sizes of the machine.
+const FOLLOWED_SIZES: f64 = 2.0;
+
+/// An equilibrium that is known.
+pub(crate) struct Known {
+    pub equilibrium: MechanismEquilibrium,
+    /// Whether it stays under the conditions as prescribed.
+    pub stable: bool,
+    pub may_flutter: bool,
+    /// At a limit: a motion of the tool that needs no force and is free.
+    pub singular: bool,
+    /// Energy of springs and loads less the work of the dead wrench, J; of the springs alone where a load has no potential.
+    pub potential: f64,
+    /// Free motions along which the curve through it was followed.
+    followed: Vec<bool>,
+}
+
+/// An equilibrium, and the free motion along whose curve it lies, if it is known.
+pub(crate) struct Candidate {
+    equilibrium: MechanismEquilibrium,
+    on_curve: Option<usize>,
+}
+
+impl Candidate {
+    fn of(equilibrium: Option<MechanismEquilibrium>) -> Found<Self> {
+        equilibrium.map_or(Found::Nothing, |equilibrium| {
+            Found::Equilibrium(Self {
+                equilibrium,
+                on_curve: None,
+            })
+        })
+    }
+}
+
+/// See above.
+pub(crate) struct MachineSearch<'p, 'm> {
+    conditions: ToolConditions<'p, 'm>,
+    bounds: Vec<Bounds>,
+    /// The first starts: mirrored at the singular postures nearby, and at rest.
+    first: Vec<Twist>,
+    /// Free motions of the tool that the machine can make.
+    free: DMatrix<f64>,
+    /// The machine held where it is commanded.
+    rest: Option<MechanismEquilibrium>,
+}
+
+impl<'p, 'm> MachineSearch<'p, 'm> {
+    pub fn new(conditions: ToolConditions<'p, 'm>) -> Self {
+        let posture = conditions.posture;
+        let mut first = vec![Twist::zero()];
+        let near = posture.motion_gained(conditions.length);
+        first.extend(near.map(|n| Twist(n.way.0 * (2.0 * n.distance_m))));
+        let limbs = posture.mechanism.limbs.iter();
+        let commanded = moved(&posture.target, &Twist(conditions.held_motion()));
+        Self {
+            first,
+            free: conditions.free_motions(),
+            bounds: limbs.map(|l| Bounds::of(&l.actual)).collect(),
+            rest: posture.wrench_at(&commanded).ok(),
+            conditions,
+        }
+    }
+
+    /// Where the machine comes to rest from a spread start: from the tool put aside by a motion, in every second start
+    /// with joints turned.
+    fn let_go(&self, k: usize) -> Option<MechanismEquilibrium> {
+        let path = &self.conditions;
+        let posture = path.posture;
+        let (mechanism, tool) = (posture.mechanism, posture.mechanism.tool);
+        let motion = match self.first.get(k) {
+            Some(motion) => path.freely(&motion.0),
+            None => spread(&self.free, k, path),
+        };
+        let mut pose = moved(&posture.target, &Twist(path.held_motion()));
+        pose = moved(&pose, &Twist(motion));
+        let mut state: MechanismState = posture.rest_state();
+        if k.is_multiple_of(2) && motion.norm() > 0.0 {
+            let held = match posture.wrench_at(&pose) {
+                Ok(held) => held,
+                // Motions of the tool may be bound to each other.
+                Err(_) => path.held_at_the_end(self.rest.clone()?, &motion)?,
+            };
+            let there = held.state.clone();
+            return path.descend(held).or_else(|| path.rest(there, &path.dead));
+        }
+        if k > 0 {
+            for (limb, joints) in mechanism.limbs.iter().zip(&mut state.coordinates) {
+                for (i, c) in limb.actual.coordinates().iter().enumerate() {
+                    if c.role == Role::Passive && c.kind == MotionKind::Revolute {
+                        let share = ((k * 7 + i) as f64 * 0.618_034).fract() - 0.5;
+                        joints[i] += TAU * AMPLITUDES[k / 2 % 4] * share;
+                    }
+                }
+            }
+        }
+        let carriers = mechanism.limbs.iter().enumerate();
+        let carriers = carriers.filter(|(_, l)| l.from == 0 && l.to == tool);
+        let carriers: Vec<_> = carriers.collect();
+        if k % 4 == 3
+            && let Some((i, limb)) = carriers.get(k / 4 % carriers.len().max(1))
+        {
+            // Held where its turned joints bring it: loops close there another way.
+            let (joints, commands) = (&state.coordinates[*i], &posture.limbs[*i].commands);
+            let tip = unloaded_tip(&limb.actual, &Pose::identity(), joints, commands);
+            state.platforms[tool] = tip * limb.platform_from_tip.inverse();
+            let mut solver = posture.solver(state, Unknowns::Held);
+            let (iterations, balance) = solver.solve(1.0, 0).ok()?;
+            let held = conclude(&mut solver, balance.residual(iterations)).ok()?;
+            return path.descend(held);
+        }
+        state.platforms[tool] = pose;
+        path.rest(state, &path.dead)
+    }
+
+    /// Shapes with a drive whose slide is turned inside out do not count, nor do unstable ones far away.
+    fn counts(&self, found: &Known) -> bool {
+        let posture = self.conditions.posture;
+        let (mechanism, e) = (posture.mechanism, &found.equilibrium);
+        let joints = mechanism.limbs.iter().zip(&e.state.coordinates);
+        let drives = joints.clone().zip(&posture.limbs);
+        let mut slides = drives.flat_map(|((limb, x), own)| {
+            let drives = limb.actual.actuators().iter().zip(&own.commands);
+            drives.filter_map(move |(drive, command)| {
+                let slides = drive.kind == MotionKind::Prismatic;
+                let spring = drive.coordinate.filter(|_| slides && *command != 0.0)?;
+                Some((command + x[spring]) / command)
+            })
+        });
+        let off = pose_residual(&e.tool, &posture.target).linear();
+        let near = || {
+            off.norm() <= 3.0 * mechanism.size()
+                && joints
+                    .clone()
+                    .zip(&self.bounds)
+                    .all(|((limb, x), bounds)| bounds.hold_springs(&limb.actual, x))
+        };
+        slides.all(|share| share > 0.0) && (found.stable || near())
+    }
+
+    /// Drives the tool along each of its free motions that was not followed yet, in both directions, from an equilibrium or
+    /// (`None`) from the commanded place.
+    fn driven(&self, known: Option<&Known>) -> Vec<Found<Candidate>> {
+        let path = &self.conditions;
+        let from = known.map(|k| &k.equilibrium);
+        let reach = FOLLOWED_SIZES * path.posture.mechanism.size();
+        let mut settings = CurveSettings::within(-reach, reach);
+        settings.points = 60;
+        settings.largest_change = Some(0.05 * reach);
+        let open = |i: &usize| known.is_none_or(|k| !k.followed[*i]);
+        let motions: Vec<usize> = (0..path.free.ncols()).filter(open).collect();
+        let curve = |&i: &usize| {
+            let motion = Vector6::from_fn(|row, _| path.free[(row, i)]);
+            path.driven(&motion, settings.clone()).unloaded(from)
+        };
+        let curves: Vec<_> = motions.par_iter().map(curve).collect();
+        let mut list = Vec::new();
+        for (i, [crossings, ends]) in motions.into_iter().zip(curves) {
+            for state in crossings {
+                let there = state.platforms[path.posture.mechanism.tool];
+                let Some(equilibrium) = path.rest(state, &path.dead) else {
+                    continue;
+                };
+                let apart = path.balanced(&pose_residual(&equilibrium.tool, &there).0);
+                list.push(Found::Equilibrium(Candidate {
+                    on_curve: (apart.norm() < 1e-3 * path.length).then_some(i),
+                    equilibrium,
+                }));
+            }
+            let ends = ends.into_iter().map(|state| path.rest(state, &path.dead));
+            list.extend(ends.map(Candidate::of));
+        }
+        list
+    }
+
+    /// Lets the machine go from beside an unstable equilibrium.
+    fn let_go_beside(&self, known: &Known) -> Vec<Found<Candidate>> {
+        if known.stable {
+            return Vec::new();
+        }
+        let beside = self.conditions.pushed_off(&known.equilibrium);
+        let ended: Vec<_> = beside
+            .into_par_iter()
+            .map(|e| self.conditions.descend(e))
+            .collect();
+        ended.into_iter().map(Candidate::of).collect()
+    }
+}
+
+impl Searched for MachineSearch<'_, '_> {
+    /// Its number in the sequence.
+    type Start = usize;
+    type Candidate = Candidate;
+    type Known = Known;
+
+    /// They are the first ones of the sequence.
+    fn structured(&mut self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// What an equilibrium suggests is let go beside it, see [`Self::connected`].
+    fn suggested(&mut self, _known: &Known) -> Vec<usize> {
+        Vec::new()
+    }
+
+    fn spread(&mut self, from: usize, count: usize) -> Vec<usize> {
+        (from..from + count).collect()
+    }
+
+    fn side_by_side(&self) -> usize {
+        TOGETHER
+    }
+
+    fn patience(&self) -> usize {
+        1
+    }
+
+    fn solve(&mut self, starts: &[usize]) -> Vec<Found<Candidate>> {
+        let ended: Vec<_> = starts.par_iter().map(|&k| self.let_go(k)).collect();
+        ended.into_iter().map(Candidate::of).collect()
+    }
+
+    /// Descents do not repel each other.
+    fn deflated(&mut self, _start: &usize, _known: &[Entry<Known>]) -> Found<Candidate> {
+        Found::Nothing
+    }
+
+    fn same(&self, known: &Known, candidate: &Candidate) -> bool {
+        (self.conditions).same(&known.equilibrium, &candidate.equilibrium)
+    }
+
+    fn recognised(&self, known: &mut Known, candidate: &Candidate) {
+        if let Some(i) = candidate.on_curve {
+            known.followed[i] = true;
+        }
+    }
+
+    fn described(&mut self, candidate: Candidate) -> Option<Known> {
+        let mut known = self.conditions.described(candidate.equilibrium);
+        if let Some(i) = candidate.on_curve {
+            known.followed[i] = true;
+        }
+        self.counts(&known).then_some(known)
+    }
+
+    fn curves_first(&self) -> bool {
+        true
+    }
+
+    fn most_curves(&self) -> usize {
+        FOLLOWED
+    }
+
+    fn connected(&mut self, from: Option<&Known>) -> Vec<Found<Candidate>> {
+        let mut list = self.driven(from);
+        list.extend(from.into_iter().flat_map(|known| self.let_go_beside(known)));
+        list
+    }
+}
+
+/// The k-th of evenly spread motions of some directions (balanced): Kronecker's sequence. Distances
+/// are shares of the machine's size, angles of half a turn.
+fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_, '_>) -> Vector6<f64> {
+    let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0_f64];
+    let parts = DVector::from_fn(free.ncols(), |i, _| {
+        2.0 * (k as f64 * roots[i % 6].sqrt()).fract() - 1.0
+    });
+    let motion = free * parts * AMPLITUDES[k / 2 % 4];
+    let size = path.posture.mechanism.size();
+    Vector6::from_fn(|i, _| motion[i] * if i < 3 { size } else { PI })
+}
+
+impl ToolConditions<'_, '_> {
+    /// With its stability and energy.
+    fn described(&self, e: MechanismEquilibrium) -> Known {
+        let k = self.balanced_stiffness(&e);
+        let possible = self.possible(&e, &self.free);
+        let possible = self.without(&e, &possible, DirectionKind::Free);
+        let k = possible.transpose() * (&k + k.transpose()) * &possible * 0.5;
+        let singular = !k.is_empty() && {
+            let values = k.symmetric_eigenvalues();
+            let most = values.amax();
+            values.iter().any(|v| v.abs() < 1e-7 * most)
+        };
+        let holding = self.holds(&e, &self.free);
+        let springs: f64 = e.limbs.iter().map(|l| l.energy).sum();
+        let motion = self.motion(&e.tool);
+        Known {
+            stable: e.shapes_stable() && e.others_hold && holding.stays,
+            may_flutter: holding.may_flutter(),
+            singular,
+            potential: e.energy.unwrap_or(springs) - self.dead.0.dot(&motion),
+            followed: vec![false; self.free.ncols()],
+            equilibrium: e,
+        }
+    }
+}
