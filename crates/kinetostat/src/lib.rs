@@ -162,6 +162,7 @@ pub use model::loads::platform::PlatformLoad;
 pub use model::loads::strut::{Anchor, Strut};
 pub use model::mechanism::{Limb, Mechanism, Platform};
 pub use model::mechanism_builder::MechanismBuilder;
+pub use model::springs::bilinear::BilinearLaw;
 pub use model::springs::block::{Segment, SpringBlock, SpringLaw};
 pub use model::springs::bowing::BowingLaw;
 pub use model::springs::logarithm::LogarithmLaw;
