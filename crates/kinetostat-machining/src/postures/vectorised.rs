@@ -1,4 +1,4 @@
-//! Points of a path solved together by the batch, where its answer is the one that a search from
+//! Postures of a path solved by the vector kernels of the core, where their answer is the one that a search from
 //! neighbour to neighbour finds.
 //!
 //! The batch starts every posture from home. A program is continued from point to point instead, so
@@ -8,41 +8,39 @@
 //! points without an answer included, is left to the search point by point, which also has the words
 //! for it.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Found};
+use kinetostat::batch::{Batch, BatchEquilibrium, Found, Table};
 use kinetostat::{Mechanism, MotionKind, Pose, Role, Wrench};
 use std::f64::consts::{PI, TAU};
 
-use crate::map::outside_limits;
 use crate::near::natural_length;
-use crate::solve::{NEAR, POSITIONS};
+use crate::postures::neighbour::{NEAR, POSITIONS};
 
 /// A joint that moves farther than this between neighbours (rad, or share of the natural length) may
 /// be on another branch.
 pub(crate) const JUMP: f64 = 0.1;
 
-/// A machine with its batch.
-pub(crate) struct Together<'m> {
+/// A machine with its batch, for postures that can be solved by vector kernels.
+pub(crate) struct VectorisedPostures<'m> {
     mechanism: &'m Mechanism,
     batch: Option<Batch<'m>>,
-    /// Equilibria are judged together, too.
-    judges: bool,
+    /// There are kernels for stiffness and stability of an equilibrium, too.
+    with_stability: bool,
     length: f64,
 }
 
-impl<'m> Together<'m> {
-    /// `follows`: the orientation follows, which is a matter of neighbours: nothing is solved
-    /// together.
+impl<'m> VectorisedPostures<'m> {
+    /// `follows`: the orientation follows, which is a matter of neighbours: no kernel is used.
     pub fn new(mechanism: &'m Mechanism, follows: bool) -> Self {
         let batch = (!follows).then(|| Batch::new(mechanism));
         let batch = batch.filter(|b| b.alone().is_none());
-        // One at home tells whether there are kernels for it.
+        // One posture at home shows whether there are kernels for it.
         let home = mechanism.platforms()[mechanism.tool()].home;
-        let judged = batch
+        let at_home = batch
             .as_ref()
             .and_then(|b| b.judged_equilibrium(&[home], &[Wrench::zero()]).ok());
         Self {
             mechanism,
-            judges: judged.is_some_and(|j| j.found == [Found::Together]),
+            with_stability: at_home.is_some_and(|j| j.found == [Found::Together]),
             batch,
             length: natural_length(mechanism),
         }
@@ -67,8 +65,8 @@ impl<'m> Together<'m> {
     }
 
     /// As [`Self::rest`], with stiffness and stability.
-    pub fn judged(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
-        let batch = self.batch.as_ref().filter(|_| self.judges)?;
+    pub fn with_stability(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
+        let batch = self.batch.as_ref().filter(|_| self.with_stability)?;
         let found = batch.judged_equilibrium(poses, wrenches);
         found.ok().filter(|found| self.continued(poses, found))
     }
@@ -127,4 +125,16 @@ impl<'m> Together<'m> {
             c.role == Role::Passive && far(c.kind, difference) > JUMP
         })
     }
+}
+
+/// A command of a posture of the batch lies outside its actuator's limits.
+pub(crate) fn outside_limits(mechanism: &Mechanism, commands: &Table, i: usize) -> bool {
+    let limbs = mechanism.limbs().iter();
+    let mut own = limbs
+        .flat_map(|l| l.nominal.actuators())
+        .zip(commands.row(i));
+    own.any(|(actuator, command)| {
+        let limits = actuator.limits;
+        limits.is_some_and(|(low, high)| command < low || command > high)
+    })
 }

@@ -5,7 +5,7 @@ use crate::number::{
     MISSING, Rounding, largest, largest_angle, largest_length, least, least_length, mean_length,
     share, significant, with_unit,
 };
-use crate::result::RunResult;
+use crate::result::run_result::RunResult;
 
 /// The figures of a [`RunResult`], as [`crate::number`] writes them: largest values rounded up, least
 /// ones down.

@@ -3,10 +3,11 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::number::largest_angle;
-use crate::result::{PointResult, Summary};
-use crate::run::Task;
-use crate::solve::NEAR;
-use crate::together::JUMP;
+use crate::postures::neighbour::NEAR;
+use crate::postures::vectorised::JUMP;
+use crate::result::point::PointResult;
+use crate::result::summary::Summary;
+use crate::task::Task;
 use crate::warning::{Warning, WarningCode};
 
 /// Rotation vector between two orientations, base axes, deg.

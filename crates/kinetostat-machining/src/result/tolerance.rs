@@ -1,9 +1,9 @@
-//! Whether a written program keeps its tolerance: of a model and of a table judged and said alike.
+//! Whether a written program keeps its tolerance: corrected with a model or with a table, by one rule and in one wording.
 
 use kinetostat_program::{Accounting, Farthest};
+use serde::{Deserialize, Serialize};
 
 use crate::number::{against, largest_length, length_setting};
-use crate::result::{MissedTolerance, ToleranceVerdict};
 
 /// How a program that was corrected from a table stands to its tolerance. All that it can miss it by is what was
 /// left out: whatever else is too far off is refused when the written program is checked.
@@ -73,4 +73,30 @@ impl ToleranceVerdict {
             m.line, m.output_line, m.reason
         ))
     }
+}
+
+/// How a written program stands to its tolerance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ToleranceVerdict {
+    /// [`RunResult::allowed_mm`].
+    pub allowed_mm: f64,
+    /// [`RunResult::holds_tolerance`].
+    pub held: Option<bool>,
+    /// Where it is missed most; none where it is held.
+    pub missed: Option<MissedTolerance>,
+}
+
+/// The place where a written program is farthest beyond its tolerance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MissedTolerance {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Line of the written program, from 1.
+    pub output_line: usize,
+    /// Where the tool should be, program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// Distance of the tool from it, mm.
+    pub error_mm: f64,
+    /// Why, and what can be done.
+    pub reason: String,
 }

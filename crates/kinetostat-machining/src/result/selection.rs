@@ -1,7 +1,6 @@
-//! Which of many points are kept for plots: the envelope of every quantity that is judged.
+//! Which of many points are kept for plots: the envelope of every quantity that a result states.
 
-use crate::result::{PointKind, PointResult};
-use crate::run::size;
+use crate::result::point::{PointKind, PointResult, size};
 
 /// Points that are kept for every stretch of the path: its first one, and those with the largest and the
 /// smallest error before and after.
@@ -66,7 +65,7 @@ fn extremes(points: &[PointResult]) -> Vec<usize> {
     found.into_iter().flatten().collect()
 }
 
-/// The cutting point with the largest value; points without a number are passed over.
+/// The cutting point with the largest value; NaN is passed over.
 fn farthest(points: &[PointResult], value: impl Fn(&PointResult) -> f64) -> Option<usize> {
     let mut best: Option<(usize, f64)> = None;
     for (index, point) in points.iter().enumerate() {
@@ -77,4 +76,35 @@ fn farthest(points: &[PointResult], value: impl Fn(&PointResult) -> f64) -> Opti
         }
     }
     best.map(|(index, _)| index)
+}
+
+/// Indices of the worst points before compensation, at most ten, not two from one line or from
+/// neighbouring ones.
+pub(crate) fn worst(points: &[PointResult]) -> Vec<usize> {
+    let programmed = |i: &usize| points[*i].kind != PointKind::Corner;
+    let cutting = |i: &usize| points[*i].kind == PointKind::Feed;
+    let mut order: Vec<usize> = (0..points.len()).filter(cutting).collect();
+    if order.is_empty() {
+        order = (0..points.len()).filter(programmed).collect();
+    }
+    order.sort_by(|&i, &j| {
+        size(&points[j].error_before_mm)
+            .total_cmp(&size(&points[i].error_before_mm))
+            .then(i.cmp(&j))
+    });
+    let mut chosen: Vec<usize> = Vec::new();
+    let reach = points.last().map_or(0.0, |p| p.path_mm) / 50.0;
+    for i in order {
+        let apart = chosen.iter().all(|&j| {
+            points[i].line != points[j].line
+                && (points[i].path_mm - points[j].path_mm).abs() > reach
+        });
+        if apart {
+            chosen.push(i);
+        }
+        if chosen.len() == 10 {
+            break;
+        }
+    }
+    chosen
 }

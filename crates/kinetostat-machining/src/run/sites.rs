@@ -6,9 +6,12 @@ use kinetostat_program::{
 };
 use nalgebra::Vector3;
 
-use crate::load::{CornerLoad, LoadAlongPath};
+use crate::load::along_path::LoadAlongPath;
+use crate::load::law::CornerLoad;
+use crate::near::natural_length;
 use crate::placement::Placement;
-use crate::result::PointKind;
+use crate::result::point::PointKind;
+use crate::task::Task;
 
 /// A place on the path with its load and, for a written program, what is commanded there.
 #[derive(Clone, Debug)]
@@ -289,3 +292,20 @@ fn commanded(motion: &Move, piece: &Piece, place: f64) -> Vector3<f64> {
     }
     piece.commanded_from + (piece.commanded_to - piece.commanded_from) * place
 }
+
+/// Where a written program is looked at.
+pub(crate) fn sites_of_written<'s>(
+    task: &'s Task<'_>,
+    load: &'s LoadAlongPath<'s>,
+    written: &'s Corrected,
+) -> impl Iterator<Item = Site> + 's {
+    of_written(task.path, written, load, &task.placement, spacing_mm(task))
+}
+
+/// Length from which on a block is looked at in more places, mm of the program.
+pub(crate) fn spacing_mm(task: &Task<'_>) -> f64 {
+    SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale
+}
+
+/// Share of the natural length after which a long piece is looked at in one more place.
+const SPACING: f64 = 1.0 / 16.0;

@@ -1,10 +1,10 @@
 //! On what the claim after compensation rests, in sentences that stand beside it: the same on the
 //! terminal and in the report.
 
-use crate::load::CornerLoad;
+use crate::load::law::CornerLoad;
 use crate::number::{counted, largest, largest_length};
-use crate::result::RunResult;
-use crate::verdict::unchanged_in_words;
+use crate::result::run_result::RunResult;
+use crate::result::tolerance::unchanged_in_words;
 
 impl RunResult {
     /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.

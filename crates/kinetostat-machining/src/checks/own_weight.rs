@@ -1,16 +1,18 @@
 //! How far the machine's own weight, and what else acts in its model, put the tool off without a load on
 //! it: the part of a correction that has nothing to do with cutting.
 //!
-//! It is judged by itself. Heavy arms sag by millimetres, as they should; a cutting force that moves the tool
+//! It has a limit of its own. Heavy arms sag by millimetres, as they should; a cutting force that moves the tool
 //! that far is a wrong unit. And whoever touched the part off with the machine itself, or has a controller
 //! that knows the weight, must not correct it twice.
 
 use kinetostat::{Mechanism, Wrench};
 use nalgebra::Vector3;
 
-use crate::result::PointResult;
-use crate::run::Task;
-use crate::solve::{Orientation, in_chunks};
+use crate::postures::neighbour::in_chunks;
+use crate::postures::orientation::Orientation;
+use crate::result::point::PointResult;
+use crate::result::run_result::RunResult;
+use crate::task::Task;
 
 /// Displacement of the tool at points by what acts without a load on it, program axes, mm: the difference
 /// between the machine and the same machine without weight and loads, so that errors of its geometry do not
@@ -47,4 +49,18 @@ fn shifts(
         };
         points.iter().map(shift).collect()
     })
+}
+
+/// How far own weight and loads of the model put the tool off by themselves, mm, the largest of
+/// [`RunResult::MAX_POSTURES`] points.
+pub(crate) fn largest_by_own_weight(task: &Task<'_>, points: &[&PointResult]) -> Option<f64> {
+    let mut machines = points.iter().map(|p| task.mechanism_on(p.line));
+    if !machines.any(Mechanism::has_own_loads) {
+        return None;
+    }
+    let stride = points.len().div_ceil(RunResult::MAX_POSTURES).max(1);
+    let some: Vec<&PointResult> = points.iter().step_by(stride).copied().collect();
+    let own = by_own_loads(task, &some);
+    let sizes = own.into_iter().flatten().map(|shift| shift.norm());
+    sizes.max_by(f64::total_cmp)
 }

@@ -1,12 +1,13 @@
-//! What becomes of the claim at sharp corners if the load does the other thing there.
+//! What becomes of the claim at sharp corners if the load there is by the other of the two readings.
 
 use kinetostat::{Pose, Wrench};
 
-use crate::load::CornerLoad;
-use crate::run::{BATCH, RunError, Task, Watch};
-use crate::sites::Site;
-use crate::solve::in_chunks;
-use crate::tool::Machines;
+use crate::load::law::CornerLoad;
+use crate::postures::neighbour::in_chunks;
+use crate::run::machines::Machines;
+use crate::run::points::BATCH;
+use crate::run::sites::Site;
+use crate::task::{RunError, Task, Watch};
 
 /// Largest distance of the tool from its place on the corner steps that were read the other way, if the load
 /// there is by `reading` ([`Site::other_wrench`]), mm. None without such steps; infinite where a step has no
@@ -39,15 +40,15 @@ pub(crate) fn by_the_other_reading<S: Iterator<Item = Site>>(
         }
         let of_one_tool = batch.chunk_by(|a, b| machines.same(&a.0, &b.0));
         let errors = of_one_tool.flat_map(|run| {
-            let (together, orientation) = machines.at(&run[0].0);
-            let mechanism = together.mechanism();
+            let (vectorised, orientation) = machines.at(&run[0].0);
+            let mechanism = vectorised.mechanism();
             in_chunks(run, |memory, steps| {
                 let poses: Vec<Pose> = steps
                     .iter()
                     .map(|(site, _)| place.tool_pose(&site.commanded))
                     .collect();
                 let wrenches: Vec<Wrench> = steps.iter().map(|(_, wrench)| *wrench).collect();
-                let found = together.rest(&poses, &wrenches);
+                let found = vectorised.rest(&poses, &wrenches);
                 let [memory, _] = memory;
                 let mut tool = |i: usize| -> Option<Pose> {
                     match &found {

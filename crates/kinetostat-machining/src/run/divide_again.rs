@@ -16,8 +16,7 @@ use nalgebra::Vector3;
 
 use crate::field::ModelField;
 use crate::number::largest_length;
-use crate::result::{PointKind, PointResult};
-use crate::run::size;
+use crate::result::point::{PointKind, PointResult, size};
 use crate::warning::{Warning, WarningCode};
 
 /// Rounds of dividing again, at most. Each halves what is left at a kink of the correction, at least.
