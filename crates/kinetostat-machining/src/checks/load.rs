@@ -1,6 +1,7 @@
 //! Whether the load on the tool is one of cutting: its size, its lever, its sign, and that it acts at all.
 
-use kinetostat::{Wrench, number::short};
+use kinetostat::Wrench;
+use kinetostat::number::short;
 use nalgebra::Vector3;
 
 use crate::checks::exceeded::{Exceeded, ODD};

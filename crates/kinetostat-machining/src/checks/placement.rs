@@ -1,7 +1,7 @@
 //! Whether the part lies where the machine works.
 
-use kinetostat::Mechanism;
-use kinetostat::{Pose, number::short};
+use kinetostat::number::short;
+use kinetostat::{Mechanism, Pose};
 use kinetostat_program::Knowledge;
 
 use crate::placement::Placement;

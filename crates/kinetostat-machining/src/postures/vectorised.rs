@@ -8,9 +8,10 @@
 //! points without an answer included, is left to the search point by point, which also has the words
 //! for it.
 
+use std::f64::consts::{PI, TAU};
+
 use kinetostat::batch::{Batch, BatchEquilibrium, Found, Table};
 use kinetostat::{Mechanism, MotionKind, Pose, Role, Wrench};
-use std::f64::consts::{PI, TAU};
 
 use crate::near::natural_length;
 use crate::postures::neighbour::{NEAR, POSITIONS};

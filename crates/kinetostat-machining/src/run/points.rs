@@ -1,9 +1,8 @@
 //! Every place of a program solved: where the tool is without compensation and with it, and what the machine
 //! carries there.
 
-use kinetostat::{
-    Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench, batch::BatchEquilibrium,
-};
+use kinetostat::batch::BatchEquilibrium;
+use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::field::in_words;

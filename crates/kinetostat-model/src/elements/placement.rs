@@ -3,8 +3,8 @@
 use kinetostat::Pose;
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
+use crate::elements::quantity::{DEG, Found, Given, MM, choice, pick, vector};
 use crate::problem::{Finding, Place};
-use crate::quantity::{DEG, Found, MM, choice, pick, vector};
 use crate::schema::{Axis, AxisName, Placement};
 
 /// Angles of an orientation are within a hundred full turns, rad. Degrees that are taken for rad are: an imported
@@ -81,6 +81,7 @@ pub(crate) fn pose(place: &Place, p: &Placement) -> Found<Pose> {
     }
 }
 
+/// The orientation that a placement means: at most one of the conventions is written.
 fn orientation(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
     let angles = pick(
         place,
@@ -122,42 +123,55 @@ fn orientation(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
             "keep one of them",
         ));
     }
-    if let Some(given) = angles {
-        let [a, b, c] = given.value;
-        if given.value.iter().any(|angle| angle.abs() > MOST_TURNED) {
-            return Err(Finding::new(
-                &place.key(given.key),
-                "an angle is more than a hundred full turns",
-                "check the number and its unit, deg or rad",
-            ));
-        }
-        let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
-        let turn = UnitQuaternion::from_axis_angle;
-        return Ok(match given.key {
-            "rotation_vector_deg" | "rotation_vector_rad" => {
-                UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c))
-            }
-            "rotation_intrinsic_xyz_deg" => turn(&x, a) * turn(&y, b) * turn(&z, c),
-            "a_b_c_kuka_deg" => turn(&z, a) * turn(&y, b) * turn(&x, c),
-            _ => turn(&z, c) * turn(&y, b) * turn(&x, a),
-        });
+    match (angles, quaternion) {
+        (Some(given), _) => from_angles(place, &given),
+        (None, Some(given)) => from_quaternion(place, &given),
+        (None, None) => from_axes(place, p),
     }
-    if let Some(given) = quaternion {
-        let [a, b, c, d] = given.value;
-        let q = match given.key {
-            "quaternion_wxyz" => Quaternion::new(a, b, c, d),
-            _ => Quaternion::new(d, a, b, c),
-        };
-        let length = q.norm();
-        if (length - 1.0).abs() > 1e-3 {
-            return Err(Finding::new(
-                &place.key(given.key),
-                format!("the quaternion has the length {length}, 1 is needed"),
-                "write the four numbers with at least four digits, in the order that the key names",
-            ));
-        }
-        return Ok(UnitQuaternion::from_quaternion(q));
+}
+
+/// Three numbers, whose key names the convention.
+fn from_angles(place: &Place, given: &Given<[f64; 3]>) -> Found<UnitQuaternion<f64>> {
+    let [a, b, c] = given.value;
+    if given.value.iter().any(|angle| angle.abs() > MOST_TURNED) {
+        return Err(Finding::new(
+            &place.key(given.key),
+            "an angle is more than a hundred full turns",
+            "check the number and its unit, deg or rad",
+        ));
     }
+    let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
+    let turn = UnitQuaternion::from_axis_angle;
+    Ok(match given.key {
+        "rotation_vector_deg" | "rotation_vector_rad" => {
+            UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c))
+        }
+        "rotation_intrinsic_xyz_deg" => turn(&x, a) * turn(&y, b) * turn(&z, c),
+        "a_b_c_kuka_deg" => turn(&z, a) * turn(&y, b) * turn(&x, c),
+        _ => turn(&z, c) * turn(&y, b) * turn(&x, a),
+    })
+}
+
+/// Four numbers, whose key names their order.
+fn from_quaternion(place: &Place, given: &Given<[f64; 4]>) -> Found<UnitQuaternion<f64>> {
+    let [a, b, c, d] = given.value;
+    let q = match given.key {
+        "quaternion_wxyz" => Quaternion::new(a, b, c, d),
+        _ => Quaternion::new(d, a, b, c),
+    };
+    let length = q.norm();
+    if (length - 1.0).abs() > 1e-3 {
+        return Err(Finding::new(
+            &place.key(given.key),
+            format!("the quaternion has the length {length}, 1 is needed"),
+            "write the four numbers with at least four digits, in the order that the key names",
+        ));
+    }
+    Ok(UnitQuaternion::from_quaternion(q))
+}
+
+/// Directions of the new axes; the turn about x is that of a link where y is not given.
+fn from_axes(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
     match (&p.x_axis, &p.y_axis) {
         (None, None) => Ok(UnitQuaternion::identity()),
         (None, Some(_)) => Err(Finding::new(
@@ -202,7 +216,7 @@ pub(crate) fn written(pose: &Pose) -> Placement {
 }
 
 /// Three significant digits, nothing below a billionth.
-pub(crate) fn short(value: f64) -> String {
+pub(crate) fn three_digits(value: f64) -> String {
     match value < 1e-9 {
         true => "0".to_owned(),
         false => format!("{value:.2e}").parse().unwrap_or(value).to_string(),
@@ -210,7 +224,7 @@ pub(crate) fn short(value: f64) -> String {
 }
 
 /// A pose as the line of a file: `home = { .. }`, with the digits that a machine can tell apart.
-pub(crate) fn told(pose: &Pose) -> String {
+pub(crate) fn in_words(pose: &Pose) -> String {
     let list = |v: [f64; 3], decimals: i32| {
         let unit = 10_f64.powi(decimals);
         let parts = v.map(|x| format!("{}", (x * unit).round() / unit + 0.0));

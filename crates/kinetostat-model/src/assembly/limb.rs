@@ -5,15 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use kinetostat::{Chain, Limb, Load, Pose};
 use nalgebra::Vector3;
 
-use crate::assemble::{Findings, name};
-use crate::deviation::{AsBuilt, Own, as_built, deviations};
-use crate::elastic::unknown;
-use crate::load::{loads, named_places};
-use crate::part::Part;
-use crate::placement::pose;
+use crate::assembly::deviation::{AsBuilt, Own, as_built, deviations};
+use crate::assembly::load::{loads, named_places};
+use crate::assembly::platform::platform_index;
+use crate::assembly::template::Template;
+use crate::elements::part::Part;
+use crate::elements::placement::pose;
+use crate::findings::{Findings, name};
 use crate::problem::{Finding, Place};
 use crate::schema::{Document, LimbTable};
-use crate::template::Template;
+use crate::text::hints::unknown;
 
 /// Larger models are refused before anything of their size is allocated.
 const MOST_PARTS: usize = 20_000;
@@ -174,29 +175,4 @@ fn locate(error: &kinetostat::Error, chain: &str, document: &Document) -> Findin
         None => place,
     };
     Finding::new(&place, text, "correct this element of the chain")
-}
-
-pub(crate) fn platform_index(
-    document: &Document,
-    place: &Place,
-    name: &str,
-    findings: &mut Findings,
-) -> Option<usize> {
-    if name == "base" {
-        return Some(0);
-    }
-    let index = document.platform.iter().position(|p| p.name == name);
-    if index.is_none() {
-        let known: Vec<&str> = std::iter::once("base")
-            .chain(document.platform.iter().map(|p| p.name.as_str()))
-            .collect();
-        findings.errors.push(unknown(
-            place,
-            "platform",
-            name,
-            &known,
-            "write a table [[platform]]",
-        ));
-    }
-    index.map(|i| i + 1)
 }

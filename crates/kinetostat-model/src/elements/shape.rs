@@ -1,14 +1,14 @@
 //! Sections whose beams need more than an Euler-Bernoulli cantilever: tapered ones, and ones that
 //! bend by shear too; and materials by name. The formulas are those of `kinetostat-links`.
 
+use kinetostat::BeamSection;
 use kinetostat_links::{Material, Properties, Shape, Shear, cantilever, material};
 use nalgebra::Matrix6;
 
-use crate::elastic::{Elasticity, unknown};
+use crate::elements::quantity::{Found, MM, choice, positive};
 use crate::problem::{Finding, Place};
-use crate::quantity::{Found, MM, choice, positive};
-use crate::schema::{HollowBox, IBeam, Rectangle, Round, Section, ShearWord, Tip, Tube};
-use crate::section::section;
+use crate::schema::{HollowBox, IBeam, Rectangle, Round, Section, Tip, Tube};
+use crate::text::hints::unknown;
 
 /// A tapered beam, or one that bends by shear too.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +21,17 @@ pub(crate) struct Beam {
 }
 
 impl Beam {
+    /// A beam between two shapes; its moduli are those of the section without taper and shear.
+    pub(crate) fn new(root: Shape, tip: Shape, plain: &BeamSection, shear: Shear) -> Self {
+        Self {
+            root,
+            tip,
+            youngs_modulus: plain.youngs_modulus,
+            poissons_ratio: plain.youngs_modulus / (2.0 * plain.shear_modulus) - 1.0,
+            shear,
+        }
+    }
+
     pub(crate) fn cantilever(&self, place: &Place, length: f64) -> Found<Matrix6<f64>> {
         cantilever(
             &self.root,
@@ -59,43 +70,6 @@ impl Beam {
     }
 }
 
-/// What a section is for the links that name it.
-pub(crate) fn elasticity(
-    place: &Place,
-    s: &Section,
-    warnings: &mut Vec<Finding>,
-) -> Found<Elasticity> {
-    let plain = section(place, s, warnings)?;
-    let shear = match s.shear {
-        Some(ShearWord::Timoshenko) => Shear::Timoshenko,
-        _ => Shear::None,
-    };
-    if shear == Shear::None && s.tip.is_none() {
-        return Ok(Elasticity::Section(plain));
-    }
-    let Some(root) = root(place, s)? else {
-        return Err(Finding::new(
-            place,
-            "shear and taper need a shape",
-            "write tube, round, rectangle, i_beam or hollow_box instead of values or rigidities",
-        ));
-    };
-    let tip = match &s.tip {
-        Some(tip) => end(&place.key("tip"), tip)?,
-        None => root,
-    };
-    let beam = Beam {
-        root,
-        tip,
-        youngs_modulus: plain.youngs_modulus,
-        poissons_ratio: plain.youngs_modulus / (2.0 * plain.shear_modulus) - 1.0,
-        shear,
-    };
-    // Whether it is a beam at all does not depend on the length.
-    beam.cantilever(place, 1.0)?;
-    Ok(Elasticity::Beam(Box::new(beam)))
-}
-
 /// The material that a section names.
 pub(crate) fn material_of(place: &Place, s: &Section) -> Found<Option<&'static Material>> {
     let Some(name) = &s.material else {
@@ -123,7 +97,7 @@ pub(crate) fn root(place: &Place, s: &Section) -> Found<Option<Shape>> {
     )
 }
 
-fn end(place: &Place, t: &Tip) -> Found<Shape> {
+pub(crate) fn far_end(place: &Place, t: &Tip) -> Found<Shape> {
     let given = [
         t.tube.is_some(),
         t.round.is_some(),
@@ -207,7 +181,7 @@ fn one(
         }
     } else if let Some(b) = hollow_box {
         let place = place.key("hollow_box");
-        let size = |what: &str, choices: &[crate::quantity::Choice<f64>]| -> Found<f64> {
+        let size = |what: &str, choices: &[crate::elements::quantity::Choice<f64>]| -> Found<f64> {
             Ok(positive(&place, what, choices)?.value)
         };
         let wall = |key: &'static str, own: Option<f64>| {

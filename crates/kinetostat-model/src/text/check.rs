@@ -9,9 +9,9 @@ use serde_json::Value;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::hints;
 use crate::problem::{Finding, Place, Step};
 use crate::schema::Document;
+use crate::text::hints;
 
 /// The schema without `null`: TOML has no such value.
 pub(crate) fn schema() -> &'static Value {

@@ -1,5 +1,7 @@
 //! The nearest thing that would have been right.
 
+use crate::problem::{Finding, Place};
+
 /// The closest of `known` to `given`, if it is close enough to be a slip of the pen.
 pub(crate) fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
     // Long names cannot be slips, and the comparison costs the product of the lengths.
@@ -158,4 +160,22 @@ pub(crate) fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
         }
     };
     (format!("unknown key '{key}'"), help)
+}
+
+/// A name that refers to nothing.
+pub(crate) fn unknown(
+    place: &Place,
+    what: &str,
+    name: &str,
+    known: &[&str],
+    otherwise: &str,
+) -> Finding {
+    let mut known = known.to_vec();
+    known.dedup();
+    let help = match nearest(name, &known) {
+        Some(word) => format!("did you mean '{word}'?"),
+        None if known.is_empty() => format!("there are none; {otherwise}"),
+        None => format!("there are: {}; or {otherwise}", known.join(", ")),
+    };
+    Finding::new(place, format!("there is no {what} named '{name}'"), help)
 }

@@ -4,10 +4,12 @@
 use kinetostat::{ActuatorSpec, MotionKind};
 use nalgebra::Vector3;
 
-use crate::part::Part;
-use crate::placement::direction;
+use crate::elements::part::Part;
+use crate::elements::placement::direction;
+use crate::elements::quantity::{
+    Choice, DEG, Found, Given, MM, Scaled, choice, forbid, need, pick,
+};
 use crate::problem::{Finding, Place};
-use crate::quantity::{Choice, DEG, Found, Given, MM, Scaled, choice, forbid, need, pick};
 use crate::schema::{
     ActuatorElement, ActuatorKind, JointKind, PassiveElement, PassiveKind, SpringElement,
 };
@@ -93,7 +95,39 @@ pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec
         [e.stiffness_n_per_m, e.stiffness_n_per_mm],
         [e.stiffness_n_m_per_rad, e.stiffness_n_mm_per_rad],
     )?;
-    let rigid = e.rigid_drive.unwrap_or(false);
+    check_rigid_or_elastic(place, kind, e.rigid_drive.unwrap_or(false), stiffness)?;
+    check_rating(place, kind, e)?;
+    let rest = rest(place, kind, [e.rest_mm, e.rest_m, e.rest_deg, e.rest_rad])?;
+    let home = by_kind(
+        place,
+        "home",
+        kind,
+        &[
+            choice("home_mm", e.home_mm, MM),
+            choice("home_m", e.home_m, 1.0),
+        ],
+        &[
+            choice("home_deg", e.home_deg, DEG),
+            choice("home_rad", e.home_rad, 1.0),
+        ],
+    )?;
+    Ok(ActuatorSpec {
+        kind,
+        axis,
+        stiffness,
+        rest,
+        home: home.map_or(0.0, |h| h.value),
+        limits: limits_around(place, kind, e, home)?,
+    })
+}
+
+/// A drive is rigid or has a stiffness: neither is assumed.
+fn check_rigid_or_elastic(
+    place: &Place,
+    kind: MotionKind,
+    rigid: bool,
+    stiffness: Option<f64>,
+) -> Found<()> {
     if rigid && stiffness.is_some() {
         return Err(Finding::new(
             &place.key("rigid_drive"),
@@ -112,6 +146,10 @@ pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec
             format!("write {key}, or rigid_drive = true for a drive that does not give way"),
         ));
     }
+    Ok(())
+}
+
+fn check_rating(place: &Place, kind: MotionKind, e: &ActuatorElement) -> Found<()> {
     let rating = by_kind(
         place,
         "rating",
@@ -126,20 +164,16 @@ pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec
             "write the largest load that the drive may carry, or leave the key out",
         ));
     }
-    let rest = rest(place, kind, [e.rest_mm, e.rest_m, e.rest_deg, e.rest_rad])?;
-    let home = by_kind(
-        place,
-        "home",
-        kind,
-        &[
-            choice("home_mm", e.home_mm, MM),
-            choice("home_m", e.home_m, 1.0),
-        ],
-        &[
-            choice("home_deg", e.home_deg, DEG),
-            choice("home_rad", e.home_rad, 1.0),
-        ],
-    )?;
+    Ok(())
+}
+
+/// Limits of an actuator's command, m or rad, with its home between them.
+fn limits_around(
+    place: &Place,
+    kind: MotionKind,
+    e: &ActuatorElement,
+    home: Option<Given<f64>>,
+) -> Found<Option<(f64, f64)>> {
     let limits = by_kind(
         place,
         "limits",
@@ -177,14 +211,7 @@ pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec
             ));
         }
     }
-    Ok(ActuatorSpec {
-        kind,
-        axis,
-        stiffness,
-        rest,
-        home: home_value,
-        limits: limits.map(|l| (l.value[0], l.value[1])),
-    })
+    Ok(limits.map(|l| (l.value[0], l.value[1])))
 }
 
 /// Lead of a screw, m per turn; `None` for another actuator.
@@ -213,59 +240,71 @@ fn rest(place: &Place, kind: MotionKind, [mm, m, deg, rad]: [Option<f64>; 4]) ->
     Ok(given.map_or(0.0, |g| g.value))
 }
 
+/// A passive joint as joints of one degree of freedom each, in the order of the product.
 pub(crate) fn passive(place: &Place, name: String, e: &PassiveElement) -> Found<Vec<Part>> {
-    let lengths = [
-        choice("home_mm", e.home_mm, MM),
-        choice("home_m", e.home_m, 1.0),
-    ];
-    let angles = [
-        choice("home_deg", e.home_deg, DEG),
-        choice("home_rad", e.home_rad, 1.0),
-    ];
-    let several = [
+    match e.passive {
+        PassiveKind::Prismatic => one_axis(place, name, MotionKind::Prismatic, e),
+        PassiveKind::Revolute => one_axis(place, name, MotionKind::Revolute, e),
+        PassiveKind::Universal | PassiveKind::Spherical => several_axes(place, &name, e),
+    }
+}
+
+/// Home of a joint of one degree of freedom, by lengths and by angles.
+fn home_choices(e: &PassiveElement) -> [[Choice<f64>; 2]; 2] {
+    [
+        [
+            choice("home_mm", e.home_mm, MM),
+            choice("home_m", e.home_m, 1.0),
+        ],
+        [
+            choice("home_deg", e.home_deg, DEG),
+            choice("home_rad", e.home_rad, 1.0),
+        ],
+    ]
+}
+
+/// Homes of a joint of several angles: key, values and unit.
+fn homes_choices(e: &PassiveElement) -> [(&'static str, Option<&Vec<f64>>, f64); 2] {
+    [
         ("homes_deg", e.homes_deg.as_ref(), DEG),
         ("homes_rad", e.homes_rad.as_ref(), 1.0),
-    ];
-    let single = match e.passive {
-        PassiveKind::Prismatic => Some(MotionKind::Prismatic),
-        PassiveKind::Revolute => Some(MotionKind::Revolute),
-        PassiveKind::Universal | PassiveKind::Spherical => None,
-    };
-    if let Some(kind) = single {
-        if e.axes.is_some() {
-            return Err(Finding::new(
-                &place.key("axes"),
-                "'axes' belongs to a universal joint",
-                "write axis = ...",
-            ));
-        }
-        if let Some((key, ..)) = several.iter().find(|s| s.1.is_some()) {
-            return Err(Finding::new(
-                &place.key(key),
-                format!("'{key}' belongs to a universal or spherical joint"),
-                "write home_deg = ... (one number)",
-            ));
-        }
-        let Some(axis) = &e.axis else {
-            return Err(Finding::new(
-                place,
-                "the axis is missing",
-                "write axis = \"x\" (or another direction)",
-            ));
-        };
-        let axis = direction(&place.key("axis"), axis)?.into_inner();
-        let home = by_kind(place, "home", kind, &lengths, &angles)?;
-        return Ok(vec![Part::Passive(
-            name,
-            kind,
-            axis,
-            home.map_or(0.0, |h| h.value),
-        )]);
+    ]
+}
+
+fn one_axis(place: &Place, name: String, kind: MotionKind, e: &PassiveElement) -> Found<Vec<Part>> {
+    if e.axes.is_some() {
+        return Err(Finding::new(
+            &place.key("axes"),
+            "'axes' belongs to a universal joint",
+            "write axis = ...",
+        ));
     }
-    for choices in [&lengths, &angles] {
+    if let Some((key, ..)) = homes_choices(e).iter().find(|s| s.1.is_some()) {
+        return Err(Finding::new(
+            &place.key(key),
+            format!("'{key}' belongs to a universal or spherical joint"),
+            "write home_deg = ... (one number)",
+        ));
+    }
+    let Some(axis) = &e.axis else {
+        return Err(Finding::new(
+            place,
+            "the axis is missing",
+            "write axis = \"x\" (or another direction)",
+        ));
+    };
+    let axis = direction(&place.key("axis"), axis)?.into_inner();
+    let [lengths, angles] = home_choices(e);
+    let home = by_kind(place, "home", kind, &lengths, &angles)?;
+    let home = home.map_or(0.0, |h| h.value);
+    Ok(vec![Part::Passive(name, kind, axis, home)])
+}
+
+fn several_axes(place: &Place, name: &str, e: &PassiveElement) -> Found<Vec<Part>> {
+    for choices in home_choices(e) {
         forbid(
             place,
-            choices,
+            &choices,
             "the joint has several angles",
             "write homes_deg = [first, second, ...]",
         )?;
@@ -277,7 +316,18 @@ pub(crate) fn passive(place: &Place, name: String, e: &PassiveElement) -> Found<
             "a universal joint has axes = [first, second]; a spherical one turns about x, y, z",
         ));
     }
-    let joints: Vec<(String, Vector3<f64>)> = match (e.passive, &e.axes) {
+    let joints = named_axes(place, name, e)?;
+    let homes = homes(place, joints.len(), e)?;
+    Ok(joints
+        .into_iter()
+        .zip(homes)
+        .map(|((name, axis), home)| Part::Passive(name, MotionKind::Revolute, axis, home))
+        .collect())
+}
+
+/// Names and axes of the joints that a universal or spherical joint is the product of.
+fn named_axes(place: &Place, name: &str, e: &PassiveElement) -> Found<Vec<(String, Vector3<f64>)>> {
+    Ok(match (e.passive, &e.axes) {
         (PassiveKind::Spherical, None) => ["x", "y", "z"]
             .into_iter()
             .zip([Vector3::x(), Vector3::y(), Vector3::z()])
@@ -310,36 +360,33 @@ pub(crate) fn passive(place: &Place, name: String, e: &PassiveElement) -> Found<
                 "write axes = [\"y\", \"z\"] (or other directions)",
             ));
         }
-    };
-    let mut homes = vec![0.0; joints.len()];
-    if let [(_, Some(_), _), (key, Some(_), _)] = several {
+    })
+}
+
+/// Angles of a joint of several axes at home, rad; zero where none are written.
+fn homes(place: &Place, count: usize, e: &PassiveElement) -> Found<Vec<f64>> {
+    let given = homes_choices(e);
+    if let [(_, Some(_), _), (key, Some(_), _)] = given {
         return Err(Finding::new(
             &place.key(key),
             "the home is given twice: 'homes_deg' and 'homes_rad'",
             "keep one of them",
         ));
     }
-    for (key, values, factor) in several {
-        if let Some(values) = values {
-            if values.len() != joints.len() {
-                return Err(Finding::new(
-                    &place.key(key),
-                    format!(
-                        "'{key}' needs {} numbers, {} were found",
-                        joints.len(),
-                        values.len()
-                    ),
-                    "one for each axis, in order",
-                ));
-            }
-            homes = values.iter().map(|v| v * factor).collect();
-        }
-    }
-    Ok(joints
+    let written = given
         .into_iter()
-        .zip(homes)
-        .map(|((name, axis), home)| Part::Passive(name, MotionKind::Revolute, axis, home))
-        .collect())
+        .find_map(|(key, values, factor)| Some((key, values?, factor)));
+    let Some((key, values, factor)) = written else {
+        return Ok(vec![0.0; count]);
+    };
+    if values.len() != count {
+        return Err(Finding::new(
+            &place.key(key),
+            format!("'{key}' needs {count} numbers, {} were found", values.len()),
+            "one for each axis, in order",
+        ));
+    }
+    Ok(values.iter().map(|v| v * factor).collect())
 }
 
 pub(crate) fn spring(place: &Place, name: String, e: &SpringElement) -> Found<Part> {

@@ -3,9 +3,10 @@
 use kinetostat::BeamSection;
 use kinetostat::number::short;
 
+use crate::elements::quantity::{Choice, Found, MM, choice, forbid, pick, positive};
+use crate::elements::shape::{material_of, root};
 use crate::problem::{Finding, Place};
-use crate::quantity::{Choice, Found, MM, choice, forbid, pick, positive};
-use crate::schema::{Section, Values};
+use crate::schema::{Rigidities, Section, Values};
 
 fn modulus(
     place: &Place,
@@ -24,11 +25,98 @@ fn modulus(
     Ok(given.value)
 }
 
+/// Moduli as a section writes them.
+struct Moduli {
+    young: [Choice<f64>; 3],
+    shear: [Choice<f64>; 3],
+    poisson: [Choice<f64>; 1],
+}
+
+impl Moduli {
+    fn new(s: &Section) -> Self {
+        Self {
+            young: [
+                choice("youngs_modulus_gpa", s.youngs_modulus_gpa, 1e9),
+                choice("youngs_modulus_mpa", s.youngs_modulus_mpa, 1e6),
+                choice("youngs_modulus_pa", s.youngs_modulus_pa, 1.0),
+            ],
+            shear: [
+                choice("shear_modulus_gpa", s.shear_modulus_gpa, 1e9),
+                choice("shear_modulus_mpa", s.shear_modulus_mpa, 1e6),
+                choice("shear_modulus_pa", s.shear_modulus_pa, 1.0),
+            ],
+            poisson: [choice("poissons_ratio", s.poissons_ratio, 1.0)],
+        }
+    }
+
+    /// None may be given: something else holds the material already.
+    fn forbidden(&self, place: &Place, reason: &str, help: &str) -> Found<()> {
+        for moduli in [&self.young[..], &self.shear[..], &self.poisson[..]] {
+            forbid(place, moduli, reason, help)?;
+        }
+        Ok(())
+    }
+
+    /// Young's and the shear modulus, Pa; for an isotropic solid `G = E / (2 (1 + nu))`.
+    fn read(&self, place: &Place, warnings: &mut Vec<Finding>) -> Found<(f64, f64)> {
+        let e = modulus(place, "Young's modulus", &self.young, warnings)?;
+        let g = match pick(place, "Poisson's ratio", &self.poisson)? {
+            Some(ratio) => {
+                forbid(
+                    place,
+                    &self.shear,
+                    "Poisson's ratio gives the shear modulus already",
+                    "keep one of them",
+                )?;
+                if !(ratio.value > -1.0 && ratio.value <= 0.5) {
+                    return Err(Finding::new(
+                        &place.key(ratio.key),
+                        format!("Poisson's ratio is {}", ratio.value),
+                        "it lies above -1 and not above 0.5; metals have about 0.3",
+                    ));
+                }
+                e / (2.0 + 2.0 * ratio.value)
+            }
+            None => modulus(place, "shear modulus", &self.shear, warnings).map_err(|mut f| {
+                if f.message.ends_with("missing") {
+                    f.help.push_str(" or poissons_ratio");
+                }
+                f
+            })?,
+        };
+        Ok((e, g))
+    }
+}
+
+/// The section of a straight link: one shape, and a material or its moduli.
 pub(crate) fn section(
     place: &Place,
     s: &Section,
     warnings: &mut Vec<Finding>,
 ) -> Found<BeamSection> {
+    check_one_shape(place, s)?;
+    let moduli = Moduli::new(s);
+    if let Some(r) = &s.rigidities {
+        moduli.forbidden(
+            place,
+            "the rigidities hold the material already",
+            "leave the moduli out, or write values instead of rigidities",
+        )?;
+        return by_rigidities(&place.key("rigidities"), r);
+    }
+    if let Some(material) = material_of(place, s)? {
+        moduli.forbidden(
+            place,
+            "the material gives the moduli already",
+            "leave the moduli out, or the material",
+        )?;
+        return shape_of(place, s, material.youngs_modulus, material.shear_modulus());
+    }
+    let (e, g) = moduli.read(place, warnings)?;
+    shape_of(place, s, e, g)
+}
+
+fn check_one_shape(place: &Place, s: &Section) -> Found<()> {
     let mut shapes = [
         s.tube.as_ref().map(|_| "tube"),
         s.round.as_ref().map(|_| "round"),
@@ -54,90 +142,36 @@ pub(crate) fn section(
             "keep one of them",
         ));
     }
-    let young = [
-        choice("youngs_modulus_gpa", s.youngs_modulus_gpa, 1e9),
-        choice("youngs_modulus_mpa", s.youngs_modulus_mpa, 1e6),
-        choice("youngs_modulus_pa", s.youngs_modulus_pa, 1.0),
+    Ok(())
+}
+
+/// A section by its rigidities: moduli of one, so that area and second moments are `EA`, `EI` and `GJ`.
+fn by_rigidities(place: &Place, r: &Rigidities) -> Found<BeamSection> {
+    let bending_y = [
+        choice("bending_y_n_mm2", r.bending_y_n_mm2, MM * MM),
+        choice("bending_y_n_m2", r.bending_y_n_m2, 1.0),
     ];
-    let shear = [
-        choice("shear_modulus_gpa", s.shear_modulus_gpa, 1e9),
-        choice("shear_modulus_mpa", s.shear_modulus_mpa, 1e6),
-        choice("shear_modulus_pa", s.shear_modulus_pa, 1.0),
+    let bending_z = [
+        choice("bending_z_n_mm2", r.bending_z_n_mm2, MM * MM),
+        choice("bending_z_n_m2", r.bending_z_n_m2, 1.0),
     ];
-    let poisson = [choice("poissons_ratio", s.poissons_ratio, 1.0)];
-    if let Some(r) = &s.rigidities {
-        for moduli in [&young[..], &shear[..], &poisson[..]] {
-            forbid(
-                place,
-                moduli,
-                "the rigidities hold the material already",
-                "leave the moduli out, or write values instead of rigidities",
-            )?;
-        }
-        let place = place.key("rigidities");
-        let bending_y = [
-            choice("bending_y_n_mm2", r.bending_y_n_mm2, MM * MM),
-            choice("bending_y_n_m2", r.bending_y_n_m2, 1.0),
-        ];
-        let bending_z = [
-            choice("bending_z_n_mm2", r.bending_z_n_mm2, MM * MM),
-            choice("bending_z_n_m2", r.bending_z_n_m2, 1.0),
-        ];
-        let torsion = [
-            choice("torsion_n_mm2", r.torsion_n_mm2, MM * MM),
-            choice("torsion_n_m2", r.torsion_n_m2, 1.0),
-        ];
-        return Ok(BeamSection {
-            youngs_modulus: 1.0,
-            shear_modulus: 1.0,
-            area: positive(
-                &place,
-                "axial rigidity",
-                &[choice("axial_n", r.axial_n, 1.0)],
-            )?
-            .value,
-            second_moment_y: positive(&place, "bending rigidity about y", &bending_y)?.value,
-            second_moment_z: positive(&place, "bending rigidity about z", &bending_z)?.value,
-            torsion_constant: positive(&place, "torsional rigidity", &torsion)?.value,
-        });
-    }
-    if let Some(material) = crate::shape::material_of(place, s)? {
-        for moduli in [&young[..], &shear[..], &poisson[..]] {
-            forbid(
-                place,
-                moduli,
-                "the material gives the moduli already",
-                "leave the moduli out, or the material",
-            )?;
-        }
-        return shape_of(place, s, material.youngs_modulus, material.shear_modulus());
-    }
-    let e = modulus(place, "Young's modulus", &young, warnings)?;
-    let g = match pick(place, "Poisson's ratio", &poisson)? {
-        Some(ratio) => {
-            forbid(
-                place,
-                &shear,
-                "Poisson's ratio gives the shear modulus already",
-                "keep one of them",
-            )?;
-            if !(ratio.value > -1.0 && ratio.value <= 0.5) {
-                return Err(Finding::new(
-                    &place.key(ratio.key),
-                    format!("Poisson's ratio is {}", ratio.value),
-                    "it lies above -1 and not above 0.5; metals have about 0.3",
-                ));
-            }
-            e / (2.0 + 2.0 * ratio.value)
-        }
-        None => modulus(place, "shear modulus", &shear, warnings).map_err(|mut f| {
-            if f.message.ends_with("missing") {
-                f.help.push_str(" or poissons_ratio");
-            }
-            f
-        })?,
-    };
-    shape_of(place, s, e, g)
+    let torsion = [
+        choice("torsion_n_mm2", r.torsion_n_mm2, MM * MM),
+        choice("torsion_n_m2", r.torsion_n_m2, 1.0),
+    ];
+    Ok(BeamSection {
+        youngs_modulus: 1.0,
+        shear_modulus: 1.0,
+        area: positive(
+            place,
+            "axial rigidity",
+            &[choice("axial_n", r.axial_n, 1.0)],
+        )?
+        .value,
+        second_moment_y: positive(place, "bending rigidity about y", &bending_y)?.value,
+        second_moment_z: positive(place, "bending rigidity about z", &bending_z)?.value,
+        torsion_constant: positive(place, "torsional rigidity", &torsion)?.value,
+    })
 }
 
 fn shape_of(place: &Place, s: &Section, e: f64, g: f64) -> Found<BeamSection> {
@@ -183,7 +217,7 @@ fn shape_of(place: &Place, s: &Section, e: f64, g: f64) -> Found<BeamSection> {
         torsion_constant,
     };
     if s.rectangle.is_some() || s.i_beam.is_some() || s.hollow_box.is_some() {
-        let shape = crate::shape::root(place, s)?;
+        let shape = root(place, s)?;
         // Poisson's ratio enters shear areas only, which this section does not have.
         return match shape.and_then(|shape| shape.properties(0.3).ok()) {
             Some(p) => Ok(p.section(e, g)),

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use crate::assemble::{Findings, name};
-use crate::elastic::{Elastic, unknown};
-use crate::part::{Part, parts};
+use crate::elements::elastic::Elastic;
+use crate::elements::element::parts;
+use crate::elements::part::Part;
+use crate::findings::{Findings, name};
 use crate::problem::Place;
 use crate::schema::{Document, Element};
+use crate::text::hints::unknown;
 
 /// Longer chains are refused before anything of their size is allocated.
 const MOST_COORDINATES: usize = 1_000;

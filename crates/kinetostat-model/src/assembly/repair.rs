@@ -4,10 +4,11 @@
 use serde::Deserialize;
 use toml::de::{DeTable, DeValue};
 
-use crate::assemble::{Findings, assemble};
+use crate::assembly::mechanism::assemble;
+use crate::findings::Findings;
 use crate::problem::{Finding, Place, Step};
 use crate::schema::Document;
-use crate::source::Source;
+use crate::text::source::Source;
 
 /// Keys by which other parts of a file are found: without one of them nothing else can be judged.
 const BEARING: [&str; 6] = ["schema", "name", "from", "to", "chain", "elements"];

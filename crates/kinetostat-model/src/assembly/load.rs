@@ -5,18 +5,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use kinetostat::{Anchor, Chain, LengthLaw, Load, PlatformLoad, Wrench};
 use nalgebra::Vector3;
 
-use crate::assemble::{Findings, name};
-use crate::elastic::unknown;
-use crate::limb::platform_index;
-use crate::part::Part;
+use crate::assembly::platform::platform_index;
+use crate::assembly::template::Template;
+use crate::elements::part::Part;
+use crate::elements::quantity::{Found, MM, choice, need, positive, vector};
+use crate::findings::{Findings, name};
 use crate::problem::{Finding, Place};
-use crate::quantity::{Found, MM, choice, need, positive, vector};
+use crate::schema::load::End;
 use crate::schema::{
     self, ChainTable, Document, Element, GasSpringLoad, LimbTable, LoadTable, PlatformAxes,
     PlatformLoadTable, PlatformPoint, SpringLoad, WrenchAxes,
 };
-use crate::schema_load::End;
-use crate::template::Template;
+use crate::text::hints::unknown;
 
 /// The machine's fixed base as a place for the end of a spring.
 const BASE: &str = "base";

@@ -36,7 +36,7 @@ pub(crate) fn frames(chain: &Chain) -> Vec<Pose> {
 
 /// Size of a machine, m: the longest way from joint to joint of any limb at home, the way to the
 /// first of them left out.
-pub(crate) fn size_of(mechanism: &Mechanism) -> f64 {
+pub(crate) fn machine_size(mechanism: &Mechanism) -> f64 {
     let length = |chain: &Chain| {
         // Offsets on the way to a centre of mass and back are no part of it.
         let frames = frames(chain);

@@ -2,49 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat::{BeamSection, turn_matrix};
+use kinetostat::turn_matrix;
 use nalgebra::{Matrix6, Unit, Vector3};
 
-use crate::hints;
-use crate::placement::{direction, frame_along};
+use crate::elements::elasticity::{Elasticity, elasticity};
+use crate::elements::placement::{direction, frame_along};
+use crate::elements::quantity::{Found, MM, choice, forbid, positive};
 use crate::problem::{Finding, Place};
-use crate::quantity::{Found, MM, choice, forbid, positive};
 use crate::schema::{Document, Spring6, Stiffness};
-use crate::shape::{Beam, elasticity};
+use crate::text::hints::unknown;
 
 /// Sections and stiffnesses by name. `None`: described wrongly, and reported already.
 pub(crate) struct Elastic {
     sections: BTreeMap<String, Option<Elasticity>>,
     stiffnesses: BTreeMap<String, Option<Matrix6<f64>>>,
-}
-
-/// What a link's name may stand for.
-#[derive(Clone, Debug)]
-pub(crate) enum Elasticity {
-    /// A section: the stiffness follows from the length.
-    Section(BeamSection),
-    /// A tapered beam, or one that bends by shear too.
-    Beam(Box<Beam>),
-    /// The stiffness of the far end, SI.
-    Matrix(Box<Matrix6<f64>>),
-}
-
-impl Elasticity {
-    /// The stiffness of the far end of a link of this length, m: in its own axes for sections, as it
-    /// is for a matrix.
-    pub(crate) fn cantilever(&self, place: &Place, length: f64) -> Found<Matrix6<f64>> {
-        match self {
-            Self::Section(section) => section.cantilever(length).map_err(|error| {
-                Finding::new(
-                    place,
-                    error.to_string(),
-                    "give every measure as a positive number, and the outer one larger than the inner one",
-                )
-            }),
-            Self::Beam(beam) => beam.cantilever(place, length),
-            Self::Matrix(matrix) => Ok(**matrix),
-        }
-    }
 }
 
 impl Elastic {
@@ -188,14 +159,14 @@ impl Elastic {
             if let Some(rows) = &c.value {
                 let place = place.key(c.key);
                 let matrix = Matrix6::from_fn(|i, j| rows[i][j]);
-                judge(&place, &matrix)?;
+                check_definite(&place, &matrix)?;
                 return Ok(in_si(&matrix, c.factor));
             }
         }
         for c in &diagonals {
             if let Some(diagonal) = &c.value {
                 let matrix = Matrix6::from_diagonal(&nalgebra::Vector6::from(*diagonal));
-                judge(&place.key(c.key), &matrix)?;
+                check_definite(&place.key(c.key), &matrix)?;
                 return Ok(in_si(&matrix, c.factor));
             }
         }
@@ -224,24 +195,6 @@ impl Elastic {
     }
 }
 
-/// A name that refers to nothing.
-pub(crate) fn unknown(
-    place: &Place,
-    what: &str,
-    name: &str,
-    known: &[&str],
-    otherwise: &str,
-) -> Finding {
-    let mut known = known.to_vec();
-    known.dedup();
-    let help = match hints::nearest(name, &known) {
-        Some(word) => format!("did you mean '{word}'?"),
-        None if known.is_empty() => format!("there are none; {otherwise}"),
-        None => format!("there are: {}; or {otherwise}", known.join(", ")),
-    };
-    Finding::new(place, format!("there is no {what} named '{name}'"), help)
-}
-
 /// A matrix in axes of which the first lies along `x`, as the frame sees it.
 pub(crate) fn along(matrix: &Matrix6<f64>, x: &Unit<Vector3<f64>>) -> Matrix6<f64> {
     let turn = turn_matrix(&frame_along(x));
@@ -260,11 +213,11 @@ fn in_si(matrix: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
     })
 }
 
-/// Smallest eigenvalue of a balanced stiffness matrix that is told from rounding.
+/// Smallest eigenvalue of a balanced stiffness matrix that is distinct from rounding.
 const SINGULAR: f64 = 1e-12;
 
 /// Symmetric and positive definite, metres and radians balanced by the diagonal.
-fn judge(place: &Place, k: &Matrix6<f64>) -> Found<()> {
+fn check_definite(place: &Place, k: &Matrix6<f64>) -> Found<()> {
     const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
     if let Some(i) = (0..6).find(|&i| k[(i, i)] <= 0.0) {
         return Err(Finding::new(

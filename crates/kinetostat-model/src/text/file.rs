@@ -4,17 +4,15 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::model::{MOST_BYTES, Model};
 use crate::problem::{ModelError, Problem};
 
-/// Reads a model file: UTF-8, with or without byte order mark, any line endings, at most 16 MB.
-///
-/// # Errors
-/// [`ModelError`] if the file cannot be read or is not a model; says what to do.
-pub fn read_model(path: &Path) -> Result<Model, ModelError> {
-    let file = path.display().to_string();
+/// Longer texts are refused, bytes.
+pub(crate) const MOST_BYTES: usize = 16 * 1024 * 1024;
+
+/// The text of a file that may be a model; `file` names it in messages.
+pub(crate) fn read_text(path: &Path, file: &str) -> Result<String, ModelError> {
     let refuse = |message: String, help: &str| {
-        ModelError::new(vec![Problem::without_text(&file, message, help.into())])
+        ModelError::new(vec![Problem::without_text(file, message, help.into())])
     };
     if path.is_dir() {
         return Err(refuse(
@@ -72,7 +70,7 @@ pub fn read_model(path: &Path) -> Result<Model, ModelError> {
             "name a model file in TOML",
         ));
     }
-    Model::from_toml(&text, &file)
+    Ok(text)
 }
 
 fn read(path: &Path) -> std::io::Result<Vec<u8>> {

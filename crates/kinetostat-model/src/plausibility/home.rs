@@ -3,11 +3,12 @@
 use kinetostat::number::{apart, short};
 use kinetostat::{Chain, Mechanism, Pose};
 
-use crate::link_matrix;
-use crate::load_path::frames;
+use crate::plausibility::at_home::frames;
+use crate::plausibility::link_matrix::check as check_link_matrices;
+use crate::plausibility::machine::of_machine;
+use crate::plausibility::numbers::of_numbers;
 use crate::problem::{Finding, Place};
 use crate::schema::Document;
-use crate::smells;
 
 /// Pose of a chain's tip in its base at home, and how far (m) any of its frames lies from its first
 /// one: the first offset only places the chain.
@@ -23,10 +24,14 @@ fn tip(chain: &Chain) -> (Pose, f64) {
 }
 
 /// Looks at sizes, masses, gravity and the home posture.
-pub(crate) fn check(document: &Document, mechanism: &Mechanism, warnings: &mut Vec<Finding>) {
-    smells::of_numbers(document, warnings);
-    smells::of_machine(document, mechanism, warnings);
-    link_matrix::check(document, warnings);
+pub(crate) fn check_plausibility(
+    document: &Document,
+    mechanism: &Mechanism,
+    warnings: &mut Vec<Finding>,
+) {
+    of_numbers(document, warnings);
+    of_machine(document, mechanism, warnings);
+    check_link_matrices(document, warnings);
     let root = Place::root();
     let mut warn = |place: &Place, message: String, help: &str| {
         warnings.push(Finding::new(place, message, help));

@@ -1,27 +1,29 @@
-//! Joint values as the controller's pendant shows them: a declared linear map of the model's.
+//! Controller coordinates: joint values as the controller shows them, a declared linear map of the model's.
 
 use kinetostat::{Mechanism, MotionKind};
 use nalgebra::{DMatrix, DVector};
 
-use crate::assemble::{Findings, name};
-use crate::elastic::unknown;
-use crate::joint::by_kind;
+use crate::elements::joint::by_kind;
+use crate::elements::quantity::{DEG, Found, MM, choice, forbid, need};
+use crate::findings::{Findings, name};
 use crate::problem::{Finding, Place};
-use crate::quantity::{DEG, Found, MM, choice, forbid, need};
-use crate::schema::{ControllerAxisTable, ControllerCoupling, ControllerUnit, Document};
+use crate::schema::{
+    ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit, Document,
+};
+use crate::text::hints::unknown;
 
-/// An axis of the pendant.
+/// An axis of the controller.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControllerAxis {
-    /// Name as on the pendant.
+    /// Name as the controller shows it.
     pub name: String,
     /// Its actuator, by its place in the order of [`kinetostat::Mechanism::actuator_names`].
     pub joint: usize,
-    /// Unit that the pendant shows.
+    /// Unit that the controller shows.
     pub unit: ControllerUnit,
 }
 
-/// What the controller shows: `pendant = S model + offset`, in m and rad, `S` square and regular.
+/// What the controller shows: `shown = S model + offset`, in m and rad, `S` square and regular.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Controller {
     axes: Vec<ControllerAxis>,
@@ -31,20 +33,20 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// The axes in the order of the pendant.
+    /// The axes in the order of the controller.
     #[must_use]
     pub fn axes(&self) -> &[ControllerAxis] {
         &self.axes
     }
 
-    /// Rows are axes of the pendant, columns the model's joints in the order of
+    /// Rows are axes of the controller, columns the model's joints in the order of
     /// [`kinetostat::Mechanism::actuator_names`]; m and rad.
     #[must_use]
     pub fn map(&self) -> &DMatrix<f64> {
         &self.map
     }
 
-    /// What the pendant shows for the model's joint values (m, rad, in the order of
+    /// What the controller shows for the model's joint values (m, rad, in the order of
     /// [`kinetostat::Mechanism::actuator_names`]): one number per axis, in the axis' unit. `None` if
     /// there are not as many values as actuators.
     #[must_use]
@@ -57,7 +59,7 @@ impl Controller {
         Some(units.map(|(x, axis)| x / axis.unit.in_si()).collect())
     }
 
-    /// The model's joint values, m and rad, for what the pendant shows (one number per axis, in the
+    /// The model's joint values, m and rad, for what the controller shows (one number per axis, in the
     /// axis' unit): the inverse of [`pendant`](Self::pendant). `None` if there are not as many values
     /// as axes.
     #[must_use]
@@ -120,15 +122,69 @@ pub(crate) fn controller(
     if let Some(text) = &table.name {
         name(&place.key("name"), text, findings);
     }
-    let before = findings.errors.len();
     let names = mechanism.actuator_names();
+    let rows = rows(&place, table, mechanism, &names, findings)?;
+    if let Some(missing) = (0..names.len()).find(|j| rows.axes.iter().all(|a| a.joint != *j)) {
+        findings.error(
+            &place,
+            format!("no axis of the pendant belongs to '{}'", names[missing]),
+            format!(
+                "write {{ name = \"{}{}\", joint = \"{}\" }} in 'axis': the pendant has an axis for every actuator",
+                "J",
+                missing + 1,
+                names[missing]
+            ),
+        );
+        return None;
+    }
+    let Rows { axes, map, offset } = rows;
+    match inverse(&map) {
+        Ok(inverse) => Some(Controller {
+            axes,
+            map,
+            inverse,
+            offset,
+        }),
+        Err(unseen) => {
+            let moving: Vec<&str> = (0..names.len())
+                .filter(|&j| unseen[j].abs() > 1e-6)
+                .map(|j| names[j].as_str())
+                .collect();
+            findings.error(
+                &place.key("axis"),
+                format!(
+                    "the pendant cannot tell the joints apart: {} can move together and it shows no change",
+                    moving.join(" and ")
+                ),
+                "check the couplings; every motion of the joints must show on the pendant",
+            );
+            None
+        }
+    }
+}
+
+/// The axes of the controller, row by row.
+struct Rows {
+    axes: Vec<ControllerAxis>,
+    map: DMatrix<f64>,
+    offset: DVector<f64>,
+}
+
+/// Reads every axis; `None` with errors in `findings`.
+fn rows(
+    place: &Place,
+    table: &ControllerTable,
+    mechanism: &Mechanism,
+    names: &[String],
+    findings: &mut Findings,
+) -> Option<Rows> {
+    let before = findings.errors.len();
     let kinds: Vec<MotionKind> = mechanism
         .limbs()
         .iter()
         .flat_map(|l| l.nominal.actuators().iter().map(|a| a.kind))
         .collect();
-    let count = names.len();
-    let mut map = DMatrix::zeros(table.axis.len(), count);
+    let mut map = DMatrix::zeros(table.axis.len(), names.len());
     let mut offset = DVector::zeros(table.axis.len());
     let mut axes: Vec<ControllerAxis> = Vec::new();
     for (row, axis) in table.axis.iter().enumerate() {
@@ -144,7 +200,7 @@ pub(crate) fn controller(
                 "rename one of them",
             );
         }
-        let Some(joint) = findings.keep(actuator(&place, &axis.joint, &names)) else {
+        let Some(joint) = findings.keep(actuator(&place, &axis.joint, names)) else {
             continue;
         };
         if let Some(other) = axes.iter().find(|a| a.joint == joint) {
@@ -166,64 +222,51 @@ pub(crate) fn controller(
                 unit: unit.unit,
             });
         }
-        for (k, coupling) in axis.coupled.iter().enumerate() {
-            let place = place.key("coupled").index(k);
-            let Some(other) = findings.keep(actuator(&place, &coupling.joint, &names)) else {
-                continue;
-            };
-            if map[(row, other)] != 0.0 || other == joint {
-                findings.error(
-                    &place.key("joint"),
-                    format!(
-                        "the share of '{}' in this axis is given twice",
-                        names[other]
-                    ),
-                    "write the axis' own joint as joint = ..., every other one once",
-                );
-            } else if let Some(ratio) =
-                findings.keep(share(&place, coupling, kinds[joint], kinds[other]))
-            {
-                map[(row, other)] = ratio;
-            }
-        }
+        let own = (row, joint);
+        couplings(
+            &place,
+            &axis.coupled,
+            own,
+            &kinds,
+            names,
+            &mut map,
+            findings,
+        );
     }
     if findings.errors.len() > before {
         return None;
     }
-    if let Some(missing) = (0..count).find(|j| axes.iter().all(|a| a.joint != *j)) {
-        findings.error(
-            &place,
-            format!("no axis of the pendant belongs to '{}'", names[missing]),
-            format!(
-                "write {{ name = \"{}{}\", joint = \"{}\" }} in 'axis': the pendant has an axis for every actuator",
-                "J",
-                missing + 1,
-                names[missing]
-            ),
-        );
-        return None;
-    }
-    match inverse(&map) {
-        Ok(inverse) => Some(Controller {
-            axes,
-            map,
-            inverse,
-            offset,
-        }),
-        Err(unseen) => {
-            let moving: Vec<&str> = (0..count)
-                .filter(|&j| unseen[j].abs() > 1e-6)
-                .map(|j| names[j].as_str())
-                .collect();
+    Some(Rows { axes, map, offset })
+}
+
+/// Shares of other joints in the axis of row and joint `own`.
+fn couplings(
+    place: &Place,
+    written: &[ControllerCoupling],
+    (row, joint): (usize, usize),
+    kinds: &[MotionKind],
+    names: &[String],
+    map: &mut DMatrix<f64>,
+    findings: &mut Findings,
+) {
+    for (k, coupling) in written.iter().enumerate() {
+        let place = place.key("coupled").index(k);
+        let Some(other) = findings.keep(actuator(&place, &coupling.joint, names)) else {
+            continue;
+        };
+        if map[(row, other)] != 0.0 || other == joint {
             findings.error(
-                &place.key("axis"),
+                &place.key("joint"),
                 format!(
-                    "the pendant cannot tell the joints apart: {} can move together and it shows no change",
-                    moving.join(" and ")
+                    "the share of '{}' in this axis is given twice",
+                    names[other]
                 ),
-                "check the couplings; every motion of the joints must show on the pendant",
+                "write the axis' own joint as joint = ..., every other one once",
             );
-            None
+        } else if let Some(ratio) =
+            findings.keep(share(&place, coupling, kinds[joint], kinds[other]))
+        {
+            map[(row, other)] = ratio;
         }
     }
 }
@@ -326,7 +369,7 @@ fn share(
     Ok(given.value)
 }
 
-/// The inverse, or a motion of the joints that the pendant does not show.
+/// The inverse, or a motion of the joints that the controller does not show.
 fn inverse(map: &DMatrix<f64>) -> Result<DMatrix<f64>, DVector<f64>> {
     // Units and ratios of very different size are no loss of rank.
     let size = |v: f64| if v > 0.0 { v } else { 1.0 };

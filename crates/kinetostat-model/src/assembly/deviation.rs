@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use kinetostat::{Pose, number};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::assemble::Findings;
-use crate::elastic::unknown;
-use crate::part::Part;
-use crate::placement::{direction, pose};
+use crate::elements::part::Part;
+use crate::elements::placement::{direction, pose};
+use crate::elements::quantity::{DEG, Found, MM};
+use crate::findings::Findings;
 use crate::problem::{Finding, Place};
-use crate::quantity::{DEG, Found, MM};
 use crate::schema::{Deviation, Document};
+use crate::text::hints::unknown;
 
 /// What is wrong at one place.
 #[derive(Clone, Copy, Debug)]

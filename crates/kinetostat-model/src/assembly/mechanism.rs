@@ -3,53 +3,22 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinetostat::{Mechanism, Platform};
+use kinetostat::Mechanism;
 use nalgebra::Vector3;
 
-use crate::elastic::Elastic;
-use crate::limb::limbs;
-use crate::load::platform_loads;
-use crate::part::{inertia, mass};
-use crate::placement::pose;
-use crate::plausible;
+use crate::assembly::limb::limbs;
+use crate::assembly::load::platform_loads;
+use crate::assembly::platform::platforms;
+use crate::assembly::template::{Template, template};
+use crate::elements::elastic::Elastic;
+use crate::elements::workspace::corners;
+use crate::findings::{Findings, name};
+use crate::plausibility::home::check_plausibility;
 use crate::problem::{Finding, Place};
-use crate::quantity::{Found, MM, choice, need, vector};
-use crate::schema::{Document, Element, LimbTable, SCHEMA_VERSION, Spring6};
-use crate::template::{Template, template};
+use crate::schema::{Document, Element, SCHEMA_VERSION, Spring6};
 
 /// What a machine's repeatability can be, mm: from that of stages for optics to what no machine is built for.
 const REPEATABILITY_MM: [f64; 2] = [1e-5, 10.0];
-
-/// What went wrong and what looks wrong.
-#[derive(Default)]
-pub(crate) struct Findings {
-    pub(crate) errors: Vec<Finding>,
-    pub(crate) warnings: Vec<Finding>,
-    /// The document is a file without its faulty parts: it is searched for more mistakes, but no
-    /// machine is made of it.
-    pub(crate) incomplete: bool,
-}
-
-impl Findings {
-    pub(crate) fn error(
-        &mut self,
-        place: &Place,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) {
-        self.errors.push(Finding::new(place, message, help));
-    }
-
-    /// With this many errors the file is no model; the rest is not looked at.
-    pub(crate) fn enough(&self) -> bool {
-        self.errors.len() >= 100
-    }
-
-    /// The value, or `None` with the reason kept.
-    pub(crate) fn keep<T>(&mut self, result: Result<T, Finding>) -> Option<T> {
-        result.map_err(|f| self.errors.push(f)).ok()
-    }
-}
 
 /// The mechanism, or `None` with errors in `findings`.
 pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<Mechanism> {
@@ -116,23 +85,8 @@ pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<M
             "correct the description of the machine",
         )
     }))?;
-    plausible::check(document, &mechanism, &mut findings.warnings);
+    check_plausibility(document, &mechanism, &mut findings.warnings);
     Some(mechanism)
-}
-
-pub(crate) fn name(place: &Place, text: &str, findings: &mut Findings) {
-    let reason = if text.trim().is_empty() {
-        "the name is empty"
-    } else if text.trim() != text {
-        "the name begins or ends with a space"
-    } else if text.chars().any(char::is_control) {
-        "the name holds a control character"
-    } else if text.chars().count() > 100 {
-        "the name is longer than 100 characters"
-    } else {
-        return;
-    };
-    findings.error(place, reason, "write a short name in plain text");
 }
 
 fn workspace(document: &Document, findings: &mut Findings) {
@@ -145,82 +99,6 @@ fn workspace(document: &Document, findings: &mut Findings) {
             "write two opposite corners",
         );
     }
-}
-
-/// Two opposite corners, m.
-pub(crate) type Corners = (Vector3<f64>, Vector3<f64>);
-
-/// The workspace's corners.
-pub(crate) fn corners(document: &Document) -> Found<Option<Corners>> {
-    let Some(w) = &document.workspace else {
-        return Ok(None);
-    };
-    let place = Place::root().key("workspace");
-    let from = [
-        choice("corner_mm", w.corner_mm, MM),
-        choice("corner_m", w.corner_m, 1.0),
-    ];
-    let to = [
-        choice("opposite_corner_mm", w.opposite_corner_mm, MM),
-        choice("opposite_corner_m", w.opposite_corner_m, 1.0),
-    ];
-    let from = need(&place, "corner", &from)?.value;
-    let to = need(&place, "opposite corner", &to)?.value;
-    Ok(Some((from.into(), to.into())))
-}
-
-fn platforms(document: &Document, findings: &mut Findings) -> Vec<Platform> {
-    let mut seen = BTreeSet::from(["base"]);
-    let mut platforms = Vec::new();
-    // A limb that goes nowhere is reported itself; the platform it misses is not a second mistake.
-    let exists = |name: &str| document.platform.iter().any(|p| p.name == name);
-    let sound = document
-        .limb
-        .iter()
-        .all(|l| exists(&l.to) && (l.from == "base" || exists(&l.from)));
-    for (i, p) in document.platform.iter().enumerate() {
-        let place = Place::root().key("platform").index(i);
-        name(&place.key("name"), &p.name, findings);
-        if !seen.insert(&p.name) {
-            let help = match p.name.as_str() {
-                "base" => "the base exists without being written; this table is for moving bodies",
-                _ => "rename one of them",
-            };
-            findings.error(
-                &place.key("name"),
-                format!("the platform '{}' exists already", p.name),
-                help,
-            );
-        }
-        let centre = [
-            choice("centre_of_mass_mm", p.centre_of_mass_mm, MM),
-            choice("centre_of_mass_m", p.centre_of_mass_m, 1.0),
-        ];
-        let home = findings.keep(pose(&place.key("home"), &p.home));
-        let mass = findings.keep(mass(&place, p.mass_kg));
-        let centre_of_mass = findings.keep(vector(&place, "centre of mass", &centre));
-        let inertia = findings.keep(inertia(&place, p.inertia_kg_m2));
-        if let (Some(home), Some(mass), Some(centre_of_mass), Some(inertia)) =
-            (home, mass, centre_of_mass, inertia)
-        {
-            platforms.push(Platform {
-                name: p.name.clone(),
-                home,
-                mass,
-                centre_of_mass,
-                inertia,
-            });
-        }
-        let held = |l: &LimbTable| l.from == p.name || l.to == p.name;
-        if !document.limb.iter().any(held) && sound {
-            findings.error(
-                &place.key("name"),
-                format!("no limb holds the platform '{}'", p.name),
-                format!("write a [[limb]] with to = \"{}\"", p.name),
-            );
-        }
-    }
-    platforms
 }
 
 /// Masses without gravity are a question, not a default.
