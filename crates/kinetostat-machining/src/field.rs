@@ -4,11 +4,12 @@ use kinetostat::{Error, Mechanism, Pose, Wrench};
 use kinetostat_program::{CorrectionField, Course, FieldFailure, Move, Request, Structure};
 use nalgebra::Vector3;
 
-use crate::load::LoadAlongPath;
+use crate::load::along_path::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
-use crate::solve::{Orientation, in_chunks};
-use crate::together::Together;
+use crate::postures::neighbour::in_chunks;
+use crate::postures::orientation::Orientation;
+use crate::postures::vectorised::VectorisedPostures;
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
 /// under the load of the program.
@@ -94,7 +95,7 @@ impl ModelField<'_> {
     ) -> Vec<Result<Vector3<f64>, FieldFailure>> {
         let load = self.load.load_of(requests[0].move_index);
         let orientation = Orientation::of(&self.placement, load);
-        let together = Together::new(mechanism, orientation.follows);
+        let vectorised = VectorisedPostures::new(mechanism, orientation.follows);
         in_chunks(requests, |memory, requests| {
             let poses: Vec<Pose> = requests
                 .iter()
@@ -105,7 +106,7 @@ impl ModelField<'_> {
                 let shift = target.translation.vector - pose.translation.vector;
                 self.placement.to_program(&shift)
             };
-            if let Some(targets) = together.targets(&poses, &wrenches) {
+            if let Some(targets) = vectorised.targets(&poses, &wrenches) {
                 let both = poses.iter().zip(&targets);
                 return both.map(|(p, t)| Ok(correction(p, t))).collect();
             }

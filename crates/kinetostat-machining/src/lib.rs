@@ -4,51 +4,48 @@
 //! cuts where it should and proves it by solving the written program again. [`map()`] tells stiffness
 //! and deflection on a grid of places.
 
-mod again;
-mod claims;
-mod corners;
+mod bounds;
+mod checks;
 mod field;
-mod figures;
-mod following;
-mod judge;
 mod limits;
 mod load;
 mod map;
 mod near;
-mod own_weight;
 mod placement;
+mod postures;
 mod result;
 mod run;
-mod sites;
-mod solve;
 mod table;
-mod thin;
-mod together;
-mod tool;
-mod verdict;
+mod task;
 mod warning;
 
+pub use bounds::{Bounds, ToolGiven};
+pub use checks::correction::odd_correction;
+pub use checks::load::large_load;
+pub use checks::placement::origin_in_metres;
+pub use checks::refused::of_accounting;
+pub use checks::tool::odd_tool_length;
+pub use checks::unusual::odd_tolerances;
 pub use field::ModelField;
-pub use figures::Figures;
-pub use judge::{
-    Bounds, ToolGiven, large_load, odd_correction, odd_tolerances, odd_tool_length, of_accounting,
-    origin_in_metres,
-};
 pub use kinetostat::number;
 pub use limits::{Beyond, Limit, Limits};
-pub use load::{CornerLoad, CuttingLoad, LoadAlongPath, LoadAxes, ProgramLoad, straight_tool};
+pub use load::along_path::LoadAlongPath;
+pub use load::law::{CornerLoad, CuttingLoad, LoadAxes, ProgramLoad};
+pub use load::tool::{Tool, straight_tool};
 pub use map::{Grid, MapPlace, MapTask, PlaceState, map};
 pub use near::{NEAR_SINGULAR, NearKind, NearSingular, natural_length, near_singular};
 pub use placement::Placement;
-pub use result::{
-    ActuatorColumn, FileRead, MissedTolerance, NearSingularPlace, PointKind, PointResult, Question,
-    RESULT_SCHEMA, RunResult, Summary, ToleranceVerdict, ToolAtCorners,
+pub use result::figures::Figures;
+pub use result::point::{PointKind, PointResult};
+pub use result::question::{ActuatorColumn, FileRead, Question, ToolAtCorners};
+pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
+pub use result::selection::thinned;
+pub use result::summary::Summary;
+pub use result::tolerance::{
+    MissedTolerance, ToleranceVerdict, keeps_as_it_is, of_table, unchanged_in_words,
 };
-pub use run::{
-    Run, RunError, Task, Unwatched, Watch, analyse, compensate_program, load_in_words, of_program,
-};
+pub use run::compensate::{analyse, compensate_program};
+pub use run::conclude::{Run, load_in_words, of_program};
 pub use table::{TableCorrection, correct_by_table, wide_table};
-pub use thin::thinned;
-pub use tool::Tool;
-pub use verdict::{keeps_as_it_is, of_table, unchanged_in_words};
+pub use task::{RunError, Task, Unwatched, Watch};
 pub use warning::{Warning, WarningCode};

@@ -1,14 +1,16 @@
 //! Stiffness on a grid of tool positions, and under a load deflection and stability too: many places
 //! at once, in constant memory.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Found, Table};
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Found};
 use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, pose_residual};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use crate::near::natural_length;
-use crate::run::{RunError, Watch};
-use crate::solve::{NEAR, Orientation};
+use crate::postures::neighbour::NEAR;
+use crate::postures::orientation::Orientation;
+use crate::postures::vectorised::outside_limits;
+use crate::task::{RunError, Watch};
 
 /// Evenly spaced positions of the tool, base axes, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,11 +84,11 @@ pub enum PlaceState {
     Singular,
     /// The equilibrium under the load is not stable.
     Unstable,
-    /// An actuator would be outside its limits. Nothing else is told.
+    /// An actuator would be outside its limits. There are no figures.
     OutsideLimits,
-    /// The machine cannot put its tool there. Nothing else is told.
+    /// The machine cannot put its tool there. There are no figures.
     Unreachable,
-    /// No equilibrium under the load was found. Nothing else is told.
+    /// No equilibrium under the load was found. There are no figures.
     Unanswered,
 }
 
@@ -234,17 +236,17 @@ fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
 
 fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
     // What the batch would ask one by one is asked here, once.
-    let together = batch
+    let vectorised = batch
         .alone_unloaded()
         .is_none()
         .then(|| batch.stiffness(poses));
     let length = natural_length(task.mechanism);
     for (i, place) in out.iter_mut().enumerate() {
-        let found = together.as_ref().map(|t| (t, t.found[i]));
+        let found = vectorised.as_ref().map(|t| (t, t.found[i]));
         match found {
             Some((_, Found::Not)) => place.state = PlaceState::Unreachable,
-            Some((t, Found::Together)) if place.take_together(task.mechanism, t, i, length) => {}
-            Some(_) | None => place.take_alone(task.mechanism, &poses[i]),
+            Some((t, Found::Together)) if place.take_vectorised(task.mechanism, t, i, length) => {}
+            Some(_) | None => place.solve_unloaded(task.mechanism, &poses[i]),
         }
     }
 }
@@ -257,16 +259,16 @@ fn loaded(
     out: &mut [MapPlace],
 ) {
     let wrenches = vec![*wrench; poses.len()];
-    let together = match batch.alone() {
+    let vectorised = match batch.alone() {
         None => batch.judged_equilibrium(poses, &wrenches).ok(),
         Some(_) => None,
     };
     for (i, place) in out.iter_mut().enumerate() {
-        let taken = together
+        let taken = vectorised
             .as_ref()
             .is_some_and(|found| place.take_equilibrium(task.mechanism, found, i, &poses[i]));
         if !taken {
-            place.take_equilibrium_alone(task.mechanism, &poses[i], wrench);
+            place.solve_equilibrium(task.mechanism, &poses[i], wrench);
         }
     }
 }
@@ -287,7 +289,7 @@ impl MapPlace {
     }
 
     /// Takes a stiffness of the batch; false where it may be singular, which the general engine decides.
-    fn take_together(
+    fn take_vectorised(
         &mut self,
         mechanism: &Mechanism,
         found: &BatchStiffness,
@@ -317,7 +319,7 @@ impl MapPlace {
         true
     }
 
-    /// Takes an equilibrium of the batch; false where it has to be asked for alone.
+    /// Takes an equilibrium of the batch; false where the scalar engine has to answer.
     fn take_equilibrium(
         &mut self,
         mechanism: &Mechanism,
@@ -325,7 +327,7 @@ impl MapPlace {
         i: usize,
         pose: &Pose,
     ) -> bool {
-        let Some(verdict) = found.verdict(i) else {
+        let Some(stability) = found.verdict(i) else {
             return false;
         };
         if outside_limits(mechanism, &found.commands, i) {
@@ -334,24 +336,24 @@ impl MapPlace {
         }
         let matrix = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
         // Zero: a direction is free, which the general engine names.
-        let compliance = match verdict.stiffness_against_force == 0.0 {
+        let compliance = match stability.stiffness_against_force == 0.0 {
             true => None,
             false => matrix.try_inverse(),
         };
         let Some(compliance) = compliance else {
             return false;
         };
-        self.state = match verdict.stable {
+        self.state = match stability.stable {
             true => PlaceState::Regular,
             false => PlaceState::Unstable,
         };
         self.stiffness_n_per_mm = along(&compliance);
-        self.smallest_stiffness_n_per_mm = 1e-3 * verdict.stiffness_against_force;
+        self.smallest_stiffness_n_per_mm = 1e-3 * stability.stiffness_against_force;
         self.moved(&pose_residual(&found.tool_pose(i), pose));
         true
     }
 
-    fn take_equilibrium_alone(&mut self, mechanism: &Mechanism, pose: &Pose, wrench: &Wrench) {
+    fn solve_equilibrium(&mut self, mechanism: &Mechanism, pose: &Pose, wrench: &Wrench) {
         if let Some(posture) = self.posture(mechanism, pose) {
             self.take_loaded(&posture, wrench);
         }
@@ -381,7 +383,7 @@ impl MapPlace {
         self.rotation_deg = displacement.angular().map(f64::to_degrees).into();
     }
 
-    fn take_alone(&mut self, mechanism: &Mechanism, pose: &Pose) {
+    fn solve_unloaded(&mut self, mechanism: &Mechanism, pose: &Pose) {
         if let Some(posture) = self.posture(mechanism, pose) {
             self.take_stiffness(&posture);
         }
@@ -401,18 +403,6 @@ impl MapPlace {
             self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
         }
     }
-}
-
-/// A command of a posture of the batch lies outside its actuator's limits.
-pub(crate) fn outside_limits(mechanism: &Mechanism, commands: &Table, i: usize) -> bool {
-    let limbs = mechanism.limbs().iter();
-    let mut own = limbs
-        .flat_map(|l| l.nominal.actuators())
-        .zip(commands.row(i));
-    own.any(|(actuator, command)| {
-        let limits = actuator.limits;
-        limits.is_some_and(|(low, high)| command < low || command > high)
-    })
 }
 
 /// Compliances below this share of the largest are rounding.

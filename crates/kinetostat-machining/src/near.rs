@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::warning::{Warning, WarningCode};
 
-/// Singular postures are told when they are closer than this share of the machine's natural length
+/// Singular postures are reported when they are closer than this share of the machine's natural length
 /// (the mean over its limbs); a rotation counts at that length, so for every machine it is 2.9
 /// degrees of tool rotation.
 ///
@@ -73,10 +73,10 @@ pub fn near_singular(posture: &Posture<'_>) -> Option<NearSingular> {
     let near = list
         .iter()
         .find(|n| n.distance_m <= NEAR_SINGULAR * length)?;
-    Some(told(near, length))
+    Some(in_words(near, length))
 }
 
-fn told(near: &NearSingularity, length: f64) -> NearSingular {
+fn in_words(near: &NearSingularity, length: f64) -> NearSingular {
     let motion = near.way.linear() * (1e3 * near.distance_m);
     let turn = near.way.angular().map(f64::to_degrees) * near.distance_m;
     let (kind, there) = match (near.kind, &near.limb) {

@@ -6,7 +6,7 @@ use kinetostat_program::{
 };
 
 use crate::number::mean_length;
-use crate::verdict;
+use crate::result::tolerance;
 use crate::warning::{Warning, WarningCode};
 
 /// The program as it will be written, and how far it is from the table.
@@ -38,7 +38,7 @@ pub fn correct_by_table(
     let a = &written.accounting;
     let mut made = TableCorrection {
         keeps_as_it_is: written.bytes != program.bytes()
-            && verdict::keeps_as_it_is(
+            && tolerance::keeps_as_it_is(
                 against.before.distance_mm.max(against.before_at_ends_mm),
                 against.after.distance_mm,
                 writing.tolerance_mm,

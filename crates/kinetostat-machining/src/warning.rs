@@ -74,7 +74,7 @@ pub enum WarningCode {
     NearBuckling,
     /// On the way to the load the machine snaps into another shape.
     Snaps,
-    /// A load without a potential: that nothing goes away is judged, whether it swings with growing amplitude is not.
+    /// A load without a potential: divergence is examined, flutter (oscillation with growing amplitude) is not.
     NoPotential,
     /// A displacement that is large beside the machine.
     LargeDisplacement,

@@ -58,8 +58,8 @@
 //! - **Loads belong to a limb** (`[[limb.load]]`): springs, gas springs and ropes between two of its
 //!   points or one and the base, wrenches that keep their direction or turn with their node,
 //!   counterweights. Places are named: nodes, bodies, or any element with a name (behind it).
-//! - **The pendant has coordinates of its own** (`[controller]`): a linear map of the model's joints,
-//!   with names and units as the controller shows them. Geometry is never bent to fit a pendant.
+//! - **The controller has coordinates of its own** (`[controller]`): a linear map of the model's joints,
+//!   with names and units as it shows them. Geometry is never bent to fit a controller.
 //! - **Gravity has no default**: a file with masses says which way is down.
 //! - **The reader checks the file against the generated JSON Schema first.** One description serves
 //!   editors, messages and reading; places of values are looked up in the text only for messages, so
@@ -67,44 +67,21 @@
 //!
 //! [`Model`] holds the document and the [`kinetostat::Mechanism`]; [`schema`] has the types.
 
-mod assemble;
-mod check;
-mod controller;
-mod deviation;
-mod elastic;
+mod assembly;
+mod elements;
 mod exact;
-mod file;
-mod hints;
-mod joint;
-mod knee;
-mod limb;
-mod link_matrix;
-mod load;
-mod load_path;
+mod findings;
 mod model;
-mod part;
-mod placement;
-mod plausible;
+mod plausibility;
 mod presets;
 mod problem;
-mod quantity;
-mod repair;
 pub mod schema;
-mod schema_controller;
-mod schema_elastic;
-mod schema_element;
-mod schema_load;
-mod section;
-mod shape;
-mod smells;
-mod source;
-mod template;
+mod text;
 
-pub use controller::{Controller, ControllerAxis};
+pub use assembly::controller::{Controller, ControllerAxis};
 pub use exact::{exact, exact_toml};
-pub use file::read_model;
-pub use link_matrix::doubts_of_link_matrix;
-pub use model::{Model, json_schema};
+pub use model::{Model, json_schema, read_model};
+pub use plausibility::link_matrix::doubts_of_link_matrix;
+pub use plausibility::numbers::odd_angles;
 pub use presets::{Preset, PresetKind, preset_names, preset_text};
 pub use problem::{ModelError, Problem, Severity, shortened};
-pub use smells::odd_angles;

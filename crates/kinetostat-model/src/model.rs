@@ -1,20 +1,22 @@
 //! A model: the document as written, and the mechanism it describes.
 
+use std::path::Path;
+
 use kinetostat::{Mechanism, Pose};
 use nalgebra::Vector3;
 
-use crate::assemble::{Findings, assemble, corners};
-use crate::check;
-use crate::controller::{Controller, controller};
-use crate::placement;
-use crate::presets;
+use crate::assembly::controller::{Controller, controller};
+use crate::assembly::mechanism::assemble;
+use crate::assembly::repair::others;
+use crate::elements::placement::{in_words, three_digits, written};
+use crate::elements::workspace::corners;
+use crate::findings::Findings;
+use crate::presets::{preset_text, unknown_preset};
 use crate::problem::{Finding, ModelError, Place, Problem, Severity};
-use crate::repair;
 use crate::schema::{Deviation, Document, Element};
-use crate::source::Source;
-
-/// Longer texts are refused, bytes.
-pub(crate) const MOST_BYTES: usize = 16 * 1024 * 1024;
+use crate::text::check::{check, schema};
+use crate::text::file::{MOST_BYTES, read_text};
+use crate::text::source::Source;
 
 /// A machine, as written and as the core sees it.
 #[derive(Clone, Debug)]
@@ -67,9 +69,9 @@ impl Model {
             );
         }
         let source = Source::parse(file, text)?;
-        let mut findings = check::check(&source.tree);
+        let mut findings = check(&source.tree);
         if !findings.is_empty() {
-            findings.extend(repair::others(&source, &findings));
+            findings.extend(others(&source, &findings));
             return Err(source.error(&findings));
         }
         let document =
@@ -113,9 +115,9 @@ impl Model {
     /// # Errors
     /// [`ModelError`] with the nearest name if there is no such preset.
     pub fn preset(name: &str) -> Result<Self, ModelError> {
-        match presets::preset_text(name) {
+        match preset_text(name) {
             Some(text) => Self::from_toml(text, &format!("preset {name}")),
-            None => Err(presets::unknown(name)),
+            None => Err(unknown_preset(name)),
         }
     }
 
@@ -126,12 +128,12 @@ impl Model {
     /// As [`preset`](Self::preset) for a plain word that is no file, else as
     /// [`crate::read_model`].
     pub fn open(name_or_path: &str) -> Result<Self, ModelError> {
-        let path = std::path::Path::new(name_or_path);
+        let path = Path::new(name_or_path);
         let word = !name_or_path.contains(['/', '\\', '.']);
-        if presets::preset_text(name_or_path).is_some() || (word && !path.exists()) {
+        if preset_text(name_or_path).is_some() || (word && !path.exists()) {
             return Self::preset(name_or_path);
         }
-        crate::file::read_model(path)
+        read_model(path)
     }
 
     /// Reads a model from a document, as if it had been read from the text that
@@ -193,7 +195,7 @@ impl Model {
         self.deviating(Deviation {
             limb: limb.to_owned(),
             at: at.to_owned(),
-            moved_by: Some(placement::written(motion)),
+            moved_by: Some(written(motion)),
             ..Deviation::default()
         })
     }
@@ -240,6 +242,16 @@ impl Model {
     }
 }
 
+/// Reads a model file: UTF-8, with or without byte order mark, any line endings, at most 16 MB.
+///
+/// # Errors
+/// [`ModelError`] if the file cannot be read or is not a model; says what to do.
+pub fn read_model(path: &Path) -> Result<Model, ModelError> {
+    let file = path.display().to_string();
+    let text = read_text(path, &file)?;
+    Model::from_toml(&text, &file)
+}
+
 /// How far a written home may lie from what the machine can take, m.
 const ROUGH_HOME_M: f64 = 5e-3;
 
@@ -258,10 +270,10 @@ fn settle_home(mechanism: &mut Mechanism, findings: &mut Findings) {
         &place,
         format!(
             "the machine cannot take this home exactly: the nearest pose, {} mm and {} deg away, is used",
-            placement::short(1e3 * off.linear().norm()),
-            placement::short(off.angular().norm().to_degrees())
+            three_digits(1e3 * off.linear().norm()),
+            three_digits(off.angular().norm().to_degrees())
         ),
-        format!("to be exact, write {}", placement::told(&home)),
+        format!("to be exact, write {}", in_words(&home)),
     ));
 }
 
@@ -278,7 +290,7 @@ fn write(document: &Document, file: &str) -> Result<String, ModelError> {
 /// The JSON Schema of model files, pretty-printed, with a final newline.
 #[must_use]
 pub fn json_schema() -> String {
-    let mut text = serde_json::to_string_pretty(check::schema()).unwrap_or_default();
+    let mut text = serde_json::to_string_pretty(schema()).unwrap_or_default();
     text.push('\n');
     text
 }

@@ -1,7 +1,7 @@
 //! Models that come with the program.
 
-use crate::hints;
 use crate::problem::{ModelError, Problem};
+use crate::text::hints;
 
 /// What kind of machine a preset is: families of the report's chapter 2 (figures 2.5 to 2.8), or
 /// an example that teaches one effect. In the order in which lists show them.
@@ -213,7 +213,7 @@ pub fn preset_text(name: &str) -> Option<&'static str> {
     PRESETS.iter().find(|p| p.name == name).map(|p| p.text)
 }
 
-pub(crate) fn unknown(name: &str) -> ModelError {
+pub(crate) fn unknown_preset(name: &str) -> ModelError {
     let names: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
     let list = names.join(", ");
     let help = match hints::nearest(name, &names) {

@@ -1,0 +1,44 @@
+//! What the figures of a run are compared with: limits, ratings of the drives, the tools as they were given and
+//! the workspace.
+
+use kinetostat::Pose;
+use nalgebra::Vector3;
+
+use crate::limits::Limits;
+
+/// What the figures of a run are compared with.
+#[derive(Clone, Debug, Default)]
+pub struct Bounds {
+    /// What refuses a program.
+    pub limits: Limits,
+    /// Largest force (N) or torque (N m) of every drive, in the order of the actuators; empty where
+    /// no rating is known.
+    pub ratings: Vec<Option<f64>>,
+    /// The tools as they were given; empty where the platform's own point is the tool by construction.
+    pub tools: Vec<ToolGiven>,
+    /// Where the machine works without its tool: smallest and largest coordinates, base axes, m.
+    pub workspace: Option<(Vector3<f64>, Vector3<f64>)>,
+}
+
+/// A tool as a question states it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolGiven {
+    /// Its number, where the question numbers its tools.
+    pub number: Option<u32>,
+    /// Flange from tip, m.
+    pub pose: Pose,
+    /// Whether the question says anything of a tool.
+    pub stated: bool,
+}
+
+impl ToolGiven {
+    /// Along z of the flange where it points there, else the distance of the tip, mm.
+    pub(crate) fn length_mm(&self) -> f64 {
+        let tip = self.pose.translation.vector * 1e3;
+        if tip.xy().norm() <= 1e-9 {
+            tip.z
+        } else {
+            tip.norm()
+        }
+    }
+}

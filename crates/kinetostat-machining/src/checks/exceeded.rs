@@ -1,0 +1,31 @@
+//! Figures that are beyond their limits, collected one by one.
+
+use crate::limits::{Beyond, Limits};
+
+/// Collects figures beyond their limits.
+pub(crate) struct Exceeded<'l> {
+    pub(crate) limits: &'l Limits,
+    pub(crate) found: Vec<Beyond>,
+}
+
+impl Exceeded<'_> {
+    /// Notes a figure that is above its limit, or is NaN.
+    pub(crate) fn above(&mut self, name: &str, found: f64, line: Option<usize>, place: String) {
+        let Some(limit) = Limits::named(name) else {
+            return;
+        };
+        let allowed = self.limits.get(limit);
+        if found > allowed || found.is_nan() {
+            self.found.push(Beyond {
+                limit,
+                found,
+                allowed,
+                line,
+                place,
+            });
+        }
+    }
+}
+
+/// Above this share of a limit a figure is allowed and unusual.
+pub(crate) const ODD: f64 = 0.5;

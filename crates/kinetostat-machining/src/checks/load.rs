@@ -1,0 +1,175 @@
+//! Whether the load on the tool is one of cutting: its size, its lever, its sign, and that it acts at all.
+
+use kinetostat::Wrench;
+use kinetostat::number::short;
+use nalgebra::Vector3;
+
+use crate::checks::exceeded::{Exceeded, ODD};
+use crate::limits::Limits;
+use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
+use crate::placement::Placement;
+use crate::result::point::{PointKind, PointResult};
+use crate::task::Task;
+use crate::warning::{Warning, WarningCode};
+
+/// A cutting load has a moment about the tip of at most its force by a large cutter's radius, m.
+const LEVER: f64 = 0.3;
+
+/// The largest wrench that the load law gives, in part axes (of a law that turns: at one heading).
+pub(crate) fn of_law(cutting: CuttingLoad, placement: &Placement) -> Wrench {
+    let part_from_base = placement
+        .base_from_part
+        .rotation
+        .inverse()
+        .to_rotation_matrix();
+    match cutting {
+        CuttingLoad::None => Wrench::zero(),
+        CuttingLoad::Milling {
+            radial,
+            tangential,
+            axial,
+        } => Wrench::new(Vector3::new(tangential, -radial, axial), Vector3::zeros()),
+        CuttingLoad::Constant { axes, wrench } => match axes {
+            LoadAxes::Feed => wrench,
+            LoadAxes::Base => wrench.rotated(&part_from_base),
+            LoadAxes::Tool => wrench
+                .rotated(&placement.tool_orientation.to_rotation_matrix())
+                .rotated(&part_from_base),
+        },
+    }
+}
+
+pub(crate) fn numbered(tool: Option<u32>) -> String {
+    tool.map_or_else(String::new, |number| format!("tool {number}"))
+}
+
+/// Every load of a question, and whose it is.
+pub(crate) fn loads(task: &Task<'_>) -> Vec<(String, ProgramLoad)> {
+    let of_tools = task.tools.iter();
+    std::iter::once((String::new(), task.load))
+        .chain(of_tools.map(|tool| (numbered(Some(tool.number)), tool.load)))
+        .collect()
+}
+
+/// A load of one place or of a map that is beyond the usual limits: an analysis warns where a program would be
+/// refused.
+#[must_use]
+pub fn large_load(wrench: &Wrench) -> Vec<Warning> {
+    let limits = Limits::default();
+    let mut exceeded = Exceeded {
+        limits: &limits,
+        found: Vec::new(),
+    };
+    exceeded.above("force_n", wrench.force().norm(), None, String::new());
+    exceeded.above("moment_n_m", wrench.moment().norm(), None, String::new());
+    // No limit is moved where no program is written.
+    exceeded
+        .found
+        .iter()
+        .map(|beyond| Warning::new(WarningCode::OverLimit, beyond.in_words()))
+        .collect()
+}
+
+pub(crate) fn odd_load(task: &Task<'_>, whose: &str, load: &ProgramLoad) -> Vec<Warning> {
+    let mut list = Vec::new();
+    let limits = &task.bounds.limits;
+    let wrench = of_law(load.cutting, &task.placement);
+    let (f, m) = (wrench.force(), wrench.moment());
+    let (force, moment) = (f.norm(), m.norm());
+    if force == 0.0 && moment == 0.0 {
+        return list;
+    }
+    let mut warn = |code, text: String| {
+        let text = match whose {
+            "" => text,
+            whose => format!("{whose}: {text}"),
+        };
+        list.push(Warning::new(code, text));
+    };
+    if force < 1.0 && moment < 0.01 {
+        warn(
+            WarningCode::SmallLoad,
+            format!(
+                "the load on the tool is only {} N and {} N m: cutting takes 10 to 1000 N; check the unit",
+                short(force),
+                short(moment)
+            ),
+        );
+    }
+    if force > ODD * limits.force_n && force <= limits.force_n {
+        warn(
+            WarningCode::LargeLoad,
+            format!(
+                "the force on the tool is {} N: robots mill with 50 to 1000 N; check the unit",
+                short(force)
+            ),
+        );
+    }
+    if moment > ODD * limits.moment_n_m && moment <= limits.moment_n_m {
+        warn(
+            WarningCode::LargeLoad,
+            format!(
+                "the moment on the tool is {} N m: cutting torques are 0.1 to 100 N m; check the unit (N m, not N mm)",
+                short(moment)
+            ),
+        );
+    }
+    if force > 0.0 && moment > LEVER * force {
+        warn(
+            WarningCode::LongLever,
+            format!(
+                "the moment on the tool, {} N m, is that of its force {} m away from the tip: check the unit (N m, not N mm)",
+                short(moment),
+                short(moment / force)
+            ),
+        );
+    }
+    // Even a helix of 45 degrees pulls no more along the axis than it pushes across.
+    if f.z < 0.0 && -f.z > f.xy().norm() && -f.z >= 1.0 {
+        warn(
+            WarningCode::PullingForce,
+            format!(
+                "the force on the tool is {} N along -z of the program: it pulls the tool into the part, more than it pushes across; cutting pushes a tool back, along +z: check the sign",
+                short(-f.z)
+            ),
+        );
+    }
+    list
+}
+
+/// A load that is given and acts nowhere along the program.
+pub(crate) fn never_acts(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
+    let asked = |(_, load): &(String, ProgramLoad)| {
+        of_law(load.cutting, &task.placement).force().norm() > 0.0
+    };
+    let cuts = |p: &&PointResult| p.kind != PointKind::Rapid;
+    let acts = |p: &PointResult| p.force_n.iter().any(|x| *x != 0.0);
+    if !loads(task).iter().any(asked) || points.iter().filter(cuts).any(acts) {
+        return None;
+    }
+    let why = match task.load.below_z_mm {
+        Some(z) => format!("no feed move goes below Z {} mm", short(z)),
+        None => "the program has no feed move on which it could act".to_owned(),
+    };
+    Some(Warning::new(
+        WarningCode::LoadNeverActs,
+        format!("the load never acts: {why}; only weights and deviations are corrected"),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_load_of_a_place_is_large_where_that_of_a_program_is_refused() {
+        let limits = Limits::default();
+        let count = |force: f64, moment: f64| {
+            let wrench = Wrench::new(Vector3::z() * force, Vector3::x() * moment);
+            large_load(&wrench).len()
+        };
+        assert_eq!(count(limits.force_n, limits.moment_n_m), 0);
+        assert_eq!(count(-1.001 * limits.force_n, 0.0), 1);
+        assert_eq!(count(1e300, -1.001 * limits.moment_n_m), 2);
+    }
+}

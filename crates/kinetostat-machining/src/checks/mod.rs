@@ -1,0 +1,13 @@
+//! Does the question make sense, and does the answer?
+//!
+//! Takes the task and the solved points; gives figures beyond their limits, which refuse a program, and warnings about
+//! figures that are allowed and unusual. Changes nothing.
+
+pub(crate) mod correction;
+pub(crate) mod exceeded;
+pub(crate) mod load;
+pub(crate) mod own_weight;
+pub(crate) mod placement;
+pub(crate) mod refused;
+pub(crate) mod tool;
+pub(crate) mod unusual;

@@ -1,0 +1,83 @@
+//! Whether the part lies where the machine works.
+
+use kinetostat::number::short;
+use kinetostat::{Mechanism, Pose};
+use kinetostat_program::Knowledge;
+
+use crate::placement::Placement;
+use crate::result::point::{PointKind, PointResult, place};
+use crate::task::Task;
+use crate::warning::{Warning, WarningCode};
+
+/// Origins of parts that are nearer than this to the origin of a large machine may be metres, mm.
+const NEAR_MM: f64 = 10.0;
+
+/// Nearer ones would be nearer than that in metres too, where no large machine works, mm.
+const LEAST_MM: f64 = 0.05;
+
+/// Machines of this size, working as far from the origin of their base, are large, m.
+const LARGE_M: f64 = 0.3;
+
+/// A place of the part that was most likely written in metres: some millimetres from the origin of the base,
+/// so that the base of a large machine stands in the part.
+#[must_use]
+pub fn origin_in_metres(
+    mechanism: &Mechanism,
+    placement: &Placement,
+    path: &kinetostat_program::Path,
+) -> Option<Warning> {
+    let origin = 1e3 * placement.base_from_part.translation.vector;
+    let home = mechanism.platforms()[mechanism.tool()].home;
+    // Machines whose base has its origin where they work have parts there.
+    let away = home.translation.vector.norm().min(mechanism.size());
+    if !(LEAST_MM..NEAR_MM).contains(&origin.amax()) || away <= LARGE_M {
+        return None;
+    }
+    let places = path
+        .moves
+        .iter()
+        .filter(|m| m.known != Knowledge::Nothing)
+        .map(|m| 1e3 * placement.tool_pose(&m.end).translation.vector);
+    let (low, high) = places
+        .map(|p| (p, p))
+        .reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)))?;
+    let inside = (0..3).all(|k| low[k] <= NEAR_MM && high[k] >= -NEAR_MM);
+    inside.then(|| {
+        let [x, y, z] = [0, 1, 2].map(|k| short(origin[k]));
+        Warning::new(
+            WarningCode::OddPlacement,
+            format!(
+                "the program's zero lies at ({x}, {y}, {z}) mm, so that the machine's base stands in the part: check the unit of part_origin_mm (millimetres, not metres)"
+            ),
+        )
+    })
+}
+
+pub(crate) fn outside_workspace(task: &Task<'_>, points: &[PointResult]) -> Option<Warning> {
+    let (low, high) = task.bounds.workspace?;
+    // With several tools the flange is not one.
+    let flange = match task.bounds.tools.as_slice() {
+        [] => Pose::identity(),
+        [tool] => tool.pose.inverse(),
+        _ => return None,
+    };
+    let slack = 1e-3;
+    let outside = |p: &&PointResult| {
+        let at = (task.placement.tool_pose(&p.position_mm.into()) * flange)
+            .translation
+            .vector;
+        (0..3).any(|k| at[k] < low[k] - slack || at[k] > high[k] + slack)
+    };
+    let first = points
+        .iter()
+        .filter(|p| p.kind != PointKind::Rapid)
+        .find(outside)?;
+    Some(Warning::at_line(
+        WarningCode::OutsideWorkspace,
+        first.line,
+        format!(
+            "{} the flange leaves the workspace that the model states: check where the part lies and the tool's length",
+            place(first)
+        ),
+    ))
+}

@@ -1,0 +1,165 @@
+//! What refuses a program: figures of the question, of the written program and of the solved points that are beyond
+//! their limits.
+
+use kinetostat::MotionKind;
+use kinetostat::number::short;
+use kinetostat_program::Accounting;
+
+use crate::checks::correction::corrections;
+use crate::checks::exceeded::Exceeded;
+use crate::checks::load::{loads, numbered, of_law};
+use crate::checks::tool::note_length;
+use crate::limits::{Beyond, Limits};
+use crate::result::point::{PointResult, most, place};
+use crate::task::{Task, kinds};
+use crate::warning::{Warning, WarningCode};
+
+/// Figures of the question that are beyond their limits.
+pub(crate) fn of_question(task: &Task<'_>) -> Vec<Beyond> {
+    let limits = &task.bounds.limits;
+    let mut exceeded = Exceeded {
+        limits,
+        found: Vec::new(),
+    };
+    for (whose, load) in loads(task) {
+        let wrench = of_law(load.cutting, &task.placement);
+        exceeded.above("force_n", wrench.force().norm(), None, whose.clone());
+        exceeded.above("moment_n_m", wrench.moment().norm(), None, whose);
+    }
+    for tool in &task.bounds.tools {
+        note_length(&mut exceeded, tool.length_mm(), &numbered(tool.number));
+    }
+    exceeded.found
+}
+
+/// The correction of a written program, and its rate of blocks, where they are beyond their limits.
+/// Shared by programs corrected with a model and with a table.
+#[must_use]
+pub fn of_accounting(limits: &Limits, accounting: &Accounting) -> Vec<Beyond> {
+    let mut exceeded = Exceeded {
+        limits,
+        found: Vec::new(),
+    };
+    exceeded.above(
+        "correction_mm",
+        accounting.largest_correction_mm,
+        accounting.largest_correction_line,
+        String::new(),
+    );
+    // A program of a few blocks has no row over which a peak is taken: its mean is what is stated of it.
+    let before = accounting
+        .peak_blocks_per_second_in
+        .or(accounting.mean_blocks_per_second_in)
+        .unwrap_or(0.0);
+    let rate = accounting
+        .peak_blocks_per_second
+        .or(accounting.mean_blocks_per_second);
+    // A program that was that dense before is not made so.
+    if let Some(rate) = rate.filter(|r| *r > 1.05 * before) {
+        exceeded.above(
+            "blocks_per_second",
+            rate,
+            None,
+            "widen the tolerances path_um and chord_um, or cut more slowly".to_owned(),
+        );
+    }
+    exceeded.found
+}
+
+/// Share of its rating that a drive carries at a place, the largest of all drives.
+fn share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<(f64, usize, usize)> {
+    let mut worst: Option<(f64, usize, usize)> = None;
+    for (drive, rating) in task.bounds.ratings.iter().enumerate() {
+        let Some(rating) = rating else { continue };
+        let load = |p: &PointResult| p.actuator_force.get(drive).map_or(0.0, |f| f.abs());
+        if let Some((force, at)) = most(points, load) {
+            let share = force / rating;
+            if worst.is_none_or(|(largest, ..)| share > largest || share.is_nan()) {
+                worst = Some((share, drive, at.line));
+            }
+        }
+    }
+    worst
+}
+
+/// The largest share of a rating; none where no rating is known.
+pub(crate) fn largest_share_of_rating(task: &Task<'_>, points: &[PointResult]) -> Option<f64> {
+    share_of_rating(task, points).map(|(share, ..)| share)
+}
+
+/// Figures of the answer that are beyond their limits.
+pub(crate) fn of_points(task: &Task<'_>, points: &[PointResult]) -> Vec<Beyond> {
+    let mut exceeded = Exceeded {
+        limits: &task.bounds.limits,
+        found: Vec::new(),
+    };
+    let mut largest = |name: &str, figure: &dyn Fn(&PointResult) -> f64| {
+        if let Some((value, at)) = most(points, figure) {
+            exceeded.above(name, value, Some(at.line), place(at));
+        }
+    };
+    largest("tilt_deg", &|p| p.residual_rotation_deg);
+    largest("share_of_buckling", &|p| p.share_to_buckling.unwrap_or(0.0));
+    if let Some((share, drive, line)) = share_of_rating(task, points) {
+        let name = task.mechanism.actuator_names().get(drive).cloned();
+        let rating = task.bounds.ratings.get(drive).copied().flatten();
+        let unit = match kinds(task.mechanism).nth(drive) {
+            Some(MotionKind::Prismatic) => "N",
+            _ => "N m",
+        };
+        let place = format!(
+            "drive {}, {} of {} {unit}",
+            name.unwrap_or_default(),
+            short(share * rating.unwrap_or(f64::NAN)),
+            short(rating.unwrap_or(f64::NAN)),
+        );
+        exceeded.above("share_of_rating", share, Some(line), place);
+    }
+    corrections(&mut exceeded, task, points);
+    exceeded.found
+}
+
+/// What was found beyond a limit, where nothing is refused.
+pub(crate) fn as_warning(beyond: &Beyond) -> Warning {
+    // The line is said once, by the warning itself.
+    let of_line = Beyond {
+        line: None,
+        ..beyond.clone()
+    };
+    Warning {
+        line: beyond.line,
+        ..Warning::new(WarningCode::OverLimit, of_line.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A program of a few blocks has no row of sixteen; its limit holds all the same.
+    #[test]
+    fn the_rate_of_a_short_program_has_its_limit() {
+        let limits = Limits {
+            blocks_per_second: 0.3,
+            ..Limits::default()
+        };
+        for (peak, mean, before, refused) in [
+            (None, Some(0.5), None, true),
+            (None, Some(0.5), Some(0.1), true),
+            (None, Some(0.5), Some(0.49), false),
+            (None, Some(0.2), None, false),
+            (None, None, None, false),
+            (Some(0.5), Some(0.1), None, true),
+            (Some(0.2), Some(0.1), None, false),
+        ] {
+            let accounting = Accounting {
+                peak_blocks_per_second: peak,
+                mean_blocks_per_second: mean,
+                mean_blocks_per_second_in: before,
+                ..Accounting::default()
+            };
+            let found = of_accounting(&limits, &accounting);
+            assert_eq!(!found.is_empty(), refused, "{peak:?} {mean:?} {before:?}");
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! What is allowed and unusual, about the question and about its answer: usually a unit is wrong.
+
+use kinetostat::number::{largest, short};
+use kinetostat_program::WriteOptions;
+
+use crate::checks::correction::{besides, odd_correction};
+use crate::checks::exceeded::ODD;
+use crate::checks::load::{loads, never_acts, odd_load};
+use crate::checks::own_weight::by_own_loads;
+use crate::checks::placement::{origin_in_metres, outside_workspace};
+use crate::checks::tool::odd_tool;
+use crate::limits::Limits;
+use crate::result::point::{PointResult, most, size};
+use crate::result::summary::Summary;
+use crate::task::Task;
+use crate::warning::{Warning, WarningCode};
+
+/// Softer tools than this are no machines that cut, N/mm.
+const SOFT: f64 = 50.0;
+
+/// Stiffer tools than this are no machines, N/mm.
+const STIFF: f64 = 1e6;
+
+/// Wider tolerances than this are not those of cutting, mm.
+const WIDE_MM: f64 = 0.1;
+
+/// Backward steps up to this are as long as corrections are, mm.
+const LONG_STEP_MM: f64 = 1.0;
+
+/// Tolerances that are allowed and unusual.
+#[must_use]
+pub fn odd_tolerances(writing: &WriteOptions) -> Vec<Warning> {
+    let wide = [
+        ("path", writing.tolerance_mm),
+        ("chord", writing.chord_tolerance_mm),
+    ];
+    let wide = wide.into_iter().filter(|(_, mm)| *mm > WIDE_MM);
+    let wide = wide.map(|(name, mm)| {
+        format!(
+            "the {name} tolerance is {} mm: machines that cut are judged by hundredths; {name}_um is in micrometres",
+            short(mm)
+        )
+    });
+    let backward = writing.backward_step_mm;
+    let long = (backward > LONG_STEP_MM).then(|| {
+        format!(
+            "steps that cut backwards are not warned of up to {} mm: at corners they are as long as the corrections; backward_step_um is in micrometres",
+            short(backward)
+        )
+    });
+    wide.chain(long)
+        .map(|said| Warning::new(WarningCode::WideTolerance, said))
+        .collect()
+}
+
+/// Warnings about what is allowed and unusual, of the question first.
+pub(crate) fn unusual(
+    task: &Task<'_>,
+    points: &[PointResult],
+    summary: &Summary,
+    compensated: bool,
+) -> Vec<Warning> {
+    let mut list: Vec<Warning> = loads(task)
+        .iter()
+        .flat_map(|(whose, load)| odd_load(task, whose, load))
+        .collect();
+    list.extend(never_acts(task, points));
+    list.extend(
+        task.bounds
+            .tools
+            .iter()
+            .filter_map(|tool| odd_tool(task, tool)),
+    );
+    list.extend(origin_in_metres(task.mechanism, &task.placement, task.path));
+    list.extend(outside_workspace(task, points));
+    let limits = &task.bounds.limits;
+    if let Some((size, at)) = most(points, |p| size(&p.correction_mm)).filter(|_| compensated) {
+        let tolerance = task.writing.tolerance_mm;
+        let scale = task.placement.scale;
+        // A large one is compared without the part of own weight.
+        let size = match scale * size > ODD * limits.correction_mm {
+            true => {
+                let own = by_own_loads(task, &[at])
+                    .pop()
+                    .flatten()
+                    .unwrap_or_default();
+                besides(at, &own).max(2.0 * tolerance)
+            }
+            false => size,
+        };
+        list.extend(odd_correction(
+            limits,
+            scale * size,
+            Some(at.line),
+            scale * tolerance,
+        ));
+    }
+    if compensated {
+        list.extend(odd_tolerances(&task.writing));
+    }
+    let stiffness = summary.smallest_stiffness_n_per_mm;
+    if summary.stable && !(SOFT..=STIFF).contains(&stiffness) {
+        let which = if stiffness < SOFT {
+            "softer"
+        } else {
+            "stiffer"
+        };
+        list.push(Warning::new(
+            WarningCode::OddStiffness,
+            format!(
+                "the tool gives way with {} N/mm in its softest direction, {which} than machines that cut (arms 100 to 2000, parallel machines up to 100000 N/mm): check the units of the stiffnesses",
+                short(stiffness)
+            ),
+        ));
+    }
+    let mut near = |name: &str, odd: f64, value: f64, text: &str| {
+        let limit = Limits::named(name).map_or(f64::NAN, |l| limits.get(l));
+        if value > odd * limit && value <= limit {
+            list.push(Warning::new(
+                WarningCode::NearLimit,
+                format!(
+                    "{text} {} of the {} that are allowed",
+                    largest(value, ""),
+                    short(limit)
+                ),
+            ));
+        }
+    };
+    near(
+        "tilt_deg",
+        ODD,
+        summary.max_residual_rotation_deg,
+        "the tool is tilted, in degrees, by",
+    );
+    if let Some(share) = summary.largest_share_to_buckling {
+        near(
+            "share_of_buckling",
+            0.4,
+            share,
+            "the share of the way to buckling is",
+        );
+    }
+    if let Some(share) = summary.largest_share_of_rating {
+        near(
+            "share_of_rating",
+            0.8,
+            share,
+            "a drive is loaded, as a share of its rating, by",
+        );
+    }
+    list
+}

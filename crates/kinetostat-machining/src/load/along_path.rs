@@ -1,0 +1,301 @@
+//! The load on the tool along a program.
+//!
+//! Cutting forces act on feed moves, not on rapids. In the milling frame the radial and the
+//! tangential force turn with the feed direction [R 7.17, with the sign of the errata]:
+//!
+//! ```text
+//! f = F_r e_r + F_t e_t + F_a z,   e_t along the feed (seen along the tool axis z), e_r = e_t x z
+//! ```
+//!
+//! so that on a counter-clockwise circle `e_r` points outwards. At a gentle corner the load turns
+//! over the last and first millimetres of the two moves; at a sharp one it turns at once, and what it is
+//! while the written program steps there is a matter of reading ([`CornerLoad`]).
+
+use kinetostat::Wrench;
+use kinetostat_program::{Curve, Knowledge, Move, MoveKind, Path};
+use nalgebra::{Rotation3, Vector3};
+
+use crate::load::law::{CuttingLoad, LoadAxes, ProgramLoad};
+use crate::load::tool::{Tool, tool_on};
+use crate::placement::Placement;
+
+/// Heading of a move at its two ends, seen along z of the part frame, rad, and how far the heading
+/// of the load differs there because a corner is gentle.
+#[derive(Clone, Copy, Debug, Default)]
+struct Headings {
+    /// Of a move so short that its own direction says nothing: that of the path around it.
+    around: Option<f64>,
+    at_start: Option<f64>,
+    at_end: Option<f64>,
+    lag_start: f64,
+    lag_end: f64,
+}
+
+/// A [`ProgramLoad`] along one path.
+#[derive(Clone, Debug)]
+pub struct LoadAlongPath<'a> {
+    load: ProgramLoad,
+    path: &'a Path,
+    tools: &'a [Tool<'a>],
+    headings: Vec<Headings>,
+}
+
+fn heading(tangent: Option<Vector3<f64>>) -> Option<f64> {
+    let t = tangent?;
+    // A move within 0.1 degree of the tool axis has no direction across it.
+    (t.xy().norm() > 2e-3).then(|| t.y.atan2(t.x))
+}
+
+/// Moves shorter than this, mm, do not turn the load: a tooth's feed is several times as long, and programs from CAM
+/// systems have moves of tenths of micrometres in any direction.
+const SHORT_MM: f64 = 0.01;
+
+/// Length of the path on either side that says in which direction the tool cuts there, mm: about a tooth's feed.
+const AROUND_MM: f64 = 0.05;
+
+/// Heading of the path around a move that is too short to have one; `None` for others, and where the path turns back.
+fn around(path: &Path, move_index: usize) -> Option<f64> {
+    let motion = &path.moves[move_index];
+    let cuts = |m: &Move| m.kind == MoveKind::Feed && m.known == Knowledge::Whole;
+    if !cuts(motion) || motion.length_mm() >= SHORT_MM {
+        return None;
+    }
+    // From the middle of the move `AROUND_MM` back and on, as far as the cut goes.
+    let reach = |moves: &mut dyn Iterator<Item = &Move>, back: bool| {
+        let mut left = AROUND_MM - 0.5 * motion.length_mm();
+        let mut place = if back { motion.start } else { motion.end };
+        for m in moves.take_while(|m| cuts(m)) {
+            let length = m.length_mm();
+            if length >= left {
+                let share = left / length;
+                return m.point(if back { 1.0 - share } else { share });
+            }
+            left -= length;
+            place = if back { m.start } else { m.end };
+        }
+        place
+    };
+    let from = reach(&mut path.moves[..move_index].iter().rev(), true);
+    let to = reach(&mut path.moves[move_index + 1..].iter(), false);
+    let chord = to - from;
+    match chord.norm() > SHORT_MM {
+        true => heading(chord.try_normalize(0.0)),
+        false => None,
+    }
+}
+
+fn wrap(angle: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    angle - turn * (angle / turn).round()
+}
+
+impl<'a> LoadAlongPath<'a> {
+    /// Prepares the headings of all moves.
+    #[must_use]
+    pub fn new(load: ProgramLoad, path: &'a Path) -> Self {
+        Self::with_tools(load, path, &[])
+    }
+
+    /// The same, with the load of each tool on the blocks that are made with it; `load` is that of blocks
+    /// without one of these tools.
+    #[must_use]
+    pub fn with_tools(load: ProgramLoad, path: &'a Path, tools: &'a [Tool<'a>]) -> Self {
+        let mut along = Self {
+            load,
+            path,
+            tools,
+            headings: Vec::new(),
+        };
+        along.headings = along.headings();
+        along
+    }
+
+    fn headings(&self) -> Vec<Headings> {
+        let path = self.path;
+        let mut headings = vec![Headings::default(); path.moves.len()];
+        if self.load.turns() || self.tools.iter().any(|tool| tool.load.turns()) {
+            for (i, (h, m)) in headings.iter_mut().zip(&path.moves).enumerate() {
+                if m.kind == MoveKind::Feed && self.load_of(i).turns() {
+                    h.around = around(path, i);
+                    h.at_start = h.around.or_else(|| heading(m.tangent(0.0)));
+                    h.at_end = h.around.or_else(|| heading(m.tangent(1.0)));
+                }
+            }
+            for i in 1..headings.len() {
+                let (Some(before), Some(after)) = (headings[i - 1].at_end, headings[i].at_start)
+                else {
+                    continue;
+                };
+                let turn = wrap(after - before);
+                if turn.abs() <= self.load_of(i).gentle_corner {
+                    headings[i - 1].lag_end = 0.5 * turn;
+                    headings[i].lag_start = -0.5 * turn;
+                }
+            }
+        }
+        headings
+    }
+
+    /// The tool that a move is made with, where several are named.
+    #[must_use]
+    pub fn tool_of(&self, move_index: usize) -> Option<&Tool<'a>> {
+        tool_on(self.tools, self.path, self.path.moves[move_index].line)
+    }
+
+    /// What acts on the tool that a move is made with.
+    pub(crate) fn load_of(&self, move_index: usize) -> &ProgramLoad {
+        self.tool_of(move_index)
+            .map_or(&self.load, |tool| &tool.load)
+    }
+
+    /// Wrench on the tool's tip (base axes, N, N m) at a share of a move.
+    #[must_use]
+    pub fn wrench(&self, placement: &Placement, move_index: usize, share: f64) -> Wrench {
+        let heading = match self.load_of(move_index).turns() {
+            true => self.heading_at(move_index, share),
+            false => None,
+        };
+        self.wrench_headed(placement, move_index, share, heading)
+    }
+
+    /// Wrench on the tool's tip at a share of a move, as [`Self::wrench`], of a cut in another direction
+    /// (program axes).
+    #[must_use]
+    pub fn wrench_towards(
+        &self,
+        placement: &Placement,
+        move_index: usize,
+        share: f64,
+        direction: &Vector3<f64>,
+    ) -> Wrench {
+        let along = heading(direction.try_normalize(1e-9));
+        self.wrench_headed(placement, move_index, share, along)
+    }
+
+    /// Shares of a move at which the load or its slope jumps: where turning at gentle corners begins and
+    /// ends, and where an arc passes the height of the load. (A straight move passes it once, between
+    /// ends with different loads; the writer finds that by halving.)
+    #[must_use]
+    pub fn breaks(&self, move_index: usize) -> Vec<f64> {
+        let motion = &self.path.moves[move_index];
+        let load = self.load_of(move_index);
+        let mut shares = Vec::new();
+        if let Some(z) = load.below_z_mm
+            && motion.curve != Curve::Line
+        {
+            shares.extend(motion.shares_at(2, &[z]));
+        }
+        let h = &self.headings[move_index];
+        let (length, zone) = (motion.length_mm(), load.turning_length_mm);
+        if length > 2.0 * zone {
+            if h.lag_start != 0.0 {
+                shares.push(zone / length);
+            }
+            if h.lag_end != 0.0 {
+                shares.push(1.0 - zone / length);
+            }
+        }
+        shares
+    }
+
+    fn wrench_headed(
+        &self,
+        placement: &Placement,
+        move_index: usize,
+        share: f64,
+        heading: Option<f64>,
+    ) -> Wrench {
+        let load = self.load_of(move_index);
+        let motion = &self.path.moves[move_index];
+        let position = motion.point(share);
+        let outside = load.below_z_mm.is_some_and(|z| position.z >= z);
+        if motion.kind == MoveKind::Rapid || outside {
+            return Wrench::zero();
+        }
+        let in_base =
+            |w: Wrench| w.rotated(&placement.base_from_part.rotation.to_rotation_matrix());
+        match load.cutting {
+            CuttingLoad::None => Wrench::zero(),
+            CuttingLoad::Constant {
+                axes: LoadAxes::Base,
+                wrench,
+            } => wrench,
+            CuttingLoad::Constant {
+                axes: LoadAxes::Tool,
+                wrench,
+            } => wrench.rotated(&placement.tool_orientation.to_rotation_matrix()),
+            CuttingLoad::Constant {
+                axes: LoadAxes::Feed,
+                wrench,
+            } => match heading {
+                Some(angle) => {
+                    in_base(wrench.rotated(&Rotation3::from_axis_angle(&Vector3::z_axis(), angle)))
+                }
+                // Along the tool axis only the axial part has a direction.
+                None => in_base(Wrench::new(
+                    Vector3::z() * wrench.force().z,
+                    Vector3::z() * wrench.moment().z,
+                )),
+            },
+            CuttingLoad::Milling {
+                radial,
+                tangential,
+                axial,
+            } => {
+                let mut force = Vector3::new(0.0, 0.0, axial);
+                if let Some(angle) = heading {
+                    let (s, c) = angle.sin_cos();
+                    force +=
+                        Vector3::new(s, -c, 0.0) * radial + Vector3::new(c, s, 0.0) * tangential;
+                }
+                in_base(Wrench::new(force, Vector3::zeros()))
+            }
+        }
+    }
+
+    /// Wrench while the tool stands at a corner and the load has turned by `part` from that of one
+    /// place of the path to that of another (move and share): evenly, component by component.
+    #[must_use]
+    pub fn turning_wrench(
+        &self,
+        placement: &Placement,
+        from: (usize, f64),
+        to: (usize, f64),
+        part: f64,
+    ) -> Wrench {
+        let before = self.wrench(placement, from.0, from.1);
+        let after = self.wrench(placement, to.0, to.1);
+        Wrench(before.0.lerp(&after.0, part))
+    }
+
+    fn heading_at(&self, move_index: usize, share: f64) -> Option<f64> {
+        let motion = &self.path.moves[move_index];
+        let h = &self.headings[move_index];
+        let own = h.around.or_else(|| heading(motion.tangent(share)))?;
+        let length = motion.length_mm();
+        let load = self.load_of(move_index);
+        let zone = load.turning_length_mm;
+        // Short moves turn evenly over their whole length, long ones near their ends.
+        let (start, end) = if length <= 2.0 * zone {
+            (1.0 - share, share)
+        } else {
+            let s = share * length;
+            (
+                (1.0 - s / zone).max(0.0),
+                (1.0 - (length - s) / zone).max(0.0),
+            )
+        };
+        Some(own + h.lag_start * start + h.lag_end * end)
+    }
+
+    /// The load in words.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        if self.tools.is_empty() {
+            return self.load.in_words();
+        }
+        let of_tool = |tool: &Tool<'_>| format!("tool {}: {}", tool.number, tool.load.in_words());
+        let all: Vec<String> = self.tools.iter().map(of_tool).collect();
+        all.join("; ")
+    }
+}

@@ -1,0 +1,147 @@
+//! Force laws of cutting, and where along a program they act.
+
+use kinetostat::Wrench;
+use serde::{Deserialize, Serialize};
+
+/// Axes of a constant wrench.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadAxes {
+    /// Axes of the machine's base.
+    Base,
+    /// Axes of the (nominal) tool frame.
+    Tool,
+    /// x along the feed, z along the part frame's z, y to the left.
+    Feed,
+}
+
+/// A force law on feed moves.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CuttingLoad {
+    /// No cutting force.
+    None,
+    /// The same wrench at the tool's tip everywhere, N and N m.
+    Constant {
+        /// Axes of its components.
+        axes: LoadAxes,
+        /// Force and moment about the tool's tip.
+        wrench: Wrench,
+    },
+    /// Radial, tangential and axial force of milling, N.
+    Milling {
+        /// To the right of the feed.
+        radial: f64,
+        /// Along the feed.
+        tangential: f64,
+        /// Along the part frame's z.
+        axial: f64,
+    },
+}
+
+/// What the load is while the written program steps at a sharp corner, or where a cut begins.
+///
+/// A step is written so that the tool stays at its place on the part while the load turns. That holds
+/// only if the load turns as evenly as the step is made. The bytes written are the same for both readings:
+/// no program can correct a load that turns at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CornerLoad {
+    /// It turns evenly from the one before to the one after while the tool steps.
+    #[default]
+    Turns,
+    /// It follows the feed: on a step it is that of a cut along the step. A load that does not turn with
+    /// the feed is already that after the step.
+    FollowsFeed,
+}
+
+impl CornerLoad {
+    /// The reading that this one is not.
+    pub(crate) fn other(self) -> Self {
+        match self {
+            Self::Turns => Self::FollowsFeed,
+            Self::FollowsFeed => Self::Turns,
+        }
+    }
+}
+
+/// The load of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ProgramLoad {
+    /// Force law.
+    pub cutting: CuttingLoad,
+    /// Only where the program's z is below this, mm.
+    pub below_z_mm: Option<f64>,
+    /// Corners that turn by at most this are gentle, rad. Default 30 degrees.
+    pub gentle_corner: f64,
+    /// Length over which the load turns before and after a gentle corner, mm. Default 2.
+    pub turning_length_mm: f64,
+    /// What it is on the steps written at sharp corners. Default [`CornerLoad::Turns`].
+    #[serde(default)]
+    pub at_corners: CornerLoad,
+}
+
+impl ProgramLoad {
+    /// The load is fixed in the tool and turns with it.
+    pub(crate) fn in_tool_axes(&self) -> bool {
+        matches!(
+            self.cutting,
+            CuttingLoad::Constant {
+                axes: LoadAxes::Tool,
+                ..
+            }
+        )
+    }
+
+    /// This law on all feed moves.
+    #[must_use]
+    pub fn new(cutting: CuttingLoad) -> Self {
+        Self {
+            cutting,
+            below_z_mm: None,
+            gentle_corner: 30_f64.to_radians(),
+            turning_length_mm: 2.0,
+            at_corners: CornerLoad::Turns,
+        }
+    }
+
+    pub(crate) fn in_words(&self) -> String {
+        let text = match self.cutting {
+            CuttingLoad::None => return "no cutting load".into(),
+            CuttingLoad::Constant { axes, wrench } => {
+                let (f, m) = (wrench.force(), wrench.moment());
+                let axes = match axes {
+                    LoadAxes::Base => "base",
+                    LoadAxes::Tool => "tool",
+                    LoadAxes::Feed => "feed",
+                };
+                format!(
+                    "force ({}, {}, {}) N and moment ({}, {}, {}) N m at the tool's tip in {axes} axes, on feed moves",
+                    f.x, f.y, f.z, m.x, m.y, m.z
+                )
+            }
+            CuttingLoad::Milling {
+                radial,
+                tangential,
+                axial,
+            } => format!(
+                "milling: {radial} N to the right of the feed, {tangential} N along it, {axial} N along z, on feed moves"
+            ),
+        };
+        match self.below_z_mm {
+            Some(z) => format!("{text}, only below Z {z} mm"),
+            None => text,
+        }
+    }
+
+    pub(crate) fn turns(&self) -> bool {
+        matches!(
+            self.cutting,
+            CuttingLoad::Milling { .. }
+                | CuttingLoad::Constant {
+                    axes: LoadAxes::Feed,
+                    ..
+                }
+        )
+    }
+}

@@ -1,0 +1,129 @@
+//! Many points of a path, one after the other from the
+//! neighbour's state, in chunks of fixed size: the answer of a point does not depend on the number of
+//! threads.
+
+use kinetostat::{
+    Error, Mechanism, MechanismEquilibrium, MechanismState, Pose, Posture, Wrench,
+    target_under_load, target_under_load_following,
+};
+use rayon::prelude::*;
+
+use crate::postures::orientation::Orientation;
+
+/// Points that share a chain of starting values.
+pub(crate) const CHUNK: usize = 64;
+
+/// Directions that a program of positions can correct.
+pub(crate) const POSITIONS: [bool; 6] = [true, true, true, false, false, false];
+
+/// Posture and state of the last point solved in a chunk, one memory per kind of question.
+#[derive(Default)]
+pub(crate) struct Neighbour<'m> {
+    last: Option<(Posture<'m>, MechanismState)>,
+}
+
+/// A neighbour farther away than this (share of the machine's length) is no better than a start
+/// from rest.
+pub(crate) const NEAR: f64 = 0.05;
+
+impl<'m> Neighbour<'m> {
+    fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {
+        self.last.as_ref().filter(|(posture, _)| {
+            let length = posture.mechanism().size();
+            (posture.target().translation.vector - pose.translation.vector).norm() < NEAR * length
+        })
+    }
+
+    fn posture(
+        &self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        orientation: Orientation,
+    ) -> Result<Posture<'m>, Error> {
+        let near = self.near(pose).map(|(posture, _)| posture);
+        let posture = orientation.posture(mechanism, pose, near)?;
+        posture.within_limits()?;
+        Ok(posture)
+    }
+
+    fn start(&self, posture: &Posture<'m>, pose: &Pose) -> MechanismState {
+        self.near(pose)
+            .map_or_else(|| posture.rest_state(), |(_, state)| state.clone())
+    }
+
+    /// The posture whose tool is at `pose` under `wrench`.
+    pub fn target(
+        &mut self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+        orientation: Orientation,
+    ) -> Result<Posture<'m>, Error> {
+        let answer = if orientation.follows {
+            let near = self.near(pose).map(|(posture, _)| posture);
+            let near = orientation.posture(mechanism, pose, near)?;
+            let start = self.start(&near, pose);
+            let wrench = orientation.load(wrench, pose, &near);
+            let (position, rotation) = (&pose.translation.vector, &pose.rotation);
+            target_under_load_following(&near, position, rotation, &wrench, start)?
+        } else {
+            let (near, state) = match self.near(pose) {
+                Some(found) => found.clone(),
+                None => {
+                    let posture = mechanism.posture(pose)?;
+                    let state = posture.rest_state();
+                    (posture, state)
+                }
+            };
+            target_under_load(&near, pose, wrench, POSITIONS, state)?
+        };
+        answer.0.within_limits()?;
+        self.last = Some(answer.clone());
+        Ok(answer.0)
+    }
+
+    /// Where the tool goes when commanded to `pose` under `wrench`.
+    pub fn rest(
+        &mut self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+        orientation: Orientation,
+    ) -> Result<(Posture<'m>, Pose), Error> {
+        let posture = self.posture(mechanism, pose, orientation)?;
+        let start = self.start(&posture, pose);
+        let wrench = orientation.load(wrench, pose, &posture);
+        let state = posture.rest_under(&wrench, start)?;
+        let tool = state.platforms[mechanism.tool()];
+        self.last = Some((posture.clone(), state));
+        Ok((posture, tool))
+    }
+
+    /// As [`Self::rest`], with stiffness and stability.
+    pub fn equilibrium(
+        &mut self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+        orientation: Orientation,
+    ) -> Result<(Posture<'m>, MechanismEquilibrium), Error> {
+        let posture = self.posture(mechanism, pose, orientation)?;
+        let start = self.start(&posture, pose);
+        let wrench = orientation.load(wrench, pose, &posture);
+        let equilibrium = posture.deflected_from(&wrench, start)?;
+        self.last = Some((posture.clone(), equilibrium.state.clone()));
+        Ok((posture, equilibrium))
+    }
+}
+
+/// Runs `work` over all items in chunks of [`CHUNK`], each chunk with memories of its own, on all
+/// cores; answers in order.
+pub(crate) fn in_chunks<'m, T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(&mut [Neighbour<'m>; 2], &[T]) -> Vec<R> + Sync,
+) -> Vec<R> {
+    let chunks = items.par_chunks(CHUNK);
+    chunks
+        .flat_map_iter(|items| work(&mut Default::default(), items))
+        .collect()
+}

@@ -1,0 +1,49 @@
+//! What is done with the orientation of a pose that is asked for.
+
+use kinetostat::{Error, Mechanism, Pose, Posture, Wrench};
+
+use crate::load::law::ProgramLoad;
+use crate::placement::Placement;
+
+/// What is done with the orientation of a pose that is asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Orientation {
+    /// It is the one to keep near to; otherwise it is held.
+    pub follows: bool,
+    /// The load is fixed in the tool and turns with it.
+    pub load_turns: bool,
+}
+
+impl Orientation {
+    pub fn of(placement: &Placement, load: &ProgramLoad) -> Self {
+        Self {
+            follows: placement.orientation_follows,
+            load_turns: placement.orientation_follows && load.in_tool_axes(),
+        }
+    }
+
+    /// The machine commanded for a pose, or for its position.
+    pub fn posture<'m>(
+        self,
+        mechanism: &'m Mechanism,
+        pose: &Pose,
+        near: Option<&Posture<'m>>,
+    ) -> Result<Posture<'m>, Error> {
+        let (position, rotation) = (&pose.translation.vector, &pose.rotation);
+        match (self.follows, near) {
+            (false, None) => mechanism.posture(pose),
+            (false, Some(near)) => mechanism.posture_near(pose, near),
+            (true, None) => mechanism.posture_following(position, rotation),
+            (true, Some(near)) => mechanism.posture_following_near(position, rotation, near),
+        }
+    }
+
+    /// The load that was given for the orientation of `pose`, where the tool has another one.
+    pub(crate) fn load(self, wrench: &Wrench, pose: &Pose, posture: &Posture<'_>) -> Wrench {
+        if !self.load_turns {
+            return *wrench;
+        }
+        let turn = posture.target().rotation * pose.rotation.inverse();
+        wrench.rotated(&turn.to_rotation_matrix())
+    }
+}

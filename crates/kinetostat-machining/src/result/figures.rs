@@ -1,0 +1,87 @@
+//! The figures of a run as text, made once: the terminal, the report's boxes, its sentences and the
+//! titles of its plots show these very strings, so that none differs from another.
+
+use crate::number::{
+    MISSING, Rounding, largest, largest_angle, largest_length, least, least_length, mean_length,
+    share, significant, with_unit,
+};
+use crate::result::run_result::RunResult;
+
+/// The figures of a [`RunResult`], as [`crate::number`] writes them: largest values rounded up, least
+/// ones down.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Figures {
+    /// Largest distance of the tool from its programmed place without compensation.
+    pub error_before: String,
+    /// Its root mean square along the path.
+    pub rms_before: String,
+    /// Largest distance with the written program.
+    pub error_after: String,
+    /// Its root mean square along the path.
+    pub rms_after: String,
+    /// Part of it that comes from the decimals written.
+    pub rounding: String,
+    /// Largest correction.
+    pub correction: String,
+    /// Largest rotation of the tool.
+    pub rotation: String,
+    /// Largest deviation of the tool's speed along the part.
+    pub speed: String,
+    /// Longest step at a corner; none without steps.
+    pub corner_step: Option<String>,
+    /// Shortest piece of a divided block; none if no block was divided.
+    pub shortest_piece: Option<String>,
+    /// Most blocks per second; none where the program's feed does not say.
+    pub blocks_per_second: Option<String>,
+    /// Length of the feed path.
+    pub feed_length: String,
+    /// Smallest stiffness against a force.
+    pub stiffness: String,
+    /// Largest share of the way to buckling; none where no limb can buckle.
+    pub share_to_buckling: Option<String>,
+    /// Largest force or torque of each actuator.
+    pub actuator_force: Vec<String>,
+    /// Largest change of each actuator.
+    pub actuator_correction: Vec<String>,
+}
+
+impl Figures {
+    /// The figures of a run.
+    #[must_use]
+    pub fn of(result: &RunResult) -> Self {
+        let s = &result.summary;
+        let actuators = &result.question.actuators;
+        let per = |values: &[f64], unit: fn(&crate::ActuatorColumn) -> &str| {
+            actuators
+                .iter()
+                .enumerate()
+                .map(|(i, actuator)| {
+                    let value = values.get(i).filter(|v| v.is_finite());
+                    value.map_or_else(|| MISSING.to_owned(), |v| largest(*v, unit(actuator)))
+                })
+                .collect()
+        };
+        let above_zero = |value: f64| (value.is_finite() && value > 0.0).then_some(value);
+        Self {
+            error_before: largest_length(s.max_position_error_before_mm),
+            rms_before: mean_length(s.rms_position_error_before_mm),
+            error_after: largest_length(s.max_position_error_after_mm),
+            rms_after: mean_length(s.rms_position_error_after_mm),
+            rounding: largest_length(s.max_rounding_error_mm),
+            correction: largest_length(s.max_correction_mm),
+            rotation: largest_angle(s.max_residual_rotation_deg),
+            speed: largest(s.max_speed_deviation_percent, "%"),
+            corner_step: (s.corner_steps > 0).then(|| largest_length(s.largest_corner_step_mm)),
+            shortest_piece: above_zero(s.smallest_piece_mm).map(least_length),
+            blocks_per_second: s
+                .blocks_per_second
+                .and_then(above_zero)
+                .map(|b| largest(b, "1/s")),
+            feed_length: with_unit(&significant(s.feed_length_mm, 5, Rounding::Nearest), "mm"),
+            stiffness: least(s.smallest_stiffness_n_per_mm, "N/mm"),
+            share_to_buckling: s.largest_share_to_buckling.map(share),
+            actuator_force: per(&s.max_actuator_force, |a| &a.force_unit),
+            actuator_correction: per(&s.max_actuator_correction, |a| &a.motion_unit),
+        }
+    }
+}

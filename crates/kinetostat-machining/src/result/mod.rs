@@ -1,0 +1,11 @@
+//! What a run gives: plain data with units in the names, and the figures and sentences made from them once, so that
+//! terminal, report and JSON say the same. Computes no posture.
+
+pub(crate) mod figures;
+pub(crate) mod point;
+pub(crate) mod question;
+pub(crate) mod run_result;
+pub(crate) mod selection;
+pub(crate) mod statements;
+pub(crate) mod summary;
+pub(crate) mod tolerance;

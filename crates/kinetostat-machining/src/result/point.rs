@@ -1,0 +1,94 @@
+//! One place of the path: what happens there, where the tool is and what the machine carries.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+/// What happens at a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PointKind {
+    /// On a cutting move.
+    #[default]
+    Feed,
+    /// At the end of a rapid.
+    Rapid,
+    /// On a corner step, where the load turns while the tool stands.
+    Corner,
+}
+
+/// One point of the path.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointResult {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Line of the written program, from 1 (0 if none).
+    pub output_line: usize,
+    /// Kind of move.
+    pub kind: PointKind,
+    /// The end of a piece; otherwise the middle of one.
+    #[serde(skip)]
+    pub end: bool,
+    /// One of the places at which the program is looked at as it is given, compensated or not: figures
+    /// without compensation come from these.
+    #[serde(skip)]
+    pub programmed: bool,
+    /// Length of the path before its move, mm.
+    #[serde(skip)]
+    pub start_mm: f64,
+    /// Share of the move of this line, 0 to 1.
+    pub share: f64,
+    /// Length of the path up to here, mm.
+    pub path_mm: f64,
+    /// Where the tool should be, program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// Where the tool is without compensation minus where it should be, mm.
+    pub error_before_mm: [f64; 3],
+    /// The same for the written program.
+    pub error_after_mm: [f64; 3],
+    /// Correction written, mm.
+    pub correction_mm: [f64; 3],
+    /// Load on the tool in program axes: force N.
+    pub force_n: [f64; 3],
+    /// Rotation of the tool that stays, deg.
+    pub residual_rotation_deg: f64,
+    /// Where the orientation follows: rotation vector of the unloaded tool from the orientation that
+    /// it is kept near to, base axes, deg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tool_turn_deg: Option<[f64; 3]>,
+    /// Joint value of every actuator as commanded, mm or deg.
+    #[serde(rename = "actuator_command_mm_or_deg", default)]
+    pub actuator_command: Vec<f64>,
+    /// Force (N) or torque (N m) of every actuator.
+    #[serde(rename = "actuator_force_n_or_n_m")]
+    pub actuator_force: Vec<f64>,
+    /// Change of every actuator by the compensation, mm or deg.
+    #[serde(rename = "actuator_correction_mm_or_deg")]
+    pub actuator_correction: Vec<f64>,
+    /// Stiffness of the tool's tip against a force in its softest direction, N/mm.
+    pub smallest_stiffness_n_per_mm: f64,
+    /// Largest share of the way to buckling of any limb, mu; 1 is buckling.
+    pub share_to_buckling: Option<f64>,
+    /// The equilibrium is stable.
+    pub stable: bool,
+}
+
+pub(crate) fn size(v: &[f64; 3]) -> f64 {
+    Vector3::from(*v).norm()
+}
+
+/// The place where a figure is largest; NaN counts as the largest.
+pub(crate) fn most(
+    points: &[PointResult],
+    figure: impl Fn(&PointResult) -> f64,
+) -> Option<(f64, &PointResult)> {
+    let key = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
+    points
+        .iter()
+        .map(|p| (figure(p), p))
+        .max_by(|a, b| key(a.0).total_cmp(&key(b.0)))
+}
+
+pub(crate) fn place(point: &PointResult) -> String {
+    let [x, y, z] = point.position_mm;
+    format!("at X{x:.2} Y{y:.2} Z{z:.2}")
+}

@@ -1,0 +1,90 @@
+//! What was asked of a run, as its result repeats it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::load::law::CornerLoad;
+
+/// What was asked of the run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// Name of the model.
+    pub model: String,
+    /// Where it came from: preset or file name.
+    pub model_source: String,
+    /// Deviations of the actual from the nominal geometry, one sentence each.
+    pub model_deviations: Vec<String>,
+    /// File name of the program.
+    pub program: String,
+    /// Files that were read, with their hashes.
+    #[serde(default)]
+    pub files: Vec<FileRead>,
+    /// Day on which the run was made, `2026-11-20`; none where it was not to be stated.
+    #[serde(default)]
+    pub date: Option<String>,
+    /// The stiffnesses of the model, one sentence for each spring or link.
+    #[serde(default)]
+    pub stiffnesses: Vec<String>,
+    /// Orientation of the tool in the base, in words.
+    #[serde(default)]
+    pub tool_orientation: String,
+    /// The load in words.
+    pub load: String,
+    /// Where the program lies, in words.
+    pub placement: String,
+    /// The tool in words.
+    pub tool: String,
+    /// Actuators in the order of the per-actuator lists.
+    pub actuators: Vec<ActuatorColumn>,
+    /// Tolerance of the corrected path, mm.
+    pub tolerance_mm: f64,
+    /// Where this tolerance comes from, in words; empty where it is not known.
+    #[serde(default)]
+    pub tolerance_from: String,
+    /// Tolerance of arcs divided into chords, mm.
+    pub chord_tolerance_mm: f64,
+    /// Decimals written.
+    pub decimals: u8,
+    /// Lower and upper corner of the feed path in program coordinates, mm.
+    pub box_min_mm: [f64; 3],
+    /// See `box_min_mm`.
+    pub box_max_mm: [f64; 3],
+    /// True if a compensated program was written.
+    pub compensated: bool,
+    /// What the load is taken to be while the written program steps at sharp corners.
+    #[serde(default)]
+    pub load_at_corners: CornerLoad,
+    /// The same for each tool that the program takes by number; empty where there is one tool.
+    #[serde(default)]
+    pub tools_at_corners: Vec<ToolAtCorners>,
+}
+
+/// What the load on a tool is taken to be while the written program steps at sharp corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ToolAtCorners {
+    /// Number in the program's T words.
+    pub number: u32,
+    /// The reading for its corner steps.
+    pub load_at_corners: CornerLoad,
+}
+
+/// A file that a run was made from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRead {
+    /// What it is: `program`, `model`, `job`.
+    pub what: String,
+    /// Its name without directories.
+    pub name: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
+}
+
+/// One actuator of the per-actuator lists.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ActuatorColumn {
+    /// Name.
+    pub name: String,
+    /// `mm` or `deg`: unit of corrections.
+    pub motion_unit: String,
+    /// `N` or `N m`.
+    pub force_unit: String,
+}

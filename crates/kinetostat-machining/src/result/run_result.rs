@@ -1,0 +1,102 @@
+//! What a run tells: plain data, units in the names; the same structure that `--json` prints, the
+//! report draws and `points.csv` lists.
+
+use kinetostat_program::{Accounting, WriteOptions};
+use serde::{Deserialize, Serialize};
+
+use crate::near::NearSingular;
+use crate::result::point::PointResult;
+use crate::result::question::Question;
+use crate::result::summary::Summary;
+use crate::result::tolerance::ToleranceVerdict;
+use crate::warning::Warning;
+
+/// Version of this structure; it changes when a name or a meaning changes.
+pub const RESULT_SCHEMA: u32 = 2;
+
+/// Result of a run over a program.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunResult {
+    /// [`RESULT_SCHEMA`].
+    pub schema: u32,
+    /// Version of kinetostat that made it.
+    pub kinetostat_version: String,
+    /// Whether the written program holds the tolerance that it was to hold.
+    #[serde(default)]
+    pub tolerance: ToleranceVerdict,
+    /// Figures of the whole run.
+    pub summary: Summary,
+    /// What was asked.
+    pub question: Question,
+    /// Places with the largest errors before compensation, worst first; at most ten.
+    pub worst_points: Vec<PointResult>,
+    /// Everything a person should know and did not ask for.
+    pub warnings: Vec<Warning>,
+    /// Where the program comes nearest to a singular posture, of at most
+    /// [`Self::MAX_POSTURES`] places along it; none if no singular posture is near.
+    #[serde(default)]
+    pub near_singularity: Option<NearSingularPlace>,
+    /// Points along the path, at most [`Self::MAX_POINTS`] of them: in every stretch those with the
+    /// largest and the smallest error before and after, and everywhere those that the summary is
+    /// taken from; `points.csv` has all of them.
+    pub points: Vec<PointResult>,
+}
+
+impl RunResult {
+    /// Most points that are kept for plots.
+    pub const MAX_POINTS: usize = 4000;
+    /// Most places whose posture is compared with singular ones.
+    pub const MAX_POSTURES: usize = 64;
+
+    /// Error that the written program may have, mm: the tolerance of the path, that of chords where the program
+    /// has arcs, and the rounding to decimals. Every statement about the tolerance uses this bound.
+    #[must_use]
+    pub fn allowed_mm(&self) -> f64 {
+        sum_of_bounds(
+            self.question.tolerance_mm,
+            (self.question.chord_tolerance_mm, self.summary.feed_arcs),
+            self.summary.max_rounding_error_mm,
+        )
+    }
+
+    /// Whether the written program stays within [`Self::allowed_mm`]; none if none was written. NaN
+    /// holds no tolerance.
+    #[must_use]
+    pub fn holds_tolerance(&self) -> Option<bool> {
+        let after = self.summary.max_position_error_after_mm;
+        self.question
+            .compensated
+            .then(|| after <= self.allowed_mm())
+    }
+}
+
+/// [`RunResult::allowed_mm`] of a written program whose result is not made yet.
+pub(crate) fn bound_mm(writing: &WriteOptions, arcs: usize, accounting: &Accounting) -> f64 {
+    sum_of_bounds(
+        writing.tolerance_mm,
+        (writing.chord_tolerance_mm, arcs),
+        accounting.largest_rounding_mm,
+    )
+}
+
+/// The tolerance of chords counts where there are arcs.
+fn sum_of_bounds(path_mm: f64, (chord_mm, arcs): (f64, usize), rounding_mm: f64) -> f64 {
+    let chord_mm = if arcs > 0 { chord_mm } else { 0.0 };
+    let counts = |part: &f64| part.is_finite() && *part > 0.0;
+    [path_mm, chord_mm, rounding_mm]
+        .into_iter()
+        .filter(counts)
+        .sum()
+}
+
+/// The place of a program that is nearest to a singular posture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NearSingularPlace {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// Distance, direction, and what happens there, base axes.
+    #[serde(flatten)]
+    pub posture: NearSingular,
+}

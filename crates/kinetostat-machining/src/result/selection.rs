@@ -1,0 +1,110 @@
+//! Which of many points are kept for plots: the envelope of every quantity that a result states.
+
+use crate::result::point::{PointKind, PointResult, size};
+
+/// Points that are kept for every stretch of the path: its first one, and those with the largest and the
+/// smallest error before and after.
+const PER_STRETCH: usize = 5;
+
+/// Indices of at most `most` points (more only if `always` asks for more), in order: `always`, both ends,
+/// the worst of the whole path in everything that the summary states, and the envelope of the errors
+/// before and after in equal stretches.
+#[must_use]
+pub fn thinned(points: &[PointResult], always: &[usize], most: usize) -> Vec<usize> {
+    if points.len() <= most {
+        return (0..points.len()).collect();
+    }
+    let mut first: Vec<usize> = always.to_vec();
+    first.extend([0, points.len() - 1]);
+    first.extend(extremes(points));
+    first.sort_unstable();
+    first.dedup();
+    let stretches = (most.saturating_sub(first.len()) / PER_STRETCH).max(1);
+    let length = points.len().div_ceil(stretches);
+    let mut keep = vec![false; points.len()];
+    let mut add = |index: usize| keep[index] = true;
+    first.into_iter().for_each(&mut add);
+    for (number, stretch) in points.chunks(length).enumerate() {
+        let at = number * length;
+        add(at);
+        let before = |p: &PointResult| size(&p.error_before_mm);
+        let after = |p: &PointResult| size(&p.error_after_mm);
+        for found in [
+            farthest(stretch, before),
+            farthest(stretch, |p| -before(p)),
+            farthest(stretch, after),
+            farthest(stretch, |p| -after(p)),
+        ] {
+            found.into_iter().for_each(|index| add(at + index));
+        }
+    }
+    (0..points.len()).filter(|index| keep[*index]).collect()
+}
+
+/// Where the figures of a summary are taken from.
+fn extremes(points: &[PointResult]) -> Vec<usize> {
+    let mut found: Vec<Option<usize>> = vec![
+        farthest(points, |p| size(&p.error_before_mm)),
+        farthest(points, |p| match p.kind {
+            PointKind::Corner => f64::NAN,
+            _ => size(&p.error_before_mm),
+        }),
+        farthest(points, |p| size(&p.error_after_mm)),
+        farthest(points, |p| size(&p.correction_mm)),
+        farthest(points, |p| p.residual_rotation_deg),
+        farthest(points, |p| -p.smallest_stiffness_n_per_mm),
+        farthest(points, |p| p.share_to_buckling.unwrap_or(f64::NAN)),
+        points.iter().position(|p| !p.stable),
+    ];
+    let actuators = points.first().map_or(0, |p| p.actuator_force.len());
+    for i in 0..actuators {
+        let size = |list: &Vec<f64>| list.get(i).map_or(f64::NAN, |x| x.abs());
+        found.push(farthest(points, |p| size(&p.actuator_force)));
+        found.push(farthest(points, |p| size(&p.actuator_correction)));
+    }
+    found.into_iter().flatten().collect()
+}
+
+/// The cutting point with the largest value; NaN is passed over.
+fn farthest(points: &[PointResult], value: impl Fn(&PointResult) -> f64) -> Option<usize> {
+    let mut best: Option<(usize, f64)> = None;
+    for (index, point) in points.iter().enumerate() {
+        let value = value(point);
+        let larger = best.is_none_or(|(_, most)| value > most);
+        if point.kind != PointKind::Rapid && larger && !value.is_nan() {
+            best = Some((index, value));
+        }
+    }
+    best.map(|(index, _)| index)
+}
+
+/// Indices of the worst points before compensation, at most ten, not two from one line or from
+/// neighbouring ones.
+pub(crate) fn worst(points: &[PointResult]) -> Vec<usize> {
+    let programmed = |i: &usize| points[*i].kind != PointKind::Corner;
+    let cutting = |i: &usize| points[*i].kind == PointKind::Feed;
+    let mut order: Vec<usize> = (0..points.len()).filter(cutting).collect();
+    if order.is_empty() {
+        order = (0..points.len()).filter(programmed).collect();
+    }
+    order.sort_by(|&i, &j| {
+        size(&points[j].error_before_mm)
+            .total_cmp(&size(&points[i].error_before_mm))
+            .then(i.cmp(&j))
+    });
+    let mut chosen: Vec<usize> = Vec::new();
+    let reach = points.last().map_or(0.0, |p| p.path_mm) / 50.0;
+    for i in order {
+        let apart = chosen.iter().all(|&j| {
+            points[i].line != points[j].line
+                && (points[i].path_mm - points[j].path_mm).abs() > reach
+        });
+        if apart {
+            chosen.push(i);
+        }
+        if chosen.len() == 10 {
+            break;
+        }
+    }
+    chosen
+}

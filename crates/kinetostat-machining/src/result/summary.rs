@@ -1,0 +1,148 @@
+//! Figures of a whole run.
+
+use serde::{Deserialize, Serialize};
+
+/// Figures of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Points of the path that were solved.
+    pub points: usize,
+    /// Blocks of the input program.
+    pub blocks: usize,
+    /// Blocks of the written program (0 if none was written).
+    pub blocks_out: usize,
+    /// Blocks that were divided.
+    pub blocks_split: usize,
+    /// Blocks carried over byte for byte.
+    pub blocks_unchanged: usize,
+    /// Bytes of the input program.
+    pub bytes_in: usize,
+    /// Bytes of the written program.
+    pub bytes_out: usize,
+    /// Straight pieces written for feed moves.
+    pub pieces: usize,
+    /// Moves at a corner that change only the correction.
+    pub corner_steps: usize,
+    /// Longest of them, mm.
+    pub largest_corner_step_mm: f64,
+    /// Nothing was to be corrected: the program came back byte for byte.
+    #[serde(default)]
+    pub unchanged: bool,
+    /// It came back so because the tool keeps the tolerance as the program is.
+    #[serde(default)]
+    pub within_tolerance_before: bool,
+    /// How far the machine's own weight and the loads of its model put the tool off by themselves where it
+    /// cuts, mm, the largest of [`RunResult::MAX_POSTURES`] places; none where nothing acts without a load on
+    /// the tool.
+    #[serde(default)]
+    pub max_error_by_own_weight_mm: Option<f64>,
+    /// Share of the points that lie on corner steps, percent.
+    #[serde(default)]
+    pub corner_points_percent: f64,
+    /// Largest error on corner steps if the load turns evenly while the tool steps, mm; none without
+    /// such steps.
+    #[serde(default)]
+    pub max_corner_error_if_load_turns_mm: Option<f64>,
+    /// The same if the load there is that of a cut along the step; none also where the machine has no
+    /// equilibrium under it.
+    #[serde(default)]
+    pub max_corner_error_if_load_follows_feed_mm: Option<f64>,
+    /// Largest way of a step or piece against the direction of motion, mm.
+    #[serde(default)]
+    pub largest_backward_step_mm: f64,
+    /// Steps and pieces that go so by more than `backward_step_limit_mm`.
+    #[serde(default)]
+    pub backward_steps: usize,
+    /// From which length on they are warned of, mm.
+    #[serde(default)]
+    pub backward_step_limit_mm: f64,
+    /// How many times the programmed feed was allowed at most along the tool's own path.
+    #[serde(default)]
+    pub max_feed_factor: f64,
+    /// Pieces whose feed was held to that: they are slower along the part than programmed, and not
+    /// part of `max_speed_deviation_percent`.
+    #[serde(default)]
+    pub feed_limited_pieces: usize,
+    /// Line of the program with the first of them.
+    #[serde(default)]
+    pub feed_limited_line: Option<usize>,
+    /// Slowest speed along the part on them, percent of the programmed one.
+    #[serde(default)]
+    pub slowest_limited_speed_percent: Option<f64>,
+    /// Length of the program's feed moves from known places, mm.
+    #[serde(default)]
+    pub feed_length_before_mm: f64,
+    /// Length of what is written for them, steps included, mm.
+    #[serde(default)]
+    pub feed_length_after_mm: f64,
+    /// Time of the feed moves at the programmed feeds, without acceleration, s; none without feeds
+    /// per minute.
+    #[serde(default)]
+    pub feed_time_before_s: Option<f64>,
+    /// Time of what is written for them at the feeds written, s.
+    #[serde(default)]
+    pub feed_time_after_s: Option<f64>,
+    /// Feed blocks per second on average.
+    #[serde(default)]
+    pub mean_blocks_per_second_before: Option<f64>,
+    /// See `mean_blocks_per_second_before`.
+    #[serde(default)]
+    pub mean_blocks_per_second_after: Option<f64>,
+    /// Feed blocks per second over the densest sixteen in a row.
+    #[serde(default)]
+    pub peak_blocks_per_second_before: Option<f64>,
+    /// See `peak_blocks_per_second_before`.
+    #[serde(default)]
+    pub peak_blocks_per_second_after: Option<f64>,
+    /// Shortest piece written, mm.
+    pub smallest_piece_mm: f64,
+    /// Most blocks per second at programmed feed: `peak_blocks_per_second_after`; none where that is not known.
+    #[serde(default)]
+    pub blocks_per_second: Option<f64>,
+    /// Length of the feed path, mm.
+    pub feed_length_mm: f64,
+    /// Largest distance of the tool from its programmed place without compensation, on cutting moves
+    /// (everywhere if none cuts), mm.
+    pub max_position_error_before_mm: f64,
+    /// Root mean square of it along the path that is cut, every place with its length of path, mm.
+    pub rms_position_error_before_mm: f64,
+    /// The same for the written program, solved again from its file, mm.
+    pub max_position_error_after_mm: f64,
+    /// See `max_position_error_after_mm`.
+    pub rms_position_error_after_mm: f64,
+    /// Arcs at feed in the program: without them no chord is written, and none is allowed for.
+    #[serde(default)]
+    pub feed_arcs: usize,
+    /// Share of the after-error that comes from the decimals written, mm.
+    pub max_rounding_error_mm: f64,
+    /// Largest correction, mm.
+    pub max_correction_mm: f64,
+    /// Largest rotation of the tool that a program of positions cannot correct, deg.
+    pub max_residual_rotation_deg: f64,
+    /// Where the orientation follows: how far the unloaded tool turns from the orientation that it
+    /// is kept near to, deg.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_tool_turn_deg: Option<f64>,
+    /// Largest deviation of the tool's speed along the part from the programmed one, percent.
+    pub max_speed_deviation_percent: f64,
+    /// Smallest stiffness of the tool's tip against a force along the path (softest direction, the
+    /// tool free to turn), N/mm.
+    pub smallest_stiffness_n_per_mm: f64,
+    /// Largest share of the way to buckling of any limb, mu (1 is buckling, below zero a load that
+    /// stretches it); none for limbs without inner freedom.
+    pub largest_share_to_buckling: Option<f64>,
+    /// Largest force or torque of a drive as a share of its rating, 1 is the rating; none where the
+    /// model states no rating.
+    #[serde(default)]
+    pub largest_share_of_rating: Option<f64>,
+    /// Largest force or torque of each actuator (N or N m), in the order of `question.actuators`.
+    #[serde(rename = "max_actuator_force_n_or_n_m")]
+    pub max_actuator_force: Vec<f64>,
+    /// Largest change of each actuator (mm or deg).
+    #[serde(rename = "max_actuator_correction_mm_or_deg")]
+    pub max_actuator_correction: Vec<f64>,
+    /// Every point converged.
+    pub converged: bool,
+    /// Every equilibrium is stable, shapes and platform.
+    pub stable: bool,
+}

@@ -1,0 +1,102 @@
+//! Whether a written program keeps its tolerance: corrected with a model or with a table, by one rule and in one wording.
+
+use kinetostat_program::{Accounting, Farthest};
+use serde::{Deserialize, Serialize};
+
+use crate::number::{against, largest_length, length_setting};
+
+/// How a program that was corrected from a table stands to its tolerance. All that it can miss it by is what was
+/// left out: whatever else is too far off is refused when the written program is checked.
+#[must_use]
+pub fn of_table(farthest: &Farthest, allowed_mm: f64, accounting: &Accounting) -> ToleranceVerdict {
+    let held = farthest.distance_mm <= allowed_mm;
+    ToleranceVerdict {
+        allowed_mm,
+        held: Some(held),
+        missed: (!held).then(|| MissedTolerance {
+            line: farthest.line.unwrap_or(0),
+            output_line: farthest.output_line,
+            position_mm: farthest.position_mm,
+            error_mm: farthest.distance_mm,
+            reason: left_out(accounting),
+        }),
+    }
+}
+
+/// Why a correction is missing in a program that never states an axis.
+pub(crate) fn left_out(accounting: &Accounting) -> String {
+    format!(
+        "a correction of {} was left out because the program never states its axis; state X, Y and Z before the first cut",
+        largest_length(accounting.left_out_mm)
+    )
+}
+
+/// As it is, a program keeps the tolerance of the path, for it has no chords; or what is allowed, and no less than
+/// the corrected one does.
+#[must_use]
+pub fn keeps_as_it_is(before_mm: f64, after_mm: f64, tolerance_mm: f64, allowed_mm: f64) -> bool {
+    before_mm <= tolerance_mm || (before_mm <= allowed_mm && before_mm <= after_mm)
+}
+
+/// What a program that came back byte for byte means: it was within the tolerance as it is, by so much, or there
+/// was nothing that could be written.
+#[must_use]
+pub fn unchanged_in_words(within_tolerance: bool, before_mm: f64) -> String {
+    if within_tolerance {
+        return format!(
+            "Nothing was corrected: as the program is, the tool is at most {} off, which is within the tolerance, \
+             and it comes back byte for byte. A smaller --tolerance-um corrects that too.",
+            largest_length(before_mm)
+        );
+    }
+    "Nothing was to be corrected: no correction along the program reaches the last digit written, and it \
+     comes back byte for byte."
+        .to_owned()
+}
+
+impl ToleranceVerdict {
+    /// That the tolerance is missed, where, by how much and why; none where it is held or nothing was written.
+    #[must_use]
+    pub fn missed_in_words(&self) -> Option<String> {
+        if self.held != Some(false) {
+            return None;
+        }
+        let Some(m) = &self.missed else {
+            return Some(format!(
+                "THE TOLERANCE of {} IS MISSED.",
+                length_setting(self.allowed_mm)
+            ));
+        };
+        let (error, allowed) = against(m.error_mm, self.allowed_mm);
+        Some(format!(
+            "THE TOLERANCE IS MISSED at line {} (line {} of the written program): the tool is {error} off, more than the {allowed} that are allowed; {}.",
+            m.line, m.output_line, m.reason
+        ))
+    }
+}
+
+/// How a written program stands to its tolerance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ToleranceVerdict {
+    /// [`RunResult::allowed_mm`].
+    pub allowed_mm: f64,
+    /// [`RunResult::holds_tolerance`].
+    pub held: Option<bool>,
+    /// Where it is missed most; none where it is held.
+    pub missed: Option<MissedTolerance>,
+}
+
+/// The place where a written program is farthest beyond its tolerance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MissedTolerance {
+    /// Line of the input program, from 1.
+    pub line: usize,
+    /// Line of the written program, from 1.
+    pub output_line: usize,
+    /// Where the tool should be, program coordinates, mm.
+    pub position_mm: [f64; 3],
+    /// Distance of the tool from it, mm.
+    pub error_mm: f64,
+    /// Why, and what can be done.
+    pub reason: String,
+}

@@ -1,0 +1,18 @@
+//! What was checked of a written program besides its points.
+
+use crate::warning::Warning;
+
+/// What was checked of a written program besides its points.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Checked {
+    /// Largest error of the speed along the part where the feed was not limited, percent.
+    pub(crate) speed_percent: f64,
+    /// Largest error on the corner steps that were not read so, if the load turns evenly there, mm.
+    pub(crate) if_turns_mm: Option<f64>,
+    /// The same, if the load follows the feed there.
+    pub(crate) if_follows_mm: Option<f64>,
+    /// What was divided again because the tool was found off.
+    pub(crate) divided_again: Option<Warning>,
+    /// The program as it is keeps the tolerance, and was left so.
+    pub(crate) within_before: bool,
+}

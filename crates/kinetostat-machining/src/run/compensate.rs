@@ -1,0 +1,161 @@
+//! A run over a program: deflections along it, the compensated program, and the proof from the
+//! written bytes.
+
+use kinetostat_program::{
+    Corrected, CorrectionField, Monitor, NoCorrection, Verification, verify_written,
+    write_corrected,
+};
+
+use crate::checks::refused::{of_accounting, of_points, of_question};
+use crate::field::ModelField;
+use crate::limits::Beyond;
+use crate::load::along_path::LoadAlongPath;
+use crate::load::law::CornerLoad;
+use crate::result::point::{PointResult, most, size};
+use crate::result::run_result::bound_mm;
+use crate::result::tolerance::keeps_as_it_is;
+use crate::run::checked::Checked;
+use crate::run::conclude::{Run, conclude};
+use crate::run::corner_steps::by_the_other_reading;
+use crate::run::divide_again::Again;
+use crate::run::first_look::first_look;
+use crate::run::following::jump;
+use crate::run::points::solve;
+use crate::run::sites::{of_path, sites_of_written, spacing_mm};
+use crate::run::summary::feed_arcs;
+use crate::task::{RunError, Task, Watch};
+
+/// Refuses what is beyond its limits.
+fn refuse(beyond: Vec<Beyond>) -> Result<(), RunError> {
+    match beyond.is_empty() {
+        true => Ok(()),
+        false => Err(RunError::BeyondLimits(beyond)),
+    }
+}
+
+/// Deflections along the program as it is.
+///
+/// # Errors
+/// [`RunError`] naming the line.
+pub fn analyse(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
+    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
+    let sites = || of_path(task.path, &load, &task.placement, spacing_mm(task));
+    let (points, _) = solve(task, sites, false, watch)?;
+    Ok(conclude(task, &load, points, None, &Checked::default()))
+}
+
+/// The compensated program, with deflections solved again from its bytes.
+///
+/// # Errors
+/// [`RunError`] naming the line; nothing is to be written then.
+pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, RunError> {
+    refuse(of_question(task))?;
+    let load = LoadAlongPath::with_tools(task.load, task.path, task.tools);
+    refuse(first_look(task, &load, watch)?)?;
+    let field = ModelField::new(task.mechanism, task.placement, &load);
+    let mut again = Again::default();
+    let arcs = feed_arcs(task);
+    let (mut written, mut check, mut points, mut worse, allowed_mm) = loop {
+        let (written, check) = write_and_read_again(task, &again.field(&field), watch)?;
+        let (points, worse) = solve(
+            task,
+            || sites_of_written(task, &load, &written),
+            true,
+            watch,
+        )?;
+        let stable = points.iter().all(|p| p.stable);
+        let allowed_mm = bound_mm(&task.writing, arcs, &written.accounting);
+        if !stable || !again.divides(task.path, &field, &points, allowed_mm) {
+            break (written, check, points, worse, allowed_mm);
+        }
+    };
+    if let Some(point) = points.iter().find(|p| !p.stable) {
+        return Err(RunError::Unstable {
+            line: point.line,
+            position_mm: point.position_mm,
+        });
+    }
+    // A machine that gives way is the graver finding, so limits come after it.
+    let mut beyond = of_accounting(&task.bounds.limits, &written.accounting);
+    // Of a machine the correction is compared with its limit by the points: what is due to its own weight is known there.
+    beyond.retain(|b| b.limit.name != "correction_mm");
+    for found in of_points(task, &points) {
+        if beyond.iter().all(|b| b.limit != found.limit) {
+            beyond.push(found);
+        }
+    }
+    refuse(beyond)?;
+    let within_before = written.bytes != task.program.bytes()
+        && within_before(&points, task.writing.tolerance_mm, allowed_mm);
+    if within_before {
+        // As it is, the program keeps what is claimed of a corrected one, which could be farther off.
+        (written, check) = write_and_read_again(task, &NoCorrection, watch)?;
+        (points, worse) = solve(
+            task,
+            || sites_of_written(task, &load, &written),
+            true,
+            watch,
+        )?;
+    }
+    if let Some(worse) = worse {
+        return Err(worse);
+    }
+    if let Some(line) = jump(task, &points) {
+        return Err(RunError::Jump { line });
+    }
+    let sites = || sites_of_written(task, &load, &written);
+    let checked = Checked {
+        speed_percent: 100.0 * check.largest_speed_error,
+        if_turns_mm: by_the_other_reading(task, CornerLoad::Turns, sites, watch)?,
+        if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
+        divided_again: match within_before {
+            true => None,
+            false => again.in_words(allowed_mm),
+        },
+        within_before,
+    };
+    Ok(conclude(task, &load, points, Some(written), &checked))
+}
+
+/// Whether the program keeps its tolerance as it is.
+fn within_before(points: &[PointResult], tolerance_mm: f64, allowed_mm: f64) -> bool {
+    let largest =
+        |error: fn(&PointResult) -> f64| most(points, error).map_or(0.0, |(largest, _)| largest);
+    let before = largest(|p| size(&p.error_before_mm));
+    let after = largest(|p| size(&p.error_after_mm));
+    keeps_as_it_is(before, after, tolerance_mm, allowed_mm)
+}
+
+/// The compensated program and what its own reader says of it.
+fn write_and_read_again(
+    task: &Task<'_>,
+    field: &dyn CorrectionField,
+    watch: &dyn Watch,
+) -> Result<(Corrected, Verification), RunError> {
+    watch.stage("corrections", 0);
+    let monitor = Forward(watch);
+    let written = write_corrected(task.program, task.path, field, &task.writing, &monitor)?;
+    watch.stage("check of the written program", 0);
+    let check = verify_written(
+        task.program,
+        task.path,
+        &written,
+        &task.reading,
+        &task.writing,
+    )?;
+    Ok((written, check))
+}
+
+/// Passes the writer's progress on.
+struct Forward<'w>(&'w dyn Watch);
+
+impl Monitor for Forward<'_> {
+    fn progress(&self, done: usize, _so_far: usize) {
+        // Every division asks for more points.
+        self.0.stage("corrections", 0);
+        self.0.advance(done);
+    }
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}

@@ -1,0 +1,222 @@
+//! The result of a run: what was asked, its figures, warnings and points.
+
+use kinetostat::{Mechanism, MotionKind};
+use kinetostat_program::{Corrected, Path};
+
+use crate::checks::refused::{as_warning, of_points, of_question};
+use crate::checks::unusual::unusual;
+use crate::load::along_path::LoadAlongPath;
+use crate::result::point::{PointKind, PointResult};
+use crate::result::question::{ActuatorColumn, Question, ToolAtCorners};
+use crate::result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
+use crate::result::selection::{thinned, worst};
+use crate::result::summary::Summary;
+use crate::result::tolerance::ToleranceVerdict;
+use crate::run::checked::Checked;
+use crate::run::following::following;
+use crate::run::nearest_singular::nearest_singular;
+use crate::run::summary::summarise;
+use crate::run::tolerance::tolerance;
+use crate::task::{Task, kinds};
+use crate::warning::{Warning, WarningCode};
+
+/// A run's result, all its points, and the written program.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Summary and decimated points.
+    pub result: RunResult,
+    /// All points.
+    pub points: Vec<PointResult>,
+    /// The compensated program, checked; not yet on disk.
+    pub written: Option<Corrected>,
+}
+
+/// Everything that bends the machine along a program, in words: cutting load and own weight.
+#[must_use]
+pub fn load_in_words(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> String {
+    let gravity = mechanism.gravity();
+    let mass: f64 = mechanism
+        .limbs()
+        .iter()
+        .flat_map(|l| l.actual.bodies())
+        .map(|b| b.mass)
+        .chain(mechanism.platforms().iter().map(|p| p.mass))
+        .sum();
+    if gravity.norm() > 0.0 && mass > 0.0 {
+        format!(
+            "{}; and the machine's own weight, {mass:.0} kg, everywhere",
+            load.in_words()
+        )
+    } else {
+        format!("{}; no weight in the model", load.in_words())
+    }
+}
+
+/// The result of a run. The tolerance is compared last: it needs the figures and the question that the result states.
+pub(crate) fn conclude(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    points: Vec<PointResult>,
+    written: Option<Corrected>,
+    checked: &Checked,
+) -> Run {
+    let summary = summarise(task, &points, written.as_ref(), checked);
+    let near_singularity = nearest_singular(task, &points);
+    let mut warnings = warnings(task, &points, &summary, written.as_ref(), checked);
+    // Said first: near a singular posture every other figure is larger than elsewhere.
+    if let Some(near) = &near_singularity {
+        warnings.insert(0, near_singular_warning(near));
+    }
+    let worst = worst(&points);
+    let mut result = RunResult {
+        schema: RESULT_SCHEMA,
+        kinetostat_version: env!("CARGO_PKG_VERSION").into(),
+        tolerance: ToleranceVerdict::default(),
+        summary,
+        question: question_of(task, load, &points, written.is_some()),
+        worst_points: worst.iter().map(|&i| points[i].clone()).collect(),
+        warnings,
+        near_singularity,
+        points: Vec::new(),
+    };
+    result.tolerance = tolerance(&result, &points, written.as_ref());
+    result.points = thinned(&points, &worst, RunResult::MAX_POINTS)
+        .into_iter()
+        .map(|i| points[i].clone())
+        .collect();
+    Run {
+        result,
+        points,
+        written,
+    }
+}
+
+/// The question as the result repeats it: what the task states, with the load in words and the box of the feed path.
+fn question_of(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    points: &[PointResult],
+    compensated: bool,
+) -> Question {
+    let (box_min_mm, box_max_mm) = feed_box(points);
+    let tools = task.tools.iter();
+    Question {
+        load: load_in_words(task.mechanism, load),
+        tolerance_mm: task.writing.tolerance_mm,
+        chord_tolerance_mm: task.writing.chord_tolerance_mm,
+        decimals: task.writing.decimals.unwrap_or(4),
+        compensated,
+        load_at_corners: task.load.at_corners,
+        tools_at_corners: tools
+            .map(|tool| ToolAtCorners {
+                number: tool.number,
+                load_at_corners: tool.load.at_corners,
+            })
+            .collect(),
+        actuators: actuator_columns(task.mechanism),
+        box_min_mm,
+        box_max_mm,
+        ..task.question.clone()
+    }
+}
+
+/// Names and units of the lists that have one number per actuator.
+fn actuator_columns(mechanism: &Mechanism) -> Vec<ActuatorColumn> {
+    let names = mechanism.actuator_names().into_iter();
+    names
+        .zip(kinds(mechanism))
+        .map(|(name, kind)| {
+            let (motion, force) = match kind {
+                MotionKind::Prismatic => ("mm", "N"),
+                MotionKind::Revolute => ("deg", "N m"),
+            };
+            ActuatorColumn {
+                name,
+                motion_unit: motion.into(),
+                force_unit: force.into(),
+            }
+        })
+        .collect()
+}
+
+/// Lower and upper corner of the places that are cut, program coordinates, mm; zero where nothing is cut.
+fn feed_box(points: &[PointResult]) -> ([f64; 3], [f64; 3]) {
+    let feed = || points.iter().filter(|p| p.kind != PointKind::Rapid);
+    if feed().next().is_none() {
+        return ([0.0; 3], [0.0; 3]);
+    }
+    let values = |k: usize| feed().map(move |p| p.position_mm[k]);
+    let lower = [0, 1, 2].map(|k| values(k).fold(f64::INFINITY, f64::min));
+    let upper = [0, 1, 2].map(|k| values(k).fold(f64::NEG_INFINITY, f64::max));
+    (lower, upper)
+}
+
+/// Everything to warn of but a singular posture. A program that is only analysed is warned of what would refuse a
+/// compensated one.
+fn warnings(
+    task: &Task<'_>,
+    points: &[PointResult],
+    summary: &Summary,
+    written: Option<&Corrected>,
+    checked: &Checked,
+) -> Vec<Warning> {
+    let of_writer = written.map(|w| w.accounting.warnings.as_slice());
+    let mut warnings = of_program(task.path, of_writer);
+    warnings.extend(checked.divided_again.clone());
+    if !summary.stable {
+        let first = points.iter().find(|p| !p.stable).map_or(0, |p| p.line);
+        warnings.push(Warning::at_line(
+            WarningCode::NotStable,
+            first,
+            format!("the machine is not stable under this load, first at line {first}: it would jump to another shape; do not run this program"),
+        ));
+    }
+    if task.placement.scale != 1.0 {
+        warnings.push(Warning::new(
+            WarningCode::Scaled,
+            format!(
+                "the program is scaled by {} in the machine: corrections fit only a program of that size, and all lengths here are program millimetres",
+                task.placement.scale
+            ),
+        ));
+    }
+    if written.is_none() {
+        let beyond = of_question(task).into_iter().chain(of_points(task, points));
+        warnings.extend(beyond.map(|b| as_warning(&b)));
+    }
+    warnings.extend(unusual(task, points, summary, written.is_some()));
+    warnings.extend(following(task, points, summary));
+    warnings
+}
+
+fn near_singular_warning(near: &NearSingularPlace) -> Warning {
+    let [x, y, z] = near.position_mm;
+    Warning::at_line(
+        WarningCode::NearSingular,
+        near.line,
+        format!("at X{x:.2} Y{y:.2} Z{z:.2} mm: {}", near.posture.in_words),
+    )
+}
+
+/// What was found while a program was read, and while another was written from it: each once.
+#[must_use]
+pub fn of_program(path: &Path, writing: Option<&[kinetostat_program::Warning]>) -> Vec<Warning> {
+    let made = |code: WarningCode| {
+        move |w: &kinetostat_program::Warning| Warning::at_line(code, w.line, w.text.clone())
+    };
+    let mut warnings: Vec<Warning> = path
+        .warnings
+        .iter()
+        .map(made(WarningCode::Program))
+        .collect();
+    warnings.extend(
+        writing
+            .unwrap_or_default()
+            .iter()
+            // The writer hands on what the reader said.
+            .filter(|w| !path.warnings.contains(w))
+            .map(made(WarningCode::Writing)),
+    );
+    warnings.dedup();
+    warnings
+}

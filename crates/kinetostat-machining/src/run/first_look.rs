@@ -1,0 +1,54 @@
+//! The first look at a program: a few places, solved before anything is divided, show a wrong unit in
+//! milliseconds where the whole program would take minutes.
+
+use crate::checks::refused::of_points;
+use crate::limits::Beyond;
+use crate::load::along_path::LoadAlongPath;
+use crate::run::machines::Machines;
+use crate::run::points::chunk;
+use crate::run::sites::{of_path, spacing_mm};
+use crate::task::{RunError, Task, Watch};
+
+/// Places of a program at which figures are compared with their limits before anything is divided.
+const FIRST_LOOKS: usize = 8;
+
+/// A correction beyond its limit by this is refused by the first look: what a wrong unit does takes minutes to be
+/// solved everywhere.
+const GROSS: f64 = 10.0;
+
+/// What is beyond its limits by far at a few places of the program as it is.
+///
+/// # Errors
+/// Where the first of them has no answer. That a later one has none is reported where the program is solved, for there
+/// may be others before it.
+pub(crate) fn first_look(
+    task: &Task<'_>,
+    load: &LoadAlongPath<'_>,
+    watch: &dyn Watch,
+) -> Result<Vec<Beyond>, RunError> {
+    let sites = || of_path(task.path, load, &task.placement, spacing_mm(task));
+    let every = sites().count().div_ceil(FIRST_LOOKS).max(1);
+    let machines = Machines::new(task);
+    let mut points = Vec::new();
+    for (index, site) in sites().step_by(every).enumerate() {
+        if watch.cancelled() {
+            return Err(RunError::Cancelled);
+        }
+        let (vectorised, orientation) = machines.at(&site);
+        let one = std::slice::from_ref(&site);
+        let mut memory = Default::default();
+        for found in chunk(task, vectorised, &mut memory, one, (orientation, false)) {
+            match found {
+                Ok(point) => points.push(point),
+                Err(error) if index == 0 => return Err(error),
+                Err(_) => {}
+            }
+        }
+    }
+    let mut beyond = of_points(task, &points);
+    beyond.retain(|b| {
+        let of_correction = ["correction_mm", "own_weight_mm"].contains(&b.limit.name);
+        of_correction && b.found > GROSS * b.allowed
+    });
+    Ok(beyond)
+}

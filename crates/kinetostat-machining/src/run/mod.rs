@@ -1,0 +1,18 @@
+//! A run over a program: deflections along it, the compensated program, and the proof from the written bytes.
+//!
+//! Takes a [`Task`](crate::Task); gives a [`Run`](crate::Run). In the order of events: a first look, corrections written
+//! and read again, every place solved, blocks divided again where the tool is off, the result.
+
+pub(crate) mod checked;
+pub(crate) mod compensate;
+pub(crate) mod conclude;
+pub(crate) mod corner_steps;
+pub(crate) mod divide_again;
+pub(crate) mod first_look;
+pub(crate) mod following;
+pub(crate) mod machines;
+pub(crate) mod nearest_singular;
+pub(crate) mod points;
+pub(crate) mod sites;
+pub(crate) mod summary;
+pub(crate) mod tolerance;

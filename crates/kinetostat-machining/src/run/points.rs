@@ -1,0 +1,247 @@
+//! Every place of a program solved: where the tool is without compensation and with it, and what the machine
+//! carries there.
+
+use kinetostat::batch::BatchEquilibrium;
+use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::field::in_words;
+use crate::postures::neighbour::{Neighbour, in_chunks};
+use crate::postures::orientation::Orientation;
+use crate::postures::vectorised::VectorisedPostures;
+use crate::result::point::{PointResult, size};
+use crate::run::following::turn_deg;
+use crate::run::machines::Machines;
+use crate::run::sites::Site;
+use crate::task::{RunError, Task, Watch, kinds};
+
+/// Points between two questions to the watch whether to stop.
+pub(crate) const BATCH: usize = 4096;
+
+/// All points in their order, and the first of a written program that is worse than before. Sites are
+/// made as they are needed: a long program has many.
+pub(crate) fn solve<S: Iterator<Item = Site>>(
+    task: &Task<'_>,
+    sites: impl Fn() -> S,
+    written: bool,
+    watch: &dyn Watch,
+) -> Result<(Vec<PointResult>, Option<RunError>), RunError> {
+    let total = sites().count();
+    if total == 0 {
+        return Err(RunError::NoMotion);
+    }
+    let name = if written {
+        "deflections of the written program"
+    } else {
+        "deflections"
+    };
+    watch.stage(name, total);
+    let mut points: Vec<PointResult> = Vec::with_capacity(total);
+    let mut worse = None;
+    let machines = Machines::new(task);
+    let mut sites = sites();
+    loop {
+        let batch: Vec<Site> = sites.by_ref().take(BATCH).collect();
+        if batch.is_empty() {
+            return Ok((points, worse));
+        }
+        if watch.cancelled() {
+            return Err(RunError::Cancelled);
+        }
+        let of_one_tool = batch.chunk_by(|a, b| machines.same(a, b));
+        let solved = of_one_tool.flat_map(|run| {
+            let (vectorised, orientation) = machines.at(&run[0]);
+            in_chunks(run, |memory, sites| {
+                chunk(task, vectorised, memory, sites, (orientation, written))
+            })
+        });
+        for (site, point) in batch.iter().zip(solved) {
+            let point = point?;
+            worse = worse.or_else(|| worse_than_before(task, site, &point));
+            points.push(point);
+        }
+        watch.advance(points.len());
+    }
+}
+
+/// Points of a chunk, by vector kernels where there are some, else one after the other.
+pub(crate) fn chunk<'m>(
+    task: &Task<'m>,
+    vectorised: &VectorisedPostures<'m>,
+    memory: &mut [Neighbour<'m>; 2],
+    sites: &[Site],
+    (orientation, written): (Orientation, bool),
+) -> Vec<Result<PointResult, RunError>> {
+    let (place, mechanism) = (&task.placement, vectorised.mechanism());
+    let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
+        sites.iter().map(|s| place.tool_pose(of(s))).collect()
+    };
+    let wanted = poses(|s| &s.desired);
+    let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
+    let before = written.then(|| vectorised.rest(&wanted, &wrenches));
+    let commanded = match written {
+        true => poses(|s| &s.commanded),
+        false => wanted.clone(),
+    };
+    let after = vectorised.with_stability(&commanded, &wrenches);
+    let [before_memory, after_memory] = memory;
+    // One after the other: each starts from its neighbour.
+    let mut solved = |i: usize| -> Result<PointResult, Error> {
+        let wrench = &wrenches[i];
+        let before = match &before {
+            None => None,
+            Some(Some(found)) => Some((found.commands.row(i).collect(), found.tool_pose(i))),
+            Some(None) => {
+                let pose = &wanted[i];
+                let (posture, tool) = before_memory.rest(mechanism, pose, wrench, orientation)?;
+                Some((posture.commands(), tool))
+            }
+        };
+        let after = match &after {
+            Some(found) => Loaded::of_batch(found, i, &commanded[i]),
+            None => None,
+        };
+        let after = match after {
+            Some(after) => after,
+            None => {
+                let pose = &commanded[i];
+                let found = after_memory.equilibrium(mechanism, pose, wrench, orientation)?;
+                Loaded::of_posture(&found.0, &found.1)
+            }
+        };
+        Ok(point(task, &sites[i], &wanted[i], before, after))
+    };
+    (0..sites.len())
+        .map(|i| {
+            solved(i).map_err(|cause| RunError::Point {
+                line: sites[i].line,
+                position_mm: sites[i].desired.into(),
+                message: in_words(&cause),
+                cause: Box::new(cause),
+            })
+        })
+        .collect()
+}
+
+/// What a result states of an equilibrium.
+struct Loaded {
+    tool: Pose,
+    rotation: f64,
+    /// Orientation of the unloaded tool.
+    nominal: UnitQuaternion<f64>,
+    commands: Vec<f64>,
+    actuator_forces: Vec<f64>,
+    stiffness_against_force: f64,
+    share_to_buckling: Option<f64>,
+    stable: bool,
+}
+
+impl Loaded {
+    fn of_posture(posture: &Posture<'_>, equilibrium: &MechanismEquilibrium) -> Self {
+        let turned = equilibrium.tool.rotation * posture.target().rotation.inverse();
+        Self {
+            tool: equilibrium.tool,
+            rotation: turned.angle(),
+            nominal: posture.target().rotation,
+            commands: posture.commands(),
+            actuator_forces: equilibrium.actuator_forces(),
+            stiffness_against_force: equilibrium.stiffness_against_force(),
+            share_to_buckling: equilibrium.share_to_buckling(),
+            stable: equilibrium.stable(),
+        }
+    }
+
+    fn of_batch(found: &BatchEquilibrium, i: usize, commanded: &Pose) -> Option<Self> {
+        let stability = found.verdict(i)?;
+        let tool = found.tool_pose(i);
+        Some(Self {
+            rotation: (tool.rotation * commanded.rotation.inverse()).angle(),
+            tool,
+            nominal: commanded.rotation,
+            commands: found.commands.row(i).collect(),
+            actuator_forces: found.actuator_forces.row(i).collect(),
+            stiffness_against_force: stability.stiffness_against_force,
+            share_to_buckling: stability.share_to_buckling,
+            stable: stability.stable,
+        })
+    }
+}
+
+/// `before`: commands and pose of the tool without compensation, of a written program.
+fn point(
+    task: &Task<'_>,
+    site: &Site,
+    wanted: &Pose,
+    before: Option<(Vec<f64>, Pose)>,
+    after: Loaded,
+) -> PointResult {
+    let place = &task.placement;
+    let off = |tool: &Pose| -> [f64; 3] {
+        let shift = tool.translation.vector - wanted.translation.vector;
+        place.to_program(&shift).into()
+    };
+    let error_after_mm = off(&after.tool);
+    let (error_before_mm, actuator_correction) = match before {
+        Some((nominal, tool)) => {
+            let both = after.commands.iter().zip(&nominal);
+            let correction = both
+                .zip(kinds(task.mechanism))
+                .map(|((after, before), kind)| in_display(kind) * (after - before))
+                .collect();
+            (off(&tool), correction)
+        }
+        None => (error_after_mm, vec![0.0; after.commands.len()]),
+    };
+    PointResult {
+        line: site.line,
+        output_line: site.output_line,
+        end: site.end,
+        kind: site.kind,
+        share: site.share,
+        path_mm: site.path_mm,
+        start_mm: site.start_mm,
+        programmed: site.programmed,
+        position_mm: site.desired.into(),
+        error_before_mm,
+        error_after_mm,
+        correction_mm: (site.commanded - site.desired).into(),
+        force_n: place.to_part_axes(&site.wrench.force()).into(),
+        residual_rotation_deg: after.rotation.to_degrees(),
+        tool_turn_deg: place
+            .orientation_follows
+            .then(|| turn_deg(&wanted.rotation, &after.nominal)),
+        actuator_command: after
+            .commands
+            .iter()
+            .zip(kinds(task.mechanism))
+            .map(|(command, kind)| in_display(kind) * command)
+            .collect(),
+        actuator_force: after.actuator_forces,
+        actuator_correction,
+        smallest_stiffness_n_per_mm: 1e-3 * after.stiffness_against_force,
+        share_to_buckling: after.share_to_buckling.filter(|mu| mu.is_finite()),
+        stable: after.stable,
+    }
+}
+
+/// Millimetres per metre or degrees per radian.
+fn in_display(kind: MotionKind) -> f64 {
+    match kind {
+        MotionKind::Prismatic => 1e3,
+        MotionKind::Revolute => 1_f64.to_degrees(),
+    }
+}
+
+/// No block may end farther off than without compensation, beyond tolerance and rounding.
+fn worse_than_before(task: &Task<'_>, site: &Site, point: &PointResult) -> Option<RunError> {
+    let decimals = i32::from(task.writing.decimals.unwrap_or(4));
+    let slack =
+        task.writing.tolerance_mm + task.writing.chord_tolerance_mm + 10_f64.powi(-decimals);
+    let last = site.end && site.share >= 1.0;
+    let (before_mm, after_mm) = (size(&point.error_before_mm), size(&point.error_after_mm));
+    (last && after_mm > before_mm + slack).then_some(RunError::Worse {
+        line: site.line,
+        before_mm,
+        after_mm,
+    })
+}

@@ -1,0 +1,311 @@
+//! Where along a path, or along a written program, errors are looked at.
+
+use kinetostat::Wrench;
+use kinetostat_program::{
+    Corrected, Curve, Knowledge, Move, MoveKind, Path, Piece, Turn, irregular,
+};
+use nalgebra::Vector3;
+
+use crate::load::along_path::LoadAlongPath;
+use crate::load::law::CornerLoad;
+use crate::near::natural_length;
+use crate::placement::Placement;
+use crate::result::point::PointKind;
+use crate::task::Task;
+
+/// A place on the path with its load and, for a written program, what is commanded there.
+#[derive(Clone, Debug)]
+pub(crate) struct Site {
+    pub line: usize,
+    pub output_line: usize,
+    pub kind: PointKind,
+    pub share: f64,
+    pub path_mm: f64,
+    /// Length of the path before its move, mm.
+    pub start_mm: f64,
+    /// One of the places at which a program is looked at however it is written ([`of_path`]).
+    pub programmed: bool,
+    /// Where the tool should be, mm, program coordinates.
+    pub desired: Vector3<f64>,
+    /// What the written program commands, mm; the same without compensation.
+    pub commanded: Vector3<f64>,
+    pub wrench: Wrench,
+    /// On a corner step, the load by the reading that was not chosen.
+    pub other_wrench: Option<Wrench>,
+    /// End of a piece (or block), where a full answer is wanted; otherwise its middle.
+    pub end: bool,
+}
+
+/// Length of the path before every move, mm.
+fn starts(path: &Path) -> Vec<f64> {
+    let mut length = 0.0;
+    path.moves
+        .iter()
+        .map(|m| {
+            let start = length;
+            length += known_length(m);
+            start
+        })
+        .collect()
+}
+
+/// Blocks longer than this share of the path that is cut are looked at in more places.
+const PIECES: f64 = 500.0;
+
+/// Arcs are looked at where chords leave them by at most this, mm.
+const ARC_MM: f64 = 0.01;
+
+/// The places at which a program is looked at as it is given: the same whether and how it is written anew,
+/// so that figures without compensation are the same in every run.
+struct Programmed {
+    longest_mm: f64,
+    short_mm: f64,
+}
+
+impl Programmed {
+    fn new(path: &Path, spacing_mm: f64) -> Self {
+        let cut = path.moves.iter().filter(|m| m.kind == MoveKind::Feed);
+        let length = cut.map(known_length).sum::<f64>();
+        Self {
+            longest_mm: (length / PIECES).min(spacing_mm),
+            short_mm: SHORT * spacing_mm,
+        }
+    }
+
+    /// Ends and middles of equal pieces of a block at feed, as shares of it, and which of them are ends: between
+    /// the ends of a long block the load or the machine may differ much. A very short one has no middle.
+    fn shares(&self, motion: &Move) -> impl Iterator<Item = (f64, bool)> + use<> {
+        let length = motion.length_mm();
+        let pieces = (length / self.longest_mm).ceil().clamp(1.0, 1e6) as usize;
+        let pieces = match &motion.curve {
+            Curve::Line => pieces,
+            Curve::Arc(arc) => pieces.max(arc.chords_within(ARC_MM)),
+        };
+        let middles = pieces > 1 || length > self.short_mm;
+        (1..=2 * pieces)
+            .filter(move |half| middles || half % 2 == 0)
+            .map(move |half| (half as f64 / (2 * pieces) as f64, half % 2 == 0))
+    }
+}
+
+/// A move from a place that the program does not tell has no length that counts.
+fn known_length(motion: &Move) -> f64 {
+    if motion.known == Knowledge::Whole {
+        motion.length_mm()
+    } else {
+        0.0
+    }
+}
+
+/// The load at the start of a move is another one than that before it.
+fn jumps(path: &Path, load: &LoadAlongPath<'_>, placement: &Placement, i: usize) -> bool {
+    let Some(before) = i.checked_sub(1) else {
+        return true;
+    };
+    let known = path.moves[before].known == Knowledge::Whole;
+    let before = load.wrench(placement, before, 1.0).0;
+    let after = load.wrench(placement, i, 0.0).0;
+    !known || (after - before).norm() > 1e-6 * (before.norm() + after.norm())
+}
+
+/// Ends and middles of all blocks, and their starts where the load jumps, one after the other; of blocks longer than `spacing_mm` those of their
+/// pieces.
+pub(crate) fn of_path<'a>(
+    path: &'a Path,
+    load: &'a LoadAlongPath<'a>,
+    placement: &'a Placement,
+    spacing_mm: f64,
+) -> impl Iterator<Item = Site> + 'a {
+    let starts = starts(path);
+    let programmed = Programmed::new(path, spacing_mm);
+    let moves = path.moves.iter().enumerate();
+    moves.flat_map(move |(i, motion)| {
+        let site = |(share, end): (f64, bool)| {
+            let desired = motion.point(share);
+            Site {
+                line: motion.line,
+                output_line: 0,
+                kind: kind(motion),
+                share,
+                path_mm: starts[i] + share * known_length(motion),
+                start_mm: starts[i],
+                programmed: true,
+                desired,
+                commanded: desired,
+                wrench: load.wrench(placement, i, share),
+                other_wrench: None,
+                end,
+            }
+        };
+        match (motion.known, motion.kind) {
+            (Knowledge::Nothing, _) => Vec::new(),
+            (Knowledge::End, _) | (_, MoveKind::Rapid) => vec![site((1.0, true))],
+            (Knowledge::Whole, MoveKind::Feed) if motion.length_mm() == 0.0 => Vec::new(),
+            (Knowledge::Whole, MoveKind::Feed) => {
+                let start = jumps(path, load, placement, i).then_some((0.0, false));
+                let shares = start.into_iter().chain(programmed.shares(motion));
+                shares.map(site).collect()
+            }
+        }
+    })
+}
+
+/// Seed of the irregular places: the division of blocks has another, so that what it overlooked is not
+/// overlooked here too.
+const SEED: u64 = 4;
+
+/// Share of the spacing below which a block that was not divided is straight in every respect.
+const SHORT: f64 = 0.05;
+
+/// Ends of all pieces of a written program and irregular places inside them, no farther apart than twice
+/// `spacing_mm`, the middles of pieces that are not very short, and the places of the program as it is given
+/// ([`of_path`] with the same spacing), one after the other.
+pub(crate) fn of_written<'a>(
+    path: &'a Path,
+    written: &'a Corrected,
+    load: &'a LoadAlongPath<'a>,
+    placement: &'a Placement,
+    spacing_mm: f64,
+) -> impl Iterator<Item = Site> + 'a {
+    let starts = starts(path);
+    let programmed = Programmed::new(path, spacing_mm);
+    let pieces = written.pieces.iter().enumerate();
+    pieces.flat_map(move |(index, piece)| {
+        let motion = &path.moves[piece.move_index];
+        let mut sites = Vec::new();
+        if !piece.corrected || motion.known == Knowledge::Nothing || motion.length_mm() == 0.0 {
+            return sites;
+        }
+        let width = piece.share_to - piece.share_from;
+        let share_at = |place: f64| match place {
+            1.0 => piece.share_to,
+            _ => piece.share_from + place * width,
+        };
+        let mut push = |(place, share): (f64, f64),
+                        (wrench, other_wrench): (Wrench, Option<Wrench>),
+                        (end, programmed): (bool, bool)| {
+            sites.push(Site {
+                line: motion.line,
+                output_line: piece.output_line,
+                kind: if piece.corner_step {
+                    PointKind::Corner
+                } else {
+                    kind(motion)
+                },
+                share,
+                path_mm: starts[piece.move_index] + share * known_length(motion),
+                start_mm: starts[piece.move_index],
+                programmed,
+                desired: motion.point(share),
+                commanded: commanded(motion, piece, place),
+                wrench,
+                other_wrench,
+                end,
+            });
+        };
+        let inside = |k: usize| irregular(SEED, index as u64, k as u64);
+        if let Some(turn) = piece.turn {
+            for (place, end) in [(inside(0), false), (1.0, true)] {
+                let step = on_step(piece, &turn, place, load, placement);
+                push((place, share_at(place)), step, (end, false));
+            }
+            return sites;
+        }
+        // Beside a jump of the load inside a move, the load is the one before it or after it: within
+        // the micrometre in which it is located it steps, it does not turn gradually.
+        let neighbour = |index: Option<usize>| {
+            index
+                .and_then(|index| written.pieces.get(index))
+                .filter(|other| other.move_index == piece.move_index)
+                .and_then(|other| other.turn)
+        };
+        let lowest = neighbour(index.checked_sub(1)).map_or(0.0, |turn| turn.to_share);
+        let highest = neighbour(Some(index + 1)).map_or(1.0, |turn| turn.from_share);
+        let at = |share: f64| {
+            let share = share.max(lowest).min(highest);
+            (load.wrench(placement, piece.move_index, share), None)
+        };
+        // At the end of a move every program is looked at.
+        let mut at_end = piece.share_to >= 1.0;
+        if motion.kind == MoveKind::Feed && motion.known == Knowledge::Whole {
+            let length = motion.length_between_mm(piece.share_from, piece.share_to);
+            let count = (length / spacing_mm).ceil().clamp(1.0, 1e4) as usize;
+            let mut places: Vec<(f64, f64, bool)> = (0..count)
+                .map(|k| (k as f64 + inside(k)) / count as f64)
+                .map(|place| (place, share_at(place), false))
+                .collect();
+            let divided = piece.share_from > 0.0 || piece.share_to < 1.0;
+            if divided {
+                // A piece leaves its block farthest near its middle; one of a block that was not
+                // divided is looked at where the program is.
+                places.push((0.5, share_at(0.5), false));
+            }
+            if piece.share_from == 0.0 && jumps(path, load, placement, piece.move_index) {
+                places.push((0.0, 0.0, true));
+            }
+            for (share, _) in programmed.shares(motion) {
+                at_end |= share == piece.share_to;
+                if share > piece.share_from && share < piece.share_to {
+                    places.push(((share - piece.share_from) / width, share, true));
+                }
+            }
+            places.sort_by(|a, b| a.1.total_cmp(&b.1));
+            for (place, share, programmed) in places {
+                push((place, share), at(share), (false, programmed));
+            }
+        }
+        push((1.0, piece.share_to), at(piece.share_to), (true, at_end));
+        sites
+    })
+}
+
+/// The load on a corner step, as chosen and by the other reading.
+fn on_step(
+    piece: &Piece,
+    turn: &Turn,
+    place: f64,
+    load: &LoadAlongPath<'_>,
+    placement: &Placement,
+) -> (Wrench, Option<Wrench>) {
+    let part = turn.part_from + place * (turn.part_to - turn.part_from);
+    let from = (turn.from_move, turn.from_share);
+    let to = (piece.move_index, turn.to_share);
+    let turns = load.turning_wrench(placement, from, to, part);
+    let along = piece.commanded_to - piece.commanded_from;
+    let follows = load.wrench_towards(placement, to.0, to.1, &along);
+    match load.load_of(piece.move_index).at_corners {
+        CornerLoad::Turns => (turns, Some(follows)),
+        CornerLoad::FollowsFeed => (follows, Some(turns)),
+    }
+}
+
+fn kind(motion: &Move) -> PointKind {
+    match motion.kind {
+        MoveKind::Rapid => PointKind::Rapid,
+        MoveKind::Feed => PointKind::Feed,
+    }
+}
+
+fn commanded(motion: &Move, piece: &Piece, place: f64) -> Vector3<f64> {
+    if piece.kept_arc {
+        return motion.point(place);
+    }
+    piece.commanded_from + (piece.commanded_to - piece.commanded_from) * place
+}
+
+/// Where a written program is looked at.
+pub(crate) fn sites_of_written<'s>(
+    task: &'s Task<'_>,
+    load: &'s LoadAlongPath<'s>,
+    written: &'s Corrected,
+) -> impl Iterator<Item = Site> + 's {
+    of_written(task.path, written, load, &task.placement, spacing_mm(task))
+}
+
+/// Length from which on a block is looked at in more places, mm of the program.
+pub(crate) fn spacing_mm(task: &Task<'_>) -> f64 {
+    SPACING * 1e3 * natural_length(task.mechanism) / task.placement.scale
+}
+
+/// Share of the natural length after which a long piece is looked at in one more place.
+const SPACING: f64 = 1.0 / 16.0;

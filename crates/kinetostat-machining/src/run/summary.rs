@@ -1,0 +1,183 @@
+//! Figures of a run from its points and from the written program.
+
+use kinetostat_program::{Corrected, Curve, MoveKind};
+
+use crate::checks::own_weight::largest_by_own_weight;
+use crate::checks::refused::largest_share_of_rating;
+use crate::load::law::CornerLoad;
+use crate::result::point::{PointKind, PointResult, size};
+use crate::result::summary::Summary;
+use crate::run::checked::Checked;
+use crate::task::Task;
+
+pub(crate) fn summarise(
+    task: &Task<'_>,
+    points: &[PointResult],
+    written: Option<&Corrected>,
+    checked: &Checked,
+) -> Summary {
+    // Where nothing is cut, an error of the tool harms nothing.
+    let cutting: Vec<&PointResult> = match points.iter().any(|p| p.kind != PointKind::Rapid) {
+        true => points
+            .iter()
+            .filter(|p| p.kind != PointKind::Rapid)
+            .collect(),
+        false => points.iter().collect(),
+    };
+    // NaN stays visible.
+    let larger = |a: f64, b: f64| if b > a || b.is_nan() { b } else { a };
+    let most = |f: &dyn Fn(&PointResult) -> f64| cutting.iter().map(|p| f(p)).fold(0.0, larger);
+    // The mean without compensation is that of the program's own places, whether another is written or not.
+    let programmed: Vec<&PointResult> = cutting.iter().filter(|p| p.programmed).copied().collect();
+    let rms = |points: &[&PointResult], f: &dyn Fn(&PointResult) -> f64| {
+        along_path(points, |p| f(p).powi(2)).sqrt()
+    };
+    let before = |p: &PointResult| size(&p.error_before_mm);
+    let after = |p: &PointResult| size(&p.error_after_mm);
+    let per_actuator = |f: &dyn Fn(&PointResult) -> &Vec<f64>| {
+        let count = points.first().map_or(0, |p| f(p).len());
+        (0..count)
+            .map(|i| most(&|p: &PointResult| f(p)[i].abs()))
+            .collect()
+    };
+    let mut summary = Summary {
+        points: points.len(),
+        blocks: task.program.block_count(),
+        bytes_in: task.program.bytes().len(),
+        feed_length_mm: task
+            .path
+            .moves
+            .iter()
+            .filter(|m| m.kind == MoveKind::Feed && m.known == kinetostat_program::Knowledge::Whole)
+            .map(kinetostat_program::Move::length_mm)
+            .sum(),
+        max_position_error_before_mm: most(&|p| match p.kind {
+            // Only a written program has steps.
+            PointKind::Corner => 0.0,
+            _ => before(p),
+        }),
+        rms_position_error_before_mm: rms(&programmed, &before),
+        max_position_error_after_mm: most(&after),
+        rms_position_error_after_mm: rms(&cutting, &after),
+        max_correction_mm: most(&|p| size(&p.correction_mm)),
+        max_residual_rotation_deg: most(&|p| p.residual_rotation_deg),
+        max_speed_deviation_percent: checked.speed_percent,
+        max_tool_turn_deg: points
+            .iter()
+            .filter_map(|p| p.tool_turn_deg.as_ref().map(size))
+            .max_by(f64::total_cmp),
+        smallest_stiffness_n_per_mm: cutting
+            .iter()
+            .map(|p| p.smallest_stiffness_n_per_mm)
+            .fold(f64::INFINITY, f64::min),
+        largest_share_to_buckling: cutting
+            .iter()
+            .filter_map(|p| p.share_to_buckling)
+            .max_by(f64::total_cmp),
+        largest_share_of_rating: largest_share_of_rating(task, points),
+        max_error_by_own_weight_mm: largest_by_own_weight(task, &programmed),
+        max_actuator_force: per_actuator(&|p| &p.actuator_force),
+        max_actuator_correction: per_actuator(&|p| &p.actuator_correction),
+        converged: true,
+        stable: points.iter().all(|p| p.stable),
+        ..Summary::default()
+    };
+    if let Some(written) = written {
+        of_what_was_written(&mut summary, task, points, written, checked);
+    }
+    summary
+}
+
+/// Blocks, corner steps, feeds, length and time of a written program.
+fn of_what_was_written(
+    summary: &mut Summary,
+    task: &Task<'_>,
+    points: &[PointResult],
+    written: &Corrected,
+    checked: &Checked,
+) {
+    let a = &written.accounting;
+    let corners = || points.iter().filter(|p| p.kind == PointKind::Corner);
+    // By one reading for all steps: as it was solved where that reading was chosen, and once more elsewhere.
+    let by = |reading: CornerLoad, elsewhere: Option<f64>| {
+        corners()
+            .filter(|p| task.load_on(p.line).at_corners == reading)
+            .map(|p| size(&p.error_after_mm))
+            .chain(elsewhere)
+            .max_by(f64::total_cmp)
+            .filter(|mm| mm.is_finite())
+    };
+    let turns = by(CornerLoad::Turns, checked.if_turns_mm);
+    let follows = by(CornerLoad::FollowsFeed, checked.if_follows_mm);
+    summary.blocks_out = a.blocks_out;
+    summary.blocks_split = a.blocks_split;
+    summary.blocks_unchanged = a.blocks_carried;
+    summary.bytes_out = a.bytes_out;
+    summary.pieces = a.pieces;
+    summary.corner_steps = a.corner_steps;
+    summary.largest_corner_step_mm = a.largest_corner_step_mm;
+    summary.smallest_piece_mm = a.smallest_piece_mm.unwrap_or(0.0);
+    summary.blocks_per_second = a.peak_blocks_per_second;
+    summary.max_rounding_error_mm = a.largest_rounding_mm;
+    summary.feed_arcs = feed_arcs(task);
+    summary.unchanged = written.bytes == task.program.bytes();
+    summary.within_tolerance_before = checked.within_before;
+    summary.corner_points_percent = 100.0 * corners().count() as f64 / points.len().max(1) as f64;
+    summary.max_corner_error_if_load_turns_mm = turns;
+    summary.max_corner_error_if_load_follows_feed_mm = follows;
+    summary.largest_backward_step_mm = a.largest_backward_mm;
+    summary.backward_steps = a.backward_steps;
+    summary.backward_step_limit_mm = task.writing.backward_step_mm;
+    summary.max_feed_factor = task.writing.max_feed_factor;
+    summary.feed_limited_pieces = a.feed_limited_pieces;
+    summary.feed_limited_line = a.feed_limited_line;
+    summary.slowest_limited_speed_percent = a.slowest_limited_speed.map(|share| 100.0 * share);
+    summary.feed_length_before_mm = a.feed_length_in_mm;
+    summary.feed_length_after_mm = a.feed_length_out_mm;
+    summary.feed_time_before_s = a.feed_time_in_s;
+    summary.feed_time_after_s = a.feed_time_out_s;
+    summary.mean_blocks_per_second_before = a.mean_blocks_per_second_in;
+    summary.mean_blocks_per_second_after = a.mean_blocks_per_second;
+    summary.peak_blocks_per_second_before = a.peak_blocks_per_second_in;
+    summary.peak_blocks_per_second_after = a.peak_blocks_per_second;
+}
+
+/// Mean of a value along the path that is cut, by the trapezoidal rule: a piece counts with its length, so
+/// that it does not matter into how many pieces a program is divided, nor where they are looked at. What is
+/// cut before the first place of a block counts with that place.
+fn along_path(points: &[&PointResult], value: impl Fn(&PointResult) -> f64) -> f64 {
+    let (mut sum, mut length) = (0.0, 0.0);
+    let first = points.first().filter(|p| p.kind == PointKind::Feed);
+    if let Some(first) = first {
+        length = first.path_mm - first.start_mm;
+        sum = length * value(first);
+    }
+    for pair in points.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        // A rapid between them is no part of the path.
+        let way = to.path_mm - from.path_mm.max(to.start_mm);
+        if to.kind != PointKind::Feed || way <= 0.0 {
+            continue;
+        }
+        // A block's own first place is not looked at: the load turns at a corner.
+        let mean = if from.line == to.line && from.kind == PointKind::Feed {
+            0.5 * (value(from) + value(to))
+        } else {
+            value(to)
+        };
+        sum += way * mean;
+        length += way;
+    }
+    if length > 0.0 {
+        return sum / length;
+    }
+    points.iter().map(|p| value(p)).sum::<f64>() / points.len().max(1) as f64
+}
+
+/// Arcs at feed.
+pub(crate) fn feed_arcs(task: &Task<'_>) -> usize {
+    let moves = task.path.moves.iter();
+    moves
+        .filter(|m| m.kind == MoveKind::Feed && matches!(m.curve, Curve::Arc(_)))
+        .count()
+}

@@ -1,0 +1,160 @@
+//! What a run is asked, who watches it, and why it may have no answer.
+
+use kinetostat::{Error, Mechanism, MotionKind, number};
+use kinetostat_program::{Path, Program, ReadOptions, WriteError, WriteOptions};
+
+use crate::bounds::Bounds;
+use crate::limits::Beyond;
+use crate::load::law::ProgramLoad;
+use crate::load::tool::{Tool, tool_on};
+use crate::placement::Placement;
+use crate::result::question::Question;
+
+/// Everything that decides a run.
+#[derive(Clone, Debug)]
+pub struct Task<'a> {
+    /// Machine with its tool: the platform's reference point is the tool's tip.
+    pub mechanism: &'a Mechanism,
+    /// The program as read.
+    pub program: &'a Program,
+    /// How it was read.
+    pub reading: ReadOptions,
+    /// Its motion.
+    pub path: &'a Path,
+    /// Where it lies.
+    pub placement: Placement,
+    /// What acts on the tool.
+    pub load: ProgramLoad,
+    /// Tools that the program takes by number, each with its own machine and load; empty where there is
+    /// one tool. `mechanism` and `load` are those of blocks without one of these.
+    pub tools: &'a [Tool<'a>],
+    /// How the compensated program is written.
+    pub writing: WriteOptions,
+    /// Names and words for the result; figures are filled in by the run.
+    pub question: Question,
+    /// What its figures are compared with.
+    pub bounds: Bounds,
+}
+
+impl<'a> Task<'a> {
+    /// Machine with the tool that the block on a line is made with.
+    pub(crate) fn mechanism_on(&self, line: usize) -> &'a Mechanism {
+        tool_on(self.tools, self.path, line).map_or(self.mechanism, |tool| tool.mechanism)
+    }
+
+    /// What acts on the tool that the block on a line is made with.
+    pub(crate) fn load_on(&self, line: usize) -> &ProgramLoad {
+        tool_on(self.tools, self.path, line).map_or(&self.load, |tool| &tool.load)
+    }
+}
+
+/// Who watches a run and may stop it.
+pub trait Watch: Sync {
+    /// A stage begins; `total` points, 0 where nobody knows how many there will be.
+    fn stage(&self, name: &str, total: usize);
+    /// Points done in this stage.
+    fn advance(&self, done: usize);
+    /// Whether to stop.
+    fn cancelled(&self) -> bool;
+}
+
+/// Watches nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn stage(&self, _: &str, _: usize) {}
+    fn advance(&self, _: usize) {}
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Why a run has no answer.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum RunError {
+    /// The program cannot be written.
+    #[error("{0}")]
+    Write(#[from] WriteError),
+    /// A point has no answer.
+    #[error("line {line}: at X{:.4} Y{:.4} Z{:.4} mm: {message}", position_mm[0], position_mm[1], position_mm[2])]
+    Point {
+        /// Line of the program, from 1.
+        line: usize,
+        /// Program coordinates, mm.
+        position_mm: [f64; 3],
+        /// What is wrong and what to do.
+        message: String,
+        /// The core's error.
+        cause: Box<Error>,
+    },
+    /// The written program would be worse somewhere.
+    #[error(
+        "line {line}: compensated, this block would end {} off, more than the {} without compensation; nothing was written. Tighten the path tolerance, allow more decimals, or report this with the job",
+        number::against(*after_mm, *before_mm).0, number::against(*after_mm, *before_mm).1
+    )]
+    Worse {
+        /// Line of the program, from 1.
+        line: usize,
+        /// Error without compensation, mm.
+        before_mm: f64,
+        /// Error with it, mm.
+        after_mm: f64,
+    },
+    /// Figures that no sensible question has.
+    #[error("{}; nothing was written", in_lines(.0))]
+    BeyondLimits(Vec<Beyond>),
+    /// The machine would jump to another shape.
+    #[error(
+        "line {line}: at X{:.4} Y{:.4} Z{:.4} mm the machine is not stable under this load: it would jump to another shape; nothing was written. Reduce the load, move the part, or stiffen the machine; `kinetostat deflect` shows the rest of the path", position_mm[0], position_mm[1], position_mm[2]
+    )]
+    Unstable {
+        /// Line of the program, from 1.
+        line: usize,
+        /// Program coordinates, mm.
+        position_mm: [f64; 3],
+    },
+    /// The orientation that follows is not continuous.
+    #[error(
+        "line {line}: the orientation of the tool jumps here: the machine would have to change its branch, or passes close to a singular posture; nothing was written. Move the part, or give an orientation to keep near to (`kinetostat deflect` shows how far the tool turns)"
+    )]
+    Jump {
+        /// Line of the program, from 1.
+        line: usize,
+    },
+    /// The program has no move whose place is known.
+    #[error(
+        "the program has no motion whose place is known: state X, Y and Z before the first cut, or give the start position"
+    )]
+    NoMotion,
+    /// Stopped on request.
+    #[error("stopped on request; nothing was written")]
+    Cancelled,
+}
+
+fn in_lines(list: &[Beyond]) -> String {
+    let lines: Vec<String> = list.iter().map(Beyond::to_string).collect();
+    lines.join("\n")
+}
+
+impl RunError {
+    /// Wrong input (exit code 1) or a question that has no answer (2).
+    #[must_use]
+    pub fn is_unanswered(&self) -> bool {
+        match self {
+            Self::Point { cause, .. } => cause.is_unanswered(),
+            Self::Write(WriteError::Field { .. })
+            | Self::Worse { .. }
+            | Self::Unstable { .. }
+            | Self::Jump { .. } => true,
+            _ => false,
+        }
+    }
+}
+
+pub(crate) fn kinds(mechanism: &Mechanism) -> impl Iterator<Item = MotionKind> + '_ {
+    mechanism
+        .limbs()
+        .iter()
+        .flat_map(|l| l.nominal.actuators().iter().map(|a| a.kind))
+}

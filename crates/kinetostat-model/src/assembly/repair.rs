@@ -1,0 +1,109 @@
+//! Mistakes of meaning in a file that has mistakes of form too: the parts of wrong form are taken
+//! out, and the rest is looked at as if they were right, so that one run shows all mistakes.
+
+use serde::Deserialize;
+use toml::de::{DeTable, DeValue};
+
+use crate::assembly::mechanism::assemble;
+use crate::findings::Findings;
+use crate::problem::{Finding, Place, Step};
+use crate::schema::Document;
+use crate::text::source::Source;
+
+/// Keys by which other parts of a file are found: without one of them nothing else can be judged.
+const BEARING: [&str; 6] = ["schema", "name", "from", "to", "chain", "elements"];
+
+/// What else is wrong than `findings`; empty where nothing can be said without guessing.
+pub(crate) fn others(source: &Source<'_>, findings: &[Finding]) -> Vec<Finding> {
+    search(source, findings).unwrap_or_default()
+}
+
+fn search(source: &Source<'_>, findings: &[Finding]) -> Option<Vec<Finding>> {
+    let mut tree = DeTable::parse(source.text).ok()?;
+    // Tables in which something of wrong form stands: what is missing there may be just that.
+    let mut around: Vec<Place> = Vec::new();
+    for finding in findings {
+        around.push(take_out(tree.get_mut(), finding)?);
+    }
+    let reader = toml::de::Deserializer::from(tree);
+    let document = Document::deserialize(reader).ok()?;
+    let mut more = Findings {
+        incomplete: true,
+        ..Findings::default()
+    };
+    assemble(&document, &mut more);
+    let near = |place: &Place| {
+        around
+            .iter()
+            .any(|a| place.0.starts_with(&a.0) || a.0.starts_with(&place.0))
+    };
+    more.errors.retain(|finding| !near(&finding.place));
+    Some(more.errors)
+}
+
+/// Takes what a finding is about out of the tree, or puts in what it misses; the place of the table
+/// where that is. `None` where the rest of the file cannot be understood without it.
+fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<Place> {
+    let place = &finding.place;
+    if let Some(missing) = &finding.remedy.missing {
+        if place.0.is_empty() || BEARING.contains(&missing.as_str()) {
+            return None;
+        }
+        let value = DeValue::parse(finding.remedy.stand_in.as_deref()?).ok()?;
+        let key = serde_spanned::Spanned::new(0..0, missing.clone().into());
+        table_at(tree, &place.0)?.insert(key, value);
+        return Some(place.clone());
+    }
+    // An entry of a list goes with its list, so that no other entry changes its place.
+    let last = place.0.iter().rposition(|s| matches!(s, Step::Key(_)))?;
+    let (inner, Step::Key(key)) = (&place.0[..last], &place.0[last]) else {
+        return None;
+    };
+    if inner.is_empty() || BEARING.contains(&key.as_str()) {
+        return None;
+    }
+    let table = table_at(tree, inner)?;
+    let found = table.keys().find(|k| k.get_ref() == key.as_str()).cloned();
+    if let Some(found) = found {
+        let of_tables = |value: &DeValue<'_>| {
+            value.as_array().is_some_and(|list| {
+                list.iter()
+                    .any(|v| matches!(v.get_ref(), DeValue::Table(_)))
+            })
+        };
+        if table.get(&found).is_some_and(|v| of_tables(v.get_ref())) {
+            return None;
+        }
+        table.remove(&found);
+        // Of a list with a wrong entry the whole goes: what would stand for the entry is no list.
+        if let (true, Some(text)) = (last + 1 == place.0.len(), &finding.remedy.stand_in) {
+            table.insert(found, DeValue::parse(text).ok()?);
+        }
+    }
+    Some(Place(inner.to_vec()))
+}
+
+/// The table at the end of a way.
+fn table_at<'a, 't>(tree: &'a mut DeTable<'t>, way: &[Step]) -> Option<&'a mut DeTable<'t>> {
+    let mut table = tree;
+    let mut steps = way.iter().peekable();
+    while let Some(step) = steps.next() {
+        let Step::Key(key) = step else { return None };
+        let (_, value) = table
+            .iter_mut()
+            .find(|(k, _)| k.get_ref() == key.as_str())?;
+        let mut value = value.get_mut();
+        while let Some(Step::Index(index)) = steps.peek() {
+            let DeValue::Array(list) = value else {
+                return None;
+            };
+            value = list.get_mut(*index)?.get_mut();
+            steps.next();
+        }
+        table = match value {
+            DeValue::Table(table) => table,
+            _ => return None,
+        };
+    }
+    Some(table)
+}

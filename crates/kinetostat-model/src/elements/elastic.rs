@@ -1,0 +1,279 @@
+//! Sections and stiffness matrices: from what is written to SI.
+
+use std::collections::BTreeMap;
+
+use kinetostat::turn_matrix;
+use nalgebra::{Matrix6, Unit, Vector3};
+
+use crate::elements::elasticity::{Elasticity, elasticity};
+use crate::elements::placement::{direction, frame_along};
+use crate::elements::quantity::{Found, MM, choice, forbid, positive};
+use crate::problem::{Finding, Place};
+use crate::schema::{Document, Spring6, Stiffness};
+use crate::text::hints::unknown;
+
+/// Sections and stiffnesses by name. `None`: described wrongly, and reported already.
+pub(crate) struct Elastic {
+    sections: BTreeMap<String, Option<Elasticity>>,
+    stiffnesses: BTreeMap<String, Option<Matrix6<f64>>>,
+}
+
+impl Elastic {
+    /// Converts every section and stiffness of a document.
+    pub(crate) fn new(
+        document: &Document,
+        errors: &mut Vec<Finding>,
+        warnings: &mut Vec<Finding>,
+    ) -> Self {
+        let mut this = Self {
+            sections: BTreeMap::new(),
+            stiffnesses: BTreeMap::new(),
+        };
+        let sections = Place::root().key("section");
+        for (name, written) in &document.section {
+            let converted = elasticity(&sections.key(name), written, warnings);
+            let entry = converted.map_err(|f| errors.push(f)).ok();
+            this.sections.insert(name.clone(), entry);
+        }
+        let stiffnesses = Place::root().key("stiffness");
+        for (name, written) in &document.stiffness {
+            let place = stiffnesses.key(name);
+            if this.sections.contains_key(name) {
+                errors.push(Finding::new(
+                    &place,
+                    format!("'{name}' names a section and a stiffness"),
+                    "rename one of them: a link refers to both by name",
+                ));
+            }
+            let converted = this.stiffness(&place, written);
+            let entry = converted.map_err(|f| errors.extend(f)).ok();
+            this.stiffnesses.insert(name.clone(), entry);
+        }
+        this
+    }
+
+    /// The section or stiffness of that name; `Err(None)` where it is known but was wrong.
+    pub(crate) fn named(&self, place: &Place, name: &str) -> Result<Elasticity, Option<Finding>> {
+        if let Some(section) = self.sections.get(name) {
+            return section.clone().ok_or(None);
+        }
+        if let Some(matrix) = self.stiffnesses.get(name) {
+            return matrix.map(|m| Elasticity::Matrix(Box::new(m))).ok_or(None);
+        }
+        let known: Vec<&str> = self
+            .sections
+            .keys()
+            .chain(self.stiffnesses.keys())
+            .map(String::as_str)
+            .collect();
+        Err(Some(unknown(
+            place,
+            "section or stiffness",
+            name,
+            &known,
+            "write a table [section.NAME] or [stiffness.NAME]",
+        )))
+    }
+
+    /// The matrix of a six-dimensional spring.
+    pub(crate) fn spring6(
+        &self,
+        place: &Place,
+        spring: &Spring6,
+    ) -> Result<Matrix6<f64>, Option<Finding>> {
+        match spring {
+            Spring6::Inline(stiffness) => self.stiffness(place, stiffness),
+            Spring6::Named(name) => match self.stiffnesses.get(name) {
+                Some(matrix) => matrix.ok_or(None),
+                None if self.sections.contains_key(name) => Err(Some(Finding::new(
+                    place,
+                    format!("'{name}' is a section; a spring has no length"),
+                    format!(
+                        "write spring6 = {{ section = \"{name}\", length_mm = ... }} or link = \"{name}\""
+                    ),
+                ))),
+                None => {
+                    let known: Vec<&str> = self.stiffnesses.keys().map(String::as_str).collect();
+                    Err(Some(unknown(
+                        place,
+                        "stiffness",
+                        name,
+                        &known,
+                        "write a table [stiffness.NAME]",
+                    )))
+                }
+            },
+        }
+    }
+
+    fn stiffness(&self, place: &Place, s: &Stiffness) -> Result<Matrix6<f64>, Option<Finding>> {
+        let matrix = self.unturned(place, s)?;
+        let matrix = match &s.along {
+            Some(axis) => along(&matrix, &direction(&place.key("along"), axis)?),
+            None => matrix,
+        };
+        Ok(matrix)
+    }
+
+    fn unturned(&self, place: &Place, s: &Stiffness) -> Result<Matrix6<f64>, Option<Finding>> {
+        let matrices = [
+            choice("matrix_n_m_rad", s.matrix_n_m_rad, 1.0),
+            choice("matrix_n_mm_rad", s.matrix_n_mm_rad, MM),
+        ];
+        let diagonals = [
+            choice("diagonal_n_m_rad", s.diagonal_n_m_rad, 1.0),
+            choice("diagonal_n_mm_rad", s.diagonal_n_mm_rad, MM),
+        ];
+        let lengths = [
+            choice("length_mm", s.length_mm, MM),
+            choice("length_m", s.length_m, 1.0),
+        ];
+        let mut ways = matrices
+            .iter()
+            .filter(|c| c.value.is_some())
+            .map(|c| c.key)
+            .chain(
+                diagonals
+                    .iter()
+                    .filter(|c| c.value.is_some())
+                    .map(|c| c.key),
+            )
+            .chain(s.section.as_ref().map(|_| "section"));
+        let (one, other) = (ways.next(), ways.next());
+        if let (Some(one), Some(other)) = (one, other) {
+            return Err(Some(Finding::new(
+                &place.key(other),
+                format!("the stiffness is given twice: '{one}' and '{other}'"),
+                "keep one of them",
+            )));
+        }
+        if s.section.is_none() {
+            forbid(
+                place,
+                &lengths,
+                "a length belongs to a section",
+                "write section = \"NAME\" too, or leave the length out",
+            )?;
+        }
+        for c in &matrices {
+            if let Some(rows) = &c.value {
+                let place = place.key(c.key);
+                let matrix = Matrix6::from_fn(|i, j| rows[i][j]);
+                check_definite(&place, &matrix)?;
+                return Ok(in_si(&matrix, c.factor));
+            }
+        }
+        for c in &diagonals {
+            if let Some(diagonal) = &c.value {
+                let matrix = Matrix6::from_diagonal(&nalgebra::Vector6::from(*diagonal));
+                check_definite(&place.key(c.key), &matrix)?;
+                return Ok(in_si(&matrix, c.factor));
+            }
+        }
+        let Some(name) = &s.section else {
+            return Err(Some(Finding::new(
+                place,
+                "the stiffness is missing",
+                "write matrix_n_mm_rad, matrix_n_m_rad, diagonal_n_mm_rad, diagonal_n_m_rad, or section with length_mm",
+            )));
+        };
+        let length = positive(place, "length", &lengths)?.value;
+        match self.sections.get(name) {
+            Some(Some(section)) => Ok(section.cantilever(place, length)?),
+            Some(None) => Err(None),
+            None => {
+                let known: Vec<&str> = self.sections.keys().map(String::as_str).collect();
+                Err(Some(unknown(
+                    &place.key("section"),
+                    "section",
+                    name,
+                    &known,
+                    "write a table [section.NAME]",
+                )))
+            }
+        }
+    }
+}
+
+/// A matrix in axes of which the first lies along `x`, as the frame sees it.
+pub(crate) fn along(matrix: &Matrix6<f64>, x: &Unit<Vector3<f64>>) -> Matrix6<f64> {
+    let turn = turn_matrix(&frame_along(x));
+    turn * matrix * turn.transpose()
+}
+
+/// `length` is the unit of length in m: blocks N/length, N/rad, N length/rad.
+fn in_si(matrix: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| {
+        matrix[(i, j)]
+            * match (i < 3, j < 3) {
+                (true, true) => 1.0 / length,
+                (false, false) => length,
+                _ => 1.0,
+            }
+    })
+}
+
+/// Smallest eigenvalue of a balanced stiffness matrix that is distinct from rounding.
+const SINGULAR: f64 = 1e-12;
+
+/// Symmetric and positive definite, metres and radians balanced by the diagonal.
+fn check_definite(place: &Place, k: &Matrix6<f64>) -> Found<()> {
+    const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+    if let Some(i) = (0..6).find(|&i| k[(i, i)] <= 0.0) {
+        return Err(Finding::new(
+            place,
+            format!(
+                "the stiffness in direction {} (entry {}) is {}, a number above zero is needed",
+                NAMES[i],
+                i + 1,
+                k[(i, i)]
+            ),
+            "a direction that nothing holds is a passive joint",
+        ));
+    }
+    let scale: Vec<f64> = (0..6).map(|i| k[(i, i)].sqrt()).collect();
+    let balanced = Matrix6::from_fn(|i, j| k[(i, j)] / scale[i] / scale[j]);
+    for i in 0..6 {
+        for j in 0..i {
+            if (balanced[(i, j)] - balanced[(j, i)]).abs() > 1e-9 {
+                return Err(Finding::new(
+                    &place.index(i),
+                    format!(
+                        "the matrix is not symmetric: row {} column {} is {}, row {} column {} is {}",
+                        i + 1,
+                        j + 1,
+                        k[(i, j)],
+                        j + 1,
+                        i + 1,
+                        k[(j, i)]
+                    ),
+                    "a spring stores energy, so its matrix is symmetric: correct one of the two",
+                ));
+            }
+        }
+    }
+    // An entry above 1 makes a 2 x 2 minor singular; leaving it here keeps the search for
+    // eigenvalues among numbers of order one.
+    let crossed = (0..6).any(|i| (0..i).any(|j| balanced[(i, j)].abs() > 1.0 + SINGULAR));
+    let least = match crossed {
+        true => -1.0,
+        false => balanced.symmetric_eigenvalues().min(),
+    };
+    if least.abs() <= SINGULAR {
+        return Err(Finding::new(
+            place,
+            format!(
+                "the matrix is not positive definite, or couples a motion so much softer than the others that numbers of 16 digits do not hold it (smallest balanced eigenvalue {least:.2e}, more than {SINGULAR:e} is needed)"
+            ),
+            "a direction that nothing holds is a passive joint; a very soft one is held where the matrix is diagonal: turn the frame into the spring's principal axes before it and back after it",
+        ));
+    }
+    if least <= SINGULAR {
+        return Err(Finding::new(
+            place,
+            "the matrix is not positive definite",
+            "some motion would need no force or give energy back; check signs and units of the entries off the diagonal",
+        ));
+    }
+    Ok(())
+}

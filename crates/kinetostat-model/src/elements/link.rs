@@ -1,0 +1,178 @@
+//! Links and parallelograms: an offset, an elasticity and the axes in which it is one.
+
+use kinetostat::{LinkConvention, LinkSpec, Pose, turn_matrix};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
+
+use crate::elements::elastic::{Elastic, along};
+use crate::elements::elasticity::Elasticity;
+use crate::elements::part::Part;
+use crate::elements::placement::frame_along;
+use crate::elements::quantity::{DEG, MM, choice, forbid, pick, positive};
+use crate::problem::{Finding, Place};
+use crate::schema::{Convention, LinkElement, ParallelogramElement};
+
+/// More pieces of one link are a slip of the pen.
+const MOST_SEGMENTS: u32 = 100;
+
+pub(crate) fn link(
+    place: &Place,
+    name: String,
+    e: &LinkElement,
+    elastic: &Elastic,
+) -> Result<Vec<Part>, Option<Finding>> {
+    let offset = offset(place, e)?;
+    // Squares of a tiny length would vanish.
+    let length = match e.vector_mm.or(e.vector_m) {
+        Some(_) => offset.norm(),
+        None => offset.x,
+    };
+    let segments = e.segments.unwrap_or(1);
+    if !(1..=MOST_SEGMENTS).contains(&segments) {
+        return Err(Some(Finding::new(
+            &place.key("segments"),
+            format!("the link has {segments} segments, 1 to {MOST_SEGMENTS} are possible"),
+            "8 give buckling loads to 0.1 %, 32 give deflections as large as the link",
+        )));
+    }
+    let slanted = e.vector_mm.or(e.vector_m).is_some();
+    let axis = Unit::new_normalize(offset);
+    let elasticity = elastic.named(&place.key("link"), &e.link)?;
+    let convention = convention(e.convention.unwrap_or_default());
+    if convention == LinkConvention::TranslationsFirst && segments == 1 {
+        // In the axes of the frame, which does not turn.
+        let matrix = match elasticity {
+            Elasticity::Matrix(matrix) => *matrix,
+            section if slanted => along(&section.cantilever(place, length)?, &axis),
+            section => section.cantilever(place, length)?,
+        };
+        return Ok(vec![
+            Part::Rigid(
+                Some(name.clone()),
+                Pose::translation(offset.x, offset.y, offset.z),
+            ),
+            Part::LinkSpring(name, Box::new(matrix), offset),
+        ]);
+    }
+    // In the link's own axes, there and back.
+    let turn = match slanted {
+        true => UnitQuaternion::from_rotation_matrix(&frame_along(&axis)),
+        false => UnitQuaternion::identity(),
+    };
+    let mut pieces = None;
+    let spec = match elasticity {
+        Elasticity::Section(section) => LinkSpec::beam(section, length),
+        Elasticity::Beam(beam) => {
+            pieces = beam.pieces(place, length, segments)?;
+            LinkSpec::matrix(beam.cantilever(place, length)?, length)
+        }
+        Elasticity::Matrix(matrix) => {
+            let own = turn_matrix(&turn.to_rotation_matrix());
+            LinkSpec::matrix(own.transpose() * *matrix * own, length)
+        }
+    };
+    let spec = spec.segments(segments as usize).convention(convention);
+    let turned = |rotation| Pose::from_parts(Vector3::zeros().into(), rotation);
+    let mut parts = Vec::new();
+    if slanted {
+        parts.push(Part::Rigid(None, turned(turn)));
+    }
+    parts.push(Part::Link(name.clone(), Box::new(spec), pieces));
+    parts.push(Part::Rigid(Some(name), turned(turn.inverse())));
+    Ok(parts)
+}
+
+/// From the near to the far end of a link, m: along x, or as a vector.
+fn offset(place: &Place, e: &LinkElement) -> Result<Vector3<f64>, Option<Finding>> {
+    let lengths = [
+        choice("length_mm", e.length_mm, MM),
+        choice("length_m", e.length_m, 1.0),
+    ];
+    let vectors = [
+        choice("vector_mm", e.vector_mm, MM),
+        choice("vector_m", e.vector_m, 1.0),
+    ];
+    Ok(match pick(place, "vector", &vectors)? {
+        Some(given) => {
+            forbid(
+                place,
+                &lengths,
+                "the vector has a length already",
+                "keep one of them",
+            )?;
+            let v = Vector3::from(given.value);
+            if v.norm() < 1e-9 {
+                return Err(Some(Finding::new(
+                    &place.key(given.key),
+                    "the link has no length",
+                    "write the vector from its near to its far end",
+                )));
+            }
+            v
+        }
+        None => {
+            let length = positive(place, "length", &lengths).map_err(|mut f| {
+                if f.message.ends_with("missing") {
+                    f.help.push_str(", or vector_mm");
+                }
+                f
+            })?;
+            Vector3::new(length.value, 0.0, 0.0)
+        }
+    })
+}
+
+fn convention(written: Convention) -> LinkConvention {
+    match written {
+        Convention::Bowing => LinkConvention::Bowing,
+        Convention::TranslationsFirst => LinkConvention::TranslationsFirst,
+        Convention::RotationsFirst => LinkConvention::RotationsFirst,
+        Convention::Middle => LinkConvention::Middle,
+        Convention::Exponential => LinkConvention::Exponential,
+        Convention::ConstantStrain => LinkConvention::ConstantStrain,
+    }
+}
+
+pub(crate) fn parallelogram(
+    place: &Place,
+    name: String,
+    e: &ParallelogramElement,
+    elastic: &Elastic,
+) -> Result<Part, Option<Finding>> {
+    let length = positive(
+        place,
+        "length",
+        &[
+            choice("length_mm", e.length_mm, MM),
+            choice("length_m", e.length_m, 1.0),
+        ],
+    )?
+    .value;
+    let width = positive(
+        place,
+        "width",
+        &[
+            choice("width_mm", e.width_mm, MM),
+            choice("width_m", e.width_m, 1.0),
+        ],
+    )?
+    .value;
+    let home = pick(
+        place,
+        "home",
+        &[
+            choice("home_deg", e.home_deg, DEG),
+            choice("home_rad", e.home_rad, 1.0),
+        ],
+    )?
+    .map_or(0.0, |g| g.value);
+    let bar = elastic
+        .named(&place.key("parallelogram"), &e.parallelogram)?
+        .cantilever(place, length)?;
+    Ok(Part::Parallelogram(
+        name,
+        length,
+        width,
+        Box::new(bar),
+        home,
+    ))
+}

@@ -1,0 +1,330 @@
+//! Poses and directions as a file writes them.
+
+use kinetostat::Pose;
+use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
+
+use crate::elements::quantity::{DEG, Found, Given, MM, choice, pick, vector};
+use crate::problem::{Finding, Place};
+use crate::schema::{Axis, AxisName, Placement};
+
+/// Angles of an orientation are within a hundred full turns, rad. Degrees that are taken for rad are: an imported
+/// model says what looks like them.
+const MOST_TURNED: f64 = 100.0 * std::f64::consts::TAU;
+
+/// Unit vector of a direction.
+pub(crate) fn direction(place: &Place, axis: &Axis) -> Found<Unit<Vector3<f64>>> {
+    let v = match axis {
+        Axis::Named(AxisName::X) => Vector3::x(),
+        Axis::Named(AxisName::Y) => Vector3::y(),
+        Axis::Named(AxisName::Z) => Vector3::z(),
+        Axis::Named(AxisName::MinusX) => -Vector3::x(),
+        Axis::Named(AxisName::MinusY) => -Vector3::y(),
+        Axis::Named(AxisName::MinusZ) => -Vector3::z(),
+        Axis::Vector(v) => Vector3::from(*v),
+    };
+    // Scaling by the largest component first keeps squares of tiny and huge numbers finite.
+    let largest = v.amax();
+    Unit::try_new(v / largest, 1e-12)
+        .filter(|u| largest > 1e-12 && u.iter().all(|x| x.is_finite()))
+        .ok_or_else(|| {
+            Finding::new(
+                place,
+                format!("the axis [{}, {}, {}] has no direction", v.x, v.y, v.z),
+                "write a letter (\"x\", \"-x\", ...) or three numbers that are not all zero",
+            )
+        })
+}
+
+/// Axes of a link that lies along `x`: y horizontal (z cross x), or y cross x where x is nearly
+/// vertical.
+pub(crate) fn frame_along(x: &Unit<Vector3<f64>>) -> Rotation3<f64> {
+    let helper = if x.z.abs() < 0.9 {
+        Vector3::z()
+    } else {
+        Vector3::y()
+    };
+    let y = helper.cross(x).normalize();
+    Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x.into_inner(), y, x.cross(&y)]))
+}
+
+impl Placement {
+    /// The pose that it means, exactly; what is not given is zero.
+    ///
+    /// # Errors
+    /// What is wrong, and what to do: two orientations, a number that is too large, axes without direction.
+    pub fn pose(&self) -> Result<Pose, (String, String)> {
+        pose(&Place::root(), self).map_err(|found| (found.message, found.help))
+    }
+}
+
+/// The pose; what is not given is zero.
+pub(crate) fn pose(place: &Place, p: &Placement) -> Found<Pose> {
+    let translation = vector(
+        place,
+        "position",
+        &[
+            choice("translation_mm", p.translation_mm, MM),
+            choice("translation_m", p.translation_m, 1.0),
+            choice("position_mm", p.position_mm, MM),
+            choice("position_m", p.position_m, 1.0),
+        ],
+    )?;
+    let pose = Pose::from_parts(translation.into(), orientation(place, p)?);
+    // Squares of huge rotation vectors overflow.
+    match pose.to_homogeneous().iter().all(|x| x.is_finite()) {
+        true => Ok(pose),
+        false => Err(Finding::new(
+            place,
+            "the pose holds a number that is too large",
+            "check the figures and their units",
+        )),
+    }
+}
+
+/// The orientation that a placement means: at most one of the conventions is written.
+fn orientation(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
+    let angles = pick(
+        place,
+        "orientation",
+        &[
+            choice("rotation_vector_deg", p.rotation_vector_deg, DEG),
+            choice("rotation_vector_rad", p.rotation_vector_rad, 1.0),
+            choice(
+                "rotation_intrinsic_xyz_deg",
+                p.rotation_intrinsic_xyz_deg,
+                DEG,
+            ),
+            choice("roll_pitch_yaw_urdf_deg", p.roll_pitch_yaw_urdf_deg, DEG),
+            choice("roll_pitch_yaw_urdf_rad", p.roll_pitch_yaw_urdf_rad, 1.0),
+            choice("a_b_c_kuka_deg", p.a_b_c_kuka_deg, DEG),
+            choice("w_p_r_fanuc_deg", p.w_p_r_fanuc_deg, DEG),
+        ],
+    )?;
+    let quaternion = pick(
+        place,
+        "orientation",
+        &[
+            choice("quaternion_wxyz", p.quaternion_wxyz, 1.0),
+            choice("quaternion_xyzw", p.quaternion_xyzw, 1.0),
+        ],
+    )?;
+    let axes = p
+        .x_axis
+        .as_ref()
+        .map(|_| "x_axis")
+        .or(p.y_axis.as_ref().map(|_| "y_axis"));
+    let mut ways = [angles.map(|g| g.key), quaternion.map(|g| g.key), axes]
+        .into_iter()
+        .flatten();
+    if let (Some(one), Some(other)) = (ways.next(), ways.next()) {
+        return Err(Finding::new(
+            &place.key(other),
+            format!("the orientation is given twice: '{one}' and '{other}'"),
+            "keep one of them",
+        ));
+    }
+    match (angles, quaternion) {
+        (Some(given), _) => from_angles(place, &given),
+        (None, Some(given)) => from_quaternion(place, &given),
+        (None, None) => from_axes(place, p),
+    }
+}
+
+/// Three numbers, whose key names the convention.
+fn from_angles(place: &Place, given: &Given<[f64; 3]>) -> Found<UnitQuaternion<f64>> {
+    let [a, b, c] = given.value;
+    if given.value.iter().any(|angle| angle.abs() > MOST_TURNED) {
+        return Err(Finding::new(
+            &place.key(given.key),
+            "an angle is more than a hundred full turns",
+            "check the number and its unit, deg or rad",
+        ));
+    }
+    let (x, y, z) = (Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis());
+    let turn = UnitQuaternion::from_axis_angle;
+    Ok(match given.key {
+        "rotation_vector_deg" | "rotation_vector_rad" => {
+            UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c))
+        }
+        "rotation_intrinsic_xyz_deg" => turn(&x, a) * turn(&y, b) * turn(&z, c),
+        "a_b_c_kuka_deg" => turn(&z, a) * turn(&y, b) * turn(&x, c),
+        _ => turn(&z, c) * turn(&y, b) * turn(&x, a),
+    })
+}
+
+/// Four numbers, whose key names their order.
+fn from_quaternion(place: &Place, given: &Given<[f64; 4]>) -> Found<UnitQuaternion<f64>> {
+    let [a, b, c, d] = given.value;
+    let q = match given.key {
+        "quaternion_wxyz" => Quaternion::new(a, b, c, d),
+        _ => Quaternion::new(d, a, b, c),
+    };
+    let length = q.norm();
+    if (length - 1.0).abs() > 1e-3 {
+        return Err(Finding::new(
+            &place.key(given.key),
+            format!("the quaternion has the length {length}, 1 is needed"),
+            "write the four numbers with at least four digits, in the order that the key names",
+        ));
+    }
+    Ok(UnitQuaternion::from_quaternion(q))
+}
+
+/// Directions of the new axes; the turn about x is that of a link where y is not given.
+fn from_axes(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
+    match (&p.x_axis, &p.y_axis) {
+        (None, None) => Ok(UnitQuaternion::identity()),
+        (None, Some(_)) => Err(Finding::new(
+            &place.key("y_axis"),
+            "'y_axis' is given without 'x_axis'",
+            "write x_axis too",
+        )),
+        (Some(x), None) => {
+            let x = direction(&place.key("x_axis"), x)?;
+            Ok(UnitQuaternion::from_rotation_matrix(&frame_along(&x)))
+        }
+        (Some(x), Some(y)) => {
+            let x = direction(&place.key("x_axis"), x)?;
+            let y = direction(&place.key("y_axis"), y)?;
+            let slant = x.dot(&y);
+            if slant.abs() > 1e-6 {
+                return Err(Finding::new(
+                    &place.key("y_axis"),
+                    format!(
+                        "'y_axis' is not square to 'x_axis': {:.4} degrees instead of 90",
+                        slant.clamp(-1.0, 1.0).acos() / DEG
+                    ),
+                    "correct one of them, or leave out y_axis where the turn about x does not matter",
+                ));
+            }
+            let z = x.cross(&y).normalize();
+            let columns = Matrix3::from_columns(&[x.into_inner(), z.cross(&x), z]);
+            Ok(UnitQuaternion::from_rotation_matrix(
+                &Rotation3::from_matrix_unchecked(columns),
+            ))
+        }
+    }
+}
+
+/// A pose as this crate writes it.
+pub(crate) fn written(pose: &Pose) -> Placement {
+    Placement {
+        translation_m: Some(pose.translation.vector.into()),
+        rotation_vector_rad: Some(pose.rotation.scaled_axis().into()),
+        ..Placement::default()
+    }
+}
+
+/// Three significant digits, nothing below a billionth.
+pub(crate) fn three_digits(value: f64) -> String {
+    match value < 1e-9 {
+        true => "0".to_owned(),
+        false => format!("{value:.2e}").parse().unwrap_or(value).to_string(),
+    }
+}
+
+/// A pose as the line of a file: `home = { .. }`, with the digits that a machine can tell apart.
+pub(crate) fn in_words(pose: &Pose) -> String {
+    let list = |v: [f64; 3], decimals: i32| {
+        let unit = 10_f64.powi(decimals);
+        let parts = v.map(|x| format!("{}", (x * unit).round() / unit + 0.0));
+        parts.join(", ")
+    };
+    let position = list((pose.translation.vector * 1e3).into(), 9);
+    let turn = pose.rotation.scaled_axis();
+    if turn.norm() < 1e-11 {
+        return format!("home = {{ position_mm = [{position}] }}");
+    }
+    let turn = list(turn.map(f64::to_degrees).into(), 10);
+    format!("home = {{ position_mm = [{position}], rotation_vector_deg = [{turn}] }}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn orientation_of(toml: &str) -> UnitQuaternion<f64> {
+        let written: Placement = toml::from_str(toml).expect("placement");
+        let made = pose(&Place::root(), &written);
+        made.unwrap_or_else(|f| panic!("{}", f.message)).rotation
+    }
+
+    /// Columns of the rotation matrix, by hand, for 90 degrees about two axes: the order shows.
+    #[test]
+    fn every_convention_turns_as_its_name_says() {
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        for (toml, columns) in [
+            // Rx(90) Ry(90): x -> -z -> y, y -> y -> z, z -> x -> x.
+            ("rotation_intrinsic_xyz_deg = [90, 90, 0]", [y, z, x]),
+            // Ry(90) Rx(90): x -> x -> -z, y -> z -> x, z -> -y -> -y.
+            ("roll_pitch_yaw_urdf_deg = [90, 90, 0]", [-z, x, -y]),
+            ("w_p_r_fanuc_deg = [90, 90, 0]", [-z, x, -y]),
+            ("a_b_c_kuka_deg = [0, 90, 90]", [-z, x, -y]),
+            // Rz(90) Rx(90): x -> x -> y, y -> z -> z, z -> -y -> x.
+            ("roll_pitch_yaw_urdf_deg = [90, 0, 90]", [y, z, x]),
+            ("a_b_c_kuka_deg = [90, 0, 90]", [y, z, x]),
+            ("rotation_vector_deg = [0, 0, 90]", [y, -x, z]),
+            (
+                "rotation_vector_rad = [0, 0, 1.5707963267948966]",
+                [y, -x, z],
+            ),
+            ("quaternion_wxyz = [0.5, 0.5, 0.5, 0.5]", [y, z, x]),
+            (
+                "quaternion_wxyz = [0.70710678, 0.70710678, 0, 0]",
+                [x, z, -y],
+            ),
+            (
+                "quaternion_xyzw = [0.70710678, 0, 0, 0.70710678]",
+                [x, z, -y],
+            ),
+            ("x_axis = \"y\"\ny_axis = \"z\"", [y, z, x]),
+            ("x_axis = \"-z\"\ny_axis = [0, 2, 0]", [-z, y, x]),
+            ("x_axis = [3, 0, 0]", [x, y, z]),
+            ("x_axis = \"z\"", [z, x, y]),
+        ] {
+            let turn = orientation_of(toml);
+            for (axis, column) in [x, y, z].iter().zip(columns) {
+                assert!((turn * axis - column).norm() < 1e-8, "{toml}: {turn}");
+            }
+        }
+    }
+
+    #[test]
+    fn angles_of_many_turns_are_no_orientation() {
+        for (toml, fine) in [
+            ("rotation_vector_rad = [0, 5400, 0]", false),
+            ("a_b_c_kuka_deg = [0, -1e9, 0]", false),
+            ("a_b_c_kuka_deg = [-360, 540, 0]", true),
+        ] {
+            let written: Placement = toml::from_str(toml).expect(toml);
+            assert_eq!(pose(&Place::root(), &written).is_ok(), fine, "{toml}");
+        }
+    }
+
+    #[test]
+    fn huge_and_tiny_directions_are_directions() {
+        for scale in [1e-11, 1e300] {
+            let axis = Axis::Vector([scale, scale, 0.0]);
+            let found = direction(&Place::root(), &axis);
+            let unit = found.unwrap_or_else(|f| panic!("{}", f.message));
+            assert!((unit.x - 0.5f64.sqrt()).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_pose_of_a_file_is_taken_as_it_is_however_small_its_parts() {
+        for size in [1e-9, 1e-4, 0.05, 0.18, 3.0, 40.0] {
+            let table = Placement {
+                position_mm: Some([0.3 * size, -0.7 * size, size]),
+                rotation_vector_deg: Some([0.2 * size, size, -0.5 * size]),
+                ..Placement::default()
+            };
+            let pose = table.pose().expect("a pose");
+            let off = pose.translation.vector * 1e3 - Vector3::new(0.3, -0.7, 1.0) * size;
+            assert!(off.norm() <= 1e-15 * size, "{size}: {off}");
+            let turned = pose.rotation.scaled_axis() * (180.0 / std::f64::consts::PI);
+            let off = turned - Vector3::new(0.2, 1.0, -0.5) * size;
+            assert!(off.norm() <= 1e-12 * size, "{size}: {off}");
+        }
+    }
+}

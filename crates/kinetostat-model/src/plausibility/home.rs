@@ -1,0 +1,120 @@
+//! Figures that are possible but unlikely: usually a unit or a decimal point is wrong.
+
+use kinetostat::number::{apart, short};
+use kinetostat::{Chain, Mechanism, Pose};
+
+use crate::plausibility::at_home::frames;
+use crate::plausibility::link_matrix::check as check_link_matrices;
+use crate::plausibility::machine::of_machine;
+use crate::plausibility::numbers::of_numbers;
+use crate::problem::{Finding, Place};
+use crate::schema::Document;
+
+/// Pose of a chain's tip in its base at home, and how far (m) any of its frames lies from its first
+/// one: the first offset only places the chain.
+fn tip(chain: &Chain) -> (Pose, f64) {
+    let frames = frames(chain);
+    let at = |f: &Pose| f.translation.vector;
+    let origin = frames.get(1).map_or_else(Default::default, at);
+    let reach = frames.iter().skip(1).map(|f| (at(f) - origin).norm());
+    (
+        frames.last().copied().unwrap_or_default(),
+        reach.fold(0.0, f64::max),
+    )
+}
+
+/// Looks at sizes, masses, gravity and the home posture.
+pub(crate) fn check_plausibility(
+    document: &Document,
+    mechanism: &Mechanism,
+    warnings: &mut Vec<Finding>,
+) {
+    of_numbers(document, warnings);
+    of_machine(document, mechanism, warnings);
+    check_link_matrices(document, warnings);
+    let root = Place::root();
+    let mut warn = |place: &Place, message: String, help: &str| {
+        warnings.push(Finding::new(place, message, help));
+    };
+    let gravity = mechanism.gravity();
+    let size = gravity.norm();
+    let place = root.key("mechanism").key("gravity_m_per_s2");
+    if size > 0.0 && !(9.7..=9.9).contains(&size) {
+        warn(
+            &place,
+            format!("gravity is {} m/s^2", short(size)),
+            "on the ground it is 9.81 m/s^2; check the unit",
+        );
+    }
+    if gravity.z > 0.5 * size {
+        warn(
+            &place,
+            "gravity points up, along +z of the base".to_owned(),
+            "write [0, 0, -9.81] for a base whose z points up; if the base hangs upside down, all is well",
+        );
+    }
+    if size > 0.0 && gravity.z.abs() < 0.7 * size {
+        let along = if gravity.x.abs() > gravity.y.abs() {
+            "x"
+        } else {
+            "y"
+        };
+        warn(
+            &place,
+            format!("gravity points along {along} of the base, not along z"),
+            "write [0, 0, -9.81] for a base whose z points up; if the base hangs on a wall, all is well",
+        );
+    }
+    for (i, platform) in mechanism.platforms().iter().skip(1).enumerate() {
+        if platform.mass > 1e5 {
+            warn(
+                &root.key("platform").index(i).key("mass_kg"),
+                format!("the platform weighs {} kg", short(platform.mass)),
+                "check the unit",
+            );
+        }
+    }
+    for (i, limb) in mechanism.limbs().iter().enumerate() {
+        let place = root.key("limb").index(i);
+        let chain = &limb.nominal;
+        let (tip, reach) = tip(chain);
+        if reach > 100.0 || (reach > 0.0 && reach < 1e-3) {
+            warn(
+                &place,
+                format!("the limb '{}' reaches over {} m", limb.name, short(reach)),
+                "machines lie between a millimetre and 100 m; check the units of its chain",
+            );
+        }
+        if let Some(body) = chain.bodies().iter().find(|b| b.mass > 1e5) {
+            warn(
+                &place,
+                format!(
+                    "the body '{}' of this limb weighs {} kg",
+                    body.name,
+                    short(body.mass)
+                ),
+                "check the unit",
+            );
+        }
+        let (from, to) = (
+            &mechanism.platforms()[limb.from].home,
+            &mechanism.platforms()[limb.to].home,
+        );
+        let reached = from * tip;
+        let wanted = to * limb.platform_from_tip;
+        let gap = (reached.translation.vector - wanted.translation.vector).norm();
+        let turn = reached.rotation.angle_to(&wanted.rotation);
+        if gap > 1e-3 * reach.max(1e-3) || turn > 1e-2 {
+            warn(
+                &place,
+                format!(
+                    "at home the limb '{}' ends {} away from the platform '{}'",
+                    limb.name,
+                    apart(gap * 1e3, turn.to_degrees()),
+                    mechanism.platforms()[limb.to].name
+                ),
+                "correct the home values of its joints, or the home pose of the platform; the search for joint values starts there",
+            );
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Bodies beside the other bodies of their limb, beside the links that carry them, and beside the machine.
+
+use kinetostat::number::short;
+
+use crate::plausibility::at_home::farthest;
+use crate::plausibility::limb::LimbCheck;
+use crate::problem::Finding;
+
+impl LimbCheck<'_> {
+    pub(crate) fn masses(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        let bodies = chain.bodies();
+        for body in bodies {
+            let mut others: Vec<f64> = bodies
+                .iter()
+                .filter(|b| b.name != body.name && b.mass > 0.0)
+                .map(|b| b.mass)
+                .collect();
+            others.sort_by(f64::total_cmp);
+            let beside = others.get(others.len() / 2).copied();
+            let alone = body.mass > 1500.0 * self.size.max(0.3);
+            let odd = beside.is_some_and(|m| body.mass > 200.0 * m) && body.mass > 100.0;
+            if alone || odd {
+                let beside = match beside {
+                    Some(m) if odd => format!(", most others about {} kg", short(m)),
+                    _ => format!(", in a machine of {} m", short(self.size)),
+                };
+                warnings.push(Finding::new(
+                    &self.place(&body.name, &["mass_kg"]),
+                    format!(
+                        "the body '{}' weighs {} kg{beside}",
+                        body.name,
+                        short(body.mass)
+                    ),
+                    "check the unit, and whether it is a placeholder",
+                ));
+            }
+            let gyration = (body.inertia.diagonal().amax() / body.mass).sqrt();
+            if body.mass > 0.0 && gyration > 2.0 * self.size.max(0.5) {
+                warnings.push(Finding::new(
+                    &self.place(&body.name, &["inertia_kg_m2"]),
+                    format!(
+                        "the inertia of the body '{}' is that of a part of {} m",
+                        body.name,
+                        short(gyration)
+                    ),
+                    "inertias are in kg m^2; statics does not use them",
+                ));
+            }
+        }
+        if let Some((body, centre)) = farthest(chain)
+            && centre > self.size.max(0.3)
+        {
+            warnings.push(Finding::new(
+                &self.place(&body, &["centre_of_mass_mm", "centre_of_mass_m"]),
+                format!(
+                    "the centre of mass of the body '{body}' is {} m away from any joint of its limb, in a machine of {} m",
+                    short(centre),
+                    short(self.size)
+                ),
+                "check the unit in the key: _mm or _m",
+            ));
+        }
+        self.neighbours(warnings);
+        self.density(warnings);
+    }
+
+    /// Bodies beside the next ones of their limb: what is carried weighs less than what carries it, and no
+    /// part weighs next to nothing between others.
+    fn neighbours(&self, warnings: &mut Vec<Finding>) {
+        let limbs = self.mechanism.limbs();
+        let chain = &limbs[self.limb].nominal;
+        // Where other limbs carry too, a light bar may lead to a heavy arm.
+        let alone = limbs.iter().filter(|l| l.to == limbs[self.limb].to).count() == 1;
+        let mut bodies: Vec<&kinetostat::Body> = chain.bodies().iter().collect();
+        bodies.retain(|b| b.mass > 0.0);
+        bodies.sort_by_key(|b| b.node);
+        for (i, body) in bodies.iter().enumerate() {
+            let before = i.checked_sub(1).map(|k| bodies[k]);
+            let after = bodies.get(i + 1).copied();
+            let lightest = before.into_iter().chain(after);
+            let lightest = lightest.min_by(|a, b| a.mass.total_cmp(&b.mass));
+            let (other, said) = match (before, lightest) {
+                // Beside one that weighs next to nothing it is that one which is told.
+                (Some(before), _) if body.mass > BESIDE * before.mass => continue,
+                (Some(before), _) if alone && body.mass > CARRIED * before.mass => {
+                    (before, "which carries it")
+                }
+                (_, Some(lightest)) if body.mass * BESIDE < lightest.mass => {
+                    (lightest, "which is next to it")
+                }
+                _ => continue,
+            };
+            warnings.push(Finding::new(
+                &self.place(&body.name, &["mass_kg"]),
+                format!(
+                    "the body '{}' weighs {} kg, and '{}', {said}, {} kg",
+                    body.name,
+                    short(body.mass),
+                    other.name,
+                    short(other.mass)
+                ),
+                "check the unit: kg, not N (9.81 times as much), t or g",
+            ));
+        }
+    }
+
+    /// Bodies beside what the links of their stiffness would weigh: `rho / E` is 3.8e-8 s^2/m^2 for
+    /// steel, aluminium and titanium alike.
+    fn density(&self, warnings: &mut Vec<Finding>) {
+        let chain = &self.mechanism.limbs()[self.limb].nominal;
+        let pieces = |link: &str| {
+            let of =
+                |s: &&kinetostat::SpringBlock| s.segment.as_ref().is_some_and(|g| g.link == link);
+            chain.springs().iter().filter(of).count() as f64
+        };
+        let links: f64 = chain
+            .springs()
+            .iter()
+            .filter_map(|s| {
+                let segment = s.segment.as_ref()?;
+                let k = s.stiffness_at(&vec![0.0; s.len()]);
+                let axial = segment.along.transpose() * k.fixed_view::<3, 3>(0, 0) * segment.along;
+                let length = segment.link_length / pieces(&segment.link);
+                Some(3.8e-8 * axial[0] * length * length)
+            })
+            .sum();
+        let bodies: f64 = chain.bodies().iter().map(|b| b.mass).sum();
+        if links <= 0.0 || bodies <= 0.0 {
+            return;
+        }
+        let ratio = bodies / links;
+        if !(0.01..=300.0).contains(&ratio) {
+            warnings.push(Finding::new(
+                &self.place(&chain.bodies()[0].name, &["mass_kg"]),
+                format!(
+                    "the masses of the limb are {} kg, but links of that stiffness weigh about {} kg in any metal",
+                    short(bodies),
+                    short(links)
+                ),
+                "check the density behind the masses (steel: 7850 kg/m^3), and the moduli and sizes of the sections",
+            ));
+        }
+    }
+}
+
+/// A body that is heavier than the one that carries it by this was given in newtons (9.81) or is odd anyhow.
+const CARRIED: f64 = 3.0;
+
+/// A body that is lighter than those next to it by this was given in tonnes (1000) or is odd anyhow.
+const BESIDE: f64 = 50.0;

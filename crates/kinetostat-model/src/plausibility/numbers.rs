@@ -1,0 +1,135 @@
+//! Each number as it is written, under the unit of its key.
+
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+use kinetostat::number::short;
+use serde_spanned::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::plausibility::tree::numbers;
+use crate::problem::Finding;
+use crate::schema::Document;
+
+/// Compares every number of a document with what its unit is used for.
+pub(crate) fn of_numbers(document: &Document, warnings: &mut Vec<Finding>) {
+    let Ok(tree) = serde_json::to_value(document) else {
+        return;
+    };
+    for number in numbers(&tree) {
+        if let Some((message, help)) = doubt_of(number.key, number.value) {
+            warnings.push(Finding::new(&number.place, message, help));
+        }
+    }
+}
+
+/// Angles of a TOML text that were most likely written in the other unit: what is said, and its place in the text.
+/// Empty for what is no TOML.
+#[must_use]
+pub fn odd_angles(text: &str) -> Vec<(Range<usize>, String)> {
+    let Ok(table) = DeTable::parse(text) else {
+        return Vec::new();
+    };
+    let root = Spanned::new(0..text.len(), DeValue::Table(table.into_inner()));
+    let of_angle = |key: &str| key.ends_with("_deg") || key.ends_with("_rad");
+    numbers(&root)
+        .into_iter()
+        .filter(|number| of_angle(number.key))
+        .filter_map(|number| {
+            let (message, help) = doubt_of(number.key, number.value)?;
+            let said = format!("{}: {message}; {help}", number.key);
+            Some((number.node.span(), said))
+        })
+        .collect()
+}
+
+/// Parts of a section, which may be thin but not that thin.
+const SECTION_KEYS: [&str; 8] = [
+    "outer_diameter",
+    "inner_diameter",
+    "diameter",
+    "width",
+    "height",
+    "flange",
+    "web",
+    "wall",
+];
+
+/// What speaks against a number under its key, and what to do; none where it is usual.
+fn doubt_of(key: &str, x: f64) -> Option<(String, &'static str)> {
+    if key == "repeatability_mm" && !(5e-4..=1.0).contains(&x) {
+        return Some((
+            format!("a repeatability of {} mm", short(x)),
+            "arms repeat within 0.02 to 0.2 mm, machine tools within 0.001 to 0.01 mm; check the unit",
+        ));
+    }
+    let compound = key.contains("_per_") || key.contains("n_m") || key.contains("kg_m");
+    if x == 0.0 || compound {
+        return None;
+    }
+    if key.ends_with("_rad") && x.abs() > 7.0 && (x.abs() > 40.0 || x % 5.0 == 0.0) {
+        return Some((
+            format!("{x} rad are {:.0} turns", (x / TAU).abs().max(1.0)),
+            "this looks like degrees: write the key with _deg",
+        ));
+    }
+    if key.ends_with("_deg") && looks_like_radians(x) {
+        return Some((
+            format!("{x} degrees are exactly {} in radians", share_of_pi(x)),
+            "this looks like radians: write the key with _rad",
+        ));
+    }
+    let moment = key.starts_with("second_moment") || key.starts_with("torsion_constant");
+    let moment = moment.then(|| match key.strip_suffix("_mm4") {
+        Some(_) => 1e-12 * x,
+        None => x,
+    });
+    // Of a section 2 m wide.
+    if let Some(m4) = moment.filter(|m4| *m4 > 1.0) {
+        return Some((
+            format!("a second moment of {} m^4", short(m4)),
+            "no part of a robot has sections of metres; check the unit in the key: _mm4 or _m4",
+        ));
+    }
+    let (name, metres) = match (key.strip_suffix("_mm"), key.strip_suffix("_m")) {
+        (Some(name), _) => (name, 1e-3 * x),
+        (None, Some(name)) => (name, x),
+        _ => return None,
+    };
+    // Limits are often written far out where there are none.
+    if metres.abs() > 50.0 && name != "limits" {
+        return Some((
+            format!("a length of {} m", short(metres.abs())),
+            "robots are smaller; check the unit in the key: _mm or _m",
+        ));
+    }
+    let least = match name {
+        "length" => 1e-3,
+        _ if SECTION_KEYS.iter().any(|k| name.ends_with(k)) => 5e-5,
+        _ => return None,
+    };
+    (metres < least).then(|| {
+        (
+            format!(
+                "the {} is {} mm",
+                name.replace('_', " "),
+                short(1e3 * metres)
+            ),
+            "parts of robots are larger; check the unit in the key: _mm or _m",
+        )
+    })
+}
+
+/// Twelfths of a half turn by which angles are usually written.
+const USUAL: [f64; 7] = [2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 24.0];
+
+fn looks_like_radians(x: f64) -> bool {
+    USUAL
+        .iter()
+        .any(|k| (x.abs() / (k * PI / 12.0) - 1.0).abs() < 6e-4)
+}
+
+fn share_of_pi(x: f64) -> String {
+    let degrees = (x.to_degrees() / 15.0).round() * 15.0;
+    format!("{degrees} degrees")
+}

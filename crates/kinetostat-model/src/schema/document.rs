@@ -1,0 +1,182 @@
+//! The tables of a model file, and the file as a whole.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::schema::controller::ControllerTable;
+use crate::schema::elastic::{Section, Stiffness};
+use crate::schema::element::Element;
+use crate::schema::load::{LoadTable, PlatformLoadTable};
+use crate::schema::placement::{Axis, Placement};
+/// The version of the format that this crate reads and writes.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// A model file: the whole of one machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "kinetostat model")]
+pub struct Document {
+    /// Version of the format: 1.
+    pub schema: u32,
+    /// Name, origin and gravity of the machine.
+    pub mechanism: MechanismTable,
+    /// Where the machine works, as a box in base axes; flat for a machine that moves in a plane.
+    pub workspace: Option<Workspace>,
+    /// Moving bodies. The base exists without being written; the last one carries the tool.
+    #[schemars(length(min = 1, max = 64))]
+    pub platform: Vec<PlatformTable>,
+    /// Sections and materials of links, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend("maxProperties" = 1000))]
+    pub section: BTreeMap<String, Section>,
+    /// Stiffnesses of six directions, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend("maxProperties" = 1000))]
+    pub stiffness: BTreeMap<String, Stiffness>,
+    /// Chains, by name; several limbs may use the same one.
+    #[schemars(extend("maxProperties" = 256))]
+    pub chain: BTreeMap<String, ChainTable>,
+    /// Chains between two platforms.
+    #[schemars(length(min = 1, max = 256))]
+    pub limb: Vec<LimbTable>,
+    /// What pulls and pushes on platforms: wrenches, and springs between bodies of different limbs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 256))]
+    pub load: Vec<PlatformLoadTable>,
+    /// Errors of manufacture and assembly: the actual geometry where it differs from the nominal.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 2000))]
+    pub deviation: Vec<Deviation>,
+    /// What the controller's pendant shows instead of the model's joint values.
+    pub controller: Option<ControllerTable>,
+}
+
+/// Name, origin and gravity of the machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MechanismTable {
+    /// Name of the machine.
+    pub name: String,
+    /// What it is, in a sentence.
+    pub description: Option<String>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+    /// Gravity in base axes, m/s^2: [0, 0, -9.81] for a machine on the floor, z up. Needed as soon
+    /// as anything has a mass; [0, 0, 0] leaves the weights out.
+    pub gravity_m_per_s2: Option<[f64; 3]>,
+    /// Repeatability of positions, mm: the spread when a place is approached again and again (ISO 9283
+    /// for robots, ISO 230-2 for machine tools). A third of it is the tolerance of programs that state
+    /// none.
+    pub repeatability_mm: Option<f64>,
+}
+
+/// A box in base axes, given by two opposite corners.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Workspace {
+    /// One corner, mm.
+    pub corner_mm: Option<[f64; 3]>,
+    /// One corner, m.
+    pub corner_m: Option<[f64; 3]>,
+    /// The opposite corner, mm.
+    pub opposite_corner_mm: Option<[f64; 3]>,
+    /// The opposite corner, m.
+    pub opposite_corner_m: Option<[f64; 3]>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// A moving body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlatformTable {
+    /// Name, unique; 'base' is taken.
+    pub name: String,
+    /// Pose in the base when the machine is at home.
+    pub home: Placement,
+    /// Mass, kg.
+    pub mass_kg: Option<f64>,
+    /// Centre of mass in the platform's frame, mm.
+    pub centre_of_mass_mm: Option<[f64; 3]>,
+    /// Centre of mass in the platform's frame, m.
+    pub centre_of_mass_m: Option<[f64; 3]>,
+    /// Inertia about the centre of mass in platform axes, kg m^2, three rows.
+    pub inertia_kg_m2: Option<[[f64; 3]; 3]>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// An ordered list of elements: the product from the chain's base to its tip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChainTable {
+    /// What the chain is, in a sentence.
+    pub description: Option<String>,
+    /// The elements from the base to the tip, each in the frame reached by those before it.
+    #[schemars(length(min = 1, max = 2000))]
+    pub elements: Vec<Element>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}
+
+/// A chain between two platforms.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimbTable {
+    /// Name, unique.
+    pub name: String,
+    /// Platform where it starts: 'base' or the name of a platform.
+    pub from: String,
+    /// Platform where it ends.
+    pub to: String,
+    /// Name of its chain.
+    pub chain: String,
+    /// Pose of the chain's base in the frame of `from`.
+    pub start: Option<Placement>,
+    /// Pose of the chain's tip in the frame of `to`.
+    pub end: Option<Placement>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+    /// What pulls and pushes on the limb besides its weight.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 100))]
+    pub load: Vec<LoadTable>,
+}
+
+/// An error of manufacture or assembly: the actual geometry differs at one place. Exactly one of
+/// `moved_by`, `longer_by_mm` and `tilted_by_deg` is written.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Deviation {
+    /// Limb that has it.
+    pub limb: String,
+    /// Name of a rigid element, a link or (where its axis is tilted) a joint of its chain, or 'start'
+    /// or 'end'.
+    pub at: String,
+    /// Moves all that follows, in the frame reached behind that element.
+    pub moved_by: Option<Placement>,
+    /// By how much a link, a parallelogram or the offset of a rigid element is longer than drawn,
+    /// mm; shorter if negative.
+    pub longer_by_mm: Option<f64>,
+    /// Tilt, degrees: of a joint's axis, where `at` names a joint (what follows stays in place while the
+    /// joint is at zero); else of all that follows.
+    pub tilted_by_deg: Option<f64>,
+    /// Axis of the tilt, in the frame reached there.
+    pub about: Option<Axis>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    /// What is assumed.
+    pub assumption: Option<String>,
+}

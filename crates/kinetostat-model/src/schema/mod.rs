@@ -1,0 +1,35 @@
+//! What a model file says, one type per table, in the order in which it is written.
+//!
+//! These types are the only description of the format: reading, writing and the JSON Schema are
+//! generated from them. They hold the numbers as written, each with its unit in the field's name;
+//! the assembly turns them into SI once.
+
+mod controller;
+mod document;
+mod elastic;
+mod element;
+mod joint;
+mod knee;
+pub(crate) mod load;
+mod placement;
+
+pub use controller::{ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit};
+pub use document::{
+    ChainTable, Deviation, Document, LimbTable, MechanismTable, PlatformTable, SCHEMA_VERSION,
+    Workspace,
+};
+pub use elastic::{
+    HollowBox, IBeam, Rectangle, Rigidities, Round, Section, ShearWord, Spring6, Stiffness, Tip,
+    Tube, Values,
+};
+pub use element::{
+    ActuatorElement, ActuatorKind, BodyElement, Convention, CoupledElement, Element, LinkElement,
+    NodeElement, ParallelogramElement, PassiveElement, RigidElement, Spring6Element, SpringElement,
+};
+pub use joint::{JointKind, PassiveKind};
+pub use knee::Knee;
+pub use load::{
+    Anchor, ConstantTensionLoad, CounterweightLoad, GasSpringLoad, LoadTable, PlatformAxes,
+    PlatformLoadTable, PlatformPoint, PlatformWrench, SpringLoad, WrenchAxes, WrenchLoad,
+};
+pub use placement::{Axis, AxisName, Placement};
