@@ -1,7 +1,8 @@
 //! Along a line: deviations alone, load alone, both together, and the sum of both alone
 //! [R 6.5.2, figures 6.6 and 6.7].
 
-use kinetostat::{Mechanism, Pose, Posture, Wrench};
+use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, Wrench};
+use kinetostat_analysis::assembled::AssembledMachine;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{Warning, WarningCode};
 use kinetostat_report::{Plot, PlotLine};
@@ -17,7 +18,6 @@ use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
 use crate::ui::warnings;
-use kinetostat_analysis::assembled::AssembledMachine;
 
 /// More points are a slip of the pen.
 const MOST_POINTS: usize = 100_000;
@@ -77,6 +77,36 @@ fn at<'m>(
     }
 }
 
+/// The figures of one point, mm, `distance_mm` from the first.
+fn point(solved: &AssembledMachine<'_>, place: Vector3<f64>, distance_mm: f64) -> Point {
+    let mm = |e: &MechanismEquilibrium| e.displacement.linear() * 1e3;
+    let [drawn, built] = &solved.rest;
+    let deviations = mm(built) - mm(drawn);
+    let (load, together, end) = match &solved.loaded {
+        Some([drawn, built]) => (mm(drawn), mm(built), built),
+        None => (mm(drawn), mm(built), built),
+    };
+    let turn = end.displacement.angular().map(f64::to_degrees);
+    let inside = |of: fn(&Wrench) -> f64| {
+        let own = built.limbs.iter().zip(&drawn.limbs);
+        own.map(|(b, d)| of(&Wrench(b.wrench.0 - d.wrench.0)))
+            .fold(0.0, f64::max)
+    };
+    Point {
+        distance_mm,
+        position_mm: place.into(),
+        load_alone_mm: load.into(),
+        deviations_alone_mm: deviations.into(),
+        deviations_alone_linear_mm: (solved.linear.shift.linear() * 1e3).into(),
+        together_mm: together.into(),
+        sum_mm: (load + deviations).into(),
+        rotation_vector_together_deg: turn.into(),
+        largest_internal_force_n: inside(|w| w.force().norm()),
+        largest_internal_moment_n_m: inside(|w| w.moment().norm()),
+        stable: end.stable(),
+    }
+}
+
 pub(crate) fn answer(
     question: &AssemblyQuery,
     line: &[f64],
@@ -120,32 +150,7 @@ pub(crate) fn answer(
         near = Some(posture.clone());
         let solved = AssembledMachine::solve(posture, &drawn, &query.wrench).map_err(located)?;
         near_drawn = Some(drawn);
-        let mm = |e: &kinetostat::MechanismEquilibrium| e.displacement.linear() * 1e3;
-        let [drawn, built] = &solved.rest;
-        let deviations = mm(built) - mm(drawn);
-        let (load, together, end) = match &solved.loaded {
-            Some([drawn, built]) => (mm(drawn), mm(built), built),
-            None => (mm(drawn), mm(built), built),
-        };
-        let turn = end.displacement.angular().map(f64::to_degrees);
-        let inside = |of: fn(&Wrench) -> f64| {
-            let own = built.limbs.iter().zip(&drawn.limbs);
-            own.map(|(b, d)| of(&Wrench(b.wrench.0 - d.wrench.0)))
-                .fold(0.0, f64::max)
-        };
-        points.push(Point {
-            distance_mm: share * length,
-            position_mm: place.into(),
-            load_alone_mm: load.into(),
-            deviations_alone_mm: deviations.into(),
-            deviations_alone_linear_mm: (solved.linear.shift.linear() * 1e3).into(),
-            together_mm: together.into(),
-            sum_mm: (load + deviations).into(),
-            rotation_vector_together_deg: turn.into(),
-            largest_internal_force_n: inside(|w| w.force().norm()),
-            largest_internal_moment_n_m: inside(|w| w.moment().norm()),
-            stable: end.stable(),
-        });
+        points.push(point(&solved, place, share * length));
     }
     let apart = |p: &Point| (Vector3::from(p.sum_mm) - Vector3::from(p.together_mm)).norm();
     let mut warnings = query.warnings.clone();

@@ -3,6 +3,7 @@
 use kinetostat::{
     LinearAssembly, MechanismEquilibrium, MotionKind, Overconstraint, Posture, Role, Wrench,
 };
+use kinetostat_analysis::assembled::{AssembledMachine, Cases};
 use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
@@ -10,8 +11,6 @@ use crate::assemble::query::AssemblyQuery;
 use crate::machine::units::unit_of;
 use crate::place::query::PlaceAnswer;
 use crate::ui::failure::Answer;
-use kinetostat_analysis::assembled::AssembledMachine;
-use kinetostat_analysis::assembled::Cases;
 
 /// The answer, stable names with units.
 #[derive(Serialize)]

@@ -1,8 +1,9 @@
 //! All figures of an assembly as a table.
 
+use kinetostat_analysis::assembled::Cases;
+
 use crate::assemble::answer::Assembly;
 use crate::ui::failure::{Answer, Failure};
-use kinetostat_analysis::assembled::Cases;
 
 /// One number in all cases.
 pub(crate) struct Row {
