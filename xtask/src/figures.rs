@@ -10,11 +10,11 @@ use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::{bench, cargo, counts, root, step};
+use crate::{bench, builds, cargo, counts, root, step};
 
 /// One number.
 #[derive(Debug, Serialize, Deserialize)]
-struct Figure {
+pub struct Figure {
     name: String,
     measured: Value,
     asked: String,
@@ -23,7 +23,7 @@ struct Figure {
 }
 
 impl Figure {
-    fn at_most(name: impl Into<String>, measured: f64, most: f64, unit: &str) -> Self {
+    pub fn at_most(name: impl Into<String>, measured: f64, most: f64, unit: &str) -> Self {
         Self {
             name: name.into(),
             measured: measured.into(),
@@ -55,10 +55,10 @@ impl Figure {
 }
 
 /// A folder that goes away with the value.
-struct Scratch(PathBuf);
+pub struct Scratch(pub PathBuf);
 
 impl Scratch {
-    fn new(name: &str) -> Result<Self> {
+    pub fn new(name: &str) -> Result<Self> {
         let path =
             std::env::temp_dir().join(format!("kinetostat-figures-{name}-{}", std::process::id()));
         fs::create_dir_all(&path).with_context(|| format!("cannot make {}", path.display()))?;
@@ -138,19 +138,26 @@ fn measure(folder: &Path, arguments: &[&str]) -> Result<Used> {
 
 /// Measures everything and prints it.
 pub fn run(options: &[&str]) -> Result<()> {
-    let (mut json, mut quick) = (false, false);
+    let (mut json, mut quick, mut only_builds) = (false, false, false);
     for option in options {
         match *option {
             "--json" => json = true,
             "--quick" => quick = true,
-            other => bail!("figures: unknown option {other}; there are --json and --quick"),
+            "--builds" => only_builds = true,
+            other => {
+                bail!("figures: unknown option {other}; there are --json, --quick and --builds")
+            }
         }
+    }
+    let mut figures = Vec::new();
+    if only_builds {
+        builds::measured(&mut figures)?;
+        return print(&figures, json);
     }
     step(
         "build",
         cargo().args(["build", "--release", "--quiet", "-p", "kinetostat-cli"]),
     )?;
-    let mut figures = Vec::new();
     demo(&mut figures)?;
     pocket(&mut figures)?;
     maps(&mut figures)?;

@@ -2,6 +2,7 @@
 
 mod bench;
 mod book;
+mod builds;
 mod counts;
 mod figures;
 mod fuzz;
@@ -22,6 +23,7 @@ Tasks of the project
   cargo xtask figures           every number that the issues ask for, measured now
   cargo xtask figures --json    the same as a list of {name, measured, asked, unit, holds}
   cargo xtask figures --quick   without the ones that build from an empty registry cache
+  cargo xtask figures --builds  those of builds and tests from a clean clone alone: about half an hour
   cargo xtask fuzz [--minutes M] [--seed N]   random chains through every question; --case N
                                 repeats one
   cargo xtask bench-vs-numpy    speed beside vectorised numpy, in one process; needs python3

@@ -17,6 +17,7 @@ use kinetostat::{
     Chain, CurveSettings, Mechanism, Parameter, Pose, Settings, Twist, Wrench, follow, moved,
     solve_chain, unloaded_stiffness,
 };
+use kinetostat_testing::{Worst, largest};
 use nalgebra::{Vector3, vector};
 use serde_json::json;
 
@@ -100,7 +101,7 @@ fn exponent(points: &[(f64, f64)]) -> f64 {
 }
 
 fn main() -> kinetostat::Result<()> {
-    let mut worst = f64::NEG_INFINITY;
+    let mut exponents = Vec::new();
     for (name, build, asked) in [
         (
             "Cantilever in segments, force given",
@@ -167,10 +168,10 @@ fn main() -> kinetostat::Result<()> {
             "\nExponents from 100 to 1000 coordinates: equilibrium {:.2}, iteration {:.2}, K_C {:.2}",
             found[0], found[1], found[2]
         );
-        worst = worst.max(found[0]);
+        exponents.push(found[0]);
     }
     // A timing has two digits at most.
-    let measured = (worst * 100.0).round() / 100.0;
+    let measured = (largest(exponents) * 100.0).round() / 100.0;
     let figure = json!({
         "name": "cost of an equilibrium: growth exponent from 100 to 1000 coordinates, worst of five chains",
         "measured": measured,
@@ -191,7 +192,7 @@ fn other_ways() -> kinetostat::Result<()> {
         "| segments | chain | machine | against the chain | points | curve | against the chain |"
     );
     println!("|---:|---:|---:|---:|---:|---:|---:|");
-    let mut worst = [0.0_f64; 2];
+    let mut worst = <[Worst; 2]>::default();
     for segments in [32, 64, 100, 200] {
         let chain = long::soft_cantilever(6 * segments);
         let problem = long::problem(&chain, long::Asked::BentFar);
@@ -225,13 +226,14 @@ fn other_ways() -> kinetostat::Result<()> {
             state * 1e3,
             against[1]
         );
-        worst = [worst[0].max(against[0]), worst[1].max(against[1])];
+        worst[0].add(against[0]);
+        worst[1].add(against[1]);
     }
     for (way, worst) in ["a machine's equilibrium", "a point of a curve"]
         .iter()
         .zip(worst)
     {
-        let measured = (worst * 100.0).round() / 100.0;
+        let measured = (worst.value() * 100.0).round() / 100.0;
         let figure = json!({
             "name": format!("cantilever of 32 to 200 segments bent far: {way} against one of its chain"),
             "measured": measured,
