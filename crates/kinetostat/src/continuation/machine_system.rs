@@ -45,6 +45,9 @@ const STEPS: f64 = 20.0;
 /// Rates of the load below this share of the machine's stiffness do not choose a unit.
 const SOFT: f64 = 1e-7;
 
+/// Stiffnesses below this share of the machine's are rounding.
+const ROUNDING: f64 = 1e-11;
+
 /// Largest rotation of the tool, rad: its logarithm ends at half a turn.
 const LARGEST_TURN: f64 = 3.0;
 
@@ -204,8 +207,10 @@ impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
         let own = v.transpose() * path.possible(e, v);
         let possible = &own * own.transpose();
         let by_turn = twist_of_logarithm(&path.motion(&e.tool));
-        let k = v.transpose() * path.balanced_stiffness(e) * by_turn * v;
         let stiff = path.posture.mechanism.scale().stiffness;
+        let k = v.transpose() * path.balanced_stiffness(e) * by_turn * v;
+        // In a flat posture the sign of what rounding leaves would be a limit of the load.
+        let k = k.map(|x| if x.abs() > ROUNDING * stiff { x } else { 0.0 });
         let n = v.ncols();
         let rigid = DMatrix::identity(n, n) - &possible;
         let push = v.transpose() * path.unbalanced(&path.pattern.0);
@@ -451,8 +456,11 @@ impl CurveSystem for MachineSystem<'_, '_, '_> {
     }
 
     fn longest_step(&self, t: &DVector<f64>, _settings: &CurveSettings) -> f64 {
-        let moved = self.physical(t).0.norm() / self.length;
-        (4.0 / (STEPS * moved.max(1e-300))).min(2.0)
+        let (moved, load) = self.physical(t);
+        let (moved, load) = (moved.norm(), (load / self.load).abs());
+        // A branch may move the tool where the start's own hardly did.
+        let most = (4.0 / STEPS * self.length).max(STEP * self.conditions.length);
+        (most / moved.max(1e-300)).min(2.0 / load.max(1e-300))
     }
 
     fn beyond_angle(&self, found: &MechanismEquilibrium, largest: f64) -> bool {

@@ -70,7 +70,7 @@ pub struct CriticalLoad {
     /// determinant), and flutter, for which masses are needed, may come before.
     pub conservative: bool,
     /// Without a potential: the factor at which the symmetric part of the tangent turns indefinite. Below
-    /// it nothing goes away, whatever the masses are (every small motion takes work on the straight way
+    /// it nothing goes away, whatever the masses are (every small motion takes work on the straight path
     /// there). `None` with a potential (then `exact` says it), or if it stays definite up to `reached`.
     pub definite_until: Option<f64>,
 }
@@ -133,22 +133,29 @@ pub fn critical_load_factor(
         let stability = stability(p);
         !stability.stable || stability.may_flutter()
     };
-    let mut judge = ChainSystem::new(problem, Some(&parameter), &settings.solver)?;
-    judge.start(&start.coordinates, &start.wrench, 0.0)?;
-    let judge = RefCell::new(judge);
+    let mut system_there = ChainSystem::new(problem, Some(&parameter), &settings.solver)?;
+    system_there.start(&start.coordinates, &start.wrench, 0.0)?;
+    let system_there = RefCell::new(system_there);
     let diverged_before = {
-        let mut judge = judge.borrow_mut();
-        let (springs, loads) = Tangent::at(&mut judge, &z, &z, judged).at_start();
+        let mut system_there = system_there.borrow_mut();
+        let (springs, loads) = Tangent::at(&mut system_there, &z, &z, judged).at_start();
         largest_real(&springs, &loads).is_some_and(|mu| mu >= 1.0)
     };
     let unstable = |p: &CurvePoint| {
-        let diverges = || diverges(&Tangent::at(&mut judge.borrow_mut(), &p.z, &z, judged));
+        let diverges = || {
+            diverges(&Tangent::at(
+                &mut system_there.borrow_mut(),
+                &p.z,
+                &z,
+                judged,
+            ))
+        };
         !stability(p).stable && (conservative || diverged_before || diverges())
     };
     let curves = follow_until(problem, &parameter, &start, 0.0, &settings, Some(&unstable))?;
     let points = &curves.branches[0].points;
     let mut reached = points.iter().map(|p| p.parameter).fold(0.0, f64::max);
-    let at_change = |i: usize, verdict: &dyn Fn(&CurvePoint) -> bool| -> Result<CurvePoint> {
+    let at_change = |i: usize, unstable: &dyn Fn(&CurvePoint) -> bool| -> Result<CurvePoint> {
         let mut tracer = Tracer {
             system: ChainSystem::new(problem, Some(&parameter), &settings.solver)?,
             settings: &settings,
@@ -157,19 +164,19 @@ pub fn critical_load_factor(
         tracer
             .system
             .start(&start.coordinates, &start.wrench, 0.0)?;
-        Ok(tracer.stability_change(&points[i - 1], &points[i], verdict))
+        Ok(tracer.stability_change(&points[i - 1], &points[i], unstable))
     };
     let mode = |p: &CurvePoint| match conservative {
         true => mode_of(p, judged),
         false => {
-            let mut judge = judge.borrow_mut();
-            let tangent = Tangent::at(&mut judge, &p.z, &z, judged);
-            let mut motion = DVector::zeros(judge.count() + 1);
-            let first = judge.reactions();
+            let mut system_there = system_there.borrow_mut();
+            let tangent = Tangent::at(&mut system_there, &p.z, &z, judged);
+            let mut motion = DVector::zeros(system_there.count() + 1);
+            let first = system_there.reactions();
             if let Some(v) = tangent.mode() {
                 motion.rows_mut(first, v.len()).copy_from(&v);
             }
-            largest_one(&judge.motion(&motion))
+            largest_one(&system_there.motion(&motion))
         }
     };
     let definite_until = match points.iter().position(indefinite) {
