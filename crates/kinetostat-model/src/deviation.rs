@@ -223,9 +223,13 @@ fn instead(part: &Part, misfit: &Misfit) -> Option<Part> {
         (Part::Passive(name, kind, axis, home), Misfit::Tilted(turn)) => {
             Some(Part::Passive(name.clone(), *kind, turn * axis, *home))
         }
-        (Part::Spring(name, kind, axis, k, homes), Misfit::Tilted(turn)) => {
-            Some(Part::Spring(name.clone(), *kind, turn * axis, *k, *homes))
-        }
+        (Part::Spring(name, kind, axis, law, homes), Misfit::Tilted(turn)) => Some(Part::Spring(
+            name.clone(),
+            *kind,
+            turn * axis,
+            law.clone(),
+            *homes,
+        )),
         (Part::Parallelogram(name, length, width, bar, home), Misfit::Longer(by)) => {
             let length = Some(length + by).filter(|l| *l > 0.0)?;
             Some(Part::Parallelogram(

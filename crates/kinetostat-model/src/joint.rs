@@ -1,9 +1,10 @@
 //! Joints and springs of one degree of freedom: lengths for those that slide, angles for those that
 //! turn.
 
-use kinetostat::{ActuatorSpec, MotionKind};
-use nalgebra::Vector3;
+use kinetostat::{ActuatorSpec, MotionKind, SpringLaw};
+use nalgebra::{DMatrix, Vector3};
 
+use crate::knee;
 use crate::part::Part;
 use crate::placement::direction;
 use crate::problem::{Finding, Place};
@@ -376,5 +377,9 @@ pub(crate) fn spring(place: &Place, name: String, e: &SpringElement) -> Found<Pa
         ],
     )?;
     let home = home.map_or(0.0, |h| h.value);
-    Ok(Part::Spring(name, kind, axis, stiffness, [rest, home]))
+    let law = match &e.knee {
+        Some(knee) => knee::law(&place.key("knee"), kind, stiffness, knee)?,
+        None => SpringLaw::Linear(DMatrix::from_element(1, 1, stiffness)),
+    };
+    Ok(Part::Spring(name, kind, axis, law, [rest, home]))
 }

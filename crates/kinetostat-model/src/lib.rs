@@ -76,6 +76,7 @@ mod exact;
 mod file;
 mod hints;
 mod joint;
+mod knee;
 mod limb;
 mod link_matrix;
 mod load;

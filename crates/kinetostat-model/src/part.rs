@@ -1,7 +1,7 @@
 //! Elements of a chain in SI, before a limb gives them their deviations.
 
 use kinetostat::{
-    ActuatorSpec, ChainBuilder, LinkConvention, LinkSpec, MotionKind, Pose, turn_matrix,
+    ActuatorSpec, ChainBuilder, LinkConvention, LinkSpec, MotionKind, Pose, SpringLaw, turn_matrix,
 };
 use nalgebra::{Matrix3, Matrix6, Unit, UnitQuaternion, Vector3};
 
@@ -26,8 +26,8 @@ pub(crate) enum Part {
     /// Lead in m per turn.
     Screw(String, ActuatorSpec, f64),
     Passive(String, MotionKind, Vector3<f64>, f64),
-    /// Stiffness; then the deflections at rest and at home.
-    Spring(String, MotionKind, Vector3<f64>, f64, [f64; 2]),
+    /// Then the deflections at rest and at home.
+    Spring(String, MotionKind, Vector3<f64>, SpringLaw, [f64; 2]),
     Spring6(String, Box<Matrix6<f64>>, [f64; 6]),
     /// Along local x, with its offset; stiffnesses of its segments where they differ.
     Link(String, Box<LinkSpec>, Option<Vec<Matrix6<f64>>>),
@@ -50,8 +50,8 @@ impl Part {
             Self::Actuator(name, spec) => builder.actuator(name, spec.clone()),
             Self::Screw(name, spec, lead) => builder.screw(name, spec.clone(), *lead),
             Self::Passive(name, kind, axis, home) => builder.passive(name, *kind, *axis, *home),
-            Self::Spring(name, kind, axis, stiffness, [rest, home]) => builder
-                .spring(name, *kind, *axis, *stiffness, *rest)
+            Self::Spring(name, kind, axis, law, [rest, home]) => builder
+                .spring_with_law(name, *kind, *axis, law.clone(), *rest)
                 .home(name, *home),
             Self::Spring6(name, matrix, rest) => builder.spring6(name, matrix, *rest),
             Self::Link(name, spec, None) => builder.link_with(name, spec),

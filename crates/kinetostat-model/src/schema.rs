@@ -12,6 +12,7 @@ use serde::de::{Error, IntoDeserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::exact::wrong_length;
+pub use crate::knee::Knee;
 pub use crate::schema_controller::{
     ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit,
 };

@@ -4,6 +4,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::knee::Knee;
 use crate::schema::{Axis, JointKind, PassiveKind, Placement, Spring6};
 
 /// One element of a chain.
@@ -173,6 +174,8 @@ pub struct SpringElement {
     pub stiffness_n_m_per_rad: Option<f64>,
     /// Stiffness about the axis, N mm/rad.
     pub stiffness_n_mm_per_rad: Option<f64>,
+    /// Where its stiffness changes, and what it is beyond: the one written here is that at rest.
+    pub knee: Option<Knee>,
     /// Deflection at rest, mm (a preload where it is not zero).
     pub rest_mm: Option<f64>,
     /// Deflection at rest, m.

@@ -72,13 +72,23 @@
 //! departs from its print, the comment says so. A physical finding (singular, unstable, redundant,
 //! free) is a field of a result; `Err` is a wrong input or a question without an answer.
 //!
-//! # Order of the modules
+//! # Rooms
 //!
-//! Dependencies point one way: `spatial, saddle with block_elimination, sparse <- spring, chain <- kinematics, loading <- system
-//! with sweep, sweep_factor, sweep_solve <- equilibrium, stiffness, stability <- mechanism, inverse
-//! with graph <- platform, platform_step <- posture with network, forward <- assembly, constraints, mobility,
-//! near_singular, overcome, platform_curve, platform_path with machine_equilibria, compensation`; and `equilibrium, stability <- reduced, singular_point <-
-//! branches with tracer and bifurcation <- jumps, equilibria, critical`.
+//! Dependencies point one way, from every room to those above it in this list; a test draws the arrows from the sources
+//! (`cargo test --workspace --test arrows`).
+//!
+//! ```text
+//! number, spatial, error, settings   digits in text; poses, twists, wrenches; what can go wrong; tolerances
+//! linalg         bordered systems, singular values, block elimination: knows nothing of robots
+//! model          chains and mechanisms, spring laws, loads; Jacobians and Hessians of a chain
+//! chain          one chain at one state: its system (dense or by sweeps), stiffness, stability, Newton
+//! machine        a mechanism commanded for a target: inverse kinematics, posture, stiffness, platforms
+//! continuation   equilibria as one parameter grows, around limit points and through bifurcations
+//! equilibrium    the equilibrium to which a load leads, all that can be found, critical loads
+//! compensation   the target to command so that the loaded tool is where it should be
+//! batch          many postures at once, one per lane of the processor's vector registers
+//! reference      the report's own forms and iterations, for those who check, teach or simplify
+//! ```
 
 pub mod batch;
 mod chain;
@@ -153,6 +163,7 @@ pub use model::loads::platform::PlatformLoad;
 pub use model::loads::strut::{Anchor, Strut};
 pub use model::mechanism::{Limb, Mechanism, Platform};
 pub use model::mechanism_builder::MechanismBuilder;
+pub use model::springs::bilinear::BilinearLaw;
 pub use model::springs::block::{Segment, SpringBlock, SpringLaw};
 pub use model::springs::bowing::BowingLaw;
 pub use model::springs::logarithm::LogarithmLaw;

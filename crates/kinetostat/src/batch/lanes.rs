@@ -9,6 +9,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::Simd;
 
+use crate::linalg::derivatives::{ASIN, LOGARITHM, Number, Real};
+
 /// One number per lane.
 pub(super) struct Lanes<S: Simd> {
     simd: S,
@@ -210,5 +212,95 @@ impl<S: Simd> Lanes<S> {
             sum = sum.times_plus(self, self.same(*c));
         }
         sum
+    }
+}
+
+/// The series of [`crate::linalg::derivatives`] for springs that turn less than [`MOST_SQUARE`].
+const SHORT_ASIN: [f64; 14] = last(&ASIN);
+const SHORT_LOGARITHM: [f64; 8] = last(&LOGARITHM);
+
+/// Rotations beyond this (squared, rad^2) leave the range of the series.
+pub(super) const MOST_SQUARE: f64 = 0.27;
+
+const fn last<const N: usize, const M: usize>(all: &[f64; M]) -> [f64; N] {
+    let (mut out, mut k) = ([0.0; N], 0);
+    while k < N {
+        out[k] = all[M - N + k];
+        k += 1;
+    }
+    out
+}
+
+impl<S: Simd> Number for Lanes<S> {
+    #[inline(always)]
+    fn same(self, value: f64) -> Self {
+        Lanes::same(self, value)
+    }
+    #[inline(always)]
+    fn times_plus(self, b: Self, c: Self) -> Self {
+        Lanes::times_plus(self, b, c)
+    }
+    #[inline(always)]
+    fn times_from(self, b: Self, c: Self) -> Self {
+        Lanes::times_from(self, b, c)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        Lanes::sin_cos(self)
+    }
+    #[inline(always)]
+    fn sin_cos_of_spring(self) -> (Self, Self) {
+        self.sin_cos_near_zero()
+    }
+    #[inline(always)]
+    fn angle_per_sine(self) -> Self {
+        self.polynomial(&SHORT_ASIN)
+    }
+    #[inline(always)]
+    fn logarithm_factor(self) -> [Self; 2] {
+        let [value, rate, _] = self.logarithm_factor_and_rates();
+        [value, rate]
+    }
+    #[inline(always)]
+    fn clamped(self, most: f64) -> Self {
+        let (low, high) = (self.same(-most), self.same(most));
+        let below = self.where_less(high, self, high);
+        low.where_less(below, below, low)
+    }
+    #[inline(always)]
+    fn is_negative(self) -> bool {
+        false
+    }
+}
+
+impl<S: Simd> Real for Lanes<S> {
+    #[inline(always)]
+    fn angle_per_sine_and_rate(self) -> [Self; 2] {
+        let [value, rate, _] = self.series(&SHORT_ASIN);
+        [value, rate]
+    }
+    #[inline(always)]
+    fn logarithm_factor_and_rates(self) -> [Self; 3] {
+        self.series(&SHORT_LOGARITHM)
+    }
+    #[inline(always)]
+    fn is_within(self, most: f64) -> Self {
+        let one = self.same(1.0);
+        self.abs().where_less(one * most, one, self.same(0.0))
+    }
+}
+
+impl<S: Simd> Lanes<S> {
+    /// Value of a polynomial, highest coefficient first, and two derivatives.
+    #[inline(always)]
+    fn series<const N: usize>(self, coefficients: &[f64; N]) -> [Self; 3] {
+        let zero = self.same(0.0);
+        let (mut sum, mut first, mut second) = (self.same(coefficients[0]), zero, zero);
+        for k in 1..N {
+            second = second.times_plus(self, first * 2.0);
+            first = first.times_plus(self, sum);
+            sum = sum.times_plus(self, self.same(coefficients[k]));
+        }
+        [sum, first, second]
     }
 }

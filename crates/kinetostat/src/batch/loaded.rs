@@ -12,7 +12,7 @@
 use pulp::Simd;
 
 use super::apart::apart;
-use super::lanes::Lanes;
+use super::lanes::{Lanes, MOST_SQUARE};
 use super::law;
 use super::place::{Place, amount};
 use super::plan::{Held, Joint, Law, Plan, Spring, Step};
@@ -370,7 +370,11 @@ impl<S: Simd> LoadedLimb<S> {
             Held::Spring(compliance) => {
                 let torque = torque * ratio;
                 self.bears(own, torque, self.torque[own], tally);
-                self.follows(own, torque * compliance, active);
+                let to = match &joint.law {
+                    Some(law) => law::single_deflection(law, torque),
+                    None => torque * compliance,
+                };
+                self.follows(own, to, active);
             }
             // Several motions may belong to one passive joint: see `clear`.
             _ => self.torque[own] = torque.times_plus(torque.same(ratio), self.torque[own]),
@@ -389,6 +393,15 @@ impl<S: Simd> LoadedLimb<S> {
     #[inline(always)]
     fn follows(&mut self, own: usize, to: Lanes<S>, active: Lanes<S>) {
         self.coordinates[own] = select(active, to, self.coordinates[own]);
+    }
+
+    /// Tangent stiffness of the spring of a joint, whose compliance at rest is `c`.
+    #[inline(always)]
+    pub fn joint_stiffness(&self, joint: &Joint, own: usize, c: f64) -> Lanes<S> {
+        match &joint.law {
+            Some(law) => law::single_tangent(law, self.coordinates[own]),
+            None => Lanes::new(self.simd, 1.0 / c),
+        }
     }
 
     /// Torques on a spring; force and moment go on to where it begins.
@@ -434,14 +447,14 @@ impl<S: Simd> LoadedLimb<S> {
         let zero = Lanes::new(self.simd, 0.0);
         // Where the spring is, what it bears there, and what its compliance is multiplied with.
         let (mut from, mut borne, mut lacks) = ([zero; 6], [zero; 6], torque);
-        if let Law::Bowing(length) = spring.law {
+        if let Law::Curved(law, _) = &spring.law {
             for d in 0..6 {
                 if let Some(own) = spring.coordinates[d] {
                     from[d] = self.coordinates[own];
                 }
             }
             let square;
-            (borne, square) = law::bowing(self.simd, &spring.stiffness, length, &from);
+            (borne, square) = law::torque(law, &from);
             tally.largest = tally.largest.max(square);
             for d in 0..6 {
                 lacks[d] = torque[d] - borne[d];
@@ -453,9 +466,9 @@ impl<S: Simd> LoadedLimb<S> {
                 }
             }
         }
-        let step = match spring.law {
+        let step = match &spring.law {
             Law::Parallelogram(..) => self.laws[law].times(&lacks),
-            Law::Constant | Law::Bowing(_) => times(&spring.compliance, &lacks),
+            Law::Constant | Law::Curved(..) => times(&spring.compliance, &lacks),
         };
         for d in 0..6 {
             if let Some(own) = spring.coordinates[d] {
@@ -503,7 +516,7 @@ impl<S: Simd> LoadedLimb<S> {
         let within = self
             .tally
             .largest
-            .where_less(one * law::MOST_SQUARE, one, one.same(0.0));
+            .where_less(one * MOST_SQUARE, one, one.same(0.0));
         (one - most) * within
     }
 }

@@ -14,7 +14,6 @@ mod actuators;
 mod apart;
 mod compensate;
 mod compiled;
-mod dual;
 mod eliminate;
 mod equilibria;
 mod freed;

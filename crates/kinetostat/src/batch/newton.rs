@@ -23,6 +23,7 @@ use pulp::Simd;
 
 use super::apart::apart;
 use super::lanes::Lanes;
+use super::law;
 use super::loaded::LoadedLimb;
 use super::newton_stage::{Single, Stage, axes, turns, weighs};
 use super::plan::{Held, Plan, Step};
@@ -182,7 +183,10 @@ impl<S: Simd> Newton<S> {
                             (joint.held, joint.amount.coordinate)
                         {
                             let x = limb.coordinates[own];
-                            self.lacks[own] = x.times_from(x.same(1.0 / c), torque * ratio);
+                            self.lacks[own] = match &joint.law {
+                                Some(law) => torque * ratio - law::single_torque(law, x),
+                                None => x.times_from(x.same(1.0 / c), torque * ratio),
+                            };
                         }
                     }
                     Step::Spring(spring) => {

@@ -59,7 +59,7 @@ impl<S: Simd> Single<S> {
         p: &mut Mat6<S>,
         stable: &mut Lanes<S>,
     ) {
-        let (Held::Spring(c), Some((_, ratio))) = (joint.held, joint.amount.coordinate) else {
+        let (Held::Spring(c), Some((own, ratio))) = (joint.held, joint.amount.coordinate) else {
             return;
         };
         let zero = force[0].same(0.0);
@@ -75,7 +75,8 @@ impl<S: Simd> Single<S> {
                 (3 + joint.axis, more)
             }
         };
-        let pivot = p[row][row].times_from(zero + ratio * ratio, zero + 1.0 / c);
+        let pivot =
+            p[row][row].times_from(zero + ratio * ratio, limb.joint_stiffness(joint, own, c));
         self.reciprocal = zero.same(1.0) / pivot;
         *stable = stable.least_of(pivot * c);
         for k in 0..6 {

@@ -5,6 +5,8 @@ use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 use crate::model::chain::{Chain, Element, Motion, Role};
 use crate::model::kinematics::Kinematics;
 use crate::model::springs::block::{SpringBlock, SpringLaw};
+use crate::model::springs::curved::CurvedLaw;
+use crate::model::springs::law::{if_curved, if_single};
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::spatial::{MotionKind, Pose};
 
@@ -23,18 +25,20 @@ pub(super) enum Held {
     Fixed,
     /// A passive joint; its place among the plan's passive joints.
     Passive(usize),
-    /// A spring of this compliance, m/N or rad/(N m).
+    /// A spring of this compliance at rest, m/N or rad/(N m).
     Spring(f64),
 }
 
 /// One motion about or along a coordinate axis of the frame reached.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Joint {
     pub kind: MotionKind,
     /// 0, 1, 2: x, y, z.
     pub axis: usize,
     pub amount: Amount,
     pub held: Held,
+    /// How its spring answers, if that is not linear, see [`crate::model::springs::single`].
+    pub law: Option<Box<SpringLaw>>,
     /// Its place in [`Plan::screws`].
     pub screw: usize,
 }
@@ -109,8 +113,9 @@ pub(super) struct Spring {
 pub(super) enum Law {
     /// By its matrix.
     Constant,
-    /// A beam segment of this length (m) that shortens as it bends.
-    Bowing(f64),
+    /// By strains of its own, see [`crate::model::springs::curved`]; with the compliance of the strains, row by
+    /// row.
+    Curved(SpringLaw, Box<[f64; 36]>),
     /// Two bars whose compliance depends on a passive joint (its place among them).
     Parallelogram(Box<ParallelogramLaw>, usize),
 }
@@ -433,14 +438,16 @@ impl Writer<'_> {
             command: motion.command.map(|d| (d.index, d.ratio)),
             coordinate: motion.coordinate.map(|d| (d.index, d.ratio)),
         };
-        let mut held = Held::Fixed;
+        let (mut held, mut law) = (Held::Fixed, None);
         if let Some((index, ratio)) = amount.coordinate {
             let own = &self.chain.coordinates()[index];
             match (own.role, block) {
                 (Role::Spring, Some(block)) => {
-                    let SpringLaw::Linear(k) = &block.law else {
+                    law = if_single!(&block.law, _own => Some(Box::new(block.law.clone())), else None);
+                    if law.is_none() && !matches!(block.law, SpringLaw::Linear(_)) {
                         return Err(format!("'{name}': the law of '{}'", block.name));
-                    };
+                    }
+                    let k = block.stiffness_at(&self.chain.home_coordinates());
                     let drives = self.chain.elements().iter().filter(|e| {
                         matches!(e, Element::Motion(m) if m.coordinate.is_some_and(|d| d.index == index))
                     });
@@ -487,6 +494,7 @@ impl Writer<'_> {
             axis,
             amount,
             held,
+            law,
             screw,
         }));
         if let Some(turned) = turned {
@@ -499,14 +507,20 @@ impl Writer<'_> {
         let refusal = |why: &str| Err(format!("'{}': '{}' {why}", self.chain.name(), block.name));
         let law = match &block.law {
             SpringLaw::Linear(_) => Law::Constant,
-            SpringLaw::Bowing(law) => Law::Bowing(law.length),
             SpringLaw::Parallelogram(law) => {
                 match self.passive.iter().position(|i| *i == law.inclination) {
                     Some(slot) => Law::Parallelogram(law.clone(), slot),
                     None => return refusal("hangs on a redundant joint"),
                 }
             }
-            SpringLaw::Logarithm(_) => return refusal("has a law that no kernel knows"),
+            other => {
+                let own = if_curved!(other, law => Some(law.matrix()), else None);
+                let Some(strains) = own.and_then(|k| k.cholesky()).map(|c| c.inverse()) else {
+                    return refusal("has a law that no kernel knows");
+                };
+                let rows = std::array::from_fn(|i| strains[(i / 6, i % 6)]);
+                Law::Curved(other.clone(), Box::new(rows))
+            }
         };
         let k = &block.stiffness_at(&self.chain.home_coordinates());
         if block.len() > 6 || motions.len() != block.len() {

@@ -98,13 +98,17 @@ impl<S: Simd> Shape<S> {
             for step in &plan.steps {
                 match step {
                     Step::Joint(joint) => {
-                        let Some((_, ratio)) = joint.amount.coordinate else {
+                        let Some((own, ratio)) = joint.amount.coordinate else {
                             continue;
                         };
                         let mut s = twist(limb, plan, joint.screw);
                         let (at, factor) = match joint.held {
-                            Held::Spring(c) => (place, ratio * c.sqrt()),
-                            Held::Passive(slot) => (self.springs + slot, ratio),
+                            Held::Spring(_) if joint.law.is_some() => {
+                                let k = limb.joint_stiffness(joint, own, 1.0);
+                                (place, ((zero + ratio * ratio) / k).sqrt() * ratio.signum())
+                            }
+                            Held::Spring(c) => (place, zero + ratio * c.sqrt()),
+                            Held::Passive(slot) => (self.springs + slot, zero + ratio),
                             Held::Fixed => continue,
                         };
                         for x in &mut s {
@@ -246,7 +250,7 @@ impl<S: Simd> Shape<S> {
                     b[j][i] = b[i][j];
                 }
             }
-            if matches!(spring.law, Law::Bowing(_)) {
+            if matches!(spring.law, Law::Curved(..)) {
                 for i in 0..6 {
                     for j in 0..6 {
                         let own = (geometric[i][j] + geometric[j][i]) * 0.5;
@@ -592,7 +596,7 @@ impl<S: Simd> Loads<S> {
 }
 
 /// `M` of the compliance, `C = M M^T`, and the geometric stiffness; nothing where a direction does not
-/// move. Lower triangular unless the spring is a beam that bends.
+/// move. Lower triangular unless the spring has strains of its own.
 #[inline(always)]
 fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> (Mat6<S>, Mat6<S>) {
     apart!(simd, {
@@ -604,9 +608,11 @@ fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> 
             }
             let mut reciprocal = zero;
             for i in j..6 {
-                let mut x = match spring.law {
+                let mut x = match &spring.law {
                     Law::Parallelogram(..) => limb.laws[law].get(i, j),
-                    Law::Constant | Law::Bowing(_) => one * spring.compliance[6 * i + j],
+                    Law::Constant => one * spring.compliance[6 * i + j],
+                    // Of the strains.
+                    Law::Curved(_, compliance) => one * compliance[6 * i + j],
                 };
                 for k in 0..j {
                     x = m[i][k].times_from(m[j][k], x);
@@ -619,12 +625,11 @@ fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> 
                 }
             }
         }
-        let Law::Bowing(length) = spring.law else {
+        let Law::Curved(law, _) = &spring.law else {
             return (m, [[zero; 6]; 6]);
         };
-        // Strains to motions: the compliance of the strains is that of rest.
-        let at = deflection(limb, spring);
-        let (geometric, inverse) = law::bowing_geometric(&spring.stiffness, length, &at);
+        // Strains to motions.
+        let (geometric, inverse) = law::geometric(law, &deflection(limb, spring));
         let mut motions = [[zero; 6]; 6];
         for i in 0..6 {
             for d in 0..6 {
@@ -640,7 +645,7 @@ fn root<S: Simd>(simd: S, limb: &LoadedLimb<S>, spring: &Spring, law: usize) -> 
 /// The first row of column `k` of a spring's `M` that is not zero.
 #[inline(always)]
 fn first_row(spring: &Spring, k: usize) -> usize {
-    if matches!(spring.law, Law::Bowing(_)) {
+    if matches!(spring.law, Law::Curved(..)) {
         0
     } else {
         k

@@ -75,7 +75,7 @@ pub(super) fn stiffness<S: Simd>(
                     mass += 1;
                 }
                 Step::Joint(joint) => {
-                    let Some((_, ratio)) = joint.amount.coordinate else {
+                    let Some((own, ratio)) = joint.amount.coordinate else {
                         continue;
                     };
                     let mut s = twist(limb, plan, joint.screw);
@@ -83,7 +83,10 @@ pub(super) fn stiffness<S: Simd>(
                         *x = *x * ratio;
                     }
                     match joint.held {
-                        Held::Spring(c) => walk.stage(&s, c),
+                        Held::Spring(_) if joint.law.is_some() => {
+                            walk.stage(&s, one / limb.joint_stiffness(joint, own, 1.0));
+                        }
+                        Held::Spring(c) => walk.stage(&s, zero + c),
                         Held::Passive(slot) => walk.passive(&s, slot),
                         Held::Fixed => {}
                     }
@@ -126,8 +129,8 @@ fn compliance<S: Simd>(
             }
             *law += 1;
         }
-        Law::Bowing(length) => {
-            let mut k = law::bowing_tangent(&spring.stiffness, *length, &deflection(limb, spring));
+        Law::Curved(law, _) => {
+            let mut k = law::tangent(law, &deflection(limb, spring));
             for i in 0..6 {
                 c[i][i] = Lanes::new(simd, 1.0);
             }
@@ -157,7 +160,7 @@ impl<S: Simd> Walk<S> {
 
     /// One coordinate of compliance `c`.
     #[inline(always)]
-    fn stage(&mut self, s: &[Lanes<S>; 6], compliance: f64) {
+    fn stage(&mut self, s: &[Lanes<S>; 6], compliance: Lanes<S>) {
         let turned = outer(&self.force, &self.moment, s);
         for c in 0..self.width {
             let t = &mut self.z[c];

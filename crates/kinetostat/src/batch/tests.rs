@@ -11,7 +11,10 @@ use crate::error::Error;
 use crate::model::kinematics::unloaded_tip;
 use crate::model::mechanism::Mechanism;
 use crate::spatial::Pose;
-use crate::{ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench};
+use crate::{
+    ActuatorSpec, BeamSection, BowingLaw, Chain, Limb, LogarithmLaw, MotionKind, Platform,
+    SpringLaw, Wrench,
+};
 
 /// Numbers between -1 and 1 with nothing special about them.
 fn irregular(i: usize) -> f64 {
@@ -351,18 +354,32 @@ fn machines_do_not_matter_to_each_other() {
 
 #[test]
 fn the_tangent_of_a_bent_beam_is_the_difference_of_its_torques() {
-    let k = bar();
-    let stiffness: [f64; 36] = std::array::from_fn(|i| k[(i / 6, i % 6)]);
+    let matrix = bar();
+    let bowing = BowingLaw {
+        matrix,
+        length: 0.3,
+    };
+    let logarithm = |length| LogarithmLaw { matrix, length };
+    for law in [
+        SpringLaw::Bowing(Box::new(bowing)),
+        SpringLaw::Logarithm(Box::new(logarithm(0.0))),
+        SpringLaw::Logarithm(Box::new(logarithm(0.3))),
+    ] {
+        tangent_of(&law, &matrix);
+    }
+}
+
+fn tangent_of(law: &SpringLaw, k: &Matrix6<f64>) {
     let torque = |at: &[f64; 6]| {
         let at = at.map(|x| Lanes::new(Scalar, x));
-        let (torque, _) = super::law::bowing(Scalar, &stiffness, 0.3, &at);
+        let (torque, _) = super::law::torque(law, &at);
         torque.map(number)
     };
     for i in 0..20 {
         let at: [f64; 6] =
             std::array::from_fn(|d| irregular(6 * i + d) * if d < 3 { 0.02 } else { 0.2 });
         let lanes = at.map(|x| Lanes::new(Scalar, x));
-        let tangent = super::law::bowing_tangent(&stiffness, 0.3, &lanes);
+        let tangent = super::law::tangent(law, &lanes);
         for column in 0..6 {
             let step = if column < 3 { 1e-6 } else { 1e-5 };
             let (mut more, mut less) = (at, at);

@@ -101,7 +101,7 @@ impl<S: Simd> Walk<S> {
                     }
                     Step::Spring(spring) if yields => {
                         match &spring.law {
-                            Law::Constant | Law::Bowing(_) => {
+                            Law::Constant | Law::Curved(..) => {
                                 self.compliance.add_constant(&spring.compliance);
                             }
                             Law::Parallelogram(bars, slot) => {

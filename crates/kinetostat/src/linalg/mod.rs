@@ -8,11 +8,13 @@
 //! singular_values    one-sided Jacobi rotations: ranks, ranges, shortest solutions
 //! complement         bases of what is orthogonal to given columns, by Householder reflections
 //! block_elimination  the same for many platforms, block by block with delayed pivots; sparse: their entries
+//! derivatives        numbers that formulas are written for once: single ones, several in one, with their derivatives
 //! krylov             the few largest eigenvalues of a large symmetric matrix
 //! ```
 
 pub(crate) mod block_elimination;
 pub(crate) mod complement;
+pub(crate) mod derivatives;
 pub(crate) mod krylov;
 pub(crate) mod saddle;
 pub(crate) mod singular_values;

@@ -297,21 +297,31 @@ impl ChainBuilder {
     /// A virtual spring of one degree of freedom: stiffness N/m or N m/rad, `rest` is `theta0`.
     #[must_use]
     pub fn spring(
-        mut self,
+        self,
         name: &str,
         kind: MotionKind,
         axis: Vector3<f64>,
         stiffness: f64,
         rest: f64,
     ) -> Self {
+        let law = SpringLaw::Linear(DMatrix::from_element(1, 1, stiffness));
+        self.spring_with_law(name, kind, axis, law, rest)
+    }
+
+    /// A virtual spring of one degree of freedom with any law of one coordinate, such as
+    /// [`crate::BilinearLaw`].
+    #[must_use]
+    pub fn spring_with_law(
+        mut self,
+        name: &str,
+        kind: MotionKind,
+        axis: Vector3<f64>,
+        law: SpringLaw,
+        rest: f64,
+    ) -> Self {
         let axis = self.unit_axis(name, axis);
         let index = self.coordinate(name.to_owned(), Role::Spring, kind, 0.0);
-        self.block(
-            name,
-            index,
-            vec![rest],
-            SpringLaw::Linear(DMatrix::from_element(1, 1, stiffness)),
-        );
+        self.block(name, index, vec![rest], law);
         self.motion(kind, axis, Some(Drive { index, ratio: 1.0 }), None);
         self
     }
@@ -506,15 +516,8 @@ impl ChainBuilder {
                 k.ncols()
             ));
         }
-        let least_length = match &block.law {
-            SpringLaw::Bowing(law) => law.length - f64::MIN_POSITIVE,
-            SpringLaw::Logarithm(law) => law.length,
-            _ => 0.0,
-        };
-        if !(least_length.is_finite() && least_length >= 0.0) {
-            return Some(format!(
-                "spring '{name}': the length of its segment is not a positive number of metres"
-            ));
+        if let Some(fault) = block.law.fault() {
+            return Some(format!("spring '{name}': {fault}"));
         }
         if k.iter().any(|x| !usable(*x)) {
             return Some(format!(

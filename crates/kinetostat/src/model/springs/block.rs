@@ -7,23 +7,10 @@
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::model::springs::bowing::BowingLaw;
-use crate::model::springs::logarithm::LogarithmLaw;
-use crate::model::springs::parallelogram::ParallelogramLaw;
-
-/// How a spring block answers a deflection.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub enum SpringLaw {
-    /// Constant symmetric stiffness, k x k (N/m, N/rad, N m/m, N m/rad by coordinate).
-    Linear(DMatrix<f64>),
-    /// Two parallel bars lumped into one spring: see [`ParallelogramLaw`].
-    Parallelogram(Box<ParallelogramLaw>),
-    /// A beam segment that shortens as it bends: see [`BowingLaw`]. Six coordinates.
-    Bowing(Box<BowingLaw>),
-    /// A spring in exponential coordinates: see [`LogarithmLaw`]. Six coordinates.
-    Logarithm(Box<LogarithmLaw>),
-}
+use crate::model::springs::curved::CurvedLaw;
+pub use crate::model::springs::law::SpringLaw;
+use crate::model::springs::law::{if_curved, if_single};
+use crate::model::springs::single::SingleLaw;
 
 /// A named group of spring coordinates with one law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,17 +72,20 @@ impl SpringBlock {
     ) -> f64 {
         let deflection =
             || Vector6::from_fn(|i, _| values[self.first + i] - preload * self.rest[i]);
-        let response = match &self.law {
-            SpringLaw::Linear(matrix) => {
-                return self.add_constant(matrix, values, preload, torque, entry);
-            }
-            SpringLaw::Parallelogram(law) => {
-                let matrix = law.matrix(posture[law.inclination]);
-                return self.add_constant(&matrix, values, preload, torque, entry);
-            }
-            SpringLaw::Bowing(law) => law.respond(&deflection()),
-            SpringLaw::Logarithm(law) => law.respond(&deflection()),
-        };
+        if let SpringLaw::Linear(matrix) = &self.law {
+            return self.add_constant(matrix, values, preload, torque, entry);
+        }
+        if let SpringLaw::Parallelogram(law) = &self.law {
+            let matrix = law.matrix(posture[law.inclination]);
+            return self.add_constant(&matrix, values, preload, torque, entry);
+        }
+        if_single!(&self.law, law => {
+            let x = values[self.first] - preload * self.rest[0];
+            torque[self.first] += law.torque(x);
+            entry(0, 0, law.tangent(x));
+            return law.energy(x);
+        }, else ());
+        let response = if_curved!(&self.law, law => law.respond(&deflection()), else return 0.0);
         for i in 0..6 {
             torque[self.first + i] += response.torque[i];
             for j in 0..6 {
@@ -116,11 +106,7 @@ impl SpringBlock {
         let rest = Vector6::from_column_slice(&self.rest) * preload;
         let now = Vector6::from_column_slice(&from[own.clone()]);
         let step = Vector6::from_column_slice(&to[own.clone()]) - now;
-        let next = match &self.law {
-            SpringLaw::Linear(_) | SpringLaw::Parallelogram(_) => return,
-            SpringLaw::Bowing(law) => law.follow(&(now - rest), &step),
-            SpringLaw::Logarithm(law) => law.follow(&(now - rest), &step),
-        };
+        let next = if_curved!(&self.law, law => law.follow(&(now - rest), &step), else return);
         to[own].copy_from_slice((next + rest).as_slice());
     }
 
@@ -160,11 +146,18 @@ impl SpringBlock {
                 let m = law.matrix(posture[law.inclination]);
                 DMatrix::from_fn(5, 5, |i, j| m[(i, j)])
             }
-            SpringLaw::Bowing(law) => DMatrix::from_fn(6, 6, |i, j| law.matrix[(i, j)]),
-            SpringLaw::Logarithm(law) => {
-                let m = law.at_rest();
-                DMatrix::from_fn(6, 6, |i, j| m[(i, j)])
-            }
+            other => if_curved!(
+                other,
+                law => {
+                    let m = law.at_rest();
+                    DMatrix::from_fn(6, 6, |i, j| m[(i, j)])
+                },
+                else if_single!(
+                    other,
+                    law => DMatrix::from_element(1, 1, law.at_rest()),
+                    else DMatrix::zeros(self.len(), self.len())
+                )
+            ),
         }
     }
 }
@@ -185,6 +178,8 @@ pub(crate) fn balanced(k: &DMatrix<f64>) -> DMatrix<f64> {
 mod tests {
     use super::*;
     use crate::BeamSection;
+    use crate::model::springs::bowing::BowingLaw;
+    use crate::model::springs::logarithm::LogarithmLaw;
 
     fn respond(block: &SpringBlock, x: &[f64; 6]) -> (f64, Vec<f64>, DMatrix<f64>) {
         let (mut torque, mut tangent) = (vec![0.0; 6], DMatrix::zeros(6, 6));

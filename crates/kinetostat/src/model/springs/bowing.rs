@@ -23,12 +23,16 @@
 //! moderate (`p` well below one): that is what the segments are for. Torsion under bending (lateral
 //! buckling) comes from the segments too.
 
+//!
+//! Everything below is written once, for every number ([`crate::linalg::derivatives`]): the general engine and the
+//! vectorised kernels evaluate the same formulas.
+
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::model::springs::jet::{Jet, quadratic};
-use crate::model::springs::logarithm::{angles, with_rotation_vector};
-use crate::model::springs::response::Response;
+use crate::linalg::derivatives::{Forward, Number, Real};
+use crate::model::springs::curved::{CurvedLaw, Six, times};
+use crate::model::springs::rotation::{angles, rotation_vector, torque_on_turns};
 
 /// Energy of a beam segment that shortens as it bends; see [`crate::LinkConvention::Bowing`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,36 +43,167 @@ pub struct BowingLaw {
     pub length: f64,
 }
 
-/// Lateral and angular coordinate of each plane of bending and the sign of the slope `p` in the
-/// angle: `p = rz` for motions along y, `p = -ry` for motions along z.
-const PLANES: [(usize, usize, f64); 2] = [(1, 5, 1.0), (2, 4, -1.0)];
+/// How much a plane of bending shortens the axis, `b(w, p)`.
+#[inline(always)]
+fn bow<N: Number>(h: f64, w: N, p: N, sign: f64) -> N {
+    (w * w) * (0.6 / h) + (p * p) * (h / 15.0) - (w * p) * (0.1 * sign)
+}
 
 impl BowingLaw {
-    /// Deflection with rotations as a vector and the stretch of the axis as first entry.
-    fn strain(&self, deflection: &Vector6<f64>) -> [Jet; 6] {
-        let h = self.length;
-        let mut strain = with_rotation_vector(deflection);
-        for (lateral, angle, sign) in PLANES {
-            let (w, p) = (strain[lateral], strain[angle]);
-            let own = (w * w).scaled(0.6 / h) + (p * p).scaled(h / 15.0);
-            strain[0] = strain[0] + own - (w * p).scaled(0.1 * sign);
+    /// Rates of the axis' stretch by the motions across it and by the rotation vector.
+    #[inline(always)]
+    fn stretches<N: Number>(&self, strain: &[N; 6]) -> ([N; 2], [N; 2]) {
+        let [_, y, z, _, fy, fz] = *strain;
+        let (h, slope) = (self.length, 1.2 / self.length);
+        let across = [y * slope - fz * 0.1, z * slope + fy * 0.1];
+        let turning = [
+            fy * (2.0 * h / 15.0) + z * 0.1,
+            fz * (2.0 * h / 15.0) - y * 0.1,
+        ];
+        (across, turning)
+    }
+
+    /// A deflection with its rates by the three turns.
+    #[inline(always)]
+    fn by_turns<R: Real>(at: &[R; 6]) -> [Forward<R, 3>; 6] {
+        let mut along = [Forward::constant(at[0]); 6];
+        for k in 0..3 {
+            along[k] = Forward::constant(at[k]);
+            along[3 + k] = Forward::variable(at[3 + k], k);
         }
-        strain
+        along
     }
 
-    /// The deflection (m, rad) whose strain is that of `deflection` plus the linearised change by
-    /// `step`: a stiff axis would otherwise answer every step of bending by a huge force.
-    pub(crate) fn follow(&self, deflection: &Vector6<f64>, step: &Vector6<f64>) -> Vector6<f64> {
-        let strain = self.strain(deflection);
-        let next = Vector6::from_fn(|i, _| strain[i].value + strain[i].gradient.dot(step));
-        let angles = angles(&next.fixed_rows::<3>(3).into_owned());
-        let mut found = Vector6::new(0.0, next[1], next[2], angles.x, angles.y, angles.z);
-        found[0] = next[0] - self.strain(&found)[0].value;
-        found
+    /// A symmetric matrix from torques with their rates by the three turns; entries among translations are
+    /// left zero.
+    #[inline(always)]
+    fn symmetric<R: Real>(torque: &[Forward<R, 3>; 6]) -> Six<R> {
+        let mut out = [[torque[0].value.same(0.0); 6]; 6];
+        for i in 0..6 {
+            for j in 0..3 {
+                out[i][3 + j] = torque[i].rate[j];
+                if i < 3 {
+                    out[3 + j][i] = torque[i].rate[j];
+                }
+            }
+        }
+        out
+    }
+}
+
+impl CurvedLaw for BowingLaw {
+    fn matrix(&self) -> &Matrix6<f64> {
+        &self.matrix
     }
 
-    /// Energy (J), torques and tangent at a deflection (m, rad).
-    pub(crate) fn respond(&self, deflection: &Vector6<f64>) -> Response {
-        quadratic(&self.matrix, &self.strain(deflection))
+    fn at_rest(&self) -> Matrix6<f64> {
+        self.matrix
+    }
+
+    fn fault(&self) -> Option<&'static str> {
+        let fits = self.length.is_finite() && self.length >= f64::MIN_POSITIVE;
+        (!fits).then_some("the length of its segment is not a positive number of metres")
+    }
+
+    #[inline(always)]
+    fn strain<N: Number>(&self, at: &[N; 6]) -> [N; 6] {
+        let [x, y, z, ..] = *at;
+        let [fx, fy, fz] = rotation_vector(&[at[3], at[4], at[5]]);
+        let stretch = x + bow(self.length, y, fz, 1.0) + bow(self.length, z, fy, -1.0);
+        [stretch, y, z, fx, fy, fz]
+    }
+
+    #[inline(always)]
+    fn torque<N: Number>(&self, at: &[N; 6], strain: &[N; 6], square: N, force: &[N; 6]) -> [N; 6] {
+        let n = force[0];
+        let (across, turning) = self.stretches(strain);
+        let m = [
+            force[3],
+            n.times_plus(turning[0], force[4]),
+            n.times_plus(turning[1], force[5]),
+        ];
+        let f = [strain[3], strain[4], strain[5]];
+        let [a, b, c] = torque_on_turns(&[at[3], at[4], at[5]], &f, square, &m);
+        [
+            n,
+            n.times_plus(across[0], force[1]),
+            n.times_plus(across[1], force[2]),
+            a,
+            b,
+            c,
+        ]
+    }
+
+    /// Derivatives by the turns are carried along; those by the translations are written out, and the rest
+    /// follows since a potential has a symmetric tangent.
+    #[inline(always)]
+    fn tangent<R: Real>(&self, at: &[R; 6]) -> Six<R> {
+        let along = Self::by_turns(at);
+        let (strain, square) = self.strain_and_square(&along);
+        let force = times(&self.matrix, &strain);
+        let mut out = Self::symmetric(&self.torque(&along, &strain, square, &force));
+        // Of the axis' strain by x, y and z.
+        let ([y, z], _) = self.stretches(&strain);
+        let first = [at[0].same(1.0), y.value, z.value];
+        let k = |i: usize, j: usize| at[0].same(self.matrix[(i, j)]);
+        for i in 0..3 {
+            for j in 0..3 {
+                let mut sum = first[i] * first[j] * self.matrix[(0, 0)];
+                if j > 0 {
+                    sum = sum + first[i] * self.matrix[(0, j)];
+                }
+                if i > 0 {
+                    sum = sum + first[j] * self.matrix[(i, 0)];
+                }
+                if i > 0 && j > 0 {
+                    sum = sum + k(i, j);
+                }
+                if i > 0 && i == j {
+                    sum = sum + force[0].value * (1.2 / self.length);
+                }
+                out[i][j] = sum;
+            }
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn geometric<R: Real>(&self, at: &[R; 6]) -> (Six<R>, Six<R>) {
+        let (zero, one) = (at[0].same(0.0), at[0].same(1.0));
+        let along = Self::by_turns(at);
+        let (strain, square) = self.strain_and_square(&along);
+        let held = times(&self.matrix, &strain).map(|force| Forward::constant(force.value));
+        let mut geometric = Self::symmetric(&self.torque(&along, &strain, square, &held));
+        for i in 1..3 {
+            geometric[i][i] = held[0].value * (1.2 / self.length);
+        }
+        let (across, turning) = self.stretches(&strain);
+        let r: [[R; 3]; 3] = std::array::from_fn(|i| strain[3 + i].rate);
+        let minor = |i: usize, j: usize| {
+            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            r[a][c] * r[b][d] - r[a][d] * r[b][c]
+        };
+        let whole = r[0][0] * minor(0, 0) + r[0][1] * minor(0, 1) + r[0][2] * minor(0, 2);
+        let per = one / whole;
+        let mut inverse = [[zero; 6]; 6];
+        for i in 0..3 {
+            inverse[i][i] = one;
+            for j in 0..3 {
+                inverse[3 + i][3 + j] = minor(j, i) * per;
+            }
+        }
+        for k in 0..2 {
+            inverse[0][1 + k] = -across[k].value;
+            inverse[0][4 + k] = -turning[k].value;
+        }
+        (geometric, inverse)
+    }
+
+    /// A stiff axis would otherwise answer every step of bending by a huge force.
+    fn with_strain(&self, strain: &Vector6<f64>) -> Vector6<f64> {
+        let angles = angles(&strain.fixed_rows::<3>(3).into_owned());
+        let mut found = [0.0, strain[1], strain[2], angles.x, angles.y, angles.z];
+        found[0] = strain[0] - self.strain(&found)[0];
+        found.into()
     }
 }

@@ -11,14 +11,22 @@
 //!
 //! With `a = 0` these are exponential coordinates of the spring, the same at the end as in the
 //! middle of the segment, because `Tx exp(e) Tx^-1 = exp(Ad e)` and `K` moves with it. With `a` the
-//! segment's length, `e / a` is the change of a strain that is constant along the segment. The
-//! derivatives are exact: every quantity carries its gradient and second derivative.
+//! segment's length, `e / a` is the change of a strain that is constant along the segment. With `g` the forces
+//! and `m` the moments of the strains, `P = p + (a, 0, 0)` and `c' = dc / d|f|^2`, the transposed rates of `e` give
+//!
+//! ```text
+//! on p:  g + f x g / 2 + c f x (f x g)
+//! on f:  m - P x g / 2 + c ((f x P) x g + P x (g x f)) + 2 c' (g . f x (f x P)) f
+//! ```
+//!
+//! and the moment on `f` turns the three angles as [`torque_on_turns`] says.
 
-use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::model::springs::jet::{Jet, angle_per_sine, cross, logarithm_factor, quadratic, square};
-use crate::model::springs::response::Response;
+use crate::linalg::derivatives::{Number, inner, outer};
+use crate::model::springs::curved::CurvedLaw;
+use crate::model::springs::rotation::{angles, rotation_vector, torque_on_turns};
 use crate::model::uniform::to_middle;
 
 /// Energy in exponential coordinates; see [`crate::LinkConvention::Exponential`] and
@@ -32,19 +40,70 @@ pub struct LogarithmLaw {
 }
 
 impl LogarithmLaw {
-    /// Stiffness at rest in the six motions "translations first".
-    pub(crate) fn at_rest(&self) -> Matrix6<f64> {
+    /// What is moved, from the near end of the segment: `P`.
+    #[inline(always)]
+    fn point<N: Number>(&self, at: &[N; 6]) -> [N; 3] {
+        [at[0] + at[0].same(self.length), at[1], at[2]]
+    }
+}
+
+impl CurvedLaw for LogarithmLaw {
+    fn matrix(&self) -> &Matrix6<f64> {
+        &self.matrix
+    }
+
+    fn at_rest(&self) -> Matrix6<f64> {
         let rates = to_middle(self.length);
         rates.transpose() * self.matrix * rates
     }
 
-    /// The deflection (m, rad) whose strain is that of `deflection` plus the linearised change by
-    /// `step`: the exponential of that strain.
-    pub(crate) fn follow(&self, deflection: &Vector6<f64>, step: &Vector6<f64>) -> Vector6<f64> {
-        let strain = logarithm(deflection, self.length);
-        let next = Vector6::from_fn(|i, _| strain[i].value + strain[i].gradient.dot(step));
-        let rho = Vector3::new(next[0] + self.length, next[1], next[2]);
-        let turn = Vector3::new(next[3], next[4], next[5]);
+    fn fault(&self) -> Option<&'static str> {
+        let fits = self.length.is_finite() && self.length >= 0.0;
+        (!fits).then_some("the length of its segment is not a positive number of metres")
+    }
+
+    #[inline(always)]
+    fn strain<N: Number>(&self, at: &[N; 6]) -> [N; 6] {
+        let f = rotation_vector(&[at[3], at[4], at[5]]);
+        let [c, _] = inner(&f, &f).logarithm_factor();
+        let once = outer(&f, &self.point(at));
+        let twice = outer(&f, &once);
+        // The length is never added to what is moved: a stiff axis would feel the digits that it takes.
+        let mut moved = [at[0], at[1], at[2]];
+        for k in 0..3 {
+            moved[k] = c.times_plus(twice[k], moved[k] - once[k] * 0.5);
+        }
+        [moved[0], moved[1], moved[2], f[0], f[1], f[2]]
+    }
+
+    #[inline(always)]
+    fn torque<N: Number>(&self, at: &[N; 6], strain: &[N; 6], square: N, force: &[N; 6]) -> [N; 6] {
+        let f = [strain[3], strain[4], strain[5]];
+        let (g, m) = (
+            [force[0], force[1], force[2]],
+            [force[3], force[4], force[5]],
+        );
+        let p = self.point(at);
+        let [c, rate] = square.logarithm_factor();
+        let (fg, fp) = (outer(&f, &g), outer(&f, &p));
+        let (ffg, ffp, pg) = (outer(&f, &fg), outer(&f, &fp), outer(&p, &g));
+        let (a, b) = (outer(&fp, &g), outer(&p, &fg));
+        let along = rate * inner(&g, &ffp) * 2.0;
+        let (mut on_point, mut on_turn) = (g, m);
+        for k in 0..3 {
+            on_point[k] = c.times_plus(ffg[k], g[k] + fg[k] * 0.5);
+            let own = c.times_plus(a[k] - b[k], m[k] - pg[k] * 0.5);
+            on_turn[k] = along.times_plus(f[k], own);
+        }
+        let [ta, tb, tc] = torque_on_turns(&[at[3], at[4], at[5]], &f, square, &on_turn);
+        let [x, y, z] = on_point;
+        [x, y, z, ta, tb, tc]
+    }
+
+    /// The exponential of the strain.
+    fn with_strain(&self, strain: &Vector6<f64>) -> Vector6<f64> {
+        let rho = Vector3::new(strain[0] + self.length, strain[1], strain[2]);
+        let turn = Vector3::new(strain[3], strain[4], strain[5]);
         let t = turn.norm();
         let (a, b) = if t > 1e-4 {
             ((1.0 - t.cos()) / (t * t), (t - t.sin()) / t.powi(3))
@@ -52,73 +111,11 @@ impl LogarithmLaw {
             (0.5, 1.0 / 6.0)
         };
         let once = turn.cross(&rho);
-        // The length is never added to what is moved: a stiff axis would feel the digits that it takes.
-        let p = next.fixed_rows::<3>(0) + once * a + turn.cross(&once) * b;
+        // As in `strain`, the length is not added to what is moved.
+        let p = strain.fixed_rows::<3>(0) + once * a + turn.cross(&once) * b;
         let angles = angles(&turn);
         Vector6::new(p.x, p.y, p.z, angles.x, angles.y, angles.z)
     }
-
-    /// Energy (J), torques and tangent at a deflection (m, rad).
-    pub(crate) fn respond(&self, deflection: &Vector6<f64>) -> Response {
-        quadratic(&self.matrix, &logarithm(deflection, self.length))
-    }
-}
-
-/// Rotation vector of `Rx(rx) Ry(ry) Rz(rz)` with derivatives.
-fn turn(deflection: &Vector6<f64>) -> [Jet; 3] {
-    let half = |k: usize| {
-        let angle = Jet::coordinate(deflection[k], k);
-        let (s, c) = (0.5 * deflection[k]).sin_cos();
-        [
-            angle.map([c, -0.5 * s, -0.25 * c]),
-            angle.map([s, 0.5 * c, -0.25 * s]),
-        ]
-    };
-    let ([ca, sa], [cb, sb], [cc, sc]) = (half(3), half(4), half(5));
-    let scalar = ca * cb * cc - sa * sb * sc;
-    let side = if scalar.value < 0.0 { -1.0 } else { 1.0 };
-    let vector = [
-        (sa * cb * cc + ca * sb * sc).scaled(side),
-        (ca * sb * cc - sa * cb * sc).scaled(side),
-        (ca * cb * sc + sa * sb * cc).scaled(side),
-    ];
-    let s = square(&vector);
-    let ratio = s.map(angle_per_sine(s.value)).scaled(2.0);
-    vector.map(|v| ratio * v)
-}
-
-/// The six motions with their rotations as a rotation vector, with derivatives.
-pub(crate) fn with_rotation_vector(deflection: &Vector6<f64>) -> [Jet; 6] {
-    let [a, b, c] = turn(deflection);
-    let [x, y, z] = std::array::from_fn(|i| Jet::coordinate(deflection[i], i));
-    [x, y, z, a, b, c]
-}
-
-/// Angles of `Rx(rx) Ry(ry) Rz(rz)` with a given rotation vector.
-pub(crate) fn angles(turn: &Vector3<f64>) -> Vector3<f64> {
-    let r = Rotation3::from_scaled_axis(*turn);
-    Vector3::new(
-        (-r[(1, 2)]).atan2(r[(2, 2)]),
-        r[(0, 2)].clamp(-1.0, 1.0).asin(),
-        (-r[(0, 1)]).atan2(r[(0, 0)]),
-    )
-}
-
-/// `log(Tx(length) T) - (length, 0, 0, 0, 0, 0)` with derivatives.
-fn logarithm(deflection: &Vector6<f64>, length: f64) -> [Jet; 6] {
-    let turn = turn(deflection);
-    let t = square(&turn);
-    let factor = t.map(logarithm_factor(t.value));
-    let moved: [Jet; 3] = std::array::from_fn(|i| Jet::coordinate(deflection[i], i));
-    let mut point = moved;
-    point[0].value += length;
-    let once = cross(&turn, &point);
-    let twice = cross(&turn, &once);
-    // As in `follow`, the length is not added to what is moved.
-    let linear: [Jet; 3] =
-        std::array::from_fn(|i| moved[i] - once[i].scaled(0.5) + factor * twice[i]);
-    let ([x, y, z], [a, b, c]) = (linear, turn);
-    [x, y, z, a, b, c]
 }
 
 #[cfg(test)]
@@ -128,7 +125,8 @@ mod tests {
     #[test]
     fn the_logarithm_is_that_of_rotations() {
         let d = Vector6::new(0.1, -0.2, 0.3, 0.9, -0.7, 1.1);
-        let found = logarithm(&d, 0.0);
+        let (matrix, length) = (Matrix6::identity(), 0.0);
+        let found = LogarithmLaw { matrix, length }.strain(&d.into());
         let axis = |k: usize| {
             nalgebra::UnitQuaternion::from_scaled_axis(Vector3::from_fn(|i, _| {
                 if i == k { d[3 + k] } else { 0.0 }
@@ -137,10 +135,10 @@ mod tests {
         let turn = axis(0) * axis(1) * axis(2);
         let w = turn.scaled_axis();
         for k in 0..3 {
-            assert!((found[3 + k].value - w[k]).abs() < 1e-14);
+            assert!((found[3 + k] - w[k]).abs() < 1e-14);
         }
         // exp back: p = V(w) rho.
-        let rho = Vector3::from_fn(|i, _| found[i].value);
+        let rho = Vector3::from_fn(|i, _| found[i]);
         let t = w.norm();
         let p = rho
             + w.cross(&rho) * ((1.0 - t.cos()) / (t * t))

@@ -3,6 +3,8 @@
 use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
+use crate::linalg::derivatives::Number;
+
 /// A bar parallelogram of width `d` seen as one link: five spring coordinates at the distal end
 /// of the bar, `x, y, rx, ry, rz` in the bar's frame (u along the bars, then the axis of the
 /// parallelogram's pivots, then the direction across); the sixth, `z`, is the parallelogram's own
@@ -36,18 +38,69 @@ impl ParallelogramLaw {
     /// The 5 x 5 matrix at inclination `q2` (rad), order `x, y, rx, ry, rz`.
     #[must_use]
     pub fn matrix(&self, q2: f64) -> nalgebra::Matrix5<f64> {
-        let (s, c) = q2.sin_cos();
-        let k = &self.bar;
-        let d2 = self.width * self.width;
+        let k = self.pair(q2);
         let mut m = nalgebra::Matrix5::zeros();
-        m[(0, 0)] = k[(0, 0)];
-        m[(1, 1)] = k[(1, 1)];
-        m[(1, 4)] = k[(1, 5)];
-        m[(2, 2)] = k[(3, 3)] + d2 * c * c * k[(1, 1)] / 4.0;
-        m[(2, 4)] = d2 * (2.0 * q2).sin() * k[(1, 1)] / 8.0;
-        m[(3, 3)] = d2 * c * c * k[(0, 0)] / 4.0;
-        m[(4, 4)] = k[(5, 5)] + d2 * s * s * k[(1, 1)] / 4.0;
+        (m[(0, 0)], m[(1, 1)], m[(1, 4)]) = (k.x, k.y, k.y_rz);
+        (m[(2, 2)], m[(2, 4)], m[(3, 3)], m[(4, 4)]) = (k.rx, k.rx_rz, k.ry, k.rz);
         m.fill_lower_triangle_with_upper_triangle();
-        2.0 * m
+        m
     }
+
+    /// Its entries.
+    #[inline(always)]
+    pub(crate) fn pair<N: Number>(&self, q2: N) -> Pair<N> {
+        let (k, square) = (&self.bar, self.width * self.width);
+        let (s, c) = q2.sin_cos();
+        let one = q2.same(1.0);
+        Pair {
+            x: one * (2.0 * k[(0, 0)]),
+            y: one * (2.0 * k[(1, 1)]),
+            y_rz: one * (2.0 * k[(1, 5)]),
+            rx: (c * c).times_plus(one * (square * k[(1, 1)] / 2.0), one * (2.0 * k[(3, 3)])),
+            rx_rz: s * c * (square * k[(1, 1)] / 2.0),
+            ry: c * c * (square * k[(0, 0)] / 2.0),
+            rz: (s * s).times_plus(one * (square * k[(1, 1)] / 2.0), one * (2.0 * k[(5, 5)])),
+        }
+    }
+
+    /// Compliance at inclination `q2` in the six directions, rows and columns of what is not zero:
+    /// the missing one, `z`, is rigid.
+    #[inline(always)]
+    pub(crate) fn compliance<N: Number>(&self, q2: N) -> [(usize, usize, N); 8] {
+        let one = q2.same(1.0);
+        let Pair {
+            x,
+            y,
+            y_rz,
+            rx,
+            rx_rz,
+            ry,
+            rz,
+        } = self.pair(q2);
+        // Inverse of [y, 0, y_rz; 0, rx, rx_rz; y_rz, rx_rz, rz] by elimination of y and rx.
+        let (a, b) = (y_rz / y, rx_rz / rx);
+        let last = one / rx_rz.times_from(b, y_rz.times_from(a, rz));
+        [
+            (0, 0, one / x),
+            (4, 4, one / ry),
+            (5, 5, last),
+            (1, 5, -(a * last)),
+            (3, 5, -(b * last)),
+            (1, 3, a * b * last),
+            (1, 1, (a * a).times_plus(last, one / y)),
+            (3, 3, (b * b).times_plus(last, one / rx)),
+        ]
+    }
+}
+
+/// Entries of the stiffness of two bars: `x` and `ry` alone, `y` and `rx` with `rz`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair<N> {
+    x: N,
+    y: N,
+    y_rz: N,
+    rx: N,
+    rx_rz: N,
+    ry: N,
+    rz: N,
 }

@@ -1,0 +1,93 @@
+//! A spring with two stiffnesses: what its file says beyond the first one.
+
+use kinetostat::{BilinearLaw, MotionKind, SpringLaw};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::joint::by_kind;
+use crate::problem::{Finding, Place};
+use crate::quantity::{Choice, DEG, Found, MM, choice};
+
+/// Where a spring's stiffness changes, in both senses alike, and what it is beyond.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Knee {
+    /// Deflection at which the stiffness changes, mm.
+    pub at_mm: Option<f64>,
+    /// Deflection at which the stiffness changes, m.
+    pub at_m: Option<f64>,
+    /// Deflection at which the stiffness changes, degrees.
+    pub at_deg: Option<f64>,
+    /// Deflection at which the stiffness changes, rad.
+    pub at_rad: Option<f64>,
+    /// Stiffness beyond, N/m.
+    pub then_n_per_m: Option<f64>,
+    /// Stiffness beyond, N/mm.
+    pub then_n_per_mm: Option<f64>,
+    /// Stiffness beyond, N m/rad.
+    pub then_n_m_per_rad: Option<f64>,
+    /// Stiffness beyond, N mm/rad.
+    pub then_n_mm_per_rad: Option<f64>,
+}
+
+/// The law of a spring of this stiffness (SI) up to its knee.
+pub(crate) fn law(
+    place: &Place,
+    kind: MotionKind,
+    stiffness: f64,
+    knee: &Knee,
+) -> Found<SpringLaw> {
+    let positive = |what: &str, lengths: &[Choice<f64>], angles: &[Choice<f64>]| {
+        let keys = |choices: &[Choice<f64>]| {
+            let keys: Vec<&str> = choices.iter().map(|c| c.key).collect();
+            keys.join(" or ")
+        };
+        let right = match kind {
+            MotionKind::Prismatic => keys(lengths),
+            MotionKind::Revolute => keys(angles),
+        };
+        match by_kind(place, what, kind, lengths, angles)? {
+            Some(given) if given.value > 0.0 => Ok(given.value),
+            Some(given) => Err(Finding::new(
+                &place.key(given.key),
+                format!(
+                    "the {what} is {}, a number above zero is needed",
+                    given.value
+                ),
+                format!("correct '{}'", given.key),
+            )),
+            None => Err(Finding::new(
+                place,
+                format!("the {what} is missing"),
+                format!("write {right}"),
+            )),
+        }
+    };
+    let knee_at = positive(
+        "deflection at the knee",
+        &[
+            choice("at_mm", knee.at_mm, MM),
+            choice("at_m", knee.at_m, 1.0),
+        ],
+        &[
+            choice("at_deg", knee.at_deg, DEG),
+            choice("at_rad", knee.at_rad, 1.0),
+        ],
+    )?;
+    let beyond = positive(
+        "stiffness beyond the knee",
+        &[
+            choice("then_n_per_m", knee.then_n_per_m, 1.0),
+            choice("then_n_per_mm", knee.then_n_per_mm, 1.0 / MM),
+        ],
+        &[
+            choice("then_n_m_per_rad", knee.then_n_m_per_rad, 1.0),
+            choice("then_n_mm_per_rad", knee.then_n_mm_per_rad, MM),
+        ],
+    )?;
+    Ok(SpringLaw::Bilinear(BilinearLaw {
+        stiffness,
+        beyond,
+        knee: knee_at,
+    }))
+}

@@ -1,0 +1,65 @@
+//! All spring laws: the one place where a new law is registered.
+//!
+//! A law is a file of its own with one struct, written once for every number. Here it becomes a variant of
+//! [`SpringLaw`] and a line in the macro of its kind; both engines go through these.
+
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+use crate::model::springs::bilinear::BilinearLaw;
+use crate::model::springs::bowing::BowingLaw;
+use crate::model::springs::curved::CurvedLaw;
+use crate::model::springs::logarithm::LogarithmLaw;
+use crate::model::springs::parallelogram::ParallelogramLaw;
+use crate::model::springs::single::SingleLaw;
+
+/// How a spring block answers a deflection.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum SpringLaw {
+    /// Constant symmetric stiffness, k x k (N/m, N/rad, N m/m, N m/rad by coordinate).
+    Linear(DMatrix<f64>),
+    /// Two parallel bars lumped into one spring: see [`ParallelogramLaw`].
+    Parallelogram(Box<ParallelogramLaw>),
+    /// A beam segment that shortens as it bends: see [`BowingLaw`]. Six coordinates.
+    Bowing(Box<BowingLaw>),
+    /// A spring in exponential coordinates: see [`LogarithmLaw`]. Six coordinates.
+    Logarithm(Box<LogarithmLaw>),
+    /// Two stiffnesses with a knee: see [`BilinearLaw`]. One coordinate.
+    Bilinear(BilinearLaw),
+}
+
+/// Of a law of six coordinates with strains of its own ([`super::curved::CurvedLaw`]): `$do` with the law as
+/// `$own`; `$other` for all other laws.
+macro_rules! if_curved {
+    ($law:expr, $own:ident => $do:expr, else $other:expr) => {
+        match $law {
+            $crate::model::springs::law::SpringLaw::Bowing($own) => $do,
+            $crate::model::springs::law::SpringLaw::Logarithm($own) => $do,
+            _ => $other,
+        }
+    };
+}
+pub(crate) use if_curved;
+
+/// The same for a law of one coordinate that is not linear ([`super::single::SingleLaw`]).
+macro_rules! if_single {
+    ($law:expr, $own:ident => $do:expr, else $other:expr) => {
+        match $law {
+            $crate::model::springs::law::SpringLaw::Bilinear($own) => $do,
+            _ => $other,
+        }
+    };
+}
+pub(crate) use if_single;
+
+impl SpringLaw {
+    /// What is wrong with its numbers, if anything but its stiffness at rest.
+    pub(crate) fn fault(&self) -> Option<&'static str> {
+        if_curved!(
+            self,
+            law => law.fault(),
+            else if_single!(self, law => law.fault(), else None)
+        )
+    }
+}
