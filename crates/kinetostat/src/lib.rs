@@ -134,7 +134,8 @@ pub use equilibrium::all_of_chain::{Equilibria, FoundEquilibrium, SearchSettings
 pub use equilibrium::all_of_machine::{MachineEquilibria, MachineFound, SpreadSettings};
 pub use equilibrium::bounds::Bounds;
 pub use equilibrium::chain::solve_chain;
-pub use equilibrium::critical::{CriticalLoad, CriticalPoint, Judged, critical_load_factor};
+pub use equilibrium::critical::{CriticalLoad, CriticalPoint, critical_load_factor};
+pub use equilibrium::critical_tangent::Judged;
 pub use error::{Error, LoadLimit, Result};
 pub use linalg::saddle::Inertia;
 pub use linalg::singular_values::SingularValues;

@@ -1,4 +1,4 @@
-//! The wrench that holds the tool, followed along a way of the tool: branches, limit points and
+//! The wrench that holds the tool, followed along a straight path of the tool: branches, limit points and
 //! snap-through of a machine [R 5.5.3, Table 5.3].
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
@@ -20,7 +20,7 @@ pub struct HeldPoint {
     /// Component of the holding wrench in the direction, N (if the direction moves by 1 m), without
     /// the dead wrench.
     pub force: f64,
-    /// Its derivative along the way, N/m: `direction^T K direction` for a tool held in all
+    /// Its derivative along the path, N/m: `direction^T K direction` for a tool held in all
     /// directions; for one pushed in one what remains of it with the others free.
     pub slope: f64,
     /// The equilibrium.
@@ -30,7 +30,7 @@ pub struct HeldPoint {
 /// A curve of holding wrenches.
 #[derive(Clone, Debug)]
 pub struct HeldCurve {
-    /// Points in the order of the way.
+    /// Points in their order.
     pub points: Vec<HeldPoint>,
     /// Where the force has a maximum or minimum: under a dead load of that size and direction the
     /// tool snaps through.
@@ -46,7 +46,7 @@ impl<'m> Posture<'m> {
     ///
     /// # Errors
     /// [`crate::Error::NotConverged`] where the branch cannot be followed; the share of the load is
-    /// that of the way.
+    /// that of the path.
     pub fn wrench_at_from(
         &self,
         pose: &Pose,
@@ -56,7 +56,7 @@ impl<'m> Posture<'m> {
         check_state(self.mechanism, &start)?;
         let tool = self.mechanism.tool;
         let from = start.platforms[tool];
-        let way = pose_residual(pose, &from);
+        let motion = pose_residual(pose, &from);
         let mut solver = self.solver(start, Unknowns::Held);
         let (mut share, mut step, mut spent) = (0.0_f64, 1.0_f64, 0);
         loop {
@@ -65,7 +65,7 @@ impl<'m> Posture<'m> {
             solver.state.platforms[tool] = if next == 1.0 {
                 *pose
             } else {
-                moved(&from, &Twist(way.0 * next))
+                moved(&from, &Twist(motion.0 * next))
             };
             match solver.solve(1.0, 0) {
                 Ok((iterations, balance)) => {
@@ -97,13 +97,13 @@ impl<'m> Posture<'m> {
     pub fn held_along(
         &self,
         direction: &Twist,
-        way: &[f64],
+        distances: &[f64],
         start: Option<MechanismState>,
     ) -> Result<HeldCurve> {
-        self.curve(&Way::Held(*direction), way, start)
+        self.curve(&Drive::Held(*direction), distances, start)
     }
 
-    /// The force that holds the tool's origin at the distances `way` (m, from the nominal target)
+    /// The force that holds the tool's origin at the `distances` (m, from the nominal target)
     /// along a direction, while the tool is free in all others under the dead wrench `dead`: what a
     /// press measures that pushes by a pin. Limit points are those of the machine: under a dead
     /// force along the direction the tool snaps there.
@@ -113,7 +113,7 @@ impl<'m> Posture<'m> {
     pub fn pushed_along(
         &self,
         direction: &Vector3<f64>,
-        way: &[f64],
+        distances: &[f64],
         dead: &Wrench,
         start: Option<MechanismState>,
     ) -> Result<HeldCurve> {
@@ -125,29 +125,34 @@ impl<'m> Posture<'m> {
                 "the direction of a push has no length",
             ));
         };
-        self.curve(&Way::Pushed(direction, *dead), way, start)
+        self.curve(&Drive::Pushed(direction, *dead), distances, start)
     }
 
-    fn curve(&self, kind: &Way, way: &[f64], start: Option<MechanismState>) -> Result<HeldCurve> {
+    fn curve(
+        &self,
+        kind: &Drive,
+        distances: &[f64],
+        start: Option<MechanismState>,
+    ) -> Result<HeldCurve> {
         if let Some(start) = &start {
             check_state(self.mechanism, start)?;
         }
-        self.finite("a distance along the way", way.iter())?;
+        self.finite("a distance along the path", distances.iter())?;
         let mut curve = HeldCurve {
-            points: Vec::with_capacity(way.len()),
+            points: Vec::with_capacity(distances.len()),
             limits: Vec::new(),
             ended: None,
         };
-        for &along in way {
+        for &along in distances {
             let point = match (curve.points.last(), &start, kind) {
                 (Some(last), ..) => self.next(kind, along, Some(last), &last.equilibrium.state),
                 (None, Some(state), _) => self.next(kind, along, None, state),
-                (None, None, Way::Held(direction)) => {
+                (None, None, Drive::Held(direction)) => {
                     let pose = moved(&self.target, &Twist(direction.0 * along));
                     self.wrench_at(&pose).map(|e| kind.point(along, e))
                 }
                 // Under the dead wrench first, then pushed.
-                (None, None, Way::Pushed(_, dead)) => self
+                (None, None, Drive::Pushed(_, dead)) => self
                     .deflected_by(dead)
                     .and_then(|e| self.next(kind, along, None, &e.state)),
             };
@@ -172,17 +177,17 @@ impl<'m> Posture<'m> {
 
     fn next(
         &self,
-        kind: &Way,
+        kind: &Drive,
         along: f64,
         last: Option<&HeldPoint>,
         state: &MechanismState,
     ) -> Result<HeldPoint> {
         let equilibrium = match kind {
-            Way::Held(direction) => {
+            Drive::Held(direction) => {
                 let pose = moved(&self.target, &Twist(direction.0 * along));
                 self.wrench_at_from(&pose, state.clone())?
             }
-            Way::Pushed(direction, dead) => {
+            Drive::Pushed(direction, dead) => {
                 let force = last.map_or(0.0, |l| l.force);
                 self.pushed(direction, dead, along, force, state)?
             }
@@ -243,7 +248,7 @@ impl<'m> Posture<'m> {
     }
 
     /// Zero of the slope, by false position with halving (Illinois).
-    fn limit_between(&self, kind: &Way, a: &HeldPoint, b: &HeldPoint) -> Option<HeldPoint> {
+    fn limit_between(&self, kind: &Drive, a: &HeldPoint, b: &HeldPoint) -> Option<HeldPoint> {
         let (mut a, mut b) = (a.clone(), b.clone());
         let (mut fa, mut fb) = (a.slope, b.slope);
         let range = (b.along - a.along).abs();
@@ -270,12 +275,12 @@ impl<'m> Posture<'m> {
 }
 
 /// How the tool is taken along.
-enum Way {
+enum Drive {
     Held(Twist),
     Pushed(Vector3<f64>, Wrench),
 }
 
-impl Way {
+impl Drive {
     fn point(&self, along: f64, equilibrium: MechanismEquilibrium) -> HeldPoint {
         let k = &equilibrium.stiffness.matrix;
         let (force, slope) = match self {
@@ -287,7 +292,7 @@ impl Way {
                 let own = Wrench(equilibrium.wrench.0 - dead.0);
                 (
                     direction.dot(&own.force()),
-                    alone(k, direction, equilibrium.length),
+                    stiffness_with_others_free(k, direction, equilibrium.length),
                 )
             }
         };
@@ -302,7 +307,7 @@ impl Way {
 
 /// Stiffness against a force in one direction with the others free, N/m: Schur complement. What is
 /// rigid or free among the others has no share in it.
-fn alone(k: &Matrix6<f64>, direction: &Vector3<f64>, length: f64) -> f64 {
+fn stiffness_with_others_free(k: &Matrix6<f64>, direction: &Vector3<f64>, length: f64) -> f64 {
     let unit = |i: usize| if i < 3 { 1.0 } else { length };
     let balanced = DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (unit(i) * unit(j)));
     let d = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });

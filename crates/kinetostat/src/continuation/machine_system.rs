@@ -42,8 +42,12 @@ const STEP: f64 = 0.02;
 /// Steps of the usual length that the unit of motions is long.
 const STEPS: f64 = 20.0;
 
-/// Rates of the load below this share of the machine's stiffness do not choose a unit.
-const SOFT: f64 = 1e-7;
+/// Rates of the load below this share of the machine's stiffness do not choose a unit: in a flat posture the sign of what
+/// rounding leaves of them would be a limit of the load.
+const SOFT: f64 = 1e-5;
+
+/// How far a step may go of the distance from where the curve started.
+const OF_DISTANCE: f64 = 0.1;
 
 /// Largest rotation of the tool, rad: its logarithm ends at half a turn.
 const LARGEST_TURN: f64 = 3.0;
@@ -69,6 +73,8 @@ pub(crate) struct MachineSystem<'q, 'p, 'm> {
     load: f64,
     /// Equations by combinations of the balance in the motions, each in its unit.
     rows: DMatrix<f64>,
+    /// Where the curve starts.
+    first: DVector<f64>,
     /// What was evaluated last.
     here: Held,
     /// From where the next equilibrium is looked for, and the load factor there.
@@ -93,6 +99,7 @@ impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
             length: conditions.length,
             load: 1.0,
             rows: DMatrix::zeros(0, 0),
+            first: DVector::zeros(0),
             here,
             near: (first.state.clone(), first.wrench, factor),
             family: None,
@@ -100,6 +107,7 @@ impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
         system.choose_units(first);
         let z = system.state(first, factor);
         system.here.z.clone_from(&z);
+        system.first.clone_from(&z);
         (system, z)
     }
 
@@ -204,8 +212,8 @@ impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
         let own = v.transpose() * path.possible(e, v);
         let possible = &own * own.transpose();
         let by_turn = twist_of_logarithm(&path.motion(&e.tool));
-        let k = v.transpose() * path.balanced_stiffness(e) * by_turn * v;
         let stiff = path.posture.mechanism.scale().stiffness;
+        let k = v.transpose() * path.balanced_stiffness(e) * by_turn * v;
         let n = v.ncols();
         let rigid = DMatrix::identity(n, n) - &possible;
         let push = v.transpose() * path.unbalanced(&path.pattern.0);
@@ -451,8 +459,13 @@ impl CurveSystem for MachineSystem<'_, '_, '_> {
     }
 
     fn longest_step(&self, t: &DVector<f64>, _settings: &CurveSettings) -> f64 {
-        let moved = self.physical(t).0.norm() / self.length;
-        (4.0 / (STEPS * moved.max(1e-300))).min(2.0)
+        let (moved, load) = self.physical(t);
+        let (moved, load) = (moved.norm(), (load / self.load).abs());
+        // A branch may move the tool where the start's own hardly did: steps grow with the distance.
+        let away = self.physical(&(&self.here.z - &self.first)).0.norm();
+        let far = (OF_DISTANCE * away).min(STEP * self.conditions.length);
+        let most = (4.0 / STEPS * self.length).max(far);
+        (most / moved.max(1e-300)).min(2.0 / load.max(1e-300))
     }
 
     fn beyond_angle(&self, found: &MechanismEquilibrium, largest: f64) -> bool {
@@ -506,8 +519,8 @@ impl CurveSystem for MachineSystem<'_, '_, '_> {
         Error::NotConverged {
             place: format!("mechanism '{}'", self.conditions.posture.mechanism.name),
             iterations,
-            residual_position_m: f64::NAN,
-            residual_torque: f64::NAN,
+            residual_position_m: self.here.equilibrium.residual.closure_m,
+            residual_torque: self.here.equilibrium.residual.torque,
             load_factor: 0.0,
             last: self.near.0.coordinates.concat(),
             limit: None,

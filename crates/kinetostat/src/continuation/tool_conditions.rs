@@ -88,7 +88,7 @@ impl<'p, 'm> ToolConditions<'p, 'm> {
             let last = motions.ncols();
             motions = motions.insert_column(last, 0.0);
             motions.set_column(last, &balanced.normalize());
-            // What is held is held across the way.
+            // What is held is held across that direction.
             let along = held.transpose() * d;
             let across = &held * complement(&DMatrix::from_columns(&[along]));
             held = across;
@@ -124,12 +124,12 @@ impl<'p, 'm> ToolConditions<'p, 'm> {
     /// The same question with the tool driven along one of its free motions (balanced, unit length)
     /// besides: the load along it that this takes is the conjugate. That load is square to all other
     /// motions, rotations at the natural length.
-    pub(crate) fn driven(&self, way: &Vector6<f64>, settings: CurveSettings) -> Self {
-        let inside = self.free.transpose() * way;
+    pub(crate) fn driven(&self, motion: &Vector6<f64>, settings: CurveSettings) -> Self {
+        let inside = self.free.transpose() * motion;
         Self {
             posture: self.posture,
             settings,
-            pattern: Wrench(self.balanced(way)),
+            pattern: Wrench(self.balanced(motion)),
             dead: self.dead,
             by_motion: true,
             motions: self.free.clone(),

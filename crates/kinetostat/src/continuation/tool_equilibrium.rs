@@ -81,8 +81,8 @@ impl ToolConditions<'_, '_> {
         let mut state = self.posture.rest_state();
         let tool = self.posture.mechanism.tool;
         let (wrench, guide) = if self.by_motion {
-            let way = self.pattern.0 * (value / self.pattern.0.norm_squared());
-            state.platforms[tool] = moved(&self.posture.target, &Twist(way));
+            let motion = self.pattern.0 * (value / self.pattern.0.norm_squared());
+            state.platforms[tool] = moved(&self.posture.target, &Twist(motion));
             let row = self.pattern.0;
             (self.dead, self.guide(Some((&row, value))))
         } else {
@@ -90,7 +90,7 @@ impl ToolConditions<'_, '_> {
         };
         match self.by_motion || self.held.ncols() > 0 {
             true => self.settle(state, wrench, guide, true),
-            // What nothing holds has more ways to its rest.
+            // What nothing holds comes to rest along several paths.
             false => {
                 let rest = self.posture.rest_under(&wrench, state)?;
                 self.settle(rest, wrench, guide, false)

@@ -124,11 +124,11 @@ impl ToolConditions<'_, '_> {
 
     /// The equilibrium a step `by` (m, balanced) along the path from a point.
     pub(crate) fn step(&self, from: &ToolPoint, by: f64) -> Option<ToolPoint> {
-        let (way, rate) = &from.tangent;
+        let (along, rate) = &from.tangent;
         let mut state = from.equilibrium.state.clone();
         let tool = self.posture.mechanism.tool;
-        let motion = self.unbalanced(way) * by;
-        let row = Vector6::from_fn(|i, _| way[i] * self.unit(i));
+        let motion = self.unbalanced(along) * by;
+        let row = Vector6::from_fn(|i, _| along[i] * self.unit(i));
         let goal = row.dot(&self.motion(&state.platforms[tool])) + by;
         state.platforms[tool] = moved(&state.platforms[tool], &Twist(motion));
         let predicted = state.platforms[tool];
@@ -155,8 +155,8 @@ impl ToolConditions<'_, '_> {
         Some(self.point(e, factor, &from.tangent))
     }
 
-    /// Points one way from the start, without it.
-    pub(crate) fn walk(&self, start: &ToolPoint, sign: f64) -> (Vec<ToolPoint>, BranchEnd) {
+    /// Points in one direction from the start, without it.
+    pub(crate) fn steps_from(&self, start: &ToolPoint, sign: f64) -> (Vec<ToolPoint>, BranchEnd) {
         let (low, high) = self.settings.range;
         let (least, most) = self.settings.conjugate_range;
         let change = (self.settings.largest_change).unwrap_or(0.05 * (high - low));
@@ -279,8 +279,10 @@ impl ToolConditions<'_, '_> {
             self.motion(&a.equilibrium.tool),
             self.motion(&b.equilibrium.tool),
         );
-        let way = &a.tangent.0;
-        (0..6).map(|k| way[k] * (y[k] - x[k]) * self.unit(k)).sum()
+        let along = &a.tangent.0;
+        (0..6)
+            .map(|k| along[k] * (y[k] - x[k]) * self.unit(k))
+            .sum()
     }
 
     /// Where the load has its extreme between two points.
@@ -299,7 +301,7 @@ impl ToolConditions<'_, '_> {
         none: impl Fn(&ToolPoint) -> bool,
     ) -> Result<(Option<ToolPoint>, Option<ToolPoint>)> {
         let start = self.first(0.0)?;
-        let (ahead, end) = self.walk(&start, 1.0);
+        let (ahead, end) = self.steps_from(&start, 1.0);
         let last = ahead.last().cloned();
         let points: Vec<ToolPoint> = [start].into_iter().chain(ahead).collect();
         let first = points
@@ -328,7 +330,7 @@ impl ToolConditions<'_, '_> {
         })
     }
 
-    /// Where the load along a driven motion vanishes on the path both ways from an equilibrium (from
+    /// Where the load along a driven motion vanishes on the path in both directions from an equilibrium (from
     /// the machine held where it is commanded, without one), and the ends of that path.
     pub(crate) fn unloaded(&self, from: Option<&MechanismEquilibrium>) -> [Vec<MechanismState>; 2] {
         let ahead = (self.pattern.0, 0.0);
@@ -341,7 +343,7 @@ impl ToolConditions<'_, '_> {
             return [crossings, ends];
         };
         for sign in [-1.0, 1.0] {
-            let (points, _) = self.walk(&start, sign);
+            let (points, _) = self.steps_from(&start, sign);
             let from_start: Vec<&ToolPoint> = [&start].into_iter().chain(&points).collect();
             for pair in from_start.windows(2) {
                 let (a, b) = (pair[0], pair[1]);

@@ -21,7 +21,7 @@ pub(crate) fn structured(posture: &[f64], chain: &Chain) -> Vec<Vec<f64>> {
     list
 }
 
-/// Starts suggested by an equilibrium: its mirror image, and both ways along its critical mode.
+/// Starts suggested by an equilibrium: its mirror image, and in both directions along its critical mode.
 pub(crate) fn around(known: &Equilibrium, chain: &Chain) -> Vec<Vec<f64>> {
     let x = &known.coordinates;
     let mut list = vec![x.iter().map(|v| -v).collect::<Vec<f64>>()];

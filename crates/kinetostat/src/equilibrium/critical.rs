@@ -9,36 +9,24 @@
 
 use std::cell::RefCell;
 
-use nalgebra::{DMatrix, DVector};
-use serde::{Deserialize, Serialize};
+use nalgebra::DVector;
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::ChainProblem;
-use crate::chain::stability::share_to_buckling;
+use crate::chain::stability::ShapeStability;
 use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::curve::CurvePoint;
-use crate::continuation::curve::SpecialKind;
+use crate::continuation::curve::{CurvePoint, Curves, SpecialKind};
 use crate::continuation::follow::follow_until;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracer::Tracer;
 use crate::equilibrium::chain::solve_chain;
+use crate::equilibrium::critical_tangent::{
+    Judged, Tangent, diverges, largest_one, largest_real, linear_prediction,
+};
 use crate::error::Result;
-use crate::linalg::complement::complement;
-use crate::linalg::saddle::{Saddle, column_space};
-use crate::linalg::singular_values::SingularValues;
 use crate::spatial::Wrench;
-
-/// What must stay stable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Judged {
-    /// The shape, with the whole end held where the load has brought it.
-    Shape,
-    /// The shape and the end, under the conditions as prescribed.
-    ShapeAndEnd,
-}
 
 /// Where stability is lost.
 #[derive(Clone, Debug)]
@@ -70,7 +58,7 @@ pub struct CriticalLoad {
     /// determinant), and flutter, for which masses are needed, may come before.
     pub conservative: bool,
     /// Without a potential: the factor at which the symmetric part of the tangent turns indefinite. Below
-    /// it nothing goes away, whatever the masses are (every small motion takes work on the straight way
+    /// it nothing goes away, whatever the masses are (every small motion takes work on the straight path
     /// there). `None` with a potential (then `exact` says it), or if it stays definite up to `reached`.
     pub definite_until: Option<f64>,
 }
@@ -117,104 +105,48 @@ pub fn critical_load_factor(
     whole.end.wrench = Wrench(whole.end.wrench.0 + pattern.end.0);
     let conservative = is_conservative(problem) && is_conservative(&whole);
     let (linear, linear_mode) = linear_prediction(&mut system, &z, judged, conservative);
-
     let mut settings = settings.clone();
     settings.branches = 1;
     settings.range.0 = settings.range.0.min(-1e-9);
     if settings.largest_change.is_none() {
         settings.largest_change = linear.map(|f| f / 6.0);
     }
-    let stability = move |p: &CurvePoint| match judged {
-        Judged::Shape => p.equilibrium.stability.clone(),
-        Judged::ShapeAndEnd => p.dead.clone(),
+    let mut load = GrowingLoad {
+        problem,
+        parameter: &parameter,
+        judged,
+        settings: &settings,
+        conservative,
+        diverged_before: false,
+        start,
+        z,
+        there: RefCell::new(ChainSystem::new(
+            problem,
+            Some(&parameter),
+            &settings.solver,
+        )?),
     };
-    // Of the symmetric part, below whose critical factor nothing happens.
-    let indefinite = move |p: &CurvePoint| {
-        let stability = stability(p);
-        !stability.stable || stability.may_flutter()
-    };
-    let mut judge = ChainSystem::new(problem, Some(&parameter), &settings.solver)?;
-    judge.start(&start.coordinates, &start.wrench, 0.0)?;
-    let judge = RefCell::new(judge);
-    let diverged_before = {
-        let mut judge = judge.borrow_mut();
-        let (springs, loads) = Tangent::at(&mut judge, &z, &z, judged).at_start();
-        largest_real(&springs, &loads).is_some_and(|mu| mu >= 1.0)
-    };
-    let unstable = |p: &CurvePoint| {
-        let diverges = || diverges(&Tangent::at(&mut judge.borrow_mut(), &p.z, &z, judged));
-        !stability(p).stable && (conservative || diverged_before || diverges())
-    };
-    let curves = follow_until(problem, &parameter, &start, 0.0, &settings, Some(&unstable))?;
+    load.diverged_before = load.diverges_at_start()?;
+    let unstable = |p: &CurvePoint| load.unstable(p);
+    let curves = follow_until(
+        problem,
+        &parameter,
+        &load.start,
+        0.0,
+        &settings,
+        Some(&unstable),
+    )?;
     let points = &curves.branches[0].points;
     let mut reached = points.iter().map(|p| p.parameter).fold(0.0, f64::max);
-    let at_change = |i: usize, verdict: &dyn Fn(&CurvePoint) -> bool| -> Result<CurvePoint> {
-        let mut tracer = Tracer {
-            system: ChainSystem::new(problem, Some(&parameter), &settings.solver)?,
-            settings: &settings,
-            specials: Vec::new(),
-        };
-        tracer
-            .system
-            .start(&start.coordinates, &start.wrench, 0.0)?;
-        Ok(tracer.stability_change(&points[i - 1], &points[i], verdict))
-    };
-    let mode = |p: &CurvePoint| match conservative {
-        true => mode_of(p, judged),
-        false => {
-            let mut judge = judge.borrow_mut();
-            let tangent = Tangent::at(&mut judge, &p.z, &z, judged);
-            let mut motion = DVector::zeros(judge.count() + 1);
-            let first = judge.reactions();
-            if let Some(v) = tangent.mode() {
-                motion.rows_mut(first, v.len()).copy_from(&v);
-            }
-            largest_one(&judge.motion(&motion))
-        }
-    };
+    let indefinite = |p: &CurvePoint| load.indefinite(p);
     let definite_until = match points.iter().position(indefinite) {
         _ if conservative => None,
         Some(0) => Some(0.0),
-        Some(i) => Some(at_change(i, &indefinite)?.parameter),
+        Some(i) => Some(load.change(points, i, &indefinite)?.parameter),
         None => None,
     };
-    let exact = match points.iter().position(&unstable) {
-        None => None,
-        Some(0) => Some(CriticalPoint {
-            factor: 0.0,
-            kind: None,
-            mode: mode(&points[0]),
-            // The first point of a curve may lie a little beside its start, where a motion is free.
-            equilibrium: Equilibrium {
-                conservative,
-                ..start.clone()
-            },
-        }),
-        Some(i) => {
-            let special = curves.specials.iter().find(|s| {
-                judged == Judged::ShapeAndEnd
-                    && s.kind != SpecialKind::DisplacementLimit
-                    && between(&points[i - 1], &s.point, &points[i])
-            });
-            Some(match special {
-                Some(s) => CriticalPoint {
-                    factor: s.point.parameter,
-                    kind: Some(s.kind),
-                    mode: s.mode.clone(),
-                    equilibrium: s.point.equilibrium.clone(),
-                },
-                None => {
-                    let p = at_change(i, &unstable)?;
-                    CriticalPoint {
-                        factor: p.parameter,
-                        kind: None,
-                        mode: mode(&p),
-                        equilibrium: p.equilibrium,
-                    }
-                }
-            })
-        }
-    };
+    let first = points.iter().position(unstable);
+    let exact = first.map(|i| load.critical_point(&curves, i)).transpose()?;
     if let Some(exact) = &exact {
         reached = reached.max(exact.factor);
     }
@@ -228,118 +160,115 @@ pub fn critical_load_factor(
     })
 }
 
-/// The tangent among the motions that nothing holds: springs, loads that stay, and loads that grow, apart.
-struct Tangent {
-    /// `N`, balanced coordinates.
-    null: DMatrix<f64>,
-    /// `N^T K N`.
-    springs: DMatrix<f64>,
-    /// `N^T H N` of the loads and reactions at factor 0; unsymmetric without a potential.
-    staying: DMatrix<f64>,
-    /// The same of what has come on top.
-    growing: DMatrix<f64>,
+/// A chain under a pattern of loads that grows from factor 0.
+struct GrowingLoad<'p, 'a> {
+    problem: &'p ChainProblem<'a>,
+    parameter: &'p Parameter,
+    judged: Judged,
+    settings: &'p CurveSettings,
+    conservative: bool,
+    /// A motion goes away at factor 0 already.
+    diverged_before: bool,
+    start: Equilibrium,
+    /// State at factor 0.
+    z: DVector<f64>,
+    /// For tangents of points of the path, which are looked at one after the other.
+    there: RefCell<ChainSystem<'p, 'a>>,
 }
 
-impl Tangent {
-    /// At the state `z` of a path that starts at `start`.
-    fn at(
-        system: &mut ChainSystem<'_, '_>,
-        z: &DVector<f64>,
-        start: &DVector<f64>,
-        judged: Judged,
-    ) -> Self {
-        let (r, n) = (system.reactions(), system.coordinates_count());
-        let last = system.count();
-        // This posture under what acts at the start.
-        let mut before = z.clone();
-        before.rows_mut(0, r).copy_from(&start.rows(0, r));
-        before[last] = start[last];
-        system.linearised_densely(&before);
-        let staying = system.load_hessian();
-        let (_, _, matrix) = system.linearised_densely(z);
-        let rows = match judged {
-            Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
-            Judged::Shape => {
-                crate::chain::passive::balanced_jacobian(&system.equations, &system.scaling)
-            }
+impl GrowingLoad<'_, '_> {
+    fn diverges_at_start(&self) -> Result<bool> {
+        let mut there = self.there.borrow_mut();
+        there.start(&self.start.coordinates, &self.start.wrench, 0.0)?;
+        let (springs, loads) = Tangent::at(&mut there, &self.z, &self.z, self.judged).at_start();
+        Ok(largest_real(&springs, &loads).is_some_and(|mu| mu >= 1.0))
+    }
+
+    fn stability(&self, p: &CurvePoint) -> ShapeStability {
+        match self.judged {
+            Judged::Shape => p.equilibrium.stability.clone(),
+            Judged::ShapeAndEnd => p.dead.clone(),
+        }
+    }
+
+    /// Of the symmetric part, below whose critical factor nothing happens.
+    fn indefinite(&self, p: &CurvePoint) -> bool {
+        let stability = self.stability(p);
+        !stability.stable || stability.may_flutter()
+    }
+
+    fn unstable(&self, p: &CurvePoint) -> bool {
+        let diverged = || {
+            let mut there = self.there.borrow_mut();
+            diverges(&Tangent::at(&mut there, &p.z, &self.z, self.judged))
         };
-        let null = free_motions(system, &rows);
-        Self {
-            springs: null.transpose() * system.spring_tangent() * &null,
-            growing: null.transpose() * (system.load_hessian() - &staying) * &null,
-            staying: null.transpose() * staying * &null,
-            null,
+        !self.stability(p).stable && (self.conservative || self.diverged_before || diverged())
+    }
+
+    /// Where stability changes between a point and the one before it.
+    fn change(
+        &self,
+        points: &[CurvePoint],
+        i: usize,
+        unstable: &dyn Fn(&CurvePoint) -> bool,
+    ) -> Result<CurvePoint> {
+        let solver = &self.settings.solver;
+        let mut system = ChainSystem::new(self.problem, Some(self.parameter), solver)?;
+        system.start(&self.start.coordinates, &self.start.wrench, 0.0)?;
+        let mut tracer = Tracer::new(system, self.settings);
+        Ok(tracer.stability_change(&points[i - 1], &points[i], unstable))
+    }
+
+    /// The critical mode at a point, its largest component 1.
+    fn mode(&self, p: &CurvePoint) -> Vec<f64> {
+        if self.conservative {
+            return self.stability(p).mode;
         }
-    }
-
-    /// Springs and loads at factor 0.
-    fn at_start(self) -> (DMatrix<f64>, DMatrix<f64>) {
-        (self.springs, self.staying)
-    }
-
-    /// Motion of the coordinates that meets the least resistance.
-    fn mode(&self) -> Option<DVector<f64>> {
-        let own = SingularValues::of(&(&self.springs - &self.staying - &self.growing));
-        let least = own.right.column_iter().next_back()?;
-        Some(&self.null * least)
-    }
-}
-
-/// Motions that `rows` leave free, without those that change nothing.
-fn free_motions(system: &ChainSystem<'_, '_>, rows: &DMatrix<f64>) -> DMatrix<f64> {
-    let range = column_space(rows);
-    let mut all = (range.transpose() * rows).transpose();
-    // Motions that change nothing are no modes: those of them that the held directions leave free.
-    for v in system
-        .neutral_motions()
-        .iter()
-        .flat_map(|v| v.column_iter())
-    {
-        if (rows * v).amax() < 1e-9 * rows.amax().max(f64::MIN_POSITIVE) {
-            let k = all.ncols();
-            all = all.insert_column(k, 0.0);
-            all.set_column(k, &v);
+        let mut there = self.there.borrow_mut();
+        let tangent = Tangent::at(&mut there, &p.z, &self.z, self.judged);
+        let mut motion = DVector::zeros(there.count() + 1);
+        let first = there.reactions();
+        if let Some(v) = tangent.mode() {
+            motion.rows_mut(first, v.len()).copy_from(&v);
         }
+        largest_one(&there.motion(&motion))
     }
-    complement(&all)
-}
 
-/// True beyond a zero of `det (A - G)`, where `A = K - H` at factor 0 and `G` is what has come on top: a real
-/// eigenvalue of `A^-1 G` has passed one. Two that pass together (a round rod) do not change the
-/// determinant's sign, so they are counted one by one. Eigenvalues of `K^-1 H` would not do: beside a load
-/// that stays, two of them may leave the complex plane above one, where nothing has diverged.
-fn diverges(tangent: &Tangent) -> bool {
-    let springs = &tangent.springs - &tangent.staying;
-    largest_real(&springs, &tangent.growing).is_some_and(|mu| mu >= 1.0)
-}
-
-/// Largest real eigenvalue of `A^-1 G`, neither symmetric. Where `A` is singular (passive motions that
-/// strain no spring), the sign of the determinant of `A - G` decides: infinity if it is negative.
-fn largest_real(springs: &DMatrix<f64>, loads: &DMatrix<f64>) -> Option<f64> {
-    if springs.is_empty() || springs.iter().chain(loads.iter()).any(|x| !x.is_finite()) {
-        return None;
-    }
-    let own = SingularValues::of(springs);
-    let (most, least) = (own.values.first(), own.values.last());
-    let regular = least > most.map(|x| 1e-10 * x).as_ref();
-    let solved = regular.then(|| springs.clone().lu().solve(loads)).flatten();
-    let found = solved.and_then(|product| {
-        let schur = nalgebra::linalg::Schur::try_new(product, f64::EPSILON, 10_000)?;
-        let all = schur.complex_eigenvalues();
-        let most = all.iter().fold(0.0_f64, |m, x| m.max(x.norm()));
-        let real = all.iter().filter(|x| x.im.abs() <= 1e-6 * most);
-        Some(real.fold(f64::NEG_INFINITY, |m, x| m.max(x.re)))
-    });
-    found.or_else(|| {
-        let sign = (springs - loads).determinant();
-        (sign < 0.0).then_some(f64::INFINITY)
-    })
-}
-
-fn mode_of(p: &CurvePoint, judged: Judged) -> Vec<f64> {
-    match judged {
-        Judged::Shape => p.equilibrium.stability.mode.clone(),
-        Judged::ShapeAndEnd => p.dead.mode.clone(),
+    /// Where stability is lost: before the first unstable point of the path.
+    fn critical_point(&self, curves: &Curves<'_>, first: usize) -> Result<CriticalPoint> {
+        let points = &curves.branches[0].points;
+        if first == 0 {
+            return Ok(CriticalPoint {
+                factor: 0.0,
+                kind: None,
+                mode: self.mode(&points[0]),
+                // The first point of a curve may lie a little beside its start, where a motion is free.
+                equilibrium: Equilibrium {
+                    conservative: self.conservative,
+                    ..self.start.clone()
+                },
+            });
+        }
+        let special = curves.specials.iter().find(|s| {
+            self.judged == Judged::ShapeAndEnd
+                && s.kind != SpecialKind::DisplacementLimit
+                && between(&points[first - 1], &s.point, &points[first])
+        });
+        if let Some(s) = special {
+            return Ok(CriticalPoint {
+                factor: s.point.parameter,
+                kind: Some(s.kind),
+                mode: s.mode.clone(),
+                equilibrium: s.point.equilibrium.clone(),
+            });
+        }
+        let p = self.change(points, first, &|p| self.unstable(p))?;
+        Ok(CriticalPoint {
+            factor: p.parameter,
+            kind: None,
+            mode: self.mode(&p),
+            equilibrium: p.equilibrium,
+        })
     }
 }
 
@@ -348,94 +277,4 @@ fn between(a: &CurvePoint, s: &CurvePoint, b: &CurvePoint) -> bool {
     let along = (&s.z - &a.z).dot(&a.tangent);
     let step = (&b.z - &a.z).dot(&a.tangent);
     along >= -1e-9 && along <= step + 1e-9
-}
-
-/// Largest eigenvalue of the stresses per unit factor against the stiffness, in the posture at
-/// factor 0: `(N^T d(H - K)/df N) v = (1/f) (N^T (K - H) N) v`.
-fn linear_prediction(
-    system: &mut ChainSystem<'_, '_>,
-    z: &DVector<f64>,
-    judged: Judged,
-    conservative: bool,
-) -> (Option<f64>, Vec<f64>) {
-    let (r, m) = (system.reactions(), system.count());
-    let n = system.coordinates_count();
-    let (_, _, matrix) = system.linearised_densely(z);
-    let at_rest = system.curvature();
-    let rows = match judged {
-        Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
-        Judged::Shape => {
-            crate::chain::passive::balanced_jacobian(&system.equations, &system.scaling)
-        }
-    };
-    // Reactions per unit factor; the posture stays.
-    let ones = vec![1.0; m];
-    let mut step = DMatrix::zeros(m, 1);
-    step.column_mut(0)
-        .copy_from(&(-matrix.column(m) / system.sigma));
-    Saddle::new(matrix.columns(0, m).into_owned(), &ones, &ones).solve(&mut step);
-    let mut ahead = z.clone();
-    for i in 0..r {
-        ahead[i] += step[(i, 0)];
-    }
-    ahead[m] += 1.0 / system.sigma;
-    system.evaluate(&ahead);
-    let mut stress = system.curvature() - &at_rest;
-    // Links that bow take a geometric stiffness from the start.
-    let springs = |system: &ChainSystem<'_, '_>| {
-        let mut sum = DMatrix::zeros(n, n);
-        for (first, matrix) in &system.equations.spring_geometric {
-            let unit = &system.scaling[6 + first..];
-            for i in 0..6 {
-                for j in 0..6 {
-                    sum[(first + i, first + j)] += matrix[(i, j)] * unit[i] * unit[j];
-                }
-            }
-        }
-        sum
-    };
-    let before = springs(system);
-    let share = 1e-5 / step.rows(r, n).amax().max(1e-300);
-    let mut moved = z.clone();
-    for i in 0..n {
-        moved[r + i] += share * step[(r + i, 0)];
-    }
-    system.evaluate(&moved);
-    stress -= (springs(system) - before) / share;
-    system.evaluate(z);
-    let null = free_motions(system, &rows);
-    if !conservative {
-        let springs = null.transpose() * system.spring_tangent() * &null;
-        let before = null.transpose() * system.load_hessian() * &null;
-        system.evaluate(&ahead);
-        let loads = null.transpose() * system.load_hessian() * &null - &before;
-        system.evaluate(z);
-        let mu = largest_real(&(springs - before), &loads);
-        let factor = mu.filter(|mu| mu.is_finite() && *mu > 1e-9);
-        return (factor.map(|mu| 1.0 / mu), Vec::new());
-    }
-    let stress = null.transpose() * stress * &null;
-    let stiff = -(null.transpose() * at_rest * &null);
-    let (mu, mode) = share_to_buckling(&stress, &stiff);
-    // What is positive by rounding only destabilises nothing.
-    let (opposite, _) = share_to_buckling(&-stress, &stiff);
-    let least = 1e-9 * opposite.filter(|o| o.is_finite()).unwrap_or(0.0).max(0.0);
-    match (mu, mode) {
-        (Some(mu), Some(v)) if mu > least && mu.is_finite() => {
-            let mut whole = DVector::zeros(m + 1);
-            whole.rows_mut(r, n).copy_from(&(&null * v));
-            (Some(1.0 / mu), largest_one(&system.motion(&whole)))
-        }
-        _ => (None, Vec::new()),
-    }
-}
-
-/// A motion with its largest component 1.
-fn largest_one(motion: &[f64]) -> Vec<f64> {
-    let most = motion
-        .iter()
-        .copied()
-        .fold(0.0_f64, |a, x| if x.abs() > a.abs() { x } else { a });
-    let most = if most == 0.0 { 1.0 } else { most };
-    motion.iter().map(|x| x / most).collect()
 }

@@ -31,14 +31,14 @@ impl ToolConditions<'_, '_> {
             if motions.is_empty() {
                 break;
             }
-            let lack = self.lack(&here, &motions);
+            let residual = self.unheld(&here, &motions);
             let k = motions.transpose() * self.balanced_stiffness(&here) * &motions;
             let own = ((&k + k.transpose()) * 0.5).symmetric_eigen();
             let most = own.eigenvalues.amax();
-            if most == 0.0 || lack.norm() <= 1e-6 * most * size {
+            if most == 0.0 || residual.norm() <= 1e-6 * most * size {
                 break;
             }
-            let mut parts = own.eigenvectors.transpose() * &lack;
+            let mut parts = own.eigenvectors.transpose() * &residual;
             for (part, k) in parts.iter_mut().zip(&own.eigenvalues) {
                 *part /= k.abs().max(1e-6 * most);
             }
@@ -61,7 +61,7 @@ impl ToolConditions<'_, '_> {
         self.rest(here.state, &self.dead)
     }
 
-    /// The machine pushed along a direction in which an equilibrium goes away, both ways.
+    /// The machine pushed along a direction in which an equilibrium goes away, in both directions.
     pub(crate) fn pushed_off(&self, e: &MechanismEquilibrium) -> Vec<MechanismEquilibrium> {
         let motions = self.movable(e);
         if motions.is_empty() {
@@ -69,11 +69,12 @@ impl ToolConditions<'_, '_> {
         }
         let k = motions.transpose() * self.balanced_stiffness(e) * &motions;
         let own = ((&k + k.transpose()) * 0.5).symmetric_eigen();
-        let ways = own.eigenvalues.iter().zip(own.eigenvectors.column_iter());
+        let modes = own.eigenvalues.iter().zip(own.eigenvectors.column_iter());
         let push = 2e-3 * self.posture.mechanism.size();
-        ways.filter(|(k, _)| **k < 0.0)
-            .flat_map(|(_, way)| [way * push, way * -push])
-            .filter_map(|way| self.held_beside(e, &motions, &way))
+        modes
+            .filter(|(k, _)| **k < 0.0)
+            .flat_map(|(_, motion)| [motion * push, motion * -push])
+            .filter_map(|motion| self.held_beside(e, &motions, &motion))
             .collect()
     }
 
@@ -81,14 +82,15 @@ impl ToolConditions<'_, '_> {
     pub(crate) fn held_at_the_end(
         &self,
         start: MechanismEquilibrium,
-        way: &Vector6<f64>,
+        motion: &Vector6<f64>,
     ) -> Option<MechanismEquilibrium> {
-        let way = self.balanced(way);
-        let count = (way.norm() / (FIRST * self.posture.mechanism.size())).ceil();
+        let motion = self.balanced(motion);
+        let count = (motion.norm() / (FIRST * self.posture.mechanism.size())).ceil();
         let mut here = start;
         for _ in 0..count as usize {
             let motions = self.movable(&here);
-            let step = motions.transpose() * DVector::from_column_slice((way / count).as_slice());
+            let step =
+                motions.transpose() * DVector::from_column_slice((motion / count).as_slice());
             match self.held_beside(&here, &motions, &step) {
                 Some(next) => here = next,
                 None => break,
@@ -104,7 +106,7 @@ impl ToolConditions<'_, '_> {
     }
 
     /// What holds the tool along motions besides the dead wrench, balanced.
-    fn lack(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> DVector<f64> {
+    fn unheld(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> DVector<f64> {
         motions.transpose() * self.unbalanced(&(e.wrench.0 - self.dead.0))
     }
 

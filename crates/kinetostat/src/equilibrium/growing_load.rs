@@ -1,4 +1,4 @@
-//! Where a machine comes to rest when Newton does not find it from the unloaded posture: led along
+//! Where a machine comes to rest when Newton does not find it from the unloaded posture: followed along
 //! a motion that costs nothing without load, or with a load that grows [R 5.5.3].
 
 use nalgebra::{DMatrix, DVector, Vector6};
@@ -19,26 +19,26 @@ use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
-/// How far a tool is led, in natural lengths: more than half a turn about any axis nearby.
+/// How far a tool is followed, in natural lengths: more than half a turn about any axis nearby.
 const FARTHEST: f64 = 12.0;
 
 /// The logarithm of a rotation ends at half a turn.
 const LARGEST_TURN: f64 = 3.0;
 
-/// Steps by which a tool is led, at most.
+/// Steps by which a tool is followed, at most.
 const STEPS: usize = 2000;
 
 /// A limit below this share of the load is none.
 const LEAST_SHARE: f64 = 1e-9;
 
-/// Points times coordinates of a way that only explains why there is no equilibrium.
+/// Points times coordinates of a path that only explains why there is no equilibrium.
 const EFFORT: usize = 20_000;
 
 /// Secant and tangent compliances along a load that differ less belong to one smooth branch.
 const SMOOTH: f64 = 2.0;
 
-/// How leading a tool along a motion ends.
-enum Led {
+/// How following a tool along a motion ends.
+enum FollowedTo {
     /// No hand is needed any more.
     Rest(MechanismState),
     /// The load pushes on however far one follows.
@@ -49,9 +49,9 @@ enum Led {
 
 impl<'m> Posture<'m> {
     /// Whether a load from rest meets a limit point before it is whole, though `loaded` was found
-    /// beyond it: then the machine snaps on the way, and `loaded` lies on another branch. `rest` is
+    /// beyond it: then the machine snaps before, and `loaded` lies on another branch. `rest` is
     /// the equilibrium without the wrench of `loaded`. The load is followed only where secant and
-    /// tangents disagree or the verdicts differ.
+    /// tangents disagree or their stability differs.
     ///
     /// # Errors
     /// Those of the equilibrium without load.
@@ -82,16 +82,16 @@ impl<'m> Posture<'m> {
         error: Error,
     ) -> Result<(PlatformSolver<'m>, Residual)> {
         let mut pushed = None;
-        for way in self.costless_ways(wrench) {
-            match self.led(&way, wrench) {
-                Led::Rest(state) => {
+        for motion in self.costless_motions(wrench) {
+            match self.follow_free_motion(&motion, wrench) {
+                FollowedTo::Rest(state) => {
                     if let Some(found) = self.finished(state, wrench, FoundBy::OtherStart) {
                         return Ok(found);
                     }
                 }
-                Led::Endless => return Err(self.free_direction(&way, wrench)),
-                Led::Lost(true) => pushed = pushed.or(Some(way)),
-                Led::Lost(false) => {}
+                FollowedTo::Endless => return Err(self.free_direction(&motion, wrench)),
+                FollowedTo::Lost(true) => pushed = pushed.or(Some(motion)),
+                FollowedTo::Lost(false) => {}
             }
         }
         if wrench.0.norm() > 0.0
@@ -110,7 +110,7 @@ impl<'m> Posture<'m> {
             }
         }
         Err(match pushed {
-            Some(way) => self.free_direction(&way, wrench),
+            Some(motion) => self.free_direction(&motion, wrench),
             None => error,
         })
     }
@@ -166,7 +166,7 @@ impl<'m> Posture<'m> {
 
     /// Motions of the tool that cost nothing without load: the one that all that acts pushes along,
     /// or if it pushes along none, each by itself.
-    fn costless_ways(&self, wrench: &Wrench) -> Vec<Twist> {
+    fn costless_motions(&self, wrench: &Wrench) -> Vec<Twist> {
         let Ok(own) = self.stiffness() else {
             return Vec::new();
         };
@@ -191,29 +191,29 @@ impl<'m> Posture<'m> {
         let balanced = DVector::from_fn(6, |i, _| push.0[i] / unit(i));
         let along = &basis * (basis.transpose() * balanced);
         if along.norm() > 1e-9 * size {
-            let way = along.normalize();
-            return vec![Twist(Vector6::from_fn(|i, _| way[i] / unit(i)))];
+            let motion = along.normalize();
+            return vec![Twist(Vector6::from_fn(|i, _| motion[i] / unit(i)))];
         }
         free.iter().map(|d| d.twist).collect()
     }
 
-    /// Leads the tool along a motion while the whole load acts, the way it is pushed, until it needs
+    /// Takes the tool along a motion while the whole load acts, in the direction in which it is pushed, until it needs
     /// no hand.
-    fn led(&self, way: &Twist, wrench: &Wrench) -> Led {
+    fn follow_free_motion(&self, motion: &Twist, wrench: &Wrench) -> FollowedTo {
         let Ok(free) = ToolConditions::held_at(self, &EndCondition::wrench(*wrench)) else {
-            return Led::Lost(false);
+            return FollowedTo::Lost(false);
         };
         let path = free.driven(
-            &free.balanced(&way.0).normalize(),
+            &free.balanced(&motion.0).normalize(),
             CurveSettings::within(0.0, 1.0),
         );
         let Ok(start) = path.first(0.0) else {
-            return Led::Lost(false);
+            return FollowedTo::Lost(false);
         };
         let hand = start.conjugate;
         let size = wrench.force().norm() + wrench.moment().norm() / path.length;
         if hand.abs() <= 1e-12 * size {
-            return Led::Rest(start.equilibrium.state);
+            return FollowedTo::Rest(start.equilibrium.state);
         }
         let length = path.length;
         let (mut here, mut by, mut gone) = (start, 0.05 * length, 0.0);
@@ -223,31 +223,31 @@ impl<'m> Posture<'m> {
             let Some(next) = path.step(&here, step) else {
                 by *= 0.5;
                 if by < 1e-7 * length {
-                    return Led::Lost(here.conjugate.abs() > 0.5 * hand.abs());
+                    return FollowedTo::Lost(here.conjugate.abs() > 0.5 * hand.abs());
                 }
                 continue;
             };
             if next.conjugate * hand <= 0.0 {
                 let rest = path.between(&here, step, |p| p.conjugate).unwrap_or(next);
-                return Led::Rest(rest.equilibrium.state);
+                return FollowedTo::Rest(rest.equilibrium.state);
             }
             gone += by;
             let turned = next.equilibrium.displacement.angular().norm();
             if gone > FARTHEST * length || turned > LARGEST_TURN {
-                return Led::Endless;
+                return FollowedTo::Endless;
             }
             by = (1.5 * by).min(0.1 * length);
             here = next;
         }
-        Led::Lost(false)
+        FollowedTo::Lost(false)
     }
 
-    fn free_direction(&self, way: &Twist, wrench: &Wrench) -> Error {
+    fn free_direction(&self, motion: &Twist, wrench: &Wrench) -> Error {
         Error::FreeDirection {
             place: format!("mechanism '{}'", self.mechanism.name),
             reason: format!(
                 "no force is needed where the tool {}, and the load pushes on as far as it could be followed",
-                motion_in_words(way)
+                motion_in_words(motion)
             ),
             wrench: Box::new(*wrench),
         }

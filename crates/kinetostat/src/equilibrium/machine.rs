@@ -16,7 +16,7 @@ impl<'m> Posture<'m> {
     ///
     /// # Errors
     /// [`Error::NotConverged`] with the last state and share of the load, and the limit point if
-    /// one is on the way; [`Error::FreeDirection`] where the load pushes on along a motion that
+    /// one lies before it; [`Error::FreeDirection`] where the load pushes on along a motion that
     /// nothing holds, as far as it can be followed.
     pub fn deflected_by(&self, wrench: &Wrench) -> Result<MechanismEquilibrium> {
         self.deflected_from(wrench, self.rest_state())
@@ -33,7 +33,7 @@ impl<'m> Posture<'m> {
     ) -> Result<MechanismEquilibrium> {
         let (mut solver, residual) = self.settled(wrench, start)?;
         let found = conclude(&mut solver, residual)?;
-        Ok(self.led_to(wrench, &found).unwrap_or(found))
+        Ok(self.led_by_growing_load(wrench, &found).unwrap_or(found))
     }
 
     /// Only where the platforms and limbs come to rest: [`Self::deflected_from`] without stiffness
@@ -47,12 +47,15 @@ impl<'m> Posture<'m> {
             return Ok(solver.state);
         }
         let found = conclude(&mut solver, residual)?;
-        Ok(self.led_to(wrench, &found).unwrap_or(found).state)
+        Ok(self
+            .led_by_growing_load(wrench, &found)
+            .unwrap_or(found)
+            .state)
     }
 
     /// The stable equilibrium to which the growing load leads, where one step found another that does not stay and
     /// which lies far: it may have passed the former.
-    fn led_to(
+    fn led_by_growing_load(
         &self,
         wrench: &Wrench,
         found: &MechanismEquilibrium,
@@ -68,10 +71,10 @@ impl<'m> Posture<'m> {
     /// Whether one step may have passed the equilibrium to which the growing load leads.
     fn is_far(&self, state: &MechanismState) -> bool {
         let limbs = self.mechanism.limbs.iter().zip(&self.limbs);
-        let ways = limbs
+        let moved = limbs
             .zip(&state.coordinates)
             .map(|((limb, home), there)| gone(&limb.actual, &home.coordinates, there));
-        ways.sum::<f64>() > FAR
+        moved.sum::<f64>() > FAR
     }
 
     pub(crate) fn settled(

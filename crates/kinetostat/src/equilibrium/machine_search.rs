@@ -128,7 +128,7 @@ impl<'p, 'm> MachineSearch<'p, 'm> {
         if k % 4 == 3
             && let Some((i, limb)) = carriers.get(k / 4 % carriers.len().max(1))
         {
-            // Held where its turned joints bring it: loops close there another way.
+            // Held where its turned joints bring it: loops close there differently.
             let (joints, commands) = (&state.coordinates[*i], &posture.limbs[*i].commands);
             let tip = unloaded_tip(&limb.actual, &Pose::identity(), joints, commands);
             state.platforms[tool] = tip * limb.platform_from_tip.inverse();

@@ -11,6 +11,7 @@ pub(crate) mod chain;
 pub(crate) mod chain_search;
 pub(crate) mod chain_starts;
 pub(crate) mod critical;
+pub(crate) mod critical_tangent;
 pub(crate) mod descent;
 pub(crate) mod growing_load;
 pub(crate) mod machine;

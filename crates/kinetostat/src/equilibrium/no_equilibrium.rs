@@ -69,12 +69,12 @@ fn held_outside(problem: &ChainProblem<'_>) -> Option<Error> {
     if outside.norm() <= 1e-7 * length {
         return None;
     }
-    let way = Vector6::from_fn(|i, _| outside[i]);
+    let off = Vector6::from_fn(|i, _| outside[i]);
     let (distance, angle) = (
-        way.fixed_rows::<3>(0).norm(),
-        way.fixed_rows::<3>(3).norm() / length,
+        off.fixed_rows::<3>(0).norm(),
+        off.fixed_rows::<3>(3).norm() / length,
     );
-    let motion = motion_in_words(&scaled_twist(chain.scale(), &way));
+    let motion = motion_in_words(&scaled_twist(chain.scale(), &off));
     Some(Error::model(
         format!("chain '{}'", chain.name()),
         format!(
