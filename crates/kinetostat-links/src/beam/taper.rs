@@ -7,9 +7,9 @@
 use kinetostat::shift_matrix;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use crate::beam::section::Shape;
 use crate::error::{Error, Result};
-use crate::matrix_file::invert;
-use crate::section::Shape;
+use crate::interface::invert;
 
 /// Deflection by shear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -19,8 +19,9 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
-use crate::judge::DIRECTIONS;
-use crate::text::{Text, number, short};
+use crate::interface::invert;
+use crate::stiffness_check::DIRECTIONS;
+use crate::text::{Text, fields, number, short};
 use crate::units::Units;
 
 /// What a file with one 6 x 6 matrix says.
@@ -120,20 +121,6 @@ pub fn read_matrix(text: &Text, bare: Option<Units>) -> Result<LinkMatrix> {
     })
 }
 
-/// Inverse after balancing by the diagonal, so that metres and radians do not decide what is singular.
-pub(crate) fn invert(c: &Matrix6<f64>) -> Option<Matrix6<f64>> {
-    if (0..6).any(|i| c[(i, i)] <= 0.0) {
-        return None;
-    }
-    let scale = Matrix6::from_diagonal(&c.diagonal().map(|d| 1.0 / d.sqrt()));
-    let balanced = scale * c * scale;
-    let singular = kinetostat::SingularValues::of(&balanced);
-    if singular.least() < 1e-12 * singular.largest() {
-        return None;
-    }
-    Some(scale * balanced.try_inverse()? * scale)
-}
-
 /// `stiffness_n_mm_rad` -> (units, is it a compliance).
 fn kind(word: &str) -> Option<(Units, bool)> {
     let word = word.to_lowercase();
@@ -142,20 +129,6 @@ fn kind(word: &str) -> Option<(Units, bool)> {
         None => (word.strip_prefix("compliance_")?, true),
     };
     Some((Units::named(rest.strip_suffix("_rad")?)?, compliance))
-}
-
-/// Fields of a line: separated by semicolon, tab or comma, whichever comes first in that order.
-pub(crate) fn fields(line: &str) -> Vec<&str> {
-    let line = line.split('#').next().unwrap_or_default();
-    let by = [';', '\t', ','].into_iter().find(|c| line.contains(*c));
-    by.map_or_else(
-        || line.split_whitespace().collect(),
-        |c| {
-            line.split(c)
-                .map(|f| f.trim().trim_matches('"').trim())
-                .collect()
-        },
-    )
 }
 
 fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
@@ -203,21 +176,7 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
                         )
                         .at(at));
                 };
-                let mut matrix = Matrix6::zeros();
-                let mut row = Some((at, line));
-                for i in 0..6 {
-                    let (at, line) = row.ok_or_else(|| rows_missing(text, i))?;
-                    set_row(
-                        text,
-                        at,
-                        &fields(line),
-                        0,
-                        &mut matrix,
-                        i,
-                        &[0, 1, 2, 3, 4, 5],
-                    )?;
-                    row = if i < 5 { lines.next() } else { None };
-                }
+                let matrix = bare_rows(text, (at, line), &mut lines)?;
                 written.rows = Some((matrix, units, false));
             }
             _ => {
@@ -235,31 +194,65 @@ fn csv(text: &Text, bare: Option<Units>) -> Result<Written> {
                         .at(at));
                 }
                 let columns = order(text, at, &cells[1..])?;
-                let mut matrix = Matrix6::zeros();
-                let mut seen = [0; 6];
-                for i in 0..6 {
-                    let (at, line) = lines.next().ok_or_else(|| rows_missing(text, i))?;
-                    let cells = fields(line);
-                    let row = direction(text, at, cells[0])?;
-                    if seen[row] > 0 {
-                        return Err(text
-                            .fault(
-                                format!(
-                                    "the row {} is written twice, also at line {}",
-                                    DIRECTIONS[row], seen[row]
-                                ),
-                                "there is one row for each of x, y, z, rx, ry, rz",
-                            )
-                            .at(at));
-                    }
-                    seen[row] = at;
-                    set_row(text, at, &cells, 1, &mut matrix, row, &columns)?;
-                }
+                let matrix = named_rows(text, &columns, &mut lines)?;
                 written.rows = Some((matrix, units, compliance));
             }
         }
     }
     Ok(written)
+}
+
+/// Six rows without names, the first of which has been read.
+fn bare_rows<'t>(
+    text: &Text,
+    first: (usize, &'t str),
+    lines: &mut impl Iterator<Item = (usize, &'t str)>,
+) -> Result<Matrix6<f64>> {
+    let mut matrix = Matrix6::zeros();
+    let mut row = Some(first);
+    for i in 0..6 {
+        let (at, line) = row.ok_or_else(|| rows_missing(text, i))?;
+        set_row(
+            text,
+            at,
+            &fields(line),
+            0,
+            &mut matrix,
+            i,
+            &[0, 1, 2, 3, 4, 5],
+        )?;
+        row = if i < 5 { lines.next() } else { None };
+    }
+    Ok(matrix)
+}
+
+/// Six rows, each after the name of its direction, in any order.
+fn named_rows<'t>(
+    text: &Text,
+    columns: &[usize; 6],
+    lines: &mut impl Iterator<Item = (usize, &'t str)>,
+) -> Result<Matrix6<f64>> {
+    let mut matrix = Matrix6::zeros();
+    let mut seen = [0; 6];
+    for i in 0..6 {
+        let (at, line) = lines.next().ok_or_else(|| rows_missing(text, i))?;
+        let cells = fields(line);
+        let row = direction(text, at, cells[0])?;
+        if seen[row] > 0 {
+            return Err(text
+                .fault(
+                    format!(
+                        "the row {} is written twice, also at line {}",
+                        DIRECTIONS[row], seen[row]
+                    ),
+                    "there is one row for each of x, y, z, rx, ry, rz",
+                )
+                .at(at));
+        }
+        seen[row] = at;
+        set_row(text, at, &cells, 1, &mut matrix, row, columns)?;
+    }
+    Ok(matrix)
 }
 
 fn rows_missing(text: &Text, found: usize) -> Error {

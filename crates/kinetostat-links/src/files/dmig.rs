@@ -174,11 +174,35 @@ fn header(text: &Text, card: &Card) -> Result<Header> {
     Ok(Header { name, symmetric })
 }
 
-pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
+/// One matrix of a file; without a name, the only one or the only one whose name begins with K.
+pub(crate) fn read_dmig(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
     let cards = cards(text, "DMIG")?;
-    let is_header = |c: &Card| c.fields.get(1).is_some_and(|f| f.1 == "0");
+    let chosen = chosen(text, &cards, wanted)?;
+    let of_it = |c: &&Card| {
+        c.fields
+            .first()
+            .is_some_and(|f| f.1.eq_ignore_ascii_case(&chosen))
+    };
+    let (headers, columns): (Vec<&Card>, Vec<&Card>) =
+        cards.iter().filter(of_it).partition(|c| is_header(c));
+    let header = header(text, only_header(text, &chosen, &headers)?)?;
+    let (dofs, raw) = entries(text, &columns)?;
+    let halves = if header.symmetric {
+        Halves::One
+    } else {
+        Halves::Both
+    };
+    Superelement::collect(text, &header.name, "Nastran DMIG", dofs, raw, halves)
+}
+
+fn is_header(card: &Card) -> bool {
+    card.fields.get(1).is_some_and(|f| f.1 == "0")
+}
+
+/// Name of the matrix that is meant.
+fn chosen(text: &Text, cards: &[Card], wanted: Option<&str>) -> Result<String> {
     let mut names: Vec<String> = Vec::new();
-    for card in &cards {
+    for card in cards {
         let name = card
             .fields
             .first()
@@ -206,29 +230,25 @@ pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
             }
         }
     };
-    let Some(chosen) = chosen else {
-        return Err(text.fault(
+    chosen.ok_or_else(|| {
+        text.fault(
             match wanted {
                 Some(name) => format!("there is no matrix '{}'", short(name)),
                 None => "it is not clear which matrix is the stiffness".to_owned(),
             },
             format!("choose with --matrix; there are: {}", names.join(", ")),
-        ));
-    };
-    let of_it = |c: &&Card| {
-        c.fields
-            .first()
-            .is_some_and(|f| f.1.eq_ignore_ascii_case(&chosen))
-    };
-    let mut headers = cards.iter().filter(of_it).filter(|c| is_header(c));
-    let Some(head) = headers.next() else {
-        return Err(text.fault(
+        )
+    })
+}
+
+fn only_header<'c>(text: &Text, chosen: &str, headers: &[&'c Card]) -> Result<&'c Card> {
+    match headers {
+        [head] => Ok(head),
+        [] => Err(text.fault(
             format!("the matrix {chosen} has no header"),
             "a card DMIG, NAME, 0, 6, 1, ... says its form and type: export it again",
-        ));
-    };
-    if let Some(second) = headers.next() {
-        return Err(text
+        )),
+        [head, second, ..] => Err(text
             .fault(
                 format!(
                     "the matrix {chosen} has a second header, the first at line {}",
@@ -236,12 +256,15 @@ pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
                 ),
                 "keep one of them",
             )
-            .at(second.line));
+            .at(second.line)),
     }
-    let header = header(text, head)?;
+}
+
+/// Entries of the columns of a matrix, with the degrees of freedom in the order of their appearance.
+fn entries(text: &Text, columns: &[&Card]) -> Result<(Vec<Dof>, Vec<Raw>)> {
     let mut numbers = Numbering::default();
     let mut raw = Vec::new();
-    for card in cards.iter().filter(of_it).filter(|c| !is_header(c)) {
+    for card in columns {
         let field = |i: usize| card.fields.get(i).map_or("", |f| f.1.as_str());
         let column = dof(text, card.line, "the column's", field(1), field(2))?;
         let column = numbers.of(text, card.line, column)?;
@@ -267,19 +290,7 @@ pub(crate) fn read(text: &Text, wanted: Option<&str>) -> Result<Superelement> {
             });
         }
     }
-    let halves = if header.symmetric {
-        Halves::One
-    } else {
-        Halves::Both
-    };
-    Superelement::collect(
-        text,
-        &header.name,
-        "Nastran DMIG",
-        numbers.dofs,
-        raw,
-        halves,
-    )
+    Ok((numbers.dofs, raw))
 }
 
 fn dof(text: &Text, line: usize, whose: &str, node: &str, direction: &str) -> Result<Dof> {

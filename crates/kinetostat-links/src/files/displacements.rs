@@ -10,9 +10,8 @@ use nalgebra::{Vector3, Vector6};
 
 use crate::error::Result;
 use crate::experiment::LoadCase;
-use crate::matrix_file::fields;
-use crate::nodes::Nodes;
-use crate::text::{Text, short};
+use crate::files::nodes::Nodes;
+use crate::text::{Text, fields, short};
 use crate::units::Units;
 
 /// Most load cases.
@@ -241,30 +240,7 @@ fn table(text: &Text, loads: &LoadTable) -> Result<Vec<LoadCase>> {
         let (place, moved) = (vector(2)?, vector(5)?);
         let (at, _) = columns.need(text, line, 0, "case")?;
         let name = cells.get(at).copied().unwrap_or("").to_lowercase();
-        let case = match cases.iter().position(|c| c.name == name) {
-            Some(case) => case,
-            None => {
-                let Some((_, wrench)) = loads.iter().find(|(n, _)| *n == name) else {
-                    let names: Vec<&str> = loads.iter().take(12).map(|l| l.0.as_str()).collect();
-                    return Err(text
-                        .fault(
-                            format!("the load of the case '{}' is unknown", short(&name)),
-                            format!(
-                                "there are: {}; or give a table of loads with --loads",
-                                names.join(", ")
-                            ),
-                        )
-                        .at(line));
-                };
-                cases.push(LoadCase {
-                    name: name.clone(),
-                    wrench: *wrench,
-                    places: Vec::new(),
-                    displacements: Vec::new(),
-                });
-                cases.len() - 1
-            }
-        };
+        let case = case_of(text, line, &name, loads, &mut cases)?;
         if let Some((at, _)) = columns.found[1] {
             let node = cells.get(at).copied().unwrap_or("").to_owned();
             if let Some(before) = seen.insert((case, node.clone()), line) {
@@ -279,20 +255,7 @@ fn table(text: &Text, loads: &LoadTable) -> Result<Vec<LoadCase>> {
                     )
                     .at(line));
             }
-            match places.get(&node) {
-                Some((other, before)) if (other - place).norm() > 1e-6 + 1e-6 * place.norm() => {
-                    return Err(text
-                        .fault(
-                            format!("the node {} lies elsewhere at line {before}", short(&node)),
-                            "places are those of the unloaded mesh, the same in all cases",
-                        )
-                        .at(line));
-                }
-                Some(_) => {}
-                None => {
-                    places.insert(node, (place, line));
-                }
-            }
+            check_place(text, line, node, &place, &mut places)?;
         }
         cases[case].places.push(place);
         cases[case].displacements.push(moved);
@@ -304,6 +267,65 @@ fn table(text: &Text, loads: &LoadTable) -> Result<Vec<LoadCase>> {
         ));
     }
     Ok(cases)
+}
+
+/// Index of a load case by its name; a new one where the loads have it.
+fn case_of(
+    text: &Text,
+    line: usize,
+    name: &str,
+    loads: &LoadTable,
+    cases: &mut Vec<LoadCase>,
+) -> Result<usize> {
+    Ok(match cases.iter().position(|c| c.name == name) {
+        Some(case) => case,
+        None => {
+            let Some((_, wrench)) = loads.iter().find(|(n, _)| n == name) else {
+                let names: Vec<&str> = loads.iter().take(12).map(|l| l.0.as_str()).collect();
+                return Err(text
+                    .fault(
+                        format!("the load of the case '{}' is unknown", short(name)),
+                        format!(
+                            "there are: {}; or give a table of loads with --loads",
+                            names.join(", ")
+                        ),
+                    )
+                    .at(line));
+            };
+            cases.push(LoadCase {
+                name: name.to_owned(),
+                wrench: *wrench,
+                places: Vec::new(),
+                displacements: Vec::new(),
+            });
+            cases.len() - 1
+        }
+    })
+}
+
+/// A node has one place in all cases.
+fn check_place(
+    text: &Text,
+    line: usize,
+    node: String,
+    place: &Vector3<f64>,
+    places: &mut BTreeMap<String, (Vector3<f64>, usize)>,
+) -> Result<()> {
+    match places.get(&node) {
+        Some((other, before)) if (other - place).norm() > 1e-6 + 1e-6 * place.norm() => {
+            return Err(text
+                .fault(
+                    format!("the node {} lies elsewhere at line {before}", short(&node)),
+                    "places are those of the unloaded mesh, the same in all cases",
+                )
+                .at(line));
+        }
+        Some(_) => {}
+        None => {
+            places.insert(node, (*place, line));
+        }
+    }
+    Ok(())
 }
 
 fn steps(

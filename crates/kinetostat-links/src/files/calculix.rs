@@ -7,9 +7,8 @@
 //!   `node.direction` for each row). Directions held by `*BOUNDARY` are left out of both.
 
 use crate::error::Result;
-use crate::matrix_file::fields;
 use crate::superelement::{Dof, Halves, MOST_DOFS, Numbering, Raw, Superelement, too_many};
-use crate::text::{Text, short};
+use crate::text::{Text, fields, short};
 
 fn direction(text: &Text, line: usize, field: &str) -> Result<u8> {
     let d = text.whole(line, "the direction", field, 1, 6)?;
@@ -22,34 +21,75 @@ fn parts(line: &str) -> impl Iterator<Item = &str> {
 
 /// `*USER ELEMENT` with `*MATRIX, TYPE=STIFFNESS`.
 pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
-    #[derive(PartialEq)]
-    enum Part {
-        Before,
-        Nodes,
-        Directions,
-        Stiffness,
-        Other,
-    }
-    let mut part = Part::Before;
-    let mut nodes: Vec<u64> = Vec::new();
-    // Directions from this position (from 0) on.
-    let mut directions: Vec<(usize, Vec<u8>)> = Vec::new();
-    let mut values: Vec<(f64, usize)> = Vec::new();
+    let mut element = UserElement::default();
     for (line, written) in text.lines() {
         let upper = written.trim().to_uppercase();
         if upper.starts_with("**") {
-            if upper.contains("ELEMENT NODES") {
-                part = Part::Nodes;
-            } else if part == Part::Nodes && upper.len() > 2 {
-                for field in parts(&upper) {
-                    if nodes.len() >= MOST_DOFS {
-                        return Err(too_many(text, nodes.len() + 1).at(line));
-                    }
-                    nodes.push(text.whole(line, "a node of the list", field, 1, u64::MAX)?);
-                }
-            }
-            continue;
+            element.comment(text, line, &upper)?;
+        } else if upper.starts_with('*') {
+            element.card(text, line, &upper)?;
+        } else {
+            element.data(text, line, &upper)?;
         }
+    }
+    if element.nodes.is_empty() || element.directions.is_empty() {
+        return Err(text.fault(
+            "the nodes or their directions are missing",
+            "keep the comment '** ELEMENT NODES' with its list and the lines of directions that the program writes",
+        ));
+    }
+    let dofs = element.dofs(text)?;
+    let raw = lower_half(text, dofs.len(), element.values)?;
+    Superelement::collect(
+        text,
+        "stiffness",
+        "CalculiX or Abaqus *MATRIX",
+        dofs,
+        raw,
+        Halves::One,
+    )
+}
+
+/// What the next line of a user element belongs to.
+#[derive(Default, PartialEq)]
+enum Part {
+    #[default]
+    Before,
+    Nodes,
+    Directions,
+    Stiffness,
+    Other,
+}
+
+/// A user element as far as it has been read.
+#[derive(Default)]
+struct UserElement {
+    part: Part,
+    nodes: Vec<u64>,
+    /// Directions of all nodes from this position in their list (from 0) on.
+    directions: Vec<(usize, Vec<u8>)>,
+    /// Entries of the lower half with their lines.
+    values: Vec<(f64, usize)>,
+}
+
+impl UserElement {
+    /// The list of nodes stands in comments.
+    fn comment(&mut self, text: &Text, line: usize, upper: &str) -> Result<()> {
+        if upper.contains("ELEMENT NODES") {
+            self.part = Part::Nodes;
+        } else if self.part == Part::Nodes && upper.len() > 2 {
+            for field in parts(upper) {
+                if self.nodes.len() >= MOST_DOFS {
+                    return Err(too_many(text, self.nodes.len() + 1).at(line));
+                }
+                let node = text.whole(line, "a node of the list", field, 1, u64::MAX)?;
+                self.nodes.push(node);
+            }
+        }
+        Ok(())
+    }
+
+    fn card(&mut self, text: &Text, line: usize, upper: &str) -> Result<()> {
         if upper.starts_with("*USER ELEMENT") {
             if upper.contains("UNSYMM") {
                 return Err(text
@@ -59,83 +99,89 @@ pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
                     )
                     .at(line));
             }
-            part = Part::Directions;
-            continue;
-        }
-        if upper.starts_with("*MATRIX") {
+            self.part = Part::Directions;
+        } else if upper.starts_with("*MATRIX") {
             let kind = upper.replace(' ', "");
-            part = if kind.contains("TYPE=STIFFNESS") {
+            self.part = if kind.contains("TYPE=STIFFNESS") {
                 Part::Stiffness
             } else {
                 Part::Other
             };
-            if part == Part::Stiffness && !values.is_empty() {
+            if self.part == Part::Stiffness && !self.values.is_empty() {
                 return Err(text
                     .fault("there is a second stiffness matrix", "one file holds one")
                     .at(line));
             }
-            continue;
+        } else {
+            self.part = Part::Other;
         }
-        if upper.starts_with('*') {
-            part = Part::Other;
-            continue;
-        }
-        match part {
+        Ok(())
+    }
+
+    fn data(&mut self, text: &Text, line: usize, upper: &str) -> Result<()> {
+        match self.part {
             Part::Nodes | Part::Directions if !upper.is_empty() => {
-                part = Part::Directions;
-                let cells: Vec<&str> = parts(&upper).collect();
-                let (from, own) = match (directions.is_empty(), cells.split_first()) {
-                    (false, Some((from, own))) => (
-                        text.whole(line, "the position of a node", from, 1, MOST_DOFS as u64)?
-                            as usize
-                            - 1,
-                        own,
-                    ),
-                    _ => (0, cells.as_slice()),
-                };
-                let own = own
-                    .iter()
-                    .map(|f| direction(text, line, f))
-                    .collect::<Result<Vec<u8>>>()?;
-                if own.is_empty() || own.len() > 6 || directions.last().is_some_and(|d| d.0 >= from)
-                {
-                    return Err(text
-                        .fault(
-                            "the list of directions is out of order",
-                            "lines are: position, direction, ..., ascending",
-                        )
-                        .at(line));
-                }
-                directions.push((from, own));
+                self.part = Part::Directions;
+                self.directions_of_line(text, line, upper)
             }
             Part::Stiffness => {
-                for field in parts(&upper) {
-                    values.push((text.number(line, "an entry of the matrix", field)?, line));
+                for field in parts(upper) {
+                    let value = text.number(line, "an entry of the matrix", field)?;
+                    self.values.push((value, line));
                 }
+                Ok(())
             }
-            _ => {}
+            _ => Ok(()),
         }
     }
-    if nodes.is_empty() || directions.is_empty() {
-        return Err(text.fault(
-            "the nodes or their directions are missing",
-            "keep the comment '** ELEMENT NODES' with its list and the lines of directions that the program writes",
-        ));
-    }
-    let mut dofs = Vec::new();
-    let mut at = 0;
-    for (position, &node) in nodes.iter().enumerate() {
-        while at + 1 < directions.len() && directions[at + 1].0 <= position {
-            at += 1;
+
+    /// The first line has no position: its directions are those of the first node.
+    fn directions_of_line(&mut self, text: &Text, line: usize, upper: &str) -> Result<()> {
+        let cells: Vec<&str> = parts(upper).collect();
+        let (from, own) = match (self.directions.is_empty(), cells.split_first()) {
+            (false, Some((from, own))) => (
+                text.whole(line, "the position of a node", from, 1, MOST_DOFS as u64)? as usize - 1,
+                own,
+            ),
+            _ => (0, cells.as_slice()),
+        };
+        let own = own
+            .iter()
+            .map(|f| direction(text, line, f))
+            .collect::<Result<Vec<u8>>>()?;
+        if own.is_empty() || own.len() > 6 || self.directions.last().is_some_and(|d| d.0 >= from) {
+            return Err(text
+                .fault(
+                    "the list of directions is out of order",
+                    "lines are: position, direction, ..., ascending",
+                )
+                .at(line));
         }
-        for &direction in &directions[at].1 {
-            dofs.push(Dof { node, direction });
+        self.directions.push((from, own));
+        Ok(())
+    }
+
+    fn dofs(&self, text: &Text) -> Result<Vec<Dof>> {
+        let (nodes, directions) = (&self.nodes, &self.directions);
+        let mut dofs = Vec::new();
+        let mut at = 0;
+        for (position, &node) in nodes.iter().enumerate() {
+            while at + 1 < directions.len() && directions[at + 1].0 <= position {
+                at += 1;
+            }
+            for &direction in &directions[at].1 {
+                dofs.push(Dof { node, direction });
+            }
         }
+        if dofs.len() > MOST_DOFS {
+            return Err(too_many(text, dofs.len()));
+        }
+        Ok(dofs)
     }
-    if dofs.len() > MOST_DOFS {
-        return Err(too_many(text, dofs.len()));
-    }
-    let n = dofs.len();
+}
+
+/// The lower half of `n` rows, written row after row; zeros off the diagonal are left out.
+fn lower_half(text: &Text, n: usize, values: Vec<(f64, usize)>) -> Result<Vec<Raw>> {
     if values.len() != n * (n + 1) / 2 {
         return Err(text.fault(
             format!("the stiffness has {} entries, {n} degrees of freedom need {}", values.len(), n * (n + 1) / 2),
@@ -159,14 +205,7 @@ pub(crate) fn user_element(text: &Text) -> Result<Superelement> {
             }
         }
     }
-    Superelement::collect(
-        text,
-        "stiffness",
-        "CalculiX or Abaqus *MATRIX",
-        dofs,
-        raw,
-        Halves::One,
-    )
+    Ok(raw)
 }
 
 /// Lines `node, direction, node, direction, value`.

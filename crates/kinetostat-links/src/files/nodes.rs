@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use crate::error::{Error, Result};
-use crate::matrix_file::fields;
-use crate::text::{Text, short};
+use crate::files::dmig::grids;
+use crate::text::{Text, fields, short};
 use crate::units::Units;
 
 /// Places of nodes in m, file's axes, and sets of nodes (names in capitals).
@@ -92,7 +92,7 @@ pub fn read_nodes(text: &Text, units: Units) -> Result<Nodes> {
     match kind {
         Some(Kind::Input) => input(text, units, &mut nodes)?,
         Some(Kind::Bulk) => {
-            for (line, node, place) in crate::dmig::grids(text)? {
+            for (line, node, place) in grids(text)? {
                 insert(
                     text,
                     line,
@@ -137,6 +137,7 @@ fn insert(
     }
 }
 
+/// An input file of CalculiX or Abaqus.
 fn input(text: &Text, units: Units, nodes: &mut Nodes) -> Result<()> {
     enum Part {
         Nodes,
@@ -189,36 +190,7 @@ fn input(text: &Text, units: Units, nodes: &mut Nodes) -> Result<()> {
                 insert(text, line, nodes, node, place)?;
             }
             Part::Set(name, generate) => {
-                let mut own = Vec::new();
-                if *generate {
-                    let mut bounds = [1, 1, 1];
-                    for (b, cell) in bounds.iter_mut().zip(&cells) {
-                        *b = text.whole(line, "a bound of the set", cell, 1, u64::MAX)?;
-                    }
-                    let [from, to, step] = bounds;
-                    if to < from || (to - from) / step > 10_000_000 {
-                        return Err(text
-                            .fault(
-                                "the set has no nodes or far too many",
-                                "lines are: first, last, step",
-                            )
-                            .at(line));
-                    }
-                    own.extend((from..=to).step_by(usize::try_from(step).unwrap_or(1)));
-                } else {
-                    for cell in &cells {
-                        match nodes.sets.get(&cell.to_uppercase()) {
-                            Some(other) => own.extend(other.clone()),
-                            None => own.push(text.whole(
-                                line,
-                                "a node of the set",
-                                cell,
-                                1,
-                                u64::MAX,
-                            )?),
-                        }
-                    }
-                }
+                let own = members(text, line, &cells, *generate, &nodes.sets)?;
                 let set = nodes.sets.entry(name.clone()).or_default();
                 if set.len() + own.len() > 10_000_000 {
                     return Err(text
@@ -240,6 +212,42 @@ fn input(text: &Text, units: Units, nodes: &mut Nodes) -> Result<()> {
     Ok(())
 }
 
+/// Nodes that a line of a set names: one by one or by other sets, or as first, last and step.
+fn members(
+    text: &Text,
+    line: usize,
+    cells: &[&str],
+    generate: bool,
+    sets: &BTreeMap<String, Vec<u64>>,
+) -> Result<Vec<u64>> {
+    let mut own = Vec::new();
+    if generate {
+        let mut bounds = [1, 1, 1];
+        for (b, cell) in bounds.iter_mut().zip(cells) {
+            *b = text.whole(line, "a bound of the set", cell, 1, u64::MAX)?;
+        }
+        let [from, to, step] = bounds;
+        if to < from || (to - from) / step > 10_000_000 {
+            return Err(text
+                .fault(
+                    "the set has no nodes or far too many",
+                    "lines are: first, last, step",
+                )
+                .at(line));
+        }
+        own.extend((from..=to).step_by(usize::try_from(step).unwrap_or(1)));
+    } else {
+        for cell in cells {
+            match sets.get(&cell.to_uppercase()) {
+                Some(other) => own.extend(other.clone()),
+                None => own.push(text.whole(line, "a node of the set", cell, 1, u64::MAX)?),
+            }
+        }
+    }
+    Ok(own)
+}
+
+/// CSV with a node, its number and its coordinates, on each line.
 fn table(text: &Text, nodes: &mut Nodes) -> Result<()> {
     let mut unit = None;
     for (line, written) in text.lines() {

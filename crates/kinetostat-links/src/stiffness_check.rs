@@ -72,43 +72,23 @@ impl Judgement {
 /// ```
 #[must_use]
 pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
-    let mut findings = Vec::new();
-    let mut refuse = |message: String, help: &str| {
-        findings.push(Finding {
-            grade: Grade::Refused,
-            message,
-            help: help.to_owned(),
-        });
-    };
     if let Some(at) = (0..36).find(|&at| !k[(at / 6, at % 6)].is_finite()) {
-        refuse(
-            format!(
-                "row {} column {} is no finite number",
-                at / 6 + 1,
-                at % 6 + 1
-            ),
-            "a stiffness that is infinite belongs to a rigid link: leave the link out",
-        );
         return Judgement {
             antisymmetric_share: f64::NAN,
             eigenvalues: [f64::NAN; 6],
             rank: 0,
             natural_length: f64::NAN,
-            findings,
+            findings: vec![Finding::refused(
+                format!(
+                    "row {} column {} is no finite number",
+                    at / 6 + 1,
+                    at % 6 + 1
+                ),
+                "a stiffness that is infinite belongs to a rigid link: leave the link out",
+            )],
         };
     }
-    for i in 0..6 {
-        if k[(i, i)] < 0.0 {
-            refuse(
-                format!(
-                    "the entry {0}, {0} is negative ({1})",
-                    DIRECTIONS[i],
-                    setting(k[(i, i)])
-                ),
-                "a motion would give energy back: check signs, and that this is not the stiffness under a load",
-            );
-        }
-    }
+    let mut findings = negative_diagonal(k);
     let (balanced, scale) = balance(k);
     let (sum, difference) = (
         balanced + balanced.transpose(),
@@ -120,28 +100,7 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         0.0
     };
     if share > symmetric_to {
-        let (mut worst, mut at) = (0.0, (0, 0));
-        for i in 0..6 {
-            for j in 0..i {
-                if difference[(i, j)].abs() > worst {
-                    (worst, at) = (difference[(i, j)].abs(), (i, j));
-                }
-            }
-        }
-        let (i, j) = at;
-        refuse(
-            format!(
-                "the matrix is not symmetric: its anti-symmetric share is {}; row {} column {} is {}, row {} column {} is {}",
-                short(share),
-                DIRECTIONS[i],
-                DIRECTIONS[j],
-                setting(k[(i, j)]),
-                DIRECTIONS[j],
-                DIRECTIONS[i],
-                setting(k[(j, i)])
-            ),
-            "a spring stores energy: if this is noise, say so (symmetrise); if not, loads and displacements are in different axes or at different points",
-        );
+        findings.push(asymmetry(k, &difference, share));
     }
     let mut eigen: Vec<f64> = (0.5 * sum)
         .symmetric_eigenvalues()
@@ -150,32 +109,7 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         .collect();
     eigen.sort_by(f64::total_cmp);
     let rank = eigen.iter().filter(|e| e.abs() > ZERO).count();
-    if eigen[0] < -ZERO {
-        refuse(
-            format!(
-                "the matrix is not positive semi-definite: a motion {} has the energy {} in units of its parts",
-                softest(&(0.5 * sum), &scale),
-                short(eigen[0])
-            ),
-            "check signs and units of the entries off the diagonal, and the order (x, y, z, rx, ry, rz)",
-        );
-    } else if rank < 6 {
-        let message = match (0..6).find(|&i| k[(i, i)] == 0.0) {
-            Some(i) => format!(
-                "the rank is {rank}, not 6: nothing holds the direction {}",
-                DIRECTIONS[i]
-            ),
-            None => format!(
-                "the rank is {rank}, not 6: nothing holds the motion {}",
-                softest(&(0.5 * sum), &scale)
-            ),
-        };
-        findings.push(Finding {
-            grade: Grade::Doubtful,
-            message,
-            help: "a direction that nothing holds is a passive joint of the chain, or the other end was not fixed".into(),
-        });
-    }
+    findings.extend(not_definite(k, &(0.5 * sum), &scale, eigen[0], rank));
     let natural_length = plausible(k, &mut findings);
     Judgement {
         antisymmetric_share: share,
@@ -184,6 +118,98 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         natural_length,
         findings,
     }
+}
+
+impl Finding {
+    fn refused(message: String, help: &str) -> Self {
+        Self {
+            grade: Grade::Refused,
+            message,
+            help: help.to_owned(),
+        }
+    }
+}
+
+/// Entries of the diagonal below zero: along them a motion would give energy back.
+fn negative_diagonal(k: &Matrix6<f64>) -> Vec<Finding> {
+    let negative = (0..6).filter(|&i| k[(i, i)] < 0.0);
+    negative
+        .map(|i| {
+            Finding::refused(
+                format!(
+                    "the entry {0}, {0} is negative ({1})",
+                    DIRECTIONS[i],
+                    setting(k[(i, i)])
+                ),
+                "a motion would give energy back: check signs, and that this is not the stiffness under a load",
+            )
+        })
+        .collect()
+}
+
+/// The largest difference of two entries that should be equal, of the balanced matrix.
+fn asymmetry(k: &Matrix6<f64>, difference: &Matrix6<f64>, share: f64) -> Finding {
+    let (mut worst, mut at) = (0.0, (0, 0));
+    for i in 0..6 {
+        for j in 0..i {
+            if difference[(i, j)].abs() > worst {
+                (worst, at) = (difference[(i, j)].abs(), (i, j));
+            }
+        }
+    }
+    let (i, j) = at;
+    Finding::refused(
+        format!(
+            "the matrix is not symmetric: its anti-symmetric share is {}; row {} column {} is {}, row {} column {} is {}",
+            short(share),
+            DIRECTIONS[i],
+            DIRECTIONS[j],
+            setting(k[(i, j)]),
+            DIRECTIONS[j],
+            DIRECTIONS[i],
+            setting(k[(j, i)])
+        ),
+        "a spring stores energy: if this is noise, say so (symmetrise); if not, loads and displacements are in different axes or at different points",
+    )
+}
+
+/// A motion that gives energy back, or that nothing holds. `symmetric` is balanced by `scale`; `least` is its smallest
+/// eigenvalue.
+fn not_definite(
+    k: &Matrix6<f64>,
+    symmetric: &Matrix6<f64>,
+    scale: &Vector6<f64>,
+    least: f64,
+    rank: usize,
+) -> Option<Finding> {
+    if least < -ZERO {
+        return Some(Finding::refused(
+            format!(
+                "the matrix is not positive semi-definite: a motion {} has the energy {} in units of its parts",
+                softest(symmetric, scale),
+                short(least)
+            ),
+            "check signs and units of the entries off the diagonal, and the order (x, y, z, rx, ry, rz)",
+        ));
+    }
+    if rank == 6 {
+        return None;
+    }
+    let message = match (0..6).find(|&i| k[(i, i)] == 0.0) {
+        Some(i) => format!(
+            "the rank is {rank}, not 6: nothing holds the direction {}",
+            DIRECTIONS[i]
+        ),
+        None => format!(
+            "the rank is {rank}, not 6: nothing holds the motion {}",
+            softest(symmetric, scale)
+        ),
+    };
+    Some(Finding {
+        grade: Grade::Doubtful,
+        message,
+        help: "a direction that nothing holds is a passive joint of the chain, or the other end was not fixed".into(),
+    })
 }
 
 /// `K` with its own diagonal as unit (1 where that is not positive), and the roots of the units.

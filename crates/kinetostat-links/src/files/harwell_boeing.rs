@@ -67,7 +67,11 @@ pub(crate) fn recognised(text: &Text) -> Option<Header> {
     })
 }
 
-pub(crate) fn read(text: &Text, companion: Option<&Text>, header: Header) -> Result<Superelement> {
+pub(crate) fn read_harwell_boeing(
+    text: &Text,
+    companion: Option<&Text>,
+    header: Header,
+) -> Result<Superelement> {
     let halves = match header.kind.as_str() {
         "RSA" => Halves::Found,
         "RUA" => Halves::Both,
