@@ -67,7 +67,7 @@ pub(crate) fn recognised(text: &Text) -> Option<Header> {
     })
 }
 
-pub(crate) fn read_harwell_boeing(
+pub(crate) fn read_hbmat(
     text: &Text,
     companion: Option<&Text>,
     header: Header,

@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::files::calculix::{pairs, triplets, user_element};
 use crate::files::dmig::read_dmig;
-use crate::files::harwell_boeing::{read_harwell_boeing, recognised};
+use crate::files::harwell_boeing::{read_hbmat, recognised};
 use crate::superelement::Superelement;
 use crate::text::{Text, fields};
 
@@ -48,7 +48,7 @@ pub fn read_superelement(
         return read_dmig(text, matrix);
     }
     if let Some(found) = recognised(text) {
-        return read_harwell_boeing(text, companion, found);
+        return read_hbmat(text, companion, found);
     }
     let cells = fields(first).into_iter().filter(|c| !c.is_empty()).count();
     match cells {
