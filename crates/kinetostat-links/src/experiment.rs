@@ -4,16 +4,15 @@
 //! Each load case is one experiment: the other end is fixed, a known wrench acts at the point `e`, and
 //! the interface's nodes move. A rigid motion is fitted to each ([`crate::rigid_fit`]); the motions are
 //! the columns of `D = C F` for the wrenches `F`, so `C = D F^+`. A link's compliance is symmetric, and
-//! what is not is noise (or a mistake in axes and points): its share is told, and compared with what
+//! what is not is noise (or a mistake in axes and points): its share is reported, and compared with what
 //! the residuals of the fits explain.
 
 use kinetostat::number::short;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
 use crate::error::{Error, Result};
-use crate::interface::{RigidFit, RigidRank, rigid_fit, rigid_rank};
-use crate::judge::DIRECTIONS;
-use crate::matrix_file::invert;
+use crate::interface::{RigidFit, RigidRank, invert, rigid_fit, rigid_rank};
+use crate::stiffness_check::DIRECTIONS;
 
 /// One load case: what acts on the link's end, and how the interface's nodes move.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +80,46 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
         .max(1e-3);
     let wrenches = DMatrix::from_fn(6, cases.len(), |i, m| cases[m].wrench[i]);
     let inverse = right_inverse(file, &wrenches, size)?;
+    let (fits, rank) = fits_of(file, cases, end)?;
+    let moved = DMatrix::from_fn(6, cases.len(), |i, m| fits[m].motion[i]);
+    let c = &moved * &inverse;
+    let compliance = Matrix6::from_fn(|i, j| c[(i, j)]);
+    let left = &moved - &c * &wrenches;
+    let not_linear = if cases.len() > 6 && moved.norm() > 0.0 {
+        balanced_ratio(&left, &moved, size)
+    } else {
+        0.0
+    };
+    let compliance_deviation = compliance_deviation(&inverse, &fits);
+    let symmetric = 0.5 * (compliance + compliance.transpose());
+    let stiffness = invert(&symmetric).ok_or_else(|| singular(file, &fits))?;
+    let stiffness_deviation = stiffness_deviation(&stiffness, &inverse, &fits);
+    let (share, explained) = asymmetry(&compliance, &compliance_deviation);
+    let insignificant = insignificant(&symmetric, &compliance_deviation);
+    let mut found = Identified {
+        compliance,
+        compliance_deviation,
+        stiffness,
+        stiffness_deviation,
+        antisymmetric_share: share,
+        explained_share: explained,
+        insignificant,
+        fits,
+        rank,
+        not_linear,
+        notices: Vec::new(),
+    };
+    found.notices = notices(cases, &found);
+    Ok(found)
+}
+
+/// The rigid motion of the interface in each load case, and the worst conditioned of its ranks.
+fn fits_of(
+    file: &str,
+    cases: &[LoadCase],
+    end: &Vector3<f64>,
+) -> Result<(Vec<RigidFit>, RigidRank)> {
+    let fault = |message: String, help: &str| Error::new(file, message, help);
     let mut fits = Vec::with_capacity(cases.len());
     let mut rank: Option<RigidRank> = None;
     for case in cases {
@@ -104,46 +143,30 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
         }
         fits.push(fit);
     }
-    let rank = rank.unwrap_or_else(|| rigid_rank(&[]));
-    let moved = DMatrix::from_fn(6, cases.len(), |i, m| fits[m].motion[i]);
-    let c = &moved * &inverse;
-    let compliance = Matrix6::from_fn(|i, j| c[(i, j)]);
-    let left = &moved - &c * &wrenches;
-    let not_linear = if cases.len() > 6 && moved.norm() > 0.0 {
-        balanced_ratio(&left, &moved, size)
-    } else {
-        0.0
-    };
-    // C[:, b] = sum_m D[:, m] P[m, b]; load cases are independent of each other.
-    let compliance_deviation = Matrix6::from_fn(|i, b| {
+    Ok((fits, rank.unwrap_or_else(|| rigid_rank(&[]))))
+}
+
+/// Standard deviations of a compliance `C = D P` by those of the motions `D`; load cases are independent of each other.
+fn compliance_deviation(inverse: &DMatrix<f64>, fits: &[RigidFit]) -> Matrix6<f64> {
+    // C[:, b] = sum_m D[:, m] P[m, b]
+    Matrix6::from_fn(|i, b| {
         let variance: f64 = fits
             .iter()
             .enumerate()
             .map(|(m, f)| inverse[(m, b)].powi(2) * f.covariance[(i, i)])
             .sum();
         variance.sqrt()
-    });
-    let symmetric = 0.5 * (compliance + compliance.transpose());
-    let stiffness = invert(&symmetric).ok_or_else(|| {
-        let worst = fits.iter().map(|f| f.not_rigid).fold(0.0, f64::max);
-        if worst > NOISY {
-            return fault(
-                format!(
-                    "the compliance that comes out is singular or has no positive diagonal: noise hides it, up to {:.0} % of the displacements of a case are no rigid motion",
-                    100.0 * worst
-                ),
-                "take larger loads, more nodes or finer measurements, write more digits, and check the unit of the displacements",
-            );
-        }
-        fault(
-            "the compliance that comes out is singular or has no positive diagonal".into(),
-            "check that every case has its own displacements, that loads and displacements have the same axes, and the sign of the loads",
-        )
-    })?;
-    // Linear propagation: an error e at D[a, m] changes K[i, j] by
-    // -e sum_b P[m, b] (K[i,a] K[b,j] + K[i,b] K[a,j]) / 2.
-    let k = &stiffness;
-    let stiffness_deviation = Matrix6::from_fn(|i, j| {
+    })
+}
+
+/// Standard deviations of the stiffness, by linear propagation: an error e at D[a, m] changes K[i, j] by
+/// -e sum_b P[m, b] (K[i,a] K[b,j] + K[i,b] K[a,j]) / 2.
+fn stiffness_deviation(
+    k: &Matrix6<f64>,
+    inverse: &DMatrix<f64>,
+    fits: &[RigidFit],
+) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| {
         let mut variance = 0.0;
         for (m, fit) in fits.iter().enumerate() {
             let (mut at_i, mut at_j) = (0.0, 0.0);
@@ -155,24 +178,27 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
             variance += v.dot(&(fit.covariance * v));
         }
         variance.sqrt()
-    });
-    let (share, explained) = asymmetry(&compliance, &compliance_deviation);
-    let insignificant = insignificant(&symmetric, &compliance_deviation);
-    let mut found = Identified {
-        compliance,
-        compliance_deviation,
-        stiffness,
-        stiffness_deviation,
-        antisymmetric_share: share,
-        explained_share: explained,
-        insignificant,
-        fits,
-        rank,
-        not_linear,
-        notices: Vec::new(),
-    };
-    found.notices = notices(cases, &found);
-    Ok(found)
+    })
+}
+
+/// Why a compliance has no inverse: noise, or a mistake in the table.
+fn singular(file: &str, fits: &[RigidFit]) -> Error {
+    let worst = fits.iter().map(|f| f.not_rigid).fold(0.0, f64::max);
+    if worst > NOISY {
+        return Error::new(
+            file,
+            format!(
+                "the compliance that comes out is singular or has no positive diagonal: noise hides it, up to {:.0} % of the displacements of a case are no rigid motion",
+                100.0 * worst
+            ),
+            "take larger loads, more nodes or finer measurements, write more digits, and check the unit of the displacements",
+        );
+    }
+    Error::new(
+        file,
+        "the compliance that comes out is singular or has no positive diagonal",
+        "check that every case has its own displacements, that loads and displacements have the same axes, and the sign of the loads",
+    )
 }
 
 impl Identified {

@@ -10,7 +10,7 @@
 use kinetostat::hat;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
-use crate::judge::DIRECTIONS;
+use crate::stiffness_check::DIRECTIONS;
 
 /// Singular values below this share of the largest count as zero. Coordinates come with 6 or more
 /// digits, so that nodes on a line leave about 1e-7.
@@ -186,4 +186,18 @@ pub fn rigid_fit(
             0.0
         },
     })
+}
+
+/// Inverse after balancing by the diagonal, so that metres and radians do not decide what is singular.
+pub(crate) fn invert(c: &Matrix6<f64>) -> Option<Matrix6<f64>> {
+    if (0..6).any(|i| c[(i, i)] <= 0.0) {
+        return None;
+    }
+    let scale = Matrix6::from_diagonal(&c.diagonal().map(|d| 1.0 / d.sqrt()));
+    let balanced = scale * c * scale;
+    let singular = kinetostat::SingularValues::of(&balanced);
+    if singular.least() < 1e-12 * singular.largest() {
+        return None;
+    }
+    Some(scale * balanced.try_inverse()? * scale)
 }

@@ -15,39 +15,35 @@
 //! SI units, translations before rotations, as in [`kinetostat`]; files say their units in keys or the
 //! caller says them. Memory is bounded: [`MOST_BYTES`], [`MOST_DOFS`], [`MOST_ENVELOPE`].
 
-mod calculix;
-mod condense;
-mod displacements;
-mod dmig;
-mod envelope;
+mod beam;
+mod condensation;
 mod error;
 mod experiment;
-mod harwell_boeing;
+mod files;
 mod interface;
-mod judge;
-mod material;
-mod matrix_file;
-mod nodes;
-mod section;
+mod stiffness_check;
 mod superelement;
 mod table;
-mod taper;
 mod text;
 mod units;
 
-pub use condense::{Condensed, FreeTest, Question, Tie, condense, free_test};
-pub use displacements::{LoadTable, read_displacements, read_loads, unit_loads};
-pub use envelope::MOST_ENVELOPE;
+pub use beam::material::{MATERIALS, Material, material};
+pub use beam::section::{Properties, Shape};
+pub use beam::taper::{Shear, cantilever, cantilever_by};
+pub use condensation::condense::{Condensed, Question, Tie, condense};
+pub use condensation::envelope::MOST_ENVELOPE;
+pub use condensation::free_test::{FreeTest, free_test};
 pub use error::{Error, Result};
 pub use experiment::{Identified, LoadCase, identify};
+pub use files::displacements::{LoadTable, read_displacements, read_loads, unit_loads};
+pub use files::matrix::{LinkMatrix, axes_from, read_matrix};
+pub use files::nodes::{Nodes, read_nodes};
+pub use files::superelement::read_superelement;
 pub use interface::{RigidFit, RigidRank, rigid_fit, rigid_rank, spider};
-pub use judge::{DIRECTIONS, Finding, Grade, Judgement, SYMMETRIC_TO, judge, symmetrised};
-pub use material::{MATERIALS, Material, material};
-pub use matrix_file::{LinkMatrix, axes_from, read_matrix};
-pub use nodes::{Nodes, read_nodes};
-pub use section::{Properties, Shape};
-pub use superelement::{Dof, MOST_DOFS, Superelement, read_superelement};
+pub use stiffness_check::{
+    DIRECTIONS, Finding, Grade, Judgement, SYMMETRIC_TO, judge, symmetrised,
+};
+pub use superelement::{Dof, MOST_DOFS, Superelement};
 pub use table::{in_n_mm, stiffness_table};
-pub use taper::{Shear, cantilever, cantilever_by};
 pub use text::{MOST_BYTES, Text, number};
 pub use units::{UNITS, Units};

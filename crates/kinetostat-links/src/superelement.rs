@@ -89,6 +89,70 @@ pub(crate) fn too_many(text: &Text, count: usize) -> crate::error::Error {
     )
 }
 
+/// Each degree of freedom has one row.
+fn check_listed_once(text: &Text, dofs: &[Dof]) -> Result<()> {
+    let mut seen: Vec<Dof> = dofs.to_vec();
+    seen.sort_unstable();
+    if let Some(pair) = seen.windows(2).find(|p| p[0] == p[1]) {
+        return Err(text.fault(
+            format!("the degree of freedom {} is listed twice", pair[0]),
+            "each node and direction has one row",
+        ));
+    }
+    Ok(())
+}
+
+/// Each entry is written once. `raw` is sorted by row and column.
+fn check_written_once(text: &Text, dofs: &[Dof], raw: &[Raw]) -> Result<()> {
+    if let Some(pair) = raw
+        .windows(2)
+        .find(|p| p[0].row == p[1].row && p[0].column == p[1].column)
+    {
+        return Err(text
+            .fault(
+                format!(
+                    "the entry {} / {} is written twice, also at line {}",
+                    dofs[pair[0].row as usize],
+                    dofs[pair[0].column as usize],
+                    pair[0].line.min(pair[1].line)
+                ),
+                "each entry is written once; remove one of them",
+            )
+            .at(pair[0].line.max(pair[1].line)));
+    }
+    Ok(())
+}
+
+/// Whether both halves of the matrix are written; refuses a second half where one is declared. `raw` is sorted by row
+/// and column.
+fn has_both_halves(text: &Text, dofs: &[Dof], raw: &[Raw], halves: Halves) -> Result<bool> {
+    let written = |row: u32, column: u32| {
+        raw.binary_search_by_key(&(row, column), |e| (e.row, e.column))
+            .is_ok()
+    };
+    let twin = raw
+        .iter()
+        .find(|e| e.row != e.column && written(e.column, e.row));
+    Ok(match halves {
+        Halves::Both => true,
+        Halves::Found => twin.is_some(),
+        Halves::One => {
+            if let Some(e) = twin {
+                return Err(text
+                    .fault(
+                        format!(
+                            "the matrix is declared symmetric, but {} / {} is written in both halves",
+                            dofs[e.row as usize], dofs[e.column as usize]
+                        ),
+                        "write one half, or declare the matrix square",
+                    )
+                    .at(e.line));
+            }
+            false
+        }
+    })
+}
+
 impl Superelement {
     /// Sorts what a file said and finds entries written twice.
     pub(crate) fn collect(
@@ -105,57 +169,15 @@ impl Superelement {
         if raw.is_empty() {
             return Err(text.fault("the matrix has no entries", "export it again"));
         }
-        let mut seen: Vec<Dof> = dofs.clone();
-        seen.sort_unstable();
-        if let Some(pair) = seen.windows(2).find(|p| p[0] == p[1]) {
-            return Err(text.fault(
-                format!("the degree of freedom {} is listed twice", pair[0]),
-                "each node and direction has one row",
-            ));
-        }
+        check_listed_once(text, &dofs)?;
         raw.sort_unstable_by_key(|e| (e.row, e.column));
-        if let Some(pair) = raw
-            .windows(2)
-            .find(|p| p[0].row == p[1].row && p[0].column == p[1].column)
-        {
-            return Err(text
-                .fault(
-                    format!(
-                        "the entry {} / {} is written twice, also at line {}",
-                        dofs[pair[0].row as usize],
-                        dofs[pair[0].column as usize],
-                        pair[0].line.min(pair[1].line)
-                    ),
-                    "each entry is written once; remove one of them",
-                )
-                .at(pair[0].line.max(pair[1].line)));
-        }
+        check_written_once(text, &dofs, &raw)?;
+        let both = has_both_halves(text, &dofs, &raw, halves)?;
         // Partner of an entry on the other side of the diagonal.
         let value = |row: u32, column: u32| {
             raw.binary_search_by_key(&(row, column), |e| (e.row, e.column))
                 .ok()
-                .map(|at| (raw[at].value, raw[at].line))
-        };
-        let twin = raw
-            .iter()
-            .find(|e| e.row != e.column && value(e.column, e.row).is_some());
-        let both = match halves {
-            Halves::Both => true,
-            Halves::Found => twin.is_some(),
-            Halves::One => {
-                if let Some(e) = twin {
-                    return Err(text
-                        .fault(
-                            format!(
-                                "the matrix is declared symmetric, but {} / {} is written in both halves",
-                                dofs[e.row as usize], dofs[e.column as usize]
-                            ),
-                            "write one half, or declare the matrix square",
-                        )
-                        .at(e.line));
-                }
-                false
-            }
+                .map(|at| raw[at].value)
         };
         let mut diagonal = vec![0.0_f64; dofs.len()];
         for e in raw.iter().filter(|e| e.row == e.column) {
@@ -170,7 +192,7 @@ impl Superelement {
                 if e.row < e.column && other.is_some() {
                     continue;
                 }
-                let other = other.map_or(0.0, |o| o.0);
+                let other = other.unwrap_or(0.0);
                 let unit = (diagonal[e.row as usize] * diagonal[e.column as usize])
                     .abs()
                     .max(f64::MIN_POSITIVE);
@@ -207,62 +229,5 @@ impl Superelement {
         nodes.sort_unstable();
         nodes.dedup();
         nodes
-    }
-}
-
-/// Reads a matrix of many degrees of freedom; the format is told apart by the text:
-///
-/// - Nastran bulk data with `DMIG` (small, large and free fields),
-/// - CalculiX and Abaqus `.mtx`: `*USER ELEMENT` with `*MATRIX, TYPE=STIFFNESS`, or lines
-///   `node, direction, node, direction, value`,
-/// - CalculiX `.sti` (lines `row column value`) with its `.dof` file as `companion`,
-/// - Harwell-Boeing (Ansys `HBMAT`) with its mapping file as `companion`.
-///
-/// `matrix`: name of the matrix where the file has several.
-///
-/// # Errors
-///
-/// With file, line and what to do.
-pub fn read_superelement(
-    text: &Text,
-    companion: Option<&Text>,
-    matrix: Option<&str>,
-) -> Result<Superelement> {
-    let mut dmig = false;
-    let mut first = "";
-    for (_, line) in text.lines() {
-        let upper = line.trim_start().to_uppercase();
-        if upper.starts_with("DMIG") {
-            dmig = true;
-            break;
-        }
-        if upper.starts_with("*USER ELEMENT") || upper.starts_with("*MATRIX") {
-            return crate::calculix::user_element(text);
-        }
-        if first.is_empty()
-            && !upper.is_empty()
-            && !upper.starts_with("**")
-            && !upper.starts_with('$')
-        {
-            first = line;
-        }
-    }
-    if dmig {
-        return crate::dmig::read(text, matrix);
-    }
-    if let Some(found) = crate::harwell_boeing::recognised(text) {
-        return crate::harwell_boeing::read(text, companion, found);
-    }
-    let cells = crate::matrix_file::fields(first)
-        .into_iter()
-        .filter(|c| !c.is_empty())
-        .count();
-    match cells {
-        5 => crate::calculix::pairs(text),
-        3 => crate::calculix::triplets(text, companion),
-        _ => Err(text.fault(
-            "the file has none of the formats that are known",
-            "these are: Nastran DMIG, CalculiX or Abaqus .mtx (*USER ELEMENT or node,dof,node,dof,value), CalculiX .sti with .dof, Ansys Harwell-Boeing with its mapping file",
-        )),
     }
 }

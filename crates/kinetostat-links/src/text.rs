@@ -202,6 +202,20 @@ pub fn number(field: &str) -> Option<f64> {
     plain.parse().ok().filter(|x: &f64| x.is_finite())
 }
 
+/// Fields of a line: separated by semicolon, tab or comma, whichever comes first in that order.
+pub(crate) fn fields(line: &str) -> Vec<&str> {
+    let line = line.split('#').next().unwrap_or_default();
+    let by = [';', '\t', ','].into_iter().find(|c| line.contains(*c));
+    by.map_or_else(
+        || line.split_whitespace().collect(),
+        |c| {
+            line.split(c)
+                .map(|f| f.trim().trim_matches('"').trim())
+                .collect()
+        },
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

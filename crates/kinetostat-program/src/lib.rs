@@ -40,60 +40,37 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod accounting;
-mod after_end;
-mod against;
-mod arc;
-mod block;
-mod crossing;
-mod curve;
-mod departure;
-mod dialect;
-mod divide;
-mod emit;
+mod checking;
 mod error;
-mod extra;
 mod field;
-mod header;
-mod interpret;
 mod irregular;
-mod lex;
-mod map;
-mod merge;
-mod modes;
-mod moment;
 mod number;
-mod options;
 mod path;
-mod program;
-mod render;
-mod repeated;
-mod syntax;
-mod tools;
-mod turn;
-mod verify;
-mod verify_text;
-mod write;
+mod reading;
+mod text;
+mod writing;
 
-pub use accounting::Accounting;
-pub use against::{Farthest, FieldCheck, verify_against_field};
-pub use curve::{Arc, Curve};
-pub use dialect::{CODES, Code, Treatment};
+pub use checking::field::{Farthest, FieldCheck, verify_against_field};
+pub use checking::verify::{Verification, verify_written};
 pub use error::{MapError, ProgramError, WriteError};
-pub use field::{
+pub use field::map::CorrectionMap;
+pub use field::request::{
     CorrectionField, Course, FieldFailure, Monitor, NoCorrection, Request, Structure, Turning,
     Unwatched,
 };
-pub use interpret::{faults, interpret};
 pub use irregular::irregular;
-pub use map::CorrectionMap;
-pub use moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
-pub use options::{BlockDelete, OtherAxes, ReadOptions, Units};
-pub use path::{
+pub use path::curve::{Arc, Curve};
+pub use path::moves::{
     CoordinateWords, ExtraAxis, ExtraMode, Feed, FeedMode, Knowledge, Move, MoveKind, Path, Warning,
 };
-pub use program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
-pub use tools::ToolChange;
-pub use turn::Turn;
-pub use verify::{Verification, verify_written};
-pub use write::{Corrected, Piece, WriteOptions, write_corrected};
+pub use path::tool_change::ToolChange;
+pub use reading::dialect::{CODES, Code, Treatment};
+pub use reading::interpret::{faults, interpret};
+pub use reading::moment::{Acts, CONTROLLERS, MOMENTS, Moment, Placed};
+pub use reading::options::{BlockDelete, OtherAxes, ReadOptions, Units};
+pub use text::program::{COMPENSATED_MARK, MAX_READ_LINE_BYTES, Program};
+pub use writing::accounting::Accounting;
+pub use writing::jump::Turn;
+pub use writing::options::WriteOptions;
+pub use writing::write::write_corrected;
+pub use writing::written::{Corrected, Piece};

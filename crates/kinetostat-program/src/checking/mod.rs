@@ -1,0 +1,6 @@
+//! The last check of a written program, from its bytes: its geometry and feeds, its text, and the field asked again in
+//! places that the division did not choose.
+
+pub(crate) mod field;
+pub(crate) mod text;
+pub(crate) mod verify;

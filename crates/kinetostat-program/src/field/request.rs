@@ -1,0 +1,146 @@
+//! What a field of corrections is asked, and what it answers.
+
+use nalgebra::Vector3;
+
+use crate::path::moves::Move;
+
+/// A point of the path for which a correction is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// Index of the move in [`crate::Path::moves`].
+    pub move_index: usize,
+    /// Share of the move's length: 0 at its start, 1 at its end.
+    pub share: f64,
+    /// The point, in mm, part frame.
+    pub position_mm: Vector3<f64>,
+    /// Direction of motion there, a unit vector; `None` where the move has no length or its start is
+    /// not known.
+    pub tangent: Option<Vector3<f64>>,
+    /// Inside a corner step: how far the load has turned. `None` on the path itself.
+    pub turning: Option<Turning>,
+}
+
+/// A point inside a corner step, where the tool stands on the part and the load turns from that of
+/// one place of the path to that of another, as far as `part` says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turning {
+    /// Move whose load holds before the step.
+    pub from_move: usize,
+    /// Share of that move.
+    pub from_share: f64,
+    /// Share of the request's own move whose load holds after the step.
+    pub to_share: f64,
+    /// 0 is before, 1 is after.
+    pub part: f64,
+}
+
+/// Why a field has no correction for a point.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FieldFailure {
+    /// What is wrong and what to do, without the place: the caller names line and point.
+    pub message: String,
+}
+
+impl FieldFailure {
+    /// A failure with this message.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+        }
+    }
+}
+
+/// A field of corrections: what to add to the position so that the tool comes to be where the
+/// program wants it.
+///
+/// The writer asks in batches of some thousand points in the order of the path; an implementor may
+/// work on them in parallel. The answer has one entry for each request, in order. Equal requests must
+/// get equal answers, or the output would not be reproducible.
+pub trait CorrectionField: Sync {
+    /// Corrections in mm, part axes, to be added to the positions asked for.
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>>;
+
+    /// Whether the field knows what happens inside a corner step ([`Request::turning`]). Otherwise
+    /// such a step is one straight piece.
+    fn turns(&self) -> bool {
+        false
+    }
+
+    /// What the field knows of its own course along a move that is to be divided.
+    fn structure(&self, _move_index: usize, _motion: &Move) -> Structure {
+        Structure::default()
+    }
+}
+
+/// A field's own course along a move.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Structure {
+    /// Shares of the move, between 0 and 1 and in any order, at which the correction or its slope may
+    /// jump. Each of them is asked, and what lies between two is looked at by itself.
+    pub breaks: Vec<f64>,
+    /// What the correction is between two of them.
+    pub course: Course,
+}
+
+/// What a correction is on a stretch without breaks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Course {
+    /// Along a straight line a polynomial of third degree in the share, or of a lower one. Five values
+    /// say all about it.
+    Cubic,
+    /// Smooth: it could be continued as a power series this far (in mm) beyond every place of the
+    /// stretch, and would be at most twice as large there. The shorter this length, the more places are
+    /// asked.
+    Smooth {
+        /// The length, in mm.
+        radius_mm: f64,
+    },
+}
+
+impl Default for Course {
+    /// Of a field that says nothing of itself: smooth over 25 mm.
+    fn default() -> Self {
+        Self::Smooth { radius_mm: 25.0 }
+    }
+}
+
+/// A closure that answers one request is a field.
+impl<F> CorrectionField for F
+where
+    F: Fn(&Request) -> Result<Vector3<f64>, FieldFailure> + Sync,
+{
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+        requests.iter().map(self).collect()
+    }
+}
+
+/// The field that corrects nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoCorrection;
+
+impl CorrectionField for NoCorrection {
+    fn corrections(&self, requests: &[Request]) -> Vec<Result<Vector3<f64>, FieldFailure>> {
+        vec![Ok(Vector3::zeros()); requests.len()]
+    }
+}
+
+/// Who watches a long run and may stop it.
+pub trait Monitor: Sync {
+    /// `done` of `total` points are answered; the total grows while blocks are divided.
+    fn progress(&self, done: usize, total: usize);
+
+    /// Whether to stop. Asked between batches.
+    fn cancelled(&self) -> bool;
+}
+
+/// A monitor that neither watches nor stops.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Unwatched;
+
+impl Monitor for Unwatched {
+    fn progress(&self, _done: usize, _total: usize) {}
+
+    fn cancelled(&self) -> bool {
+        false
+    }
+}

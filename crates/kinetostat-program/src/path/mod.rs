@@ -1,0 +1,9 @@
+//! Where the tool goes: moves along straight lines and arcs, with what the program says beside them.
+//!
+//! Plain geometry in mm, part frame. Knows no text.
+
+pub(crate) mod crossing;
+pub(crate) mod curve;
+pub(crate) mod moves;
+pub(crate) mod position_offset;
+pub(crate) mod tool_change;

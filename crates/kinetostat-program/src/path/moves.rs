@@ -1,0 +1,197 @@
+//! The path of a program: what [`crate::interpret`] makes of the words.
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::path::curve::Curve;
+use crate::path::position_offset::OffsetChange;
+use crate::path::tool_change::ToolChange;
+
+/// Whether a move is made at rapid rate or at the programmed feed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MoveKind {
+    /// G0.
+    Rapid,
+    /// G1, G2, G3.
+    Feed,
+}
+
+/// How the F word counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FeedMode {
+    /// G94: length in a minute.
+    PerMinute,
+    /// G93: blocks in a minute.
+    InverseTime,
+    /// G95: length in a turn of the spindle.
+    PerRevolution,
+}
+
+/// A programmed feed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Feed {
+    /// How the value counts.
+    pub mode: FeedMode,
+    /// In mm/min, 1/min, or mm per revolution; inches are converted.
+    pub value: f64,
+}
+
+/// How much of a move's place in the part is known from the program and the options.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Knowledge {
+    /// The whole move: it is corrected all along.
+    Whole,
+    /// Only its end (an axis was first stated by this very block): only the end is corrected.
+    End,
+    /// Not even its end: it is carried unchanged.
+    Nothing,
+}
+
+/// How a word of an extra axis counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ExtraMode {
+    /// The word is the end.
+    Absolute,
+    /// The word is the way.
+    Incremental,
+    /// An E word after M82 or M83 and a later G90 or G91 that says otherwise: firmwares disagree
+    /// which of them counts.
+    Disputed,
+}
+
+/// The motion of one axis other than X, Y, Z in a move.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ExtraAxis {
+    /// One of A B C E U V W.
+    pub letter: char,
+    /// The number as written: the end or the way, in the block's units.
+    pub word: f64,
+    /// Where the axis stands before, in program coordinates and the block's units; `None` if the
+    /// program has not stated it.
+    pub start: Option<f64>,
+    /// How the word counts.
+    pub mode: ExtraMode,
+}
+
+/// One motion of the tool point, in mm, part frame (work offset and G92 included).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Move {
+    /// Line of the block, counted from 1.
+    pub line: usize,
+    /// Rapid or feed.
+    pub kind: MoveKind,
+    /// Straight or arc.
+    pub curve: Curve,
+    /// Where the move begins, in mm.
+    pub start: Vector3<f64>,
+    /// Where the move ends, in mm.
+    pub end: Vector3<f64>,
+    /// Words of other axes, in the order of the block.
+    pub extra: Vec<ExtraAxis>,
+    /// The F in force, `None` before the first F word.
+    pub feed: Option<Feed>,
+    /// Whether start and end are known.
+    pub known: Knowledge,
+    /// How the block's coordinate words are to be written.
+    pub words: CoordinateWords,
+}
+
+/// How a block's coordinate words count.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoordinateWords {
+    /// Millimetres in one unit of the words.
+    pub mm_per_unit: f64,
+    /// G91: words are ways, not places.
+    pub incremental: bool,
+    /// Origin of the work coordinate system in the part frame, in mm.
+    pub work_offset_mm: Vector3<f64>,
+}
+
+impl Move {
+    /// Point at a share of the length (0 start, 1 end), in mm.
+    pub fn point(&self, share: f64) -> Vector3<f64> {
+        self.curve.point(&self.start, &self.end, share)
+    }
+
+    /// Direction of motion at a share, a unit vector; `None` for a move without length.
+    pub fn tangent(&self, share: f64) -> Option<Vector3<f64>> {
+        self.curve.tangent(&self.start, &self.end, share)
+    }
+
+    /// Length of the move, in mm.
+    pub fn length_mm(&self) -> f64 {
+        self.length_between_mm(0.0, 1.0)
+    }
+
+    /// Length of the move between two shares, in mm.
+    pub fn length_between_mm(&self, from: f64, to: f64) -> f64 {
+        self.curve.length_between(&self.start, &self.end, from, to)
+    }
+}
+
+/// The interpreted program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    /// The motions, in the order of the program; at most one a line.
+    pub moves: Vec<Move>,
+    /// Whether X, Y, Z are ever stated (or given by the start position). The others are never
+    /// written.
+    pub stated: [bool; 3],
+    /// What may surprise the user, with lines.
+    pub warnings: Vec<Warning>,
+    /// Where another tool is taken, in the order of lines; see [`Path::tool_on`].
+    pub tool_changes: Vec<ToolChange>,
+    /// What changes between the moves and matters to who writes them.
+    pub(crate) events: Vec<Event>,
+}
+
+/// Something the user should know; not an error.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Warning {
+    /// Line of the input program, counted from 1.
+    pub line: usize,
+    /// What, and what follows from it.
+    pub text: String,
+}
+
+/// A change on a line.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Event {
+    pub line: usize,
+    pub change: Change,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Change {
+    /// F or the feed mode changed on a line without motion.
+    Feed(Option<Feed>),
+    /// A motion word on a line without motion.
+    Motion(Motion),
+    /// The position offset (G92) changed.
+    Offset(OffsetChange),
+}
+
+/// The modal motion word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Motion {
+    Rapid,
+    Feed,
+    Clockwise,
+    CounterClockwise,
+    Off,
+}
+
+impl Path {
+    /// Number of the tool that the block on a line is made with, as the program says it: by `T` and `M6`;
+    /// without any M6 by `T`; without any T by the `H` of `G43`. `None` before the first of them.
+    pub fn tool_on(&self, line: usize) -> Option<u32> {
+        let after = self
+            .tool_changes
+            .partition_point(|change| change.line <= line);
+        Some(self.tool_changes.get(after.checked_sub(1)?)?.number)
+    }
+}

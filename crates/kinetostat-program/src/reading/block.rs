@@ -1,0 +1,209 @@
+//! One block, its words sorted by letter.
+
+use crate::error::{ProgramError, excerpt};
+use crate::path::moves::Motion;
+use crate::reading::dialect::{Treatment, lookup};
+use crate::text::line::{Line, LineKind, Word};
+use crate::text::program::Program;
+
+/// The codes of a block that are followed, at most one of each group.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Codes {
+    pub motion: Option<Motion>,
+    pub plane: Option<u32>,
+    pub units: Option<u32>,
+    pub distance: Option<u32>,
+    pub arc_distance: Option<u32>,
+    pub feed_mode: Option<u32>,
+    pub work_offset: Option<u32>,
+    pub tool_length: Option<u32>,
+    pub position_offset: Option<u32>,
+    pub extruder: Option<u32>,
+    pub path_mode: Option<u32>,
+    pub speed_mode: Option<u32>,
+    pub retract_mode: Option<u32>,
+    pub spindle: Option<u32>,
+    pub coolant: Option<u32>,
+    pub overrides: Option<u32>,
+    pub stop: Option<u32>,
+    pub dwell: bool,
+    pub ends: bool,
+}
+
+/// A block: its codes and its other words.
+pub(crate) struct Block<'p> {
+    pub program: &'p Program,
+    pub line_number: usize,
+    pub line: &'p Line,
+    pub codes: Codes,
+    /// Values by letter, G M N O left out.
+    values: [Option<(f64, usize)>; 26],
+    pub words: &'p [Word],
+}
+
+impl<'p> Block<'p> {
+    pub fn of(program: &'p Program, index: usize) -> Result<Self, ProgramError> {
+        let line = &program.lines()[index];
+        let mut block = Self {
+            program,
+            line_number: index + 1,
+            line,
+            codes: Codes::default(),
+            values: [None; 26],
+            words: program.words(line),
+        };
+        for index in 0..block.words.len() {
+            let word = block.words[index];
+            match word.letter {
+                b'G' | b'M' => block.note_code(&word)?,
+                b'N' | b'O' => {}
+                letter => {
+                    let slot = &mut block.values[usize::from(letter - b'A')];
+                    if slot.is_some() {
+                        return Err(block.refuse(
+                            Some(&word),
+                            &format!(
+                                "the letter {} stands twice in one block",
+                                char::from(letter)
+                            ),
+                            "keep one of the two words",
+                        ));
+                    }
+                    *slot = Some((word.value, index));
+                }
+            }
+        }
+        block.drop_parameters();
+        Ok(block)
+    }
+
+    pub fn is_vendor(&self) -> bool {
+        self.line.kind == LineKind::Vendor
+    }
+
+    pub fn value(&self, letter: u8) -> Option<f64> {
+        self.values[usize::from(letter - b'A')].map(|(value, _)| value)
+    }
+
+    pub fn word(&self, letter: u8) -> Option<&Word> {
+        self.values[usize::from(letter - b'A')].map(|(_, index)| &self.words[index])
+    }
+
+    /// A refusal of the block, at one of its words or at all of it.
+    pub fn refuse(&self, word: Option<&Word>, reason: &str, remedy: &str) -> ProgramError {
+        let content = self.program.content(self.line);
+        ProgramError {
+            line: self.line_number,
+            span: word.map_or_else(|| content.clone(), Word::span),
+            found: excerpt(&self.program.bytes()[content]),
+            reason: reason.to_owned(),
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    fn note_code(&mut self, word: &Word) -> Result<(), ProgramError> {
+        let letter = char::from(word.letter);
+        let tenths = word.value * 10.0;
+        let whole = tenths.round();
+        let code = lookup(letter, whole as u32);
+        let shown = format!("{letter}{}", word.value);
+        if (tenths - whole).abs() > 1e-6 || !(0.0..1e6).contains(&tenths) {
+            return Err(self.refuse(
+                Some(word),
+                &format!("{shown} is no code"),
+                "mend the number",
+            ));
+        }
+        let tenths = whole as u32;
+        match code.map(|code| (code.meaning, code.treatment)) {
+            Some((meaning, Treatment::Refused { reason, remedy })) => {
+                return Err(self.refuse(
+                    Some(word),
+                    &format!("{shown} ({meaning}): {reason}"),
+                    remedy,
+                ));
+            }
+            // Builders give their own functions whole numbers; only vendors' commands have others.
+            None if letter == 'G' || !tenths.is_multiple_of(10) && !self.is_vendor() => {
+                return Err(self.refuse(
+                    Some(word),
+                    &format!("{shown} is not known here and may move the tool"),
+                    "remove it, or write what it does with codes that are known",
+                ));
+            }
+            _ => {}
+        }
+        let codes = &mut self.codes;
+        let twice = match (letter, tenths) {
+            ('G', 0) => codes.motion.replace(Motion::Rapid).is_some(),
+            ('G', 10) => codes.motion.replace(Motion::Feed).is_some(),
+            ('G', 20) => codes.motion.replace(Motion::Clockwise).is_some(),
+            ('G', 30) => codes.motion.replace(Motion::CounterClockwise).is_some(),
+            ('G', 800) => codes.motion.replace(Motion::Off).is_some(),
+            ('G', 170 | 180 | 190) => codes.plane.replace(tenths).is_some(),
+            ('G', 200 | 210) => codes.units.replace(tenths).is_some(),
+            ('G', 900 | 910) => codes.distance.replace(tenths).is_some(),
+            ('G', 901 | 911) => codes.arc_distance.replace(tenths).is_some(),
+            ('G', 930 | 940 | 950) => codes.feed_mode.replace(tenths).is_some(),
+            ('G', 540..=593) => codes.work_offset.replace(tenths).is_some(),
+            ('G', 430 | 490) => codes.tool_length.replace(tenths).is_some(),
+            ('G', 920..=923) => codes.position_offset.replace(tenths).is_some(),
+            ('M', 820 | 830) => codes.extruder.replace(tenths).is_some(),
+            ('G', 40) => std::mem::replace(&mut codes.dwell, true),
+            ('G', 610 | 611 | 640) => codes.path_mode.replace(tenths).is_some(),
+            ('G', 960 | 970) => codes.speed_mode.replace(tenths).is_some(),
+            ('G', 980 | 990) => codes.retract_mode.replace(tenths).is_some(),
+            ('M', 30 | 40 | 50 | 130 | 140 | 190) => codes.spindle.replace(tenths).is_some(),
+            // Mist and flood go together; off goes with neither.
+            ('M', 70 | 80 | 90) => {
+                let before = codes.coolant.replace(tenths);
+                before.is_some_and(|before| before == tenths || before == 90 || tenths == 90)
+            }
+            ('M', 480 | 490) => codes.overrides.replace(tenths).is_some(),
+            ('M', 0 | 10 | 20 | 300 | 600) => {
+                codes.ends |= matches!(tenths, 20 | 300);
+                codes.stop.replace(tenths).is_some()
+            }
+            _ => false,
+        };
+        if twice {
+            return Err(self.refuse(
+                Some(word),
+                &format!("{shown} meets another code of its group in the same block"),
+                "write the two codes in two blocks",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Letters that are parameters of another code of the block are no coordinates.
+    fn drop_parameters(&mut self) {
+        let takes = |letter: u8, codes: &[u32]| {
+            self.words.iter().any(|word| {
+                let tenths = word.tenths();
+                word.letter == letter && tenths.is_multiple_of(10) && codes.contains(&(tenths / 10))
+            })
+        };
+        let mut dropped: Vec<u8> = Vec::new();
+        if self.codes.dwell {
+            dropped.extend(b"XUPSFABCEVWYZQR");
+        }
+        if takes(b'G', &[64]) {
+            dropped.extend(b"PQ");
+        }
+        if takes(b'M', &[62, 63, 64, 65, 66, 67, 68]) {
+            dropped.extend(b"PELQ");
+        }
+        if takes(b'M', &[19]) {
+            dropped.extend(b"RPQ");
+        }
+        if takes(b'M', &[3, 4, 5, 6, 50, 51, 52, 53])
+            || (100..=199).any(|code| takes(b'M', &[code]))
+        {
+            dropped.extend(b"PQ");
+        }
+        for letter in dropped {
+            self.values[usize::from(letter - b'A')] = None;
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! The axes that are not X, Y, Z: carried along, and shared out when a block is split.
+
+use crate::path::moves::{ExtraAxis, ExtraMode};
+use crate::reading::block::Block;
+
+/// Where the extra axes stand, in program coordinates and the units in force.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ExtraAxes {
+    /// By position in [`ExtraAxes::LETTERS`]; `None` until the program states it.
+    places: [Option<f64>; 7],
+    incremental: bool,
+    /// What M82 and M83 say, once they did.
+    extruder_relative: Option<bool>,
+    /// What a firmware does that lets G90 and G91 set the extruder as well (Marlin).
+    extruder_relative_by_last_word: bool,
+}
+
+impl ExtraAxes {
+    pub const LETTERS: &'static [u8; 7] = b"ABCEUVW";
+    const EXTRUDER: usize = 3;
+
+    pub fn set_distance_mode(&mut self, incremental: bool) {
+        self.incremental = incremental;
+        self.extruder_relative_by_last_word = incremental;
+    }
+
+    /// M82 (820) or M83 (830).
+    pub fn set_extruder_mode(&mut self, code: Option<u32>) {
+        if let Some(code) = code {
+            self.extruder_relative = Some(code == 830);
+            self.extruder_relative_by_last_word = code == 830;
+        }
+    }
+
+    /// Angles keep their numbers, lengths do not.
+    pub fn change_units(&mut self, factor: f64) {
+        for place in self.places[Self::EXTRUDER..].iter_mut().flatten() {
+            *place *= factor;
+        }
+    }
+
+    /// G92 with words of extra axes.
+    pub fn set_here(&mut self, block: &Block<'_>) {
+        for (place, letter) in self.places.iter_mut().zip(Self::LETTERS) {
+            if let Some(value) = block.value(*letter) {
+                *place = Some(value);
+            }
+        }
+    }
+
+    fn mode(&self, index: usize) -> ExtraMode {
+        let relative = match self.extruder_relative {
+            Some(relative) if index == Self::EXTRUDER => {
+                if relative != self.extruder_relative_by_last_word {
+                    return ExtraMode::Disputed;
+                }
+                relative
+            }
+            _ => self.incremental,
+        };
+        if relative {
+            ExtraMode::Incremental
+        } else {
+            ExtraMode::Absolute
+        }
+    }
+
+    /// The extra axes' part in the move of a block, in the order of its words.
+    pub fn read(&mut self, block: &Block<'_>, incremental: bool) -> Vec<ExtraAxis> {
+        debug_assert_eq!(incremental, self.incremental);
+        let mut moved = Vec::new();
+        for word in block.words {
+            let Some(index) = Self::LETTERS
+                .iter()
+                .position(|letter| *letter == word.letter)
+            else {
+                continue;
+            };
+            let Some(value) = block.value(word.letter) else {
+                continue;
+            };
+            let mode = self.mode(index);
+            let start = self.places[index];
+            self.places[index] = match mode {
+                ExtraMode::Absolute => Some(value),
+                ExtraMode::Incremental => start.map(|start| start + value),
+                ExtraMode::Disputed => None,
+            };
+            moved.push(ExtraAxis {
+                letter: char::from(word.letter),
+                word: value,
+                start,
+                mode,
+            });
+        }
+        moved
+    }
+}

@@ -1,0 +1,672 @@
+//! Where the tool goes: the second stage of reading.
+
+use nalgebra::Vector3;
+
+use crate::error::ProgramError;
+use crate::path::curve::Curve;
+use crate::path::moves::{
+    Change, CoordinateWords, Event, ExtraMode, Knowledge, Motion, Move, MoveKind, Path, Warning,
+};
+use crate::path::position_offset::{OffsetChange, PositionOffset};
+use crate::reading::arc::{self, ArcFrame};
+use crate::reading::block::Block;
+use crate::reading::extra::ExtraAxes;
+use crate::reading::modes::Modes;
+use crate::reading::moment::{Placed, moment_of};
+use crate::reading::options::{BlockDelete, OtherAxes, ReadOptions};
+use crate::reading::repeated::Repeated;
+use crate::reading::tools::ToolWords;
+use crate::text::line::LineKind;
+use crate::text::program::Program;
+
+/// Coordinates beyond this are no machine's, in mm.
+const LARGEST_COORDINATE_MM: f64 = 1e6;
+
+const COORDINATES: [u8; 3] = *b"XYZ";
+
+/// Axes that change where the tool stands in the part, by way of a table, a head or second slides.
+const OTHER_AXES: &[u8; 6] = b"ABCUVW";
+
+/// Interprets the motions of a program.
+///
+/// Modal state before the first word that sets it: absolute coordinates (G90), incremental arc
+/// centres (G91.1), plane XY (G17), feed per minute (G94), the first work coordinate system (G54), no
+/// motion word. Units must be named. Once M82 or M83 was met they alone decide about E words, before
+/// that G90 and G91 do.
+///
+/// # Errors
+///
+/// The first block that is not followed, with its line, the reason and what to do; see
+/// [`crate::CODES`] for the codes.
+pub fn interpret(program: &Program, options: &ReadOptions) -> Result<Path, ProgramError> {
+    let mut interpreter = Interpreter::new(options);
+    for index in 0..program.lines().len() {
+        interpreter.run_line(program, index)?;
+    }
+    interpreter.finish(program)
+}
+
+/// Everything that is refused in a program, in the order of its lines, at most one fault a line; empty
+/// where [`Program::read`] and [`interpret`] take it.
+///
+/// A line that is refused is left out of what follows, so a later fault may be there only because of an
+/// earlier one.
+pub fn faults(bytes: impl Into<Vec<u8>>, options: &ReadOptions) -> Vec<ProgramError> {
+    let (program, mut found) = Program::read_with_faults(bytes.into());
+    let mut interpreter = Interpreter::new(options);
+    for index in 0..program.lines().len() {
+        if let Err(fault) = interpreter.run_line(&program, index) {
+            interpreter.modes.go_on_after_fault();
+            found.push(fault);
+        }
+    }
+    if found.is_empty() {
+        found.extend(interpreter.finish(&program).err());
+    }
+    // Of two faults of a line the first found is that of its reading.
+    found.sort_by_key(|fault| fault.line);
+    found.dedup_by_key(|fault| fault.line);
+    found
+}
+
+/// Of which axes the coordinates are shifted by an amount that is not in the program.
+///
+/// A first `G92 X0` says where the tool stands, and the program's coordinates count from there. When it
+/// is taken away they count from the machine's work offset again, and how far apart the two are only the
+/// machine knows. So it is with an offset from before the program that G92.3 brings back.
+#[derive(Default)]
+struct Shifts {
+    now: [bool; 3],
+    /// Without G92.
+    bare: [bool; 3],
+    /// After G92.3; `None` while that brings back an offset from before the program.
+    saved: Option<[bool; 3]>,
+    /// Line of the last change.
+    line: usize,
+}
+
+impl Shifts {
+    fn apply(&mut self, change: &OffsetChange, known: &[bool; 3], line: usize) {
+        self.line = line;
+        match change {
+            OffsetChange::Here {
+                coordinates_mm,
+                establishes,
+                ..
+            } => {
+                for axis in 0..3 {
+                    self.bare[axis] |= establishes[axis];
+                    self.now[axis] &= coordinates_mm[axis].is_none();
+                }
+                self.saved = Some(self.now);
+            }
+            OffsetChange::Clear => {
+                self.now = self.bare;
+                self.saved = Some(self.bare);
+            }
+            OffsetChange::Suspend => self.now = self.bare,
+            OffsetChange::Resume => {
+                self.now = self.saved.unwrap_or_else(|| {
+                    for axis in 0..3 {
+                        self.bare[axis] |= !known[axis];
+                    }
+                    *known
+                });
+            }
+        }
+    }
+}
+
+struct Interpreter<'o> {
+    options: &'o ReadOptions,
+    modes: Modes,
+    offset: PositionOffset,
+    shifts: Shifts,
+    position: Vector3<f64>,
+    known: [bool; 3],
+    ended: Option<usize>,
+    no_feed_warned: bool,
+    repeated: Repeated,
+    /// Work coordinate system of the first motion.
+    first_system: Option<usize>,
+    moves: Vec<Move>,
+    /// For each move: which axes are known before and after it.
+    knowledge: Vec<([bool; 3], [bool; 3])>,
+    events: Vec<Event>,
+    tools: ToolWords,
+    warnings: Vec<Warning>,
+}
+
+impl<'o> Interpreter<'o> {
+    fn new(options: &'o ReadOptions) -> Self {
+        Self {
+            options,
+            modes: Modes::new(options.units),
+            offset: PositionOffset::default(),
+            shifts: Shifts::default(),
+            position: options.start_position_mm.unwrap_or_default(),
+            known: [options.start_position_mm.is_some(); 3],
+            ended: None,
+            no_feed_warned: false,
+            repeated: Repeated::default(),
+            first_system: None,
+            moves: Vec::new(),
+            knowledge: Vec::new(),
+            events: Vec::new(),
+            tools: ToolWords::default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    fn warn(&mut self, line: usize, text: &str) {
+        self.warnings.push(Warning {
+            line,
+            text: text.to_owned(),
+        });
+    }
+
+    fn warn_block_delete(&mut self, line: usize) {
+        self.repeated.note(line, "blocks marked with / are taken as run; the output is right only with the machine's block delete switch off (--block-delete skip leaves them out)");
+    }
+
+    /// Two work coordinate systems in one program are at different places, or one would do; with no
+    /// offset for either, the places are not known.
+    fn warn_of_systems_without_offsets(&mut self, line: usize) {
+        let now = self.modes.work_offset;
+        let first = *self.first_system.get_or_insert(now);
+        let offsets = &self.options.work_offsets_mm;
+        if now != first && offsets[now] == offsets[first] {
+            self.repeated.note(line, "a second work coordinate system is used, but both have the same origin here: state where they are in the part (--work-offset, or work_offset_mm under [reading] in the job file), or these blocks are corrected for the wrong place");
+        }
+    }
+
+    fn run_line(&mut self, program: &Program, index: usize) -> Result<(), ProgramError> {
+        let line = &program.lines()[index];
+        let skipped = line.block_delete && self.options.block_delete == BlockDelete::Skip;
+        if line.kind == LineKind::AfterEnd {
+            self.warn_of_text_after_end(program, index);
+        }
+        if line.kind == LineKind::AfterEnd || program.words(line).is_empty() || skipped {
+            return Ok(());
+        }
+        let block = Block::of(program, index)?;
+        if line.block_delete {
+            self.warn_block_delete(block.line_number);
+        }
+        self.run(&block)
+    }
+
+    fn warn_of_text_after_end(&mut self, program: &Program, index: usize) {
+        let text = program.bytes()[program.content(&program.lines()[index])].trim_ascii_start();
+        let comment = text.starts_with(b"(") || text.starts_with(b";");
+        if !comment && text.iter().any(u8::is_ascii_alphanumeric) {
+            self.repeated.note(index + 1, "text follows the closing tape mark %: it is carried as it stands, and is taken to be for people");
+        }
+    }
+
+    fn run(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        if block.is_vendor() {
+            self.modes.extra.set_extruder_mode(block.codes.extruder);
+            return Ok(());
+        }
+        refuse_dwell_with_motion(block)?;
+        let has_axis_words = COORDINATES
+            .iter()
+            .chain(ExtraAxes::LETTERS)
+            .any(|letter| block.value(*letter).is_some());
+        if let Some(end) = self.ended
+            && (has_axis_words || block.codes.motion.is_some())
+        {
+            return Err(block.refuse(
+                None,
+                &format!("the block follows the program's end on line {end}: some controllers run on, some stop"),
+                "remove the blocks after M2 or M30, or the M2 or M30 before them",
+            ));
+        }
+        self.refuse_other_axes(block)?;
+        self.modes.set(block)?;
+        self.tools.note(block)?;
+        if block.codes.position_offset.is_some() {
+            self.set_position_offset(block, has_axis_words)?;
+        } else if has_axis_words || self.is_centre_only(block) {
+            self.refuse_parameters_of_calls(block)?;
+            self.read_move(block)?;
+        } else {
+            self.note_no_motion(block);
+        }
+        if block.codes.ends {
+            self.ended.get_or_insert(block.line_number);
+        }
+        Ok(())
+    }
+
+    /// `G2 I5` is a full circle without an axis word.
+    fn is_centre_only(&self, block: &Block<'_>) -> bool {
+        matches!(
+            self.modes.motion,
+            Some(Motion::Clockwise | Motion::CounterClockwise)
+        ) && b"IJKR".iter().any(|letter| block.value(*letter).is_some())
+    }
+
+    fn note_no_motion(&mut self, block: &Block<'_>) {
+        let line = block.line_number;
+        // A feed mode that is named again leaves the F in force, which in the output is that of the
+        // last piece and not the programmed one.
+        let lost = block.codes.feed_mode.is_some() && self.modes.feed.is_none();
+        if block.value(b'F').is_some() || lost {
+            self.events.push(Event {
+                line,
+                change: Change::Feed(self.modes.feed),
+            });
+        }
+        if let Some(motion) = block.codes.motion {
+            self.events.push(Event {
+                line,
+                change: Change::Motion(motion),
+            });
+        }
+    }
+
+    fn work_offset_mm(&self) -> Vector3<f64> {
+        self.options.work_offsets_mm[self.modes.work_offset]
+    }
+
+    fn set_position_offset(
+        &mut self,
+        block: &Block<'_>,
+        has_axis_words: bool,
+    ) -> Result<(), ProgramError> {
+        if block.codes.motion.is_some() {
+            return Err(block.refuse(
+                None,
+                "G92 and a motion word stand in one block",
+                "write them in two blocks",
+            ));
+        }
+        let change = match block.codes.position_offset {
+            Some(920) => {
+                if !has_axis_words {
+                    return Err(block.refuse(
+                        None,
+                        "G92 without an axis is an error to some controllers and means all axes to others",
+                        "write each axis with its coordinate",
+                    ));
+                }
+                self.here(block)?
+            }
+            _ if has_axis_words => {
+                return Err(block.refuse(
+                    None,
+                    "an axis word stands in a block that clears, suspends or resumes G92",
+                    "write the motion as a block of its own",
+                ));
+            }
+            Some(921) => OffsetChange::Clear,
+            Some(922) => OffsetChange::Suspend,
+            _ => OffsetChange::Resume,
+        };
+        self.offset.apply(&change, &self.position);
+        self.shifts.apply(&change, &self.known, block.line_number);
+        self.note_no_motion(block);
+        self.events.push(Event {
+            line: block.line_number,
+            change: Change::Offset(change),
+        });
+        Ok(())
+    }
+
+    fn here(&mut self, block: &Block<'_>) -> Result<OffsetChange, ProgramError> {
+        let mut coordinates_mm = [None; 3];
+        let mut establishes = [false; 3];
+        let work_offset_mm = self.work_offset_mm();
+        for axis in 0..3 {
+            let Some(value) = block.value(COORDINATES[axis]) else {
+                continue;
+            };
+            let value_mm = value * self.modes.mm_per_unit(block)?;
+            coordinates_mm[axis] = Some(value_mm);
+            if !self.known[axis] {
+                // The user tells where the tool stands: the coordinate is its place in the part.
+                establishes[axis] = true;
+                self.known[axis] = true;
+                self.position[axis] = value_mm + work_offset_mm[axis];
+            }
+        }
+        self.modes.extra.set_here(block);
+        Ok(OffsetChange::Here {
+            coordinates_mm,
+            work_offset_mm,
+            establishes,
+        })
+    }
+
+    /// Words that mean a corner rounding or a call on some controllers.
+    fn refuse_parameters_of_calls(&self, block: &Block<'_>) -> Result<(), ProgramError> {
+        if block
+            .words
+            .iter()
+            .any(|word| word.letter == b'M' && word.value >= 100.0)
+            && block.codes.motion.is_none()
+        {
+            return Err(block.refuse(
+                None,
+                "an axis word beside this M code is its parameter to printers and a motion to mills",
+                "write the motion as a block of its own, with G0 or G1",
+            ));
+        }
+        if matches!(self.modes.motion, Some(Motion::Rapid | Motion::Feed)) {
+            for letter in *b"IJKRP" {
+                if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
+                    return Err(block.refuse(
+                        Some(word),
+                        &format!(
+                            "{} stands in a straight move: some controllers stop, some round a corner",
+                            char::from(letter)
+                        ),
+                        "remove the word, or write the arc with G2 or G3",
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A block with motion may be divided: each of its codes must have a piece to stand in.
+    fn check_codes_beside_motion(
+        &mut self,
+        block: &Block<'_>,
+        kind: MoveKind,
+    ) -> Result<(), ProgramError> {
+        for word in block.words.iter().filter(|word| word.letter == b'M') {
+            let tenths = word.tenths();
+            let Some(moment) = moment_of(tenths) else {
+                return Err(block.refuse(
+                    Some(word),
+                    &format!(
+                        "M{} stands beside a motion, and whether it acts before or after it is not known here",
+                        word.value
+                    ),
+                    "write it in a block of its own, before or after the motion",
+                ));
+            };
+            if moment.code == 6 && self.options.tools.is_some() {
+                return Err(block.refuse(
+                    Some(word),
+                    "the tool is changed beside a motion: which of the two tools makes the motion depends on the controller",
+                    "write M6 in a block of its own, before or after the motion",
+                ));
+            }
+            if kind != MoveKind::Feed {
+                continue;
+            }
+            if moment.placed == Placed::Refused {
+                return Err(block.refuse(
+                    Some(word),
+                    &format!(
+                        "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it",
+                        moment.code, moment.meaning
+                    ),
+                    "write it in a block of its own, before or after the motion",
+                ));
+            }
+            if moment.is_disputed() {
+                self.repeated.note(block.line_number, &format!(
+                    "M{} ({}) stands beside a feed motion: some controllers execute it before the motion, some after it; where the block is divided it is written in the last piece. A block of its own says which is meant",
+                    moment.code, moment.meaning
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn read_move(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let motion = match self.modes.motion {
+            Some(Motion::Off) | None => {
+                return Err(block.refuse(
+                    None,
+                    "axis words without a motion word before them: what they do depends on the machine",
+                    "write G0, G1, G2 or G3 before the first motion (and after G80)",
+                ));
+            }
+            Some(motion) => motion,
+        };
+        self.warn_of_systems_without_offsets(block.line_number);
+        if let Some(axis) = (0..3).find(|axis| self.shifts.now[*axis]) {
+            return Err(block.refuse(
+                None,
+                &format!(
+                    "line {} shifted the {} coordinates by an offset that is not in the program",
+                    self.shifts.line,
+                    char::from(COORDINATES[axis])
+                ),
+                "begin with G92.1 and state where the tool is with G0 before the first G92, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+            ));
+        }
+        let mm_per_unit = self.modes.mm_per_unit(block)?;
+        let kind = if motion == Motion::Rapid {
+            MoveKind::Rapid
+        } else {
+            MoveKind::Feed
+        };
+        self.check_codes_beside_motion(block, kind)?;
+        self.modes.check_feed(block, kind)?;
+        if kind == MoveKind::Feed && self.modes.feed.is_none() && !self.no_feed_warned {
+            self.no_feed_warned = true;
+            self.warn(block.line_number, "the program feeds before it has given an F: the speed is the machine's, and no F is written until the program gives one");
+        }
+
+        let start = self.position;
+        let known_before = self.known;
+        let end = self.end_of_move(block, kind, mm_per_unit)?;
+        self.modes.check_tool_length(block, motion)?;
+        let curve = match motion {
+            Motion::Clockwise | Motion::CounterClockwise => {
+                if let Some(axis) = (0..3).find(|axis| {
+                    !known_before[*axis]
+                        && (self.known[*axis] || self.modes.plane[..2].contains(axis))
+                }) {
+                    return Err(block.refuse(
+                        None,
+                        &format!(
+                            "the arc starts at a place whose {} the program has not stated",
+                            char::from(COORDINATES[axis])
+                        ),
+                        "move there with G0 first, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+                    ));
+                }
+                Curve::Arc(arc::read(
+                    block,
+                    &ArcFrame {
+                        start,
+                        end,
+                        axes: self.modes.plane,
+                        clockwise: motion == Motion::Clockwise,
+                        absolute_centre: self.modes.absolute_centre,
+                        mm_per_unit,
+                        offset_mm: self.work_offset_mm() + self.offset.active_mm,
+                        tolerance_mm: self.options.arc_tolerance_mm,
+                    },
+                )?)
+            }
+            _ => Curve::Line,
+        };
+        self.position = end;
+        let extra = self.modes.extra.read(block, self.modes.incremental);
+        self.knowledge.push((known_before, self.known));
+        self.moves.push(Move {
+            line: block.line_number,
+            kind,
+            curve,
+            start,
+            end,
+            extra,
+            feed: self.modes.feed,
+            known: Knowledge::Whole,
+            words: CoordinateWords {
+                mm_per_unit,
+                incremental: self.modes.incremental,
+                work_offset_mm: self.work_offset_mm(),
+            },
+        });
+        Ok(())
+    }
+
+    fn end_of_move(
+        &mut self,
+        block: &Block<'_>,
+        kind: MoveKind,
+        mm_per_unit: f64,
+    ) -> Result<Vector3<f64>, ProgramError> {
+        let mut end = self.position;
+        let offset = self.work_offset_mm() + self.offset.active_mm;
+        for axis in 0..3 {
+            let letter = COORDINATES[axis];
+            let Some(value) = block.value(letter) else {
+                continue;
+            };
+            let value_mm = value * mm_per_unit;
+            if self.modes.incremental {
+                if !self.known[axis] && kind == MoveKind::Feed {
+                    return Err(block.refuse(
+                        block.word(letter),
+                        &format!(
+                            "an incremental feed from a place whose {} the program has not stated",
+                            char::from(letter)
+                        ),
+                        "state the place with an absolute move or G92, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+                    ));
+                }
+                end[axis] += value_mm;
+            } else {
+                end[axis] = value_mm + offset[axis];
+                self.known[axis] = true;
+            }
+            if end[axis].abs() > LARGEST_COORDINATE_MM {
+                return Err(block.refuse(
+                    block.word(letter),
+                    &format!("{} would be at {:.0} mm", char::from(letter), end[axis]),
+                    "check the number and the units",
+                ));
+            }
+        }
+        Ok(end)
+    }
+
+    /// Words of axes that turn or shift the part or the head, of which there is no model here.
+    fn refuse_other_axes(&self, block: &Block<'_>) -> Result<(), ProgramError> {
+        if self.options.other_axes == OtherAxes::StandStill {
+            return Ok(());
+        }
+        for letter in *OTHER_AXES {
+            if let Some(word) = block.word(letter).filter(|_| block.value(letter).is_some()) {
+                return Err(block.refuse(
+                    Some(word),
+                    &format!(
+                        "axis {} changes where the tool stands in the part and in the machine, and there is no model of it",
+                        char::from(letter)
+                    ),
+                    "take the word out if the axis stands still, or say that it does: --axes-stand-still, or axes_stand_still = true under [reading]",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The user said that these axes stand still; the program may say otherwise.
+    fn warn_of_moved_axes(&mut self) {
+        for letter in OTHER_AXES.map(char::from) {
+            let words = || {
+                self.moves.iter().flat_map(|motion| {
+                    let own = motion.extra.iter().filter(|extra| extra.letter == letter);
+                    own.map(|extra| (motion.line, *extra))
+                })
+            };
+            let moved = words().find(|(_, extra)| match (extra.mode, extra.start) {
+                (ExtraMode::Incremental, _) => extra.word != 0.0,
+                (_, Some(start)) => extra.word != start,
+                (_, None) => false,
+            });
+            if let Some((line, extra)) = moved {
+                let from = match (extra.mode, extra.start) {
+                    (ExtraMode::Absolute, Some(start)) => format!("from {start} to {}", extra.word),
+                    _ => format!("by {}", extra.word),
+                };
+                self.warn(line, &format!("axis {letter} moves {from} though it is said to stand still: from here on the corrections are right only if that does not change where the tool stands in the part"));
+            } else if let Some((line, _)) = words().next() {
+                self.warn(
+                    line,
+                    &format!("axis {letter} is carried along and taken to stand still"),
+                );
+            }
+        }
+    }
+
+    fn finish(mut self, program: &Program) -> Result<Path, ProgramError> {
+        let stated = self.known;
+        let covers = |known: &[bool; 3]| (0..3).all(|axis| known[axis] || !stated[axis]);
+        for (motion, (before, after)) in self.moves.iter_mut().zip(&self.knowledge) {
+            motion.known = match (covers(before), covers(after)) {
+                (true, _) => Knowledge::Whole,
+                (false, true) => Knowledge::End,
+                (false, false) => Knowledge::Nothing,
+            };
+            if motion.known != Knowledge::Whole && motion.curve != Curve::Line {
+                let block = Block::of(program, motion.line - 1)?;
+                return Err(block.refuse(
+                    None,
+                    "the arc is made before the program has stated all axes it moves later",
+                    "state X, Y and Z before the first arc, or give the start position (--start-position-mm, or start_position_mm under [reading] in the job file)",
+                ));
+            }
+        }
+        let unknown = self
+            .moves
+            .iter()
+            .filter(|motion| motion.known == Knowledge::Nothing)
+            .count();
+        if let Some(first) = self
+            .moves
+            .first()
+            .filter(|_| unknown > 0)
+            .map(|motion| motion.line)
+        {
+            let (blocks, carried) = match unknown {
+                1 => ("1 block moves".to_owned(), "it is"),
+                _ => (format!("{unknown} blocks move"), "they are"),
+            };
+            self.warn(first, &format!("{blocks} before the program has stated where the tool is; {carried} carried unchanged (a start position changes this: --start-position-mm, or start_position_mm under [reading] in the job file)"));
+        }
+        self.warn_of_moved_axes();
+        self.warnings.extend(self.repeated.finish());
+        let mut path = Path {
+            moves: self.moves,
+            stated,
+            warnings: self.warnings,
+            tool_changes: Vec::new(),
+            events: self.events,
+        };
+        self.tools.finish(&mut path, program, self.options)?;
+        path.warnings.sort_by_key(|warning| warning.line);
+        Ok(path)
+    }
+}
+
+/// `G4 X2` dwells two seconds on some controllers; with P or a motion word beside it nobody can tell.
+fn refuse_dwell_with_motion(block: &Block<'_>) -> Result<(), ProgramError> {
+    let axis = |word: &&crate::text::line::Word| {
+        COORDINATES.contains(&word.letter) || ExtraAxes::LETTERS.contains(&word.letter)
+    };
+    let time_elsewhere = block
+        .words
+        .iter()
+        .any(|word| matches!(word.letter, b'P' | b'S'));
+    let axes = block.words.iter().filter(axis).count();
+    if block.codes.dwell && (block.codes.motion.is_some() || axes > usize::from(!time_elsewhere)) {
+        return Err(block.refuse(
+            None,
+            "a dwell and a motion stand in one block: the axis words may belong to either",
+            "write them in two blocks",
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,15 @@
+//! From words to the path: modes, codes, arcs, tools.
+//!
+//! Takes a program and what it does not say about itself; gives its path, or refuses a block with its line, the reason and
+//! what to do.
+
+pub(crate) mod arc;
+pub(crate) mod block;
+pub(crate) mod dialect;
+pub(crate) mod extra;
+pub(crate) mod interpret;
+pub(crate) mod modes;
+pub(crate) mod moment;
+pub(crate) mod options;
+pub(crate) mod repeated;
+pub(crate) mod tools;

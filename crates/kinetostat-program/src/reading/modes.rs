@@ -1,0 +1,226 @@
+//! The words that hold until others of their kind replace them.
+
+use crate::error::ProgramError;
+use crate::path::moves::{Feed, FeedMode, Motion, MoveKind};
+use crate::reading::block::Block;
+use crate::reading::extra::ExtraAxes;
+use crate::reading::options::Units;
+
+/// The modal state of the input.
+pub(crate) struct Modes {
+    pub motion: Option<Motion>,
+    pub incremental: bool,
+    /// G90.1: centre words are places.
+    pub absolute_centre: bool,
+    /// Axes of the plane and its normal.
+    pub plane: [usize; 3],
+    pub feed: Option<Feed>,
+    /// Index of the work coordinate system, 0 for G54.
+    pub work_offset: usize,
+    pub extra: ExtraAxes,
+    units: Option<Units>,
+    feed_mode: FeedMode,
+    /// The units changed after the F in force was given, or in its block.
+    feed_is_stale: bool,
+    tool_length_on: bool,
+    /// Line of a change of the tool length that no Z word has followed yet.
+    length_change: Option<usize>,
+}
+
+impl Modes {
+    pub fn new(units: Option<Units>) -> Self {
+        Self {
+            motion: None,
+            incremental: false,
+            absolute_centre: false,
+            plane: [0, 1, 2],
+            feed: None,
+            work_offset: 0,
+            extra: ExtraAxes::default(),
+            units,
+            feed_mode: FeedMode::PerMinute,
+            feed_is_stale: false,
+            tool_length_on: false,
+            length_change: None,
+        }
+    }
+
+    /// Takes over the modal words of a block, in the order in which controllers do.
+    pub fn set(&mut self, block: &Block<'_>) -> Result<(), ProgramError> {
+        let codes = &block.codes;
+        if let Some(code) = codes.feed_mode {
+            self.set_feed_mode(code);
+        }
+        let units_changed = codes.units.is_some_and(|code| self.set_units(code));
+        if let Some(value) = block.value(b'F') {
+            self.set_feed(block, value, units_changed)?;
+        }
+        match codes.plane {
+            Some(170) => self.plane = [0, 1, 2],
+            Some(180) => self.plane = [2, 0, 1],
+            Some(_) => self.plane = [1, 2, 0],
+            None => {}
+        }
+        if let Some(code) = codes.distance {
+            self.incremental = code == 910;
+            self.extra.set_distance_mode(self.incremental);
+        }
+        self.extra.set_extruder_mode(codes.extruder);
+        if let Some(code) = codes.arc_distance {
+            self.absolute_centre = code == 901;
+        }
+        if let Some(code) = codes.work_offset {
+            self.set_work_offset(block, code)?;
+        }
+        if let Some(code) = codes.tool_length {
+            self.set_tool_length(block.line_number, code);
+        }
+        if let Some(motion) = codes.motion {
+            self.motion = Some(motion);
+        }
+        Ok(())
+    }
+
+    fn set_feed_mode(&mut self, code: u32) {
+        let mode = match code {
+            930 => FeedMode::InverseTime,
+            940 => FeedMode::PerMinute,
+            _ => FeedMode::PerRevolution,
+        };
+        if mode != self.feed_mode {
+            // An F of another mode is another quantity: controllers want a new one.
+            self.feed = None;
+        }
+        self.feed_mode = mode;
+    }
+
+    /// Whether other units were in force before.
+    fn set_units(&mut self, code: u32) -> bool {
+        let units = match code {
+            200 => Units::Inches,
+            _ => Units::Millimetres,
+        };
+        let before = self.units.replace(units).filter(|before| *before != units);
+        if let Some(before) = before {
+            self.feed_is_stale = self.feed.is_some();
+            self.extra
+                .change_units(before.mm_per_unit() / units.mm_per_unit());
+        }
+        before.is_some()
+    }
+
+    fn set_feed(
+        &mut self,
+        block: &Block<'_>,
+        value: f64,
+        units_changed: bool,
+    ) -> Result<(), ProgramError> {
+        if value <= 0.0 {
+            return Err(block.refuse(
+                block.word(b'F'),
+                &format!("a feed of {value} is no feed"),
+                "write a feed above zero",
+            ));
+        }
+        let scale = match self.feed_mode {
+            FeedMode::InverseTime => 1.0,
+            // A program may name F before its units; where none are named the first move is refused.
+            _ => self.units.map_or(1.0, Units::mm_per_unit),
+        };
+        // Beside a change of the units LinuxCNC reads F in those before, grbl in the new ones.
+        self.feed_is_stale =
+            self.feed_mode != FeedMode::InverseTime && (self.units.is_none() || units_changed);
+        self.feed = Some(Feed {
+            mode: self.feed_mode,
+            value: value * scale,
+        });
+        Ok(())
+    }
+
+    fn set_work_offset(&mut self, block: &Block<'_>, code: u32) -> Result<(), ProgramError> {
+        self.work_offset = match code {
+            540..=590 if code.is_multiple_of(10) && block.value(b'P').is_none() => {
+                (code as usize - 540) / 10
+            }
+            591..=593 => code as usize - 591 + 6,
+            _ => {
+                return Err(block.refuse(
+                    block.word(b'P'),
+                    "an extended work coordinate system is not known here",
+                    "use G54 to G59.3",
+                ));
+            }
+        };
+        Ok(())
+    }
+
+    fn set_tool_length(&mut self, line: usize, code: u32) {
+        let on = code == 430;
+        // Cancelling what was never set is a habit of the first block and changes nothing.
+        if on || self.tool_length_on {
+            self.length_change = Some(line);
+        }
+        self.tool_length_on = on;
+    }
+
+    /// Faults that would be found again in every block that follows are reported once.
+    pub fn go_on_after_fault(&mut self) {
+        self.units.get_or_insert(Units::Millimetres);
+        self.motion.get_or_insert(Motion::Feed);
+        self.feed_is_stale = false;
+        self.length_change = None;
+    }
+
+    /// Millimetres in one unit; a motion needs it.
+    pub fn mm_per_unit(&self, block: &Block<'_>) -> Result<f64, ProgramError> {
+        self.units.map(Units::mm_per_unit).ok_or_else(|| {
+            block.refuse(
+                None,
+                "the program moves before it names its units",
+                "begin it with G21 (mm) or G20 (inch), or give the units (--units, or units under [reading] in the job file)",
+            )
+        })
+    }
+
+    /// Whether the F in force says how fast the block is to be.
+    pub fn check_feed(&self, block: &Block<'_>, kind: MoveKind) -> Result<(), ProgramError> {
+        if kind == MoveKind::Rapid {
+            return Ok(());
+        }
+        if self.feed_mode == FeedMode::InverseTime && block.value(b'F').is_none() {
+            return Err(block.refuse(
+                None,
+                "with G93 (inverse time) every feed block needs its own F",
+                "write F into the block",
+            ));
+        }
+        if self.feed_is_stale {
+            return Err(block.refuse(
+                None,
+                "the units were named after the F in force, or changed in its block: its value is read differently by controllers",
+                "write F again in a block after G20 or G21",
+            ));
+        }
+        Ok(())
+    }
+
+    /// After G43 and G49 the tool point is at another Z than before, unknown until a Z word.
+    pub fn check_tool_length(
+        &mut self,
+        block: &Block<'_>,
+        motion: Motion,
+    ) -> Result<(), ProgramError> {
+        let Some(line) = self.length_change else {
+            return Ok(());
+        };
+        if motion == Motion::Rapid && !self.incremental && block.value(b'Z').is_some() {
+            self.length_change = None;
+            return Ok(());
+        }
+        Err(block.refuse(
+            None,
+            &format!("line {line} changed the tool length, so the height of the tool point is unknown here"),
+            "follow G43 and G49 by a rapid (G0) with an absolute Z word, in the same or the next motion block",
+        ))
+    }
+}

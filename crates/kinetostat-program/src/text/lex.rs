@@ -1,0 +1,135 @@
+//! The tokens of one line: words, comments, blanks, and whatever else stands there.
+//!
+//! The lexer never fails: a byte that begins nothing known becomes [`Token::Other`], and
+//! [`crate::text::program`] decides with the whole line in view whether that is a harmless vendor word or
+//! a reason to refuse. Spans are byte ranges within the line, so that nothing is ever lost.
+
+use std::ops::Range;
+
+use winnow::ascii::{digit0, digit1};
+use winnow::combinator::{alt, opt};
+use winnow::prelude::*;
+use winnow::stream::LocatingSlice;
+use winnow::token::{any, one_of, take_till, take_while};
+
+type Input<'i> = LocatingSlice<&'i [u8]>;
+
+/// One token of a line.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Token {
+    /// Spaces and tabs.
+    Blank,
+    /// `( ... )`, or `( ...` up to the end of the line when nothing closes it.
+    Parenthesis { closed: bool },
+    /// `; ...` up to the end of the line.
+    Semicolon,
+    /// `" ... "`, an argument of some vendors' commands.
+    Quoted,
+    /// A letter with its number.
+    Word {
+        letter: u8,
+        number: Range<usize>,
+        value: f64,
+    },
+    /// A letter that no number follows.
+    Letter(u8),
+    /// A byte that begins none of the above.
+    Other(u8),
+}
+
+/// A token and the bytes of the line it covers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Spanned {
+    pub token: Token,
+    pub span: Range<usize>,
+}
+
+/// Appends the tokens of `line` (without its line ending) to `tokens`.
+pub(crate) fn tokens_of(line: &[u8], tokens: &mut Vec<Spanned>) {
+    let mut input = LocatingSlice::new(line);
+    // `token` takes at least one byte and matches every byte, so the loop ends with the line.
+    while let Ok((token, span)) = token.with_span().parse_next(&mut input) {
+        tokens.push(Spanned { token, span });
+    }
+}
+
+fn token(input: &mut Input<'_>) -> Result<Token, winnow::error::EmptyError> {
+    alt((
+        blank.value(Token::Blank),
+        word,
+        letter.map(|letter| Token::Letter(letter.to_ascii_uppercase())),
+        (b'(', take_till(0.., b')'), opt(b')')).map(|(_, _, end)| Token::Parenthesis {
+            closed: end.is_some(),
+        }),
+        (b';', take_till(0.., |_: u8| false)).value(Token::Semicolon),
+        (b'"', take_till(0.., b'"'), b'"').value(Token::Quoted),
+        any.map(Token::Other),
+    ))
+    .parse_next(input)
+}
+
+fn blank<'i>(input: &mut Input<'i>) -> Result<&'i [u8], winnow::error::EmptyError> {
+    take_while(1.., (b' ', b'\t')).parse_next(input)
+}
+
+fn letter(input: &mut Input<'_>) -> Result<u8, winnow::error::EmptyError> {
+    one_of(|byte: u8| byte.is_ascii_alphabetic()).parse_next(input)
+}
+
+/// A letter and its number; blanks between the two are allowed, as controllers do.
+fn word(input: &mut Input<'_>) -> Result<Token, winnow::error::EmptyError> {
+    (letter, opt(blank), number.with_span())
+        .map(|(letter, _, (value, number))| Token::Word {
+            letter: letter.to_ascii_uppercase(),
+            number,
+            value,
+        })
+        .parse_next(input)
+}
+
+/// A fixed-point number: sign, digits, point; no exponent.
+fn number(input: &mut Input<'_>) -> Result<f64, winnow::error::EmptyError> {
+    (
+        opt(one_of([b'+', b'-'])),
+        alt(((digit1, opt((b'.', digit0))).void(), (b'.', digit1).void())),
+    )
+        .take()
+        .verify_map(|digits: &[u8]| std::str::from_utf8(digits).ok()?.parse().ok())
+        .parse_next(input)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(line: &str) -> Vec<(char, f64)> {
+        let mut tokens = Vec::new();
+        tokens_of(line.as_bytes(), &mut tokens);
+        let end = tokens.iter().fold(0, |end, token| {
+            assert_eq!(token.span.start, end, "no byte is skipped in {line:?}");
+            token.span.end
+        });
+        assert_eq!(end, line.len(), "no byte is lost in {line:?}");
+        tokens
+            .into_iter()
+            .filter_map(|token| match token.token {
+                Token::Word { letter, value, .. } => Some((char::from(letter), value)),
+                _ => None,
+            })
+            .collect()
+    }
+
+    #[test]
+    fn words_need_no_spaces_and_numbers_need_no_leading_digit() {
+        let expected = vec![
+            ('N', 10.0),
+            ('G', 1.0),
+            ('X', -0.5),
+            ('Y', 3.0),
+            ('F', 1200.0),
+        ];
+        assert_eq!(words("n10g1x-.5Y+3.F1200"), expected);
+        assert_eq!(words("N10 G 1 X -.5\tY+3. F1200 ; X9"), expected);
+        assert_eq!(words("N10 (X7) G1 X-.5(Y8)Y3 F1200 (open"), expected);
+    }
+}

@@ -1,0 +1,54 @@
+//! Lines and words of a program, by their places in its bytes.
+
+use std::ops::Range;
+
+/// What a line is to the interpreter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LineKind {
+    /// A block of words, or nothing but comments and blanks.
+    Words,
+    /// A tape mark `%`.
+    Tape,
+    /// A vendor's M command with arguments of its own; only its N and M words are kept as words.
+    Vendor,
+    /// Text after the closing tape mark, which no controller runs.
+    AfterEnd,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Line {
+    /// First byte, after a byte order mark if there is one.
+    pub(crate) start: u32,
+    /// End without the line ending.
+    pub(crate) end: u32,
+    /// End with the line ending.
+    pub(crate) next: u32,
+    pub(crate) words: Range<u32>,
+    pub(crate) kind: LineKind,
+    pub(crate) block_delete: bool,
+}
+
+/// A letter and its number.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Word {
+    /// Upper case.
+    pub letter: u8,
+    /// First byte of the letter in the file.
+    pub start: u32,
+    /// First byte of the number in the file.
+    pub number: u32,
+    /// End of the number in the file.
+    pub end: u32,
+    pub value: f64,
+}
+
+impl Word {
+    pub(crate) fn span(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
+    /// The number of a code in tenths: M5 is 50. Codes that were read have no finer digits.
+    pub(crate) fn tenths(&self) -> u32 {
+        (self.value * 10.0).round() as u32
+    }
+}

@@ -1,0 +1,391 @@
+//! A program as it was written: every byte, divided into lines and words.
+
+use std::ops::Range;
+
+use crate::error::{ProgramError, excerpt};
+use crate::text::after_end::acting_word;
+use crate::text::lex::{Spanned, Token, tokens_of};
+use crate::text::line::{Line, LineKind, Word};
+use crate::text::syntax;
+
+/// First words of the comment that marks a program as compensated.
+///
+/// [`Program::is_marked_compensated`] looks for them at the start of any comment.
+pub const COMPENSATED_MARK: &str = "kinetostat: compensated program";
+
+/// Longest line that is read, in bytes without the line ending. Controllers take far less (about
+/// 250); a longer line is no G-code but another kind of file.
+pub const MAX_READ_LINE_BYTES: usize = 65_536;
+
+/// A G-code program, kept byte for byte.
+///
+/// The syntax is separate from its meaning: [`Program::read`] finds lines and words and refuses what
+/// this crate cannot follow at all (subroutines, variables, control structure, files that are no
+/// text); [`crate::interpret`] says where the tool goes.
+#[derive(Debug, Clone)]
+pub struct Program {
+    bytes: Vec<u8>,
+    lines: Vec<Line>,
+    words: Vec<Word>,
+    mark_line: Option<usize>,
+    semicolon_comments: bool,
+}
+
+impl Program {
+    /// Divides a file into lines and words.
+    ///
+    /// # Errors
+    ///
+    /// The first construct that cannot be followed, with its line: bytes that are no text, lines
+    /// longer than [`MAX_READ_LINE_BYTES`], numbers that are none, variables and expressions, control
+    /// structure, subroutines and calls, checksums.
+    pub fn read(bytes: impl Into<Vec<u8>>) -> Result<Program, ProgramError> {
+        let (program, faults) = Self::read_with_faults(bytes.into());
+        match faults.into_iter().next() {
+            Some(first) => Err(first),
+            None => Ok(program),
+        }
+    }
+
+    /// What can be read, and every line that cannot, in order. Of a refused line the words before the
+    /// place of the fault are kept, so that its modes are not missed in the lines that follow.
+    pub(crate) fn read_with_faults(bytes: Vec<u8>) -> (Program, Vec<ProgramError>) {
+        let mut reader = Reader::new(bytes);
+        let faults = reader.read();
+        (reader.program, faults)
+    }
+
+    /// The program, byte for byte as it was read.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Number of lines; a last line without a line ending counts, an empty rest does not.
+    pub fn line_count(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Number of blocks: lines with at least one word.
+    pub fn block_count(&self) -> usize {
+        self.lines
+            .iter()
+            .filter(|line| !line.words.is_empty())
+            .count()
+    }
+
+    /// Text of a line without its line ending; `line` is counted from 1. `None` beyond the end.
+    pub fn line_bytes(&self, line: usize) -> Option<&[u8]> {
+        let line = self.lines.get(line.checked_sub(1)?)?;
+        Some(&self.bytes[line.start as usize..line.end as usize])
+    }
+
+    /// Whether a comment marks the program as one that was written with corrections.
+    pub fn is_marked_compensated(&self) -> bool {
+        self.mark_line.is_some()
+    }
+
+    /// Line of that mark, counted from 1.
+    pub(crate) fn mark_line(&self) -> Option<usize> {
+        self.mark_line
+    }
+
+    /// Whether the file has comments that begin with `;`.
+    pub(crate) fn uses_semicolons(&self) -> bool {
+        self.semicolon_comments
+    }
+
+    pub(crate) fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+
+    pub(crate) fn words(&self, line: &Line) -> &[Word] {
+        &self.words[line.words.start as usize..line.words.end as usize]
+    }
+
+    /// The line without its line ending.
+    pub(crate) fn content(&self, line: &Line) -> Range<usize> {
+        line.start as usize..line.end as usize
+    }
+
+    /// The line ending, empty at the end of a file that has none there.
+    pub(crate) fn ending(&self, line: &Line) -> &[u8] {
+        &self.bytes[line.end as usize..line.next as usize]
+    }
+
+    /// The line ending that the first line has; what inserted lines use where theirs is open.
+    pub(crate) fn usual_ending(&self) -> &[u8] {
+        match self.lines.first() {
+            Some(line) if line.end < line.next => self.ending(line),
+            _ => b"\n",
+        }
+    }
+
+    /// Number of bytes of the byte order mark.
+    pub(crate) fn first_byte(&self) -> usize {
+        byte_order_mark(&self.bytes)
+    }
+}
+
+fn byte_order_mark(bytes: &[u8]) -> usize {
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        3
+    } else {
+        0
+    }
+}
+
+struct Reader {
+    program: Program,
+    tokens: Vec<Spanned>,
+    tape_marks: usize,
+    /// Line of the closing tape mark.
+    closed: usize,
+    blocks: usize,
+}
+
+impl Reader {
+    fn new(bytes: Vec<u8>) -> Self {
+        Self {
+            program: Program {
+                bytes,
+                lines: Vec::new(),
+                words: Vec::new(),
+                mark_line: None,
+                semicolon_comments: false,
+            },
+            tokens: Vec::new(),
+            tape_marks: 0,
+            closed: 0,
+            blocks: 0,
+        }
+    }
+
+    fn read(&mut self) -> Vec<ProgramError> {
+        let mut faults = Vec::new();
+        if let Err(fault) = self.check_size() {
+            return vec![fault];
+        }
+        let mut start = byte_order_mark(&self.program.bytes);
+        while start < self.program.bytes.len() {
+            let rest = &self.program.bytes[start..];
+            let length = rest
+                .iter()
+                .position(|byte| matches!(byte, b'\n' | b'\r'))
+                .unwrap_or(rest.len());
+            let ending = match &rest[length..] {
+                [b'\r', b'\n', ..] => 2,
+                [] => 0,
+                _ => 1,
+            };
+            let content = start..start + length;
+            faults.extend(self.read_line(content, start + length + ending));
+            start += length + ending;
+        }
+        faults
+    }
+
+    fn check_size(&self) -> Result<(), ProgramError> {
+        let bytes = &self.program.bytes;
+        let problem = if bytes.len() == byte_order_mark(bytes) {
+            (
+                "the file is empty",
+                "give a program with at least one block",
+            )
+        } else if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+            ("the file is UTF-16 text", "save it as ASCII or UTF-8")
+        } else if u32::try_from(bytes.len()).is_err() {
+            ("the file is larger than 4 GiB", "divide the program")
+        } else {
+            return Ok(());
+        };
+        Err(ProgramError {
+            line: 1,
+            span: 0..bytes.len().min(2),
+            found: "first bytes of the file".to_owned(),
+            reason: problem.0.to_owned(),
+            remedy: problem.1.to_owned(),
+        })
+    }
+
+    fn read_line(&mut self, content: Range<usize>, next: usize) -> Option<ProgramError> {
+        let number = self.program.lines.len() + 1;
+        let first_word = self.program.words.len();
+        let mut fault = None;
+        let (kind, block_delete) = if self.tape_marks == 2 {
+            fault = self.block_after_end(number, &content);
+            (LineKind::AfterEnd, false)
+        } else {
+            let mut tokens = std::mem::take(&mut self.tokens);
+            tokens.clear();
+            let result = self.read_tokens(number, content.clone(), &mut tokens);
+            let kept = result.unwrap_or_else(|found| {
+                let before = tokens
+                    .iter()
+                    .take_while(|token| content.start + token.span.end <= found.span.start);
+                self.keep_words(&content, before);
+                fault = Some(found);
+                (LineKind::Words, false)
+            });
+            self.tokens = tokens;
+            kept
+        };
+        self.program.lines.push(Line {
+            start: content.start as u32,
+            end: content.end as u32,
+            next: next as u32,
+            words: first_word as u32..self.program.words.len() as u32,
+            kind,
+            block_delete,
+        });
+        fault
+    }
+
+    /// The fault of a line after the closing tape mark that a controller might run.
+    fn block_after_end(&mut self, number: usize, content: &Range<usize>) -> Option<ProgramError> {
+        let text = &self.program.bytes[content.clone()];
+        let span = acting_word(text, &mut self.tokens)?;
+        Some(ProgramError {
+            line: number,
+            span: content.start + span.start..content.start + span.end,
+            found: excerpt(text),
+            reason: format!(
+                "the block follows the closing tape mark % on line {}: some controllers run on, some stop",
+                self.closed
+            ),
+            remedy: "remove the blocks after %, or the % before them".to_owned(),
+        })
+    }
+
+    fn keep_words<'t>(
+        &mut self,
+        content: &Range<usize>,
+        tokens: impl IntoIterator<Item = &'t Spanned>,
+    ) {
+        for spanned in tokens {
+            if let Token::Word {
+                letter,
+                number,
+                value,
+            } = &spanned.token
+            {
+                self.program.words.push(Word {
+                    letter: *letter,
+                    start: (content.start + spanned.span.start) as u32,
+                    number: (content.start + number.start) as u32,
+                    end: (content.start + number.end) as u32,
+                    value: *value,
+                });
+            }
+        }
+    }
+
+    fn read_tokens(
+        &mut self,
+        number: usize,
+        content: Range<usize>,
+        tokens: &mut Vec<Spanned>,
+    ) -> Result<(LineKind, bool), ProgramError> {
+        let text = &self.program.bytes[content.clone()];
+        let refuse = |span: Range<usize>, reason: &str, remedy: &str| ProgramError {
+            line: number,
+            span: content.start + span.start..content.start + span.end,
+            found: excerpt(text),
+            reason: reason.to_owned(),
+            remedy: remedy.to_owned(),
+        };
+        if text.len() > MAX_READ_LINE_BYTES {
+            return Err(refuse(
+                0..text.len(),
+                &format!(
+                    "the line has {} bytes, at most {MAX_READ_LINE_BYTES} are read",
+                    text.len()
+                ),
+                "check that the file is a G-code program",
+            ));
+        }
+        if let Some(at) = text.iter().position(|byte| *byte < 0x20 && *byte != b'\t') {
+            return Err(refuse(
+                at..at + 1,
+                &format!(
+                    "byte 0x{:02x} is no text: the file is binary or damaged",
+                    text[at]
+                ),
+                "give the program as a text file",
+            ));
+        }
+        tokens_of(text, tokens);
+        let comments = Comments::of(text, tokens);
+        self.program.semicolon_comments |= comments.semicolon;
+        if comments.mark {
+            self.program.mark_line.get_or_insert(number);
+        }
+
+        let mut significant: Vec<&Spanned> = Vec::with_capacity(tokens.len());
+        for spanned in tokens.iter() {
+            match spanned.token {
+                Token::Parenthesis { closed: false } => {
+                    return Err(refuse(
+                        spanned.span.clone(),
+                        "a comment is opened with ( and not closed on its line",
+                        "close the comment with )",
+                    ));
+                }
+                Token::Blank | Token::Semicolon | Token::Parenthesis { .. } => {}
+                _ => significant.push(spanned),
+            }
+        }
+        let block_delete = matches!(significant.first(), Some(s) if s.token == Token::Other(b'/'));
+        if block_delete {
+            significant.remove(0);
+        }
+        if let Some(tape) = significant.iter().find(|s| s.token == Token::Other(b'%')) {
+            if significant.len() > 1 || block_delete {
+                return Err(refuse(
+                    tape.span.clone(),
+                    "a tape mark % stands among words",
+                    "put % on a line of its own",
+                ));
+            }
+            if self.tape_marks == 0 && self.blocks > 0 {
+                // A lone % at the end is a closing mark without its opening one.
+                self.tape_marks = 1;
+            }
+            self.tape_marks += 1;
+            self.closed = number;
+            return Ok((LineKind::Tape, false));
+        }
+        if significant.is_empty() {
+            return Ok((LineKind::Words, block_delete));
+        }
+        let checked = syntax::check(text, &significant, self.blocks == 0)
+            .map_err(|found| refuse(found.span, &found.reason, found.remedy))?;
+        self.blocks += 1;
+        self.keep_words(&content, significant[..checked.words].iter().copied());
+        Ok((checked.kind, block_delete))
+    }
+}
+
+/// What the comments of a line tell about the program.
+struct Comments {
+    semicolon: bool,
+    mark: bool,
+}
+
+impl Comments {
+    fn of(text: &[u8], tokens: &[Spanned]) -> Self {
+        let mut found = Self {
+            semicolon: false,
+            mark: false,
+        };
+        for spanned in tokens {
+            match spanned.token {
+                Token::Semicolon => found.semicolon = true,
+                Token::Parenthesis { .. } => {}
+                _ => continue,
+            }
+            let comment = text[spanned.span.start + 1..spanned.span.end].trim_ascii_start();
+            found.mark |= comment.starts_with(COMPENSATED_MARK.as_bytes());
+        }
+        found
+    }
+}

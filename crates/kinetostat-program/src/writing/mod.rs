@@ -1,0 +1,20 @@
+//! From a program, its path and a field of corrections to the corrected program.
+//!
+//! In the order of work: the path is divided where the correction bends or jumps ([`divide`], [`corner`], [`merge`]), pieces
+//! become blocks ([`emit`], [`block_writer`]), and every block is accounted for ([`accounting`]).
+
+pub(crate) mod accounting;
+pub(crate) mod block_writer;
+pub(crate) mod corner;
+pub(crate) mod departure;
+pub(crate) mod divide;
+pub(crate) mod emit;
+pub(crate) mod header;
+pub(crate) mod jump;
+pub(crate) mod merge;
+pub(crate) mod node;
+pub(crate) mod options;
+pub(crate) mod output_state;
+pub(crate) mod queries;
+pub(crate) mod write;
+pub(crate) mod written;

@@ -1,0 +1,63 @@
+//! Ends of pieces, with the corrections that hold before and after them.
+
+use nalgebra::Vector3;
+
+use crate::path::curve::NO_LENGTH_MM;
+use crate::path::moves::{Knowledge, Move, MoveKind};
+use crate::writing::options::WriteOptions;
+
+/// A point of a move between two pieces (or at its ends), with the correction that holds before it
+/// and the one that holds after it; they differ where the correction jumps inside the move.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Node {
+    pub move_index: usize,
+    pub share: f64,
+    pub before: Vector3<f64>,
+    pub after: Vector3<f64>,
+    /// Shares between which the correction jumps, where it jumps inside the move.
+    pub bracket: [f64; 2],
+    /// Index of the jump at this node, see [`crate::writing::divide::Division::jumps`].
+    pub jump: Option<usize>,
+    /// The end of an arc's chord: pieces on its two sides are never joined.
+    pub fixed: bool,
+}
+
+impl Node {
+    pub(crate) fn smooth(move_index: usize, share: f64, value: Vector3<f64>) -> Self {
+        Self {
+            move_index,
+            share,
+            before: value,
+            after: value,
+            bracket: [share; 2],
+            jump: None,
+            fixed: false,
+        }
+    }
+}
+
+/// Whether a move is divided at all: feed moves with a length and a known start.
+pub(crate) fn is_divided(motion: &Move) -> bool {
+    motion.kind == MoveKind::Feed
+        && motion.known == Knowledge::Whole
+        && motion.length_mm() > NO_LENGTH_MM
+}
+
+/// Whether only the end of a move is corrected: rapids, and moves from an unknown place.
+pub(crate) fn is_corrected_at_end(motion: &Move) -> bool {
+    motion.known == Knowledge::End
+        || motion.known == Knowledge::Whole && motion.kind == MoveKind::Rapid
+}
+
+/// Where the first piece of a move begins: at its own first correction, or at the last one before it
+/// where the jump between them is too small for a step and small enough to be part of the tolerance.
+pub(crate) fn taken_up(
+    before: Option<Vector3<f64>>,
+    first: Vector3<f64>,
+    options: &WriteOptions,
+) -> Vector3<f64> {
+    let smallest = options.smallest_step_mm().min(options.tolerance_mm);
+    before
+        .filter(|before| (before - first).norm() <= smallest)
+        .unwrap_or(first)
+}

@@ -1,0 +1,114 @@
+//! How a corrected program is written.
+
+use crate::error::WriteError;
+
+/// How a corrected program is written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WriteOptions {
+    /// How far straight pieces may leave the corrected curve because the correction varies, in mm.
+    /// Default 0.0005.
+    pub tolerance_mm: f64,
+    /// Smallest jump of the correction (between blocks, where the load turns with the direction of
+    /// motion, or inside one) that gets a step of its own, in mm; a smaller jump is taken up along the
+    /// piece that follows. `None`, the default, is `tolerance_mm`.
+    pub corner_step_mm: Option<f64>,
+    /// How far the chords of an arc may leave it, in mm. Default 0.0004.
+    pub chord_tolerance_mm: f64,
+    /// A stretch this short (in mm) over which the correction still varies by more than the
+    /// tolerance is taken for a jump: the tool steps there. Default 0.001.
+    pub smallest_piece_mm: f64,
+    /// How many times the programmed feed a piece may be written with, at least 1. More would be
+    /// needed to keep the speed along the part where the tool's own path is much longer; there the part
+    /// is cut more slowly instead. Default 1.2.
+    pub max_feed_factor: f64,
+    /// Length against the direction of motion from which on a step or a piece is warned of, in mm.
+    /// Default 0.05.
+    pub backward_step_mm: f64,
+    /// Digits after the point in millimetres, one more in inches; `None` is 4 (and 5).
+    pub decimals: Option<u8>,
+    /// Lines of text for the header below the mark; `None` writes no header (and no mark).
+    pub header: Option<Vec<String>>,
+    /// Longest line written, in bytes without its ending. Default 250.
+    pub max_line_bytes: usize,
+    /// Largest number of pieces in all. Default ten million.
+    pub max_pieces: usize,
+    /// Whether a program that is marked as compensated may be compensated once more.
+    pub again: bool,
+}
+
+impl Default for WriteOptions {
+    fn default() -> Self {
+        Self {
+            tolerance_mm: 0.0005,
+            corner_step_mm: None,
+            chord_tolerance_mm: 0.0004,
+            smallest_piece_mm: 0.001,
+            max_feed_factor: 1.2,
+            backward_step_mm: 0.05,
+            decimals: None,
+            header: Some(Vec::new()),
+            max_line_bytes: 250,
+            max_pieces: 10_000_000,
+            again: false,
+        }
+    }
+}
+
+impl WriteOptions {
+    pub(crate) fn check(&self) -> Result<(), WriteError> {
+        let lengths = [
+            ("tolerance_mm", self.tolerance_mm),
+            ("corner_step_mm", self.smallest_step_mm()),
+            ("chord_tolerance_mm", self.chord_tolerance_mm),
+            ("smallest_piece_mm", self.smallest_piece_mm),
+            ("backward_step_mm", self.backward_step_mm),
+        ];
+        for (name, value) in lengths {
+            if !(1e-6..=10.0).contains(&value) {
+                return Err(WriteError::Option {
+                    name,
+                    found: value.to_string(),
+                    allowed: "0.000001 to 10 mm are allowed",
+                });
+            }
+        }
+        if !(1.0..=1000.0).contains(&self.max_feed_factor) {
+            return Err(WriteError::Option {
+                name: "max_feed_factor",
+                found: self.max_feed_factor.to_string(),
+                allowed: "1 to 1000 are allowed",
+            });
+        }
+        if let Some(decimals) = self.decimals
+            && !(3..=8).contains(&decimals)
+        {
+            return Err(WriteError::Option {
+                name: "decimals",
+                found: decimals.to_string(),
+                allowed: "3 to 8 digits are allowed",
+            });
+        }
+        if !(80..=65_000).contains(&self.max_line_bytes) {
+            return Err(WriteError::Option {
+                name: "max_line_bytes",
+                found: self.max_line_bytes.to_string(),
+                allowed: "80 to 65000 bytes are allowed",
+            });
+        }
+        Ok(())
+    }
+
+    pub(crate) fn smallest_step_mm(&self) -> f64 {
+        self.corner_step_mm.unwrap_or(self.tolerance_mm)
+    }
+
+    /// Half of the last digit that is written, in mm: what is smaller cannot be written.
+    pub(crate) fn half_digit_mm(&self, mm_per_unit: f64) -> f64 {
+        0.5 * mm_per_unit * 10_f64.powi(-(self.decimals_for(mm_per_unit) as i32))
+    }
+
+    /// Digits after the point of coordinate words in a unit of this size.
+    pub(crate) fn decimals_for(&self, mm_per_unit: f64) -> usize {
+        usize::from(self.decimals.unwrap_or(4)) + usize::from(mm_per_unit > 1.0)
+    }
+}

@@ -1,0 +1,80 @@
+//! Questions to a field of corrections, in large batches, with a count of its evaluations.
+
+use nalgebra::Vector3;
+
+use crate::error::WriteError;
+use crate::field::request::{CorrectionField, Monitor, Request};
+use crate::path::moves::{Knowledge, Path};
+
+/// Asks the field and checks its answers.
+pub(crate) struct FieldQueries<'a> {
+    pub path: &'a Path,
+    pub field: &'a dyn CorrectionField,
+    pub(crate) monitor: &'a dyn Monitor,
+    pub(crate) answered: usize,
+    pub(crate) left_out_mm: f64,
+}
+
+impl FieldQueries<'_> {
+    pub fn request(&self, move_index: usize, share: f64) -> Request {
+        let motion = &self.path.moves[move_index];
+        let tangent = if motion.known == Knowledge::Whole {
+            motion.tangent(share)
+        } else {
+            None
+        };
+        Request {
+            move_index,
+            share,
+            position_mm: motion.point(share),
+            tangent,
+            turning: None,
+        }
+    }
+
+    pub fn ask(&mut self, requests: &[Request]) -> Result<Vec<Vector3<f64>>, WriteError> {
+        let mut values = Vec::with_capacity(requests.len());
+        let total = self.answered + requests.len();
+        for batch in requests.chunks(BATCH) {
+            if self.monitor.cancelled() {
+                return Err(WriteError::Cancelled);
+            }
+            let mut answers = self.field.corrections(batch).into_iter();
+            if self.monitor.cancelled() {
+                return Err(WriteError::Cancelled);
+            }
+            for request in batch {
+                let failure = |message: String| WriteError::Field {
+                    line: self.path.moves[request.move_index].line,
+                    share: request.share,
+                    position_mm: request.position_mm,
+                    message,
+                };
+                let mut value = match answers.next() {
+                    Some(Ok(value)) if value.iter().all(|number| number.is_finite()) => value,
+                    Some(Ok(_)) => {
+                        return Err(failure(
+                            "the field answered with no finite number".to_owned(),
+                        ));
+                    }
+                    Some(Err(reason)) => return Err(failure(reason.message)),
+                    None => return Err(failure("the field gave too few answers".to_owned())),
+                };
+                for axis in 0..3 {
+                    if !self.path.stated[axis] {
+                        self.left_out_mm = self.left_out_mm.max(value[axis].abs());
+                        value[axis] = 0.0;
+                    }
+                }
+                values.push(value);
+            }
+            self.answered += batch.len();
+            self.monitor
+                .progress(self.answered, total.max(self.answered));
+        }
+        Ok(values)
+    }
+}
+
+/// Points asked for in one call of the field.
+const BATCH: usize = 8192;

@@ -1,0 +1,55 @@
+//! From a program, its path and a field of corrections to the corrected program.
+
+use crate::error::WriteError;
+use crate::field::request::{CorrectionField, Monitor};
+use crate::path::moves::Path;
+use crate::text::program::Program;
+use crate::writing::divide::divide;
+use crate::writing::emit::Emitter;
+use crate::writing::options::WriteOptions;
+use crate::writing::written::Corrected;
+
+/// Writes the program whose commanded path is the path plus the field's correction.
+///
+/// Feed moves are divided so that straight pieces follow the corrected curve; rapids keep one piece
+/// and have their ends corrected. A feed move without length keeps the place of the move before. An
+/// arc on which no correction reaches the last digit stays an arc. Everything else is carried byte for
+/// byte, and a program of which nothing changes comes back as it is, without a header.
+///
+/// The speed along the part stays the programmed one: F of a piece is the programmed F times the
+/// length written over the length on the part, written where the F in force is off by more than
+/// 0.05 %, and never more than [`WriteOptions::max_feed_factor`] times the programmed F.
+///
+/// Call [`crate::verify_written`] before putting the result in place of a file.
+///
+/// # Errors
+///
+/// See [`WriteError`]; nothing is returned in part.
+pub fn write_corrected(
+    program: &Program,
+    path: &Path,
+    field: &dyn CorrectionField,
+    options: &WriteOptions,
+    monitor: &dyn Monitor,
+) -> Result<Corrected, WriteError> {
+    options.check()?;
+    if let Some(line) = program.mark_line()
+        && !options.again
+    {
+        return Err(WriteError::AlreadyCompensated { line });
+    }
+    let mut last = 0;
+    for motion in &path.moves {
+        let has_words = motion.line > last
+            && program
+                .lines()
+                .get(motion.line - 1)
+                .is_some_and(|line| !program.words(line).is_empty());
+        if !has_words {
+            return Err(WriteError::ForeignPath { line: motion.line });
+        }
+        last = motion.line;
+    }
+    let division = divide(path, field, options, monitor)?;
+    Emitter::new(program, path, options, division).emit()
+}

@@ -1,0 +1,47 @@
+//! A written program and its motions.
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::writing::accounting::Accounting;
+use crate::writing::jump::Turn;
+
+/// One motion of the written program: straight, but for arcs that are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Piece {
+    /// Index of the move it is a part of, in [`Path::moves`].
+    pub move_index: usize,
+    /// Share of the move's length at which it begins.
+    pub share_from: f64,
+    /// Share of the move's length at which it ends.
+    pub share_to: f64,
+    /// Where it begins as written (rounded), in mm, part frame.
+    pub commanded_from: Vector3<f64>,
+    /// Where it ends as written (rounded), in mm, part frame.
+    pub commanded_to: Vector3<f64>,
+    /// Line of the output, counted from 1.
+    pub output_line: usize,
+    /// A step at one place of the part, where the correction jumps.
+    pub corner_step: bool,
+    /// Which part of the load's turn such a step covers.
+    pub turn: Option<Turn>,
+    /// Whether the field's correction is in its end; otherwise the move is carried (its place is not
+    /// known) or has no length.
+    pub corrected: bool,
+    /// An arc that stays an arc, because no correction on it could be written.
+    pub kept_arc: bool,
+    /// Its feed was held to [`WriteOptions::max_feed_factor`] times the programmed one, so the part is
+    /// cut more slowly here than programmed.
+    pub feed_limited: bool,
+}
+
+/// A written program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Corrected {
+    /// The program, to be written to a file as it is.
+    pub bytes: Vec<u8>,
+    /// Its motions, in order.
+    pub pieces: Vec<Piece>,
+    /// What was done.
+    pub accounting: Accounting,
+}
