@@ -8,7 +8,7 @@ use crate::continuation::curve::{Branch, BranchEnd, CurveEquilibrium, Stop, join
 use crate::continuation::describe::{describe, tangent};
 use crate::continuation::family::Family;
 use crate::continuation::state_distance::{off_segment, wrapped};
-use crate::continuation::system::{BranchOf, CurveSystem, Point, Row, SpecialPoint};
+use crate::continuation::system::{BranchOf, CurveSystem, HalfBranch, Point, Row, SpecialPoint};
 use crate::continuation::tracer::Tracer;
 use crate::error::Result;
 
@@ -155,7 +155,7 @@ impl<S: CurveSystem> Tracer<'_, S> {
         direction: &DVector<f64>,
         branches: &[BranchOf<S>],
         branch: usize,
-    ) -> std::result::Result<Option<(Vec<Point<S>>, BranchEnd)>, NotFollowed> {
+    ) -> std::result::Result<Option<HalfBranch<S>>, NotFollowed> {
         let mut middle = special.point.clone();
         middle.tangent.clone_from(direction);
         let usual = 0.3 * self.longest(direction);
@@ -196,12 +196,7 @@ impl<S: CurveSystem> Tracer<'_, S> {
         Err(NotFollowed)
     }
 
-    fn run_from(
-        &mut self,
-        middle: Point<S>,
-        second: Point<S>,
-        branch: usize,
-    ) -> (Vec<Point<S>>, BranchEnd) {
+    fn run_from(&mut self, middle: Point<S>, second: Point<S>, branch: usize) -> HalfBranch<S> {
         let origin = middle.z.clone();
         let (rest, mut end) = self.run_watching(second, branch, &origin);
         let mut points = vec![middle.clone()];
@@ -226,7 +221,7 @@ impl<S: CurveSystem> Tracer<'_, S> {
         second: Point<S>,
         branch: usize,
         origin: &DVector<f64>,
-    ) -> (Vec<Point<S>>, BranchEnd) {
+    ) -> HalfBranch<S> {
         let home = origin.clone();
         let turns = self.system.full_turns();
         let first = second.z.clone();

@@ -26,6 +26,7 @@ use crate::continuation::describe::{describe, tangent};
 use crate::continuation::family::Family;
 use crate::continuation::null_directions::NullDirections;
 use crate::continuation::settings::CurveSettings;
+use crate::continuation::special_points::NO_RATE;
 use crate::continuation::system::{Corrected, CurveSystem, Row};
 use crate::continuation::tool_conditions::ToolConditions;
 use crate::continuation::tool_stability::{MachineStability, condensed_modes};
@@ -344,6 +345,15 @@ impl CurveSystem for MachineSystem<'_, '_, '_> {
         match self.conditions.by_motion {
             true => self.displacement_per_motion() * self.length,
             false => self.load,
+        }
+    }
+
+    /// Where the parameter stands still (a flat posture under a load), its conjugate grows.
+    fn points_forward(&self, t: &DVector<f64>) -> bool {
+        let rate = t[self.count()];
+        match rate.abs() > NO_RATE {
+            true => rate > 0.0,
+            false => self.conjugate_row(t).dot(t) >= 0.0,
         }
     }
 

@@ -19,7 +19,7 @@ use crate::continuation::system::{Corrected, CurveSystem, Point, SpecialPoint};
 use crate::continuation::tangent::Tangent;
 
 /// A rate below this is zero: rates are those of unit tangents in comparable units.
-const NO_RATE: f64 = 1e-9;
+pub(crate) const NO_RATE: f64 = 1e-9;
 
 /// Limit and bifurcation points between two neighbouring points of a curve; `None` if the test
 /// functions promise a bifurcation that is not there: the step jumped to another branch nearby.

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::chain::residual::Balance;
-use crate::continuation::curve::{Branch, CurveEquilibrium, CurvePoint, Special};
+use crate::continuation::curve::{Branch, BranchEnd, CurveEquilibrium, CurvePoint, Special};
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::family::Family;
 use crate::continuation::null_directions::NullDirections;
@@ -29,6 +29,9 @@ pub(crate) type SpecialPoint<S> = Special<<S as CurveSystem>::Equilibrium>;
 
 /// A branch of a system.
 pub(crate) type BranchOf<S> = Branch<<S as CurveSystem>::Equilibrium>;
+
+/// Points of a branch in one direction from its start, and why they end.
+pub(crate) type HalfBranch<S> = (Vec<Point<S>>, BranchEnd);
 
 /// What closes the system of equilibrium along a curve.
 pub(crate) enum Row<'v> {
@@ -60,6 +63,10 @@ pub(crate) trait CurveSystem {
     fn is_load(&self) -> bool;
     /// Parameter per unit of the last unknown.
     fn sigma(&self) -> f64;
+    /// Whether a direction is the one in which a curve starts: the parameter grows.
+    fn points_forward(&self, t: &DVector<f64>) -> bool {
+        t[self.count()] >= 0.0
+    }
     /// Full turn of every unknown, 0 where a full turn makes a difference.
     fn full_turns(&self) -> Vec<f64>;
 

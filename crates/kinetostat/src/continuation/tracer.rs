@@ -13,7 +13,7 @@ use crate::continuation::settings::CurveSettings;
 use crate::continuation::singular_point::start_direction;
 use crate::continuation::special_points;
 use crate::continuation::state_distance::distance;
-use crate::continuation::system::{Corrected, CurveSystem, Point, Row, SpecialPoint};
+use crate::continuation::system::{Corrected, CurveSystem, HalfBranch, Point, Row, SpecialPoint};
 use crate::continuation::tangent::Tangent;
 use crate::error::Result;
 
@@ -64,7 +64,6 @@ impl<'s, S: CurveSystem> Tracer<'s, S> {
     }
 
     pub(super) fn first_point(&mut self, z: &DVector<f64>) -> Result<Point<S>> {
-        let m = self.system.count();
         let mut z = z.clone();
         let mut best = None;
         // The start is refined across its own tangent, which exists where the parameter stands
@@ -85,7 +84,7 @@ impl<'s, S: CurveSystem> Tracer<'s, S> {
         let Some((c, mut t)) = best else {
             return Err(self.system.not_converged(&z, 12));
         };
-        if t[m] < 0.0 {
+        if !self.system.points_forward(&t) {
             t *= -1.0;
         }
         let family = self.family_at(&c, &t);
@@ -129,7 +128,7 @@ impl<'s, S: CurveSystem> Tracer<'s, S> {
         known: bool,
         branch: usize,
         stop: Stop<'_, S::Equilibrium>,
-    ) -> (Vec<Point<S>>, BranchEnd) {
+    ) -> HalfBranch<S> {
         let m = self.system.count();
         let mut points = vec![start];
         self.system.resume(&points[0]);
@@ -210,7 +209,7 @@ impl<'s, S: CurveSystem> Tracer<'s, S> {
         there: &Point<S>,
         unstable: &dyn Fn(&Point<S>) -> bool,
     ) -> Point<S> {
-        self.system.resume(&here);
+        self.system.resume(here);
         let (mut low, mut high, mut best) = (0.0, 1.0, there.clone());
         for _ in 0..50 {
             let share = 0.5 * (low + high);
