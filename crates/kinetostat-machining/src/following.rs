@@ -2,11 +2,12 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use kinetostat::batch::AlongPath;
+
 use crate::number::largest_angle;
 use crate::result::{PointResult, Summary};
 use crate::run::Task;
 use crate::solve::NEAR;
-use crate::together::JUMP;
 use crate::warning::{Warning, WarningCode};
 
 /// Rotation vector between two orientations, base axes, deg.
@@ -24,7 +25,7 @@ pub(crate) fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
         let way = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);
         let way = task.placement.to_metres(&way).norm();
         let turn = (Vector3::from(b) - Vector3::from(a)).norm().to_radians();
-        (way < near && turn > JUMP).then_some(pair[1].line)
+        (way < near && turn > AlongPath::JUMP).then_some(pair[1].line)
     })
 }
 

@@ -22,7 +22,6 @@ mod run;
 mod sites;
 mod solve;
 mod thin;
-mod together;
 mod tool;
 mod verdict;
 mod warning;

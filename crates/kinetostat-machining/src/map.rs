@@ -1,7 +1,7 @@
 //! Stiffness on a grid of tool positions, and under a load deflection and stability too: many places
 //! at once, in constant memory.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Found, Table};
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness};
 use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, pose_residual};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -133,7 +133,7 @@ pub struct MapPlace {
 
 /// Below this relative pivot the rank of a stiffness has to be decided.
 const REGULAR: f64 = 1e-9;
-/// Places that one thread takes at a time: as many as the batch does on one.
+/// Places that one thread takes at a time.
 const BLOCK: usize = 256;
 /// Blocks between two looks at the watch; what is in memory at a time.
 const BLOCKS: usize = 64;
@@ -233,18 +233,13 @@ fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
 }
 
 fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
-    // What the batch would ask one by one is asked here, once.
-    let together = batch
-        .alone_unloaded()
-        .is_none()
-        .then(|| batch.stiffness(poses));
+    let found = batch.stiffness(poses);
     let length = natural_length(task.mechanism);
     for (i, place) in out.iter_mut().enumerate() {
-        let found = together.as_ref().map(|t| (t, t.found[i]));
-        match found {
-            Some((_, Found::Not)) => place.state = PlaceState::Unreachable,
-            Some((t, Found::Together)) if place.take_together(task.mechanism, t, i, length) => {}
-            Some(_) | None => place.take_alone(task.mechanism, &poses[i]),
+        if !found.status[i].is_solved() {
+            place.state = PlaceState::Unreachable;
+        } else if !place.take_regular(task.mechanism, &found, i, length) {
+            place.take_by_directions(task.mechanism, &poses[i]);
         }
     }
 }
@@ -257,16 +252,13 @@ fn loaded(
     out: &mut [MapPlace],
 ) {
     let wrenches = vec![*wrench; poses.len()];
-    let together = match batch.alone() {
-        None => batch.judged_equilibrium(poses, &wrenches).ok(),
-        Some(_) => None,
-    };
+    let found = batch.judged_equilibrium(poses, &wrenches).ok();
     for (i, place) in out.iter_mut().enumerate() {
-        let taken = together
+        let taken = found
             .as_ref()
             .is_some_and(|found| place.take_equilibrium(task.mechanism, found, i, &poses[i]));
         if !taken {
-            place.take_equilibrium_alone(task.mechanism, &poses[i], wrench);
+            place.take_equilibrium_by_directions(task.mechanism, &poses[i], wrench);
         }
     }
 }
@@ -286,15 +278,15 @@ impl MapPlace {
         None
     }
 
-    /// Takes a stiffness of the batch; false where it may be singular, which the general engine decides.
-    fn take_together(
+    /// Takes a stiffness of many; false where it may be singular: its directions decide.
+    fn take_regular(
         &mut self,
         mechanism: &Mechanism,
         found: &BatchStiffness,
         i: usize,
         length: f64,
     ) -> bool {
-        if outside_limits(mechanism, &found.commands, i) {
+        if found.outside_limits(mechanism, i) {
             self.state = PlaceState::OutsideLimits;
             return true;
         }
@@ -317,7 +309,7 @@ impl MapPlace {
         true
     }
 
-    /// Takes an equilibrium of the batch; false where it has to be asked for alone.
+    /// Takes an equilibrium of many; false where its directions decide.
     fn take_equilibrium(
         &mut self,
         mechanism: &Mechanism,
@@ -328,7 +320,7 @@ impl MapPlace {
         let Some(verdict) = found.verdict(i) else {
             return false;
         };
-        if outside_limits(mechanism, &found.commands, i) {
+        if found.outside_limits(mechanism, i) {
             self.state = PlaceState::OutsideLimits;
             return true;
         }
@@ -351,7 +343,12 @@ impl MapPlace {
         true
     }
 
-    fn take_equilibrium_alone(&mut self, mechanism: &Mechanism, pose: &Pose, wrench: &Wrench) {
+    fn take_equilibrium_by_directions(
+        &mut self,
+        mechanism: &Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+    ) {
         if let Some(posture) = self.posture(mechanism, pose) {
             self.take_loaded(&posture, wrench);
         }
@@ -381,7 +378,7 @@ impl MapPlace {
         self.rotation_deg = displacement.angular().map(f64::to_degrees).into();
     }
 
-    fn take_alone(&mut self, mechanism: &Mechanism, pose: &Pose) {
+    fn take_by_directions(&mut self, mechanism: &Mechanism, pose: &Pose) {
         if let Some(posture) = self.posture(mechanism, pose) {
             self.take_stiffness(&posture);
         }
@@ -401,18 +398,6 @@ impl MapPlace {
             self.stiffness_n_per_mm = free(&compliance.free, self.stiffness_n_per_mm);
         }
     }
-}
-
-/// A command of a posture of the batch lies outside its actuator's limits.
-pub(crate) fn outside_limits(mechanism: &Mechanism, commands: &Table, i: usize) -> bool {
-    let limbs = mechanism.limbs().iter();
-    let mut own = limbs
-        .flat_map(|l| l.nominal.actuators())
-        .zip(commands.row(i));
-    own.any(|(actuator, command)| {
-        let limits = actuator.limits;
-        limits.is_some_and(|(low, high)| command < low || command > high)
-    })
 }
 
 /// Compliances below this share of the largest are rounding.

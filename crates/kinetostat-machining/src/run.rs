@@ -1,7 +1,7 @@
 //! A run over a program: deflections along it, the compensated program, and the proof from the
 //! written bytes.
 
-use kinetostat::batch::BatchEquilibrium;
+use kinetostat::batch::{AlongPath, BatchEquilibrium};
 use kinetostat::number;
 use kinetostat::{Error, Mechanism, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use kinetostat_program::{
@@ -26,7 +26,6 @@ use crate::result::{
 use crate::sites::{Site, of_path, of_written};
 use crate::solve::{Neighbour, Orientation, in_chunks};
 use crate::thin::thinned;
-use crate::together::Together;
 use crate::tool::{Machines, Tool, tool_on};
 use crate::verdict::keeps_as_it_is;
 use crate::warning::{Warning, WarningCode};
@@ -291,10 +290,10 @@ fn hopeless(
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
-        let (together, orientation) = machines.at(&site);
+        let (machine, orientation) = machines.at(&site);
         let one = std::slice::from_ref(&site);
         let mut memory = Default::default();
-        for found in chunk(task, together, &mut memory, one, (orientation, false)) {
+        for found in chunk(task, machine, &mut memory, one, (orientation, false)) {
             match found {
                 Ok(point) => points.push(point),
                 Err(error) if index == 0 => return Err(error),
@@ -450,9 +449,9 @@ fn solve<S: Iterator<Item = Site>>(
         }
         let of_one_tool = batch.chunk_by(|a, b| machines.same(a, b));
         let solved = of_one_tool.flat_map(|run| {
-            let (together, orientation) = machines.at(&run[0]);
+            let (machine, orientation) = machines.at(&run[0]);
             in_chunks(run, |memory, sites| {
-                chunk(task, together, memory, sites, (orientation, written))
+                chunk(task, machine, memory, sites, (orientation, written))
             })
         });
         for (site, point) in batch.iter().zip(solved) {
@@ -464,26 +463,26 @@ fn solve<S: Iterator<Item = Site>>(
     }
 }
 
-/// Points of a chunk, together where the batch can.
+/// Points of a chunk, all at once where home leads to the same branch.
 fn chunk<'m>(
     task: &Task<'m>,
-    together: &Together<'m>,
+    machine: &AlongPath<'m>,
     memory: &mut [Neighbour<'m>; 2],
     sites: &[Site],
     (orientation, written): (Orientation, bool),
 ) -> Vec<Result<PointResult, RunError>> {
-    let (place, mechanism) = (&task.placement, together.mechanism());
+    let (place, mechanism) = (&task.placement, machine.mechanism());
     let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
         sites.iter().map(|s| place.tool_pose(of(s))).collect()
     };
     let wanted = poses(|s| &s.desired);
     let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
-    let before = written.then(|| together.rest(&wanted, &wrenches));
+    let before = written.then(|| machine.rest(&wanted, &wrenches));
     let commanded = match written {
         true => poses(|s| &s.commanded),
         false => wanted.clone(),
     };
-    let after = together.judged(&commanded, &wrenches);
+    let after = machine.judged(&commanded, &wrenches);
     let [before_memory, after_memory] = memory;
     // One after the other: each starts from its neighbour.
     let mut solved = |i: usize| -> Result<PointResult, Error> {

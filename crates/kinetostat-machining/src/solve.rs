@@ -1,7 +1,8 @@
-//! Many points of a path, together where the batch can, and else one after the other from the
+//! Many points of a path, one after the other from the
 //! neighbour's state, in chunks of fixed size: the answer of a point does not depend on the number of
 //! threads.
 
+use kinetostat::batch::AlongPath;
 use kinetostat::{
     Error, Mechanism, MechanismEquilibrium, MechanismState, Pose, Posture, Wrench,
     target_under_load, target_under_load_following,
@@ -66,9 +67,7 @@ pub(crate) struct Neighbour<'m> {
     last: Option<(Posture<'m>, MechanismState)>,
 }
 
-/// A neighbour farther away than this (share of the machine's length) is no better than a start
-/// from rest.
-pub(crate) const NEAR: f64 = 0.05;
+pub(crate) const NEAR: f64 = AlongPath::NEAR;
 
 impl<'m> Neighbour<'m> {
     fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {

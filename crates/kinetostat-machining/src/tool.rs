@@ -1,13 +1,13 @@
 //! The tools of a program, each with its own machine and load.
 
 use kinetostat::Mechanism;
+use kinetostat::batch::AlongPath;
 use kinetostat_program::Path;
 
 use crate::load::ProgramLoad;
 use crate::run::Task;
 use crate::sites::Site;
 use crate::solve::Orientation;
-use crate::together::Together;
 
 /// A tool of the machine's magazine.
 ///
@@ -36,21 +36,24 @@ pub(crate) fn tool_on<'t, 'a>(
     tools.iter().find(|tool| tool.number == number)
 }
 
-/// The machine of a run with each of its tools, ready to solve several postures together.
+/// The machine of a run with each of its tools, ready to solve many postures.
 pub(crate) struct Machines<'t, 'm> {
     task: &'t Task<'m>,
     /// The first is the machine without one of the tools.
-    together: Vec<Together<'m>>,
+    machines: Vec<AlongPath<'m>>,
 }
 
 impl<'t, 'm> Machines<'t, 'm> {
     pub fn new(task: &'t Task<'m>) -> Self {
-        let follows = task.placement.orientation_follows;
+        let machine = match task.placement.orientation_follows {
+            true => AlongPath::by_neighbours,
+            false => AlongPath::new,
+        };
         let machines = std::iter::once(task.mechanism);
         let machines = machines.chain(task.tools.iter().map(|tool| tool.mechanism));
         Self {
             task,
-            together: machines.map(|m| Together::new(m, follows)).collect(),
+            machines: machines.map(machine).collect(),
         }
     }
 
@@ -65,7 +68,7 @@ impl<'t, 'm> Machines<'t, 'm> {
     }
 
     /// The machine that cuts at a place, and what is done with the orientation there.
-    pub fn at(&self, site: &Site) -> (&Together<'m>, Orientation) {
+    pub fn at(&self, site: &Site) -> (&AlongPath<'m>, Orientation) {
         let tool = self.tool(site);
         let position = |tool: &Tool<'_>| {
             let own = |other: &Tool<'_>| other.number == tool.number;
@@ -74,6 +77,6 @@ impl<'t, 'm> Machines<'t, 'm> {
         let index = tool.and_then(position).map_or(0, |index| index + 1);
         let load = tool.map_or(&self.task.load, |tool| &tool.load);
         let orientation = Orientation::of(&self.task.placement, load);
-        (&self.together[index], orientation)
+        (&self.machines[index], orientation)
     }
 }

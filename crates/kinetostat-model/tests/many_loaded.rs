@@ -1,7 +1,7 @@
 //! Every preset under load, many postures at once against the general engine posture by posture:
 //! tangent stiffness, verdicts, forces of the actuators, and compensation.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Found};
+use kinetostat::batch::{Batch, BatchEquilibrium, Status};
 use kinetostat::{
     Mechanism, MechanismEquilibrium, Pose, Twist, Wrench, moved, pose_residual, target_under_load,
 };
@@ -48,8 +48,8 @@ fn apart(own: &[f64], other: &[f64]) -> f64 {
     difference.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE)
 }
 
-fn together(found: &[Found]) -> usize {
-    found.iter().filter(|f| **f == Found::Together).count()
+fn together(found: &[Status]) -> usize {
+    found.iter().filter(|f| **f == Status::Vectorised).count()
 }
 
 /// Largest differences of stiffness, forces, softness and share to buckling.
@@ -98,7 +98,7 @@ fn every_preset_has_the_same_tangent_alone_and_together() {
             let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
             worst = worst.max((own - matrix).amax() / matrix.amax());
         }
-        let found = together(&all.found);
+        let found = together(&all.status);
         println!(
             "{}: {found} of {count} together, apart {worst:.0e}",
             preset.name
@@ -120,7 +120,12 @@ fn every_preset_is_judged_the_same_alone_and_together() {
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);
             let alone = posture.and_then(|p| Ok((p.deflected_by(&wrenches[i])?, p.commands())));
-            assert_eq!(alone.is_ok(), all.found[i] != Found::Not, "{}", preset.name);
+            assert_eq!(
+                alone.is_ok(),
+                all.status[i] != Status::Unsolved,
+                "{}",
+                preset.name
+            );
             let Ok((alone, commands)) = alone else {
                 assert!(all.verdict(i).is_none());
                 continue;
@@ -131,7 +136,7 @@ fn every_preset_is_judged_the_same_alone_and_together() {
             let own: Vec<f64> = all.commands.row(i).collect();
             assert!(apart(&own, &commands) < 1e-11, "{}", preset.name);
         }
-        let found = together(&all.found);
+        let found = together(&all.status);
         println!(
             "{}: {found} of {count} together, apart {worst:?}",
             preset.name
@@ -168,7 +173,7 @@ fn every_preset_is_compensated_the_same_alone_and_together() {
                 });
                 assert_eq!(
                     alone.is_ok(),
-                    all.equilibrium.found[i] != Found::Not,
+                    all.equilibrium.status[i] != Status::Unsolved,
                     "{} {i}",
                     preset.name
                 );
@@ -182,7 +187,7 @@ fn every_preset_is_compensated_the_same_alone_and_together() {
                     off = off.max(left.angular().norm());
                 }
             }
-            let found = together(&all.equilibrium.found);
+            let found = together(&all.equilibrium.status);
             println!(
                 "{} {directions:?}: {found} of {count} together, apart {worst:.0e}, off {off:.0e}",
                 preset.name

@@ -1,72 +1,98 @@
-//! Points of a path solved together by the batch, where its answer is the one that a search from
-//! neighbour to neighbour finds.
+//! Postures along a path, where starting each of them from home leads to the branch that a search from neighbour to
+//! neighbour finds.
 //!
-//! The batch starts every posture from home. A program is continued from point to point instead, so
-//! that the machine never changes its branch on the way. A chunk is taken from the batch only if both
-//! are the same: its first posture, and every one that is far from the one before, is the one that the
-//! general engine finds from home, and the others follow without a jump. Everything else, limits and
-//! points without an answer included, is left to the search point by point, which also has the words
-//! for it.
+//! The batch starts every posture from home. A program is continued from point to point instead, so that the machine
+//! never changes its branch on the way. A chunk of a path has an answer here only if both are the same: its first
+//! posture, and every one that is far from the one before, is the one that the general engine finds from home, the
+//! others follow without a jump, and all lie within the limits of the actuators. `None` in all other cases: the caller
+//! searches from neighbour to neighbour, which also has the words for points without an answer.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Found};
-use kinetostat::{Mechanism, MotionKind, Pose, Role, Wrench};
 use std::f64::consts::{PI, TAU};
 
-use crate::map::outside_limits;
-use crate::near::natural_length;
-use crate::solve::{NEAR, POSITIONS};
+use super::compiled::Batch;
+use super::equilibria::BatchEquilibrium;
+use super::status::{Engine, Status};
+use crate::model::chain::Role;
+use crate::model::mechanism::Mechanism;
+use crate::spatial::{MotionKind, Pose, Wrench};
 
-/// A joint that moves farther than this between neighbours (rad, or share of the natural length) may
-/// be on another branch.
-pub(crate) const JUMP: f64 = 0.1;
-
-/// A machine with its batch.
-pub(crate) struct Together<'m> {
+/// A machine whose postures lie along a path.
+pub struct AlongPath<'m> {
     mechanism: &'m Mechanism,
     batch: Option<Batch<'m>>,
-    /// Equilibria are judged together, too.
+    /// Kernels judge stability, too.
     judges: bool,
     length: f64,
 }
 
-impl<'m> Together<'m> {
-    /// `follows`: the orientation follows, which is a matter of neighbours: nothing is solved
-    /// together.
-    pub fn new(mechanism: &'m Mechanism, follows: bool) -> Self {
-        let batch = (!follows).then(|| Batch::new(mechanism));
-        let batch = batch.filter(|b| b.alone().is_none());
-        // One at home tells whether there are kernels for it.
+impl<'m> AlongPath<'m> {
+    /// A joint that moves farther than this between neighbours (rad, or share of the natural length) may
+    /// be on another branch.
+    pub const JUMP: f64 = 0.1;
+    /// A neighbour farther away than this (share of the machine's size) is no better than a start from rest.
+    pub const NEAR: f64 = 0.05;
+
+    /// Compiles a machine.
+    #[must_use]
+    pub fn new(mechanism: &'m Mechanism) -> Self {
+        let batch = Batch::new(mechanism);
+        // A machine of the general engine gains nothing: it is solved from neighbour to neighbour at once.
+        let batch = (batch.engine() == Engine::Vectorised).then_some(batch);
+        // One posture at home tells whether kernels judge stability.
         let home = mechanism.platforms()[mechanism.tool()].home;
         let judged = batch
             .as_ref()
             .and_then(|b| b.judged_equilibrium(&[home], &[Wrench::zero()]).ok());
         Self {
             mechanism,
-            judges: judged.is_some_and(|j| j.found == [Found::Together]),
+            judges: judged.is_some_and(|j| j.status == [Status::Vectorised]),
             batch,
-            length: natural_length(mechanism),
+            length: mechanism.natural_length(),
         }
     }
 
+    /// A machine whose postures depend on their neighbours, because the tool's orientation follows: every question is
+    /// answered by `None`.
+    #[must_use]
+    pub fn by_neighbours(mechanism: &'m Mechanism) -> Self {
+        Self {
+            mechanism,
+            judges: false,
+            batch: None,
+            length: mechanism.natural_length(),
+        }
+    }
+
+    /// The machine.
+    #[must_use]
     pub fn mechanism(&self) -> &'m Mechanism {
         self.mechanism
     }
 
-    /// The poses to command so that the tool is at `poses` under `wrenches`.
-    pub fn targets(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<Vec<Pose>> {
+    /// The poses to command so that the tool is at `poses` under `wrenches` in these directions (base axes
+    /// `x y z rx ry rz`).
+    #[must_use]
+    pub fn targets(
+        &self,
+        poses: &[Pose],
+        wrenches: &[Wrench],
+        directions: [bool; 6],
+    ) -> Option<Vec<Pose>> {
         let batch = self.batch.as_ref()?;
-        let found = batch.targets_under_load(poses, wrenches, POSITIONS).ok()?;
+        let found = batch.targets_under_load(poses, wrenches, directions).ok()?;
         self.continued(poses, &found.equilibrium)
             .then_some(found.targets)
     }
 
     /// Where the tool goes when commanded to `poses` under `wrenches`.
+    #[must_use]
     pub fn rest(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let found = self.batch.as_ref()?.equilibrium(poses, wrenches, false);
         found.ok().filter(|found| self.continued(poses, found))
     }
 
     /// As [`Self::rest`], with stiffness and stability.
+    #[must_use]
     pub fn judged(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let batch = self.batch.as_ref().filter(|_| self.judges)?;
         let found = batch.judged_equilibrium(poses, wrenches);
@@ -76,9 +102,9 @@ impl<'m> Together<'m> {
     /// All have an answer within the limits of the actuators, on the branch that a search from
     /// neighbour to neighbour follows.
     fn continued(&self, poses: &[Pose], found: &BatchEquilibrium) -> bool {
-        let near = NEAR * self.mechanism.size();
+        let near = Self::NEAR * self.mechanism.size();
         (0..poses.len()).all(|i| {
-            if found.found[i] == Found::Not || outside_limits(self.mechanism, &found.commands, i) {
+            if !found.status[i].is_solved() || found.outside_limits(self.mechanism, i) {
                 return false;
             }
             let place = |i: usize| poses[i].translation.vector;
@@ -112,7 +138,7 @@ impl<'m> Together<'m> {
         };
         let actuators = limbs().flat_map(|l| l.nominal.actuators());
         let mut own = actuators.zip(found.commands.row(i).zip(commands));
-        if own.any(|(a, (x, y))| far(a.kind, x - y) > JUMP) {
+        if own.any(|(a, (x, y))| far(a.kind, x - y) > Self::JUMP) {
             return false;
         }
         let joints = limbs().flat_map(|l| l.nominal.coordinates());
@@ -124,7 +150,7 @@ impl<'m> Together<'m> {
                 MotionKind::Prismatic => x - y,
                 MotionKind::Revolute => turn(x - y),
             };
-            c.role == Role::Passive && far(c.kind, difference) > JUMP
+            c.role == Role::Passive && far(c.kind, difference) > Self::JUMP
         })
     }
 }
