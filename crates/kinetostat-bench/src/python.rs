@@ -62,8 +62,8 @@ mod kinetostat_bench {
         }
 
         /// Why the postures are solved one by one, or None.
-        fn alone(&self) -> Option<&str> {
-            self.0.alone()
+        fn alone(&self) -> Option<String> {
+            self.0.scalar_reason()
         }
 
         /// Goes once through all postures, `block` of them in each call: what is timed.
@@ -85,7 +85,7 @@ mod kinetostat_bench {
             out.set_item("coordinates", bytes(&all.coordinates))?;
             out.set_item("stiffness", bytes(&all.stiffness))?;
             out.set_item("jacobian", bytes(&all.jacobian))?;
-            out.set_item("together", all.together)?;
+            out.set_item("together", all.vectorised)?;
             out.set_item("not_found", all.not_found)?;
             Ok(out)
         }

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Found, Table};
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Status, Table};
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_model::Model;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
@@ -74,8 +74,8 @@ pub struct Answers {
     pub stiffness: Vec<f64>,
     /// 6 n numbers per posture, row by row; empty where not asked for.
     pub jacobian: Vec<f64>,
-    /// How many were found together with others.
-    pub together: usize,
+    /// How many the vectorised kernels solved.
+    pub vectorised: usize,
     /// How many were not found at all.
     pub not_found: usize,
 }
@@ -162,8 +162,8 @@ impl Task {
 
     /// Why the postures of this machine are solved one by one, if they are.
     #[must_use]
-    pub fn alone(&self) -> Option<&str> {
-        self.batch.alone()
+    pub fn scalar_reason(&self) -> Option<String> {
+        self.batch.engine().reason().map(str::to_owned)
     }
 
     fn loaded(&self) -> bool {
@@ -214,24 +214,24 @@ impl Task {
     ///
     /// # Errors
     /// What the machine refuses.
-    pub fn not_together(&self, block: usize) -> Result<(usize, usize)> {
+    pub fn not_vectorised(&self, block: usize) -> Result<(usize, usize)> {
         let block = block.max(1);
         let mut results = Results::default();
-        let (mut alone, mut not) = (0, 0);
+        let (mut scalar, mut not) = (0, 0);
         for from in (0..self.len()).step_by(block) {
             self.ask(from, (from + block).min(self.len()), &mut results)?;
             for found in self.found(&results) {
-                alone += usize::from(*found == Found::Alone);
-                not += usize::from(*found == Found::Not);
+                scalar += usize::from(*found == Status::Scalar);
+                not += usize::from(*found == Status::Unsolved);
             }
         }
-        Ok((alone, not))
+        Ok((scalar, not))
     }
 
-    fn found<'a>(&self, results: &'a Results) -> &'a [Found] {
+    fn found<'a>(&self, results: &'a Results) -> &'a [Status] {
         match self.loaded() {
-            true => &results.loaded.found,
-            false => &results.unloaded.found,
+            true => &results.loaded.status,
+            false => &results.unloaded.status,
         }
     }
 
@@ -258,8 +258,8 @@ impl Task {
             }
             let found = self.found(&results);
             let count = |how| found.iter().filter(|f| **f == how).count();
-            all.together += count(Found::Together);
-            all.not_found += count(Found::Not);
+            all.vectorised += count(Status::Vectorised);
+            all.not_found += count(Status::Unsolved);
         }
         Ok(all)
     }

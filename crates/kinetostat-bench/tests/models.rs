@@ -9,7 +9,7 @@
 use std::path::{Path, PathBuf};
 
 use kinetostat::Wrench;
-use kinetostat::batch::{Batch, Found};
+use kinetostat::batch::{Batch, Status};
 use kinetostat_bench::{Answers, Places, Task, Work, sample};
 use kinetostat_testing::largest_size;
 
@@ -266,7 +266,7 @@ fn legs_that_brace_each_other_are_found_together() {
         let found = batch
             .equilibrium(&poses, &wrenches, false)
             .expect("as many wrenches as poses");
-        let together = found.found.iter().filter(|f| **f == Found::Together);
+        let together = found.status.iter().filter(|f| **f == Status::Vectorised);
         assert_eq!(together.count(), count, "{name}");
         for i in (0..count).step_by(37) {
             let posture = machine.posture(&poses[i]).expect("reachable");

@@ -1,5 +1,6 @@
 //! The model as a field of corrections for the program writer.
 
+use kinetostat::batch::AlongPath;
 use kinetostat::{Error, Mechanism, Pose, Wrench};
 use kinetostat_program::{CorrectionField, Course, FieldFailure, Move, Request, Structure};
 use nalgebra::Vector3;
@@ -7,9 +8,8 @@ use nalgebra::Vector3;
 use crate::load::along_path::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
-use crate::postures::neighbour::in_chunks;
+use crate::postures::neighbour::{POSITIONS, in_chunks};
 use crate::postures::orientation::Orientation;
-use crate::postures::vectorised::VectorisedPostures;
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
 /// under the load of the program.
@@ -95,7 +95,10 @@ impl ModelField<'_> {
     ) -> Vec<Result<Vector3<f64>, FieldFailure>> {
         let load = self.load.load_of(requests[0].move_index);
         let orientation = Orientation::of(&self.placement, load);
-        let vectorised = VectorisedPostures::new(mechanism, orientation.follows);
+        let machine = match orientation.follows {
+            true => AlongPath::by_neighbours(mechanism),
+            false => AlongPath::new(mechanism),
+        };
         in_chunks(requests, |memory, requests| {
             let poses: Vec<Pose> = requests
                 .iter()
@@ -106,7 +109,7 @@ impl ModelField<'_> {
                 let shift = target.translation.vector - pose.translation.vector;
                 self.placement.to_program(&shift)
             };
-            if let Some(targets) = vectorised.targets(&poses, &wrenches) {
+            if let Some(targets) = machine.targets(&poses, &wrenches, POSITIONS) {
                 let both = poses.iter().zip(&targets);
                 return both.map(|(p, t)| Ok(correction(p, t))).collect();
             }

@@ -1,7 +1,7 @@
 //! Stiffness on a grid of tool positions, and under a load deflection and stability too: many places
 //! at once, in constant memory.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Found};
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness};
 use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, pose_residual};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -9,7 +9,6 @@ use rayon::prelude::*;
 use crate::near::natural_length;
 use crate::postures::neighbour::NEAR;
 use crate::postures::orientation::Orientation;
-use crate::postures::vectorised::outside_limits;
 use crate::task::{RunError, Watch};
 
 /// Evenly spaced positions of the tool, base axes, mm.
@@ -135,7 +134,7 @@ pub struct MapPlace {
 
 /// Below this relative pivot the rank of a stiffness has to be decided.
 const REGULAR: f64 = 1e-9;
-/// Places that one thread takes at a time: as many as the batch does on one.
+/// Places that one thread takes at a time.
 const BLOCK: usize = 256;
 /// Blocks between two looks at the watch; what is in memory at a time.
 const BLOCKS: usize = 64;
@@ -235,18 +234,13 @@ fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
 }
 
 fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
-    // What the batch would ask one by one is asked here, once.
-    let vectorised = batch
-        .alone_unloaded()
-        .is_none()
-        .then(|| batch.stiffness(poses));
+    let found = batch.stiffness(poses);
     let length = natural_length(task.mechanism);
     for (i, place) in out.iter_mut().enumerate() {
-        let found = vectorised.as_ref().map(|t| (t, t.found[i]));
-        match found {
-            Some((_, Found::Not)) => place.state = PlaceState::Unreachable,
-            Some((t, Found::Together)) if place.take_vectorised(task.mechanism, t, i, length) => {}
-            Some(_) | None => place.solve_unloaded(task.mechanism, &poses[i]),
+        if !found.status[i].is_solved() {
+            place.state = PlaceState::Unreachable;
+        } else if !place.take_regular(task.mechanism, &found, i, length) {
+            place.take_by_directions(task.mechanism, &poses[i]);
         }
     }
 }
@@ -259,16 +253,13 @@ fn loaded(
     out: &mut [MapPlace],
 ) {
     let wrenches = vec![*wrench; poses.len()];
-    let vectorised = match batch.alone() {
-        None => batch.judged_equilibrium(poses, &wrenches).ok(),
-        Some(_) => None,
-    };
+    let found = batch.judged_equilibrium(poses, &wrenches).ok();
     for (i, place) in out.iter_mut().enumerate() {
-        let taken = vectorised
+        let taken = found
             .as_ref()
             .is_some_and(|found| place.take_equilibrium(task.mechanism, found, i, &poses[i]));
         if !taken {
-            place.solve_equilibrium(task.mechanism, &poses[i], wrench);
+            place.take_equilibrium_by_directions(task.mechanism, &poses[i], wrench);
         }
     }
 }
@@ -288,15 +279,15 @@ impl MapPlace {
         None
     }
 
-    /// Takes a stiffness of the batch; false where it may be singular, which the general engine decides.
-    fn take_vectorised(
+    /// Takes a stiffness of many; false where it may be singular: its directions decide.
+    fn take_regular(
         &mut self,
         mechanism: &Mechanism,
         found: &BatchStiffness,
         i: usize,
         length: f64,
     ) -> bool {
-        if outside_limits(mechanism, &found.commands, i) {
+        if found.outside_limits(mechanism, i) {
             self.state = PlaceState::OutsideLimits;
             return true;
         }
@@ -319,7 +310,7 @@ impl MapPlace {
         true
     }
 
-    /// Takes an equilibrium of the batch; false where the scalar engine has to answer.
+    /// Takes an equilibrium of many; false where its directions decide.
     fn take_equilibrium(
         &mut self,
         mechanism: &Mechanism,
@@ -330,7 +321,7 @@ impl MapPlace {
         let Some(stability) = found.verdict(i) else {
             return false;
         };
-        if outside_limits(mechanism, &found.commands, i) {
+        if found.outside_limits(mechanism, i) {
             self.state = PlaceState::OutsideLimits;
             return true;
         }
@@ -353,7 +344,12 @@ impl MapPlace {
         true
     }
 
-    fn solve_equilibrium(&mut self, mechanism: &Mechanism, pose: &Pose, wrench: &Wrench) {
+    fn take_equilibrium_by_directions(
+        &mut self,
+        mechanism: &Mechanism,
+        pose: &Pose,
+        wrench: &Wrench,
+    ) {
         if let Some(posture) = self.posture(mechanism, pose) {
             self.take_loaded(&posture, wrench);
         }
@@ -383,7 +379,7 @@ impl MapPlace {
         self.rotation_deg = displacement.angular().map(f64::to_degrees).into();
     }
 
-    fn solve_unloaded(&mut self, mechanism: &Mechanism, pose: &Pose) {
+    fn take_by_directions(&mut self, mechanism: &Mechanism, pose: &Pose) {
         if let Some(posture) = self.posture(mechanism, pose) {
             self.take_stiffness(&posture);
         }

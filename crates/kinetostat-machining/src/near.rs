@@ -59,9 +59,7 @@ pub enum NearKind {
 /// Natural length of a machine, m: the mean over its limbs.
 #[must_use]
 pub fn natural_length(mechanism: &Mechanism) -> f64 {
-    let limbs = mechanism.limbs();
-    let sum: f64 = limbs.iter().map(|l| l.actual.scale().length).sum();
-    sum / limbs.len() as f64
+    mechanism.natural_length()
 }
 
 /// The nearest singular posture, if it is closer than [`NEAR_SINGULAR`].

@@ -1,8 +1,7 @@
 //! Many postures of one machine under load.
 //!
-//! Takes poses and wrenches; gives where the tool goes, or what to command, by vector kernels where their answer is
-//! the one of a search from neighbour to neighbour, and by that search elsewhere. Knows nothing of programs.
+//! Takes poses and wrenches; gives where the tool goes, or what to command, all at once where starting from home leads to
+//! the branch of a search from neighbour to neighbour, and by that search elsewhere. Knows nothing of programs.
 
 pub(crate) mod neighbour;
 pub(crate) mod orientation;
-pub(crate) mod vectorised;

@@ -2,6 +2,7 @@
 //! neighbour's state, in chunks of fixed size: the answer of a point does not depend on the number of
 //! threads.
 
+use kinetostat::batch::AlongPath;
 use kinetostat::{
     Error, Mechanism, MechanismEquilibrium, MechanismState, Pose, Posture, Wrench,
     target_under_load, target_under_load_following,
@@ -22,9 +23,7 @@ pub(crate) struct Neighbour<'m> {
     last: Option<(Posture<'m>, MechanismState)>,
 }
 
-/// A neighbour farther away than this (share of the machine's length) is no better than a start
-/// from rest.
-pub(crate) const NEAR: f64 = 0.05;
+pub(crate) const NEAR: f64 = AlongPath::NEAR;
 
 impl<'m> Neighbour<'m> {
     fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {

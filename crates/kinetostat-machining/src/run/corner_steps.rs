@@ -40,15 +40,15 @@ pub(crate) fn by_the_other_reading<S: Iterator<Item = Site>>(
         }
         let of_one_tool = batch.chunk_by(|a, b| machines.same(&a.0, &b.0));
         let errors = of_one_tool.flat_map(|run| {
-            let (vectorised, orientation) = machines.at(&run[0].0);
-            let mechanism = vectorised.mechanism();
+            let (machine, orientation) = machines.at(&run[0].0);
+            let mechanism = machine.mechanism();
             in_chunks(run, |memory, steps| {
                 let poses: Vec<Pose> = steps
                     .iter()
                     .map(|(site, _)| place.tool_pose(&site.commanded))
                     .collect();
                 let wrenches: Vec<Wrench> = steps.iter().map(|(_, wrench)| *wrench).collect();
-                let found = vectorised.rest(&poses, &wrenches);
+                let found = machine.rest(&poses, &wrenches);
                 let [memory, _] = memory;
                 let mut tool = |i: usize| -> Option<Pose> {
                     match &found {

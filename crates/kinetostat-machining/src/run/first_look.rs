@@ -34,10 +34,10 @@ pub(crate) fn first_look(
         if watch.cancelled() {
             return Err(RunError::Cancelled);
         }
-        let (vectorised, orientation) = machines.at(&site);
+        let (machine, orientation) = machines.at(&site);
         let one = std::slice::from_ref(&site);
         let mut memory = Default::default();
-        for found in chunk(task, vectorised, &mut memory, one, (orientation, false)) {
+        for found in chunk(task, machine, &mut memory, one, (orientation, false)) {
             match found {
                 Ok(point) => points.push(point),
                 Err(error) if index == 0 => return Err(error),

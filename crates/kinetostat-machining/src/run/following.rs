@@ -2,9 +2,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use kinetostat::batch::AlongPath;
+
 use crate::number::largest_angle;
 use crate::postures::neighbour::NEAR;
-use crate::postures::vectorised::JUMP;
 use crate::result::point::PointResult;
 use crate::result::summary::Summary;
 use crate::task::Task;
@@ -25,7 +26,7 @@ pub(crate) fn jump(task: &Task<'_>, points: &[PointResult]) -> Option<usize> {
         let way = Vector3::from(pair[1].position_mm) - Vector3::from(pair[0].position_mm);
         let way = task.placement.to_metres(&way).norm();
         let turn = (Vector3::from(b) - Vector3::from(a)).norm().to_radians();
-        (way < near && turn > JUMP).then_some(pair[1].line)
+        (way < near && turn > AlongPath::JUMP).then_some(pair[1].line)
     })
 }
 

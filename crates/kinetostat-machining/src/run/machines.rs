@@ -1,28 +1,30 @@
 //! The machine of a run with each of its tools.
 
+use kinetostat::batch::AlongPath;
+
 use crate::load::tool::{Tool, tool_on};
 use crate::postures::orientation::Orientation;
-use crate::postures::vectorised::VectorisedPostures;
 use crate::run::sites::Site;
 use crate::task::Task;
 
-/// The machine of a run with each of its tools, ready to solve several postures vectorised.
+/// The machine of a run with each of its tools, ready to solve many postures.
 pub(crate) struct Machines<'t, 'm> {
     task: &'t Task<'m>,
     /// The first is the machine without one of the tools.
-    vectorised: Vec<VectorisedPostures<'m>>,
+    machines: Vec<AlongPath<'m>>,
 }
 
 impl<'t, 'm> Machines<'t, 'm> {
     pub fn new(task: &'t Task<'m>) -> Self {
-        let follows = task.placement.orientation_follows;
+        let machine = match task.placement.orientation_follows {
+            true => AlongPath::by_neighbours,
+            false => AlongPath::new,
+        };
         let machines = std::iter::once(task.mechanism);
         let machines = machines.chain(task.tools.iter().map(|tool| tool.mechanism));
         Self {
             task,
-            vectorised: machines
-                .map(|m| VectorisedPostures::new(m, follows))
-                .collect(),
+            machines: machines.map(machine).collect(),
         }
     }
 
@@ -37,7 +39,7 @@ impl<'t, 'm> Machines<'t, 'm> {
     }
 
     /// The machine that cuts at a place, and what is done with the orientation there.
-    pub fn at(&self, site: &Site) -> (&VectorisedPostures<'m>, Orientation) {
+    pub fn at(&self, site: &Site) -> (&AlongPath<'m>, Orientation) {
         let tool = self.tool(site);
         let position = |tool: &Tool<'_>| {
             let own = |other: &Tool<'_>| other.number == tool.number;
@@ -46,6 +48,6 @@ impl<'t, 'm> Machines<'t, 'm> {
         let index = tool.and_then(position).map_or(0, |index| index + 1);
         let load = tool.map_or(&self.task.load, |tool| &tool.load);
         let orientation = Orientation::of(&self.task.placement, load);
-        (&self.vectorised[index], orientation)
+        (&self.machines[index], orientation)
     }
 }

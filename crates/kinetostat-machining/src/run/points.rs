@@ -8,12 +8,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::field::in_words;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
-use crate::postures::vectorised::VectorisedPostures;
 use crate::result::point::{PointResult, size};
 use crate::run::following::turn_deg;
 use crate::run::machines::Machines;
 use crate::run::sites::Site;
 use crate::task::{RunError, Task, Watch, kinds};
+use kinetostat::batch::AlongPath;
 
 /// Points between two questions to the watch whether to stop.
 pub(crate) const BATCH: usize = 4096;
@@ -50,9 +50,9 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
         }
         let of_one_tool = batch.chunk_by(|a, b| machines.same(a, b));
         let solved = of_one_tool.flat_map(|run| {
-            let (vectorised, orientation) = machines.at(&run[0]);
+            let (machine, orientation) = machines.at(&run[0]);
             in_chunks(run, |memory, sites| {
-                chunk(task, vectorised, memory, sites, (orientation, written))
+                chunk(task, machine, memory, sites, (orientation, written))
             })
         });
         for (site, point) in batch.iter().zip(solved) {
@@ -67,23 +67,23 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
 /// Points of a chunk, by vector kernels where there are some, else one after the other.
 pub(crate) fn chunk<'m>(
     task: &Task<'m>,
-    vectorised: &VectorisedPostures<'m>,
+    machine: &AlongPath<'m>,
     memory: &mut [Neighbour<'m>; 2],
     sites: &[Site],
     (orientation, written): (Orientation, bool),
 ) -> Vec<Result<PointResult, RunError>> {
-    let (place, mechanism) = (&task.placement, vectorised.mechanism());
+    let (place, mechanism) = (&task.placement, machine.mechanism());
     let poses = |of: fn(&Site) -> &Vector3<f64>| -> Vec<Pose> {
         sites.iter().map(|s| place.tool_pose(of(s))).collect()
     };
     let wanted = poses(|s| &s.desired);
     let wrenches: Vec<Wrench> = sites.iter().map(|s| s.wrench).collect();
-    let before = written.then(|| vectorised.rest(&wanted, &wrenches));
+    let before = written.then(|| machine.rest(&wanted, &wrenches));
     let commanded = match written {
         true => poses(|s| &s.commanded),
         false => wanted.clone(),
     };
-    let after = vectorised.with_stability(&commanded, &wrenches);
+    let after = machine.judged(&commanded, &wrenches);
     let [before_memory, after_memory] = memory;
     // One after the other: each starts from its neighbour.
     let mut solved = |i: usize| -> Result<PointResult, Error> {

@@ -1,6 +1,6 @@
 //! The answers of a batch are the same bits from any number of threads and in calls of any size.
 
-use kinetostat::batch::{Batch, Found};
+use kinetostat::batch::{Batch, Status};
 use kinetostat::{Mechanism, Pose, Twist, Wrench, moved};
 use kinetostat_model::Model;
 use nalgebra::{Vector3, Vector6};
@@ -36,12 +36,12 @@ fn wrenches(count: usize) -> Vec<Wrench> {
 
 /// All numbers of an answer as bits, posture after posture, and how each was found.
 #[derive(Debug, PartialEq)]
-struct Bits(Vec<Vec<u64>>, Vec<Found>);
+struct Bits(Vec<Vec<u64>>, Vec<Status>);
 
 fn unloaded(batch: &Batch<'_>, poses: &[Pose]) -> Bits {
     let all = batch.stiffness(poses);
     let row = |i| all.stiffness.row(i).map(f64::to_bits).collect();
-    Bits((0..poses.len()).map(row).collect(), all.found)
+    Bits((0..poses.len()).map(row).collect(), all.status)
 }
 
 fn loaded(batch: &Batch<'_>, poses: &[Pose], wrenches: &[Wrench]) -> Bits {
@@ -53,7 +53,7 @@ fn loaded(batch: &Batch<'_>, poses: &[Pose], wrenches: &[Wrench]) -> Bits {
         let numbers = numbers.chain(all.stiffness.row(i));
         numbers.map(f64::to_bits).collect()
     };
-    Bits((0..poses.len()).map(row).collect(), all.found)
+    Bits((0..poses.len()).map(row).collect(), all.status)
 }
 
 fn on_threads<T: Send>(threads: usize, work: impl Fn() -> T + Send) -> T {
@@ -73,7 +73,7 @@ fn one_two_and_three_threads_give_the_same_bits() {
         let batch = Batch::new(&model.mechanism);
         let poses = poses(&model.mechanism, count);
         let one = on_threads(1, || unloaded(&batch, &poses));
-        let not = one.1.iter().filter(|f| **f == Found::Not).count();
+        let not = one.1.iter().filter(|f| **f == Status::Unsolved).count();
         lost += not;
         assert!(not < count / 10, "{name}: {not} not found");
         assert_eq!(one, on_threads(2, || unloaded(&batch, &poses)), "{name}");

@@ -566,3 +566,59 @@ fn loads_on_platforms_that_do_not_fit_are_refused_in_words() {
         assert!(refused.to_string().contains(words), "{refused}");
     }
 }
+
+#[test]
+fn a_spring_may_have_a_knee() {
+    let file = |spring: &str| {
+        format!(
+            r#"
+schema = 1
+[mechanism]
+name = "an arm on a wave gear"
+[[platform]]
+name = "tool"
+home = {{ position_mm = [500, 0, 0] }}
+[chain.arm]
+elements = [
+  {{ actuator = "revolute", name = "shoulder", axis = "z", rigid_drive = true }},
+  {{ spring = "revolute", name = "gear", axis = "z", stiffness_n_m_per_rad = 2.0e5, {spring} }},
+  {{ rigid = {{ translation_mm = [500, 0, 0] }} }},
+]
+[[limb]]
+name = "arm"
+from = "base"
+to = "tool"
+chain = "arm"
+"#
+        )
+    };
+    let read = |spring: &str| Model::from_toml(&file(spring), "arm.toml");
+    let model = read("knee = { at_deg = 0.1, then_n_mm_per_rad = 6.0e8 }").expect("a model");
+    let law = &model.mechanism.limbs()[0].nominal.springs()[0].law;
+    let SpringLaw::Bilinear(law) = law else {
+        panic!("{law:?}");
+    };
+    assert_eq!((law.stiffness, law.beyond), (2e5, 6e5));
+    assert!((law.knee - 0.1_f64.to_radians()).abs() < 1e-15);
+    for (wrong, says) in [
+        (
+            "knee = { at_deg = 0.1 }",
+            "stiffness beyond the knee is missing",
+        ),
+        (
+            "knee = { then_n_m_per_rad = 1.0 }",
+            "deflection at the knee is missing",
+        ),
+        (
+            "knee = { at_mm = 0.1, then_n_m_per_rad = 1.0 }",
+            "turns about its axis",
+        ),
+        (
+            "knee = { at_deg = -0.1, then_n_m_per_rad = 1.0 }",
+            "a number above zero is needed",
+        ),
+    ] {
+        let error = read(wrong).expect_err(wrong).to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Every preset under load, many postures at once against the general engine posture by posture:
 //! tangent stiffness, verdicts, forces of the actuators, and compensation.
 
-use kinetostat::batch::{Batch, BatchEquilibrium, Found};
+use kinetostat::batch::{Batch, BatchEquilibrium, Status};
 use kinetostat::{
     Mechanism, MechanismEquilibrium, Pose, Twist, Wrench, moved, pose_residual, target_under_load,
 };
@@ -50,12 +50,12 @@ fn apart(own: &[f64], other: &[f64]) -> f64 {
 }
 
 /// Number of postures that have an answer, one by one or together.
-fn solved(found: &[Found]) -> usize {
-    found.iter().filter(|f| **f != Found::Not).count()
+fn solved(found: &[Status]) -> usize {
+    found.iter().filter(|f| f.is_solved()).count()
 }
 
-fn together(found: &[Found]) -> usize {
-    found.iter().filter(|f| **f == Found::Together).count()
+fn together(found: &[Status]) -> usize {
+    found.iter().filter(|f| **f == Status::Vectorised).count()
 }
 
 /// Largest differences of stiffness, forces, softness and share to buckling.
@@ -98,13 +98,13 @@ fn every_preset_has_the_same_tangent_alone_and_together() {
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);
             let alone = posture.and_then(|p| p.deflected_by(&wrenches[i]));
-            assert_eq!(alone.is_ok(), all.found[i] != Found::Not, "{}", preset.name);
+            assert_eq!(alone.is_ok(), all.status[i].is_solved(), "{}", preset.name);
             let Ok(alone) = alone else { continue };
             let matrix = alone.stiffness.matrix;
             let own = Matrix6::from_fn(|r, c| all.stiffness.get(i, 6 * r + c));
             worst.add((own - matrix).largest_entry() / matrix.largest_entry());
         }
-        let (found, worst) = (together(&all.found), worst.of(solved(&all.found)));
+        let (found, worst) = (together(&all.status), worst.of(solved(&all.status)));
         println!(
             "{}: {found} of {count} together, apart {worst:.0e}",
             preset.name
@@ -126,7 +126,12 @@ fn every_preset_is_judged_the_same_alone_and_together() {
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);
             let alone = posture.and_then(|p| Ok((p.deflected_by(&wrenches[i])?, p.commands())));
-            assert_eq!(alone.is_ok(), all.found[i] != Found::Not, "{}", preset.name);
+            assert_eq!(
+                alone.is_ok(),
+                all.status[i] != Status::Unsolved,
+                "{}",
+                preset.name
+            );
             let Ok((alone, commands)) = alone else {
                 assert!(all.verdict(i).is_none());
                 continue;
@@ -137,8 +142,8 @@ fn every_preset_is_judged_the_same_alone_and_together() {
             let own: Vec<f64> = all.commands.row(i).collect();
             assert!(apart(&own, &commands) < 1e-11, "{}", preset.name);
         }
-        let found = together(&all.found);
-        let worst = worst.map(|w| w.of(solved(&all.found)));
+        let found = together(&all.status);
+        let worst = worst.map(|w| w.of(solved(&all.status)));
         println!(
             "{}: {found} of {count} together, apart {worst:?}",
             preset.name
@@ -175,7 +180,7 @@ fn every_preset_is_compensated_the_same_alone_and_together() {
                 });
                 assert_eq!(
                     alone.is_ok(),
-                    all.equilibrium.found[i] != Found::Not,
+                    all.equilibrium.status[i] != Status::Unsolved,
                     "{} {i}",
                     preset.name
                 );
@@ -189,8 +194,8 @@ fn every_preset_is_compensated_the_same_alone_and_together() {
                     off.add(left.angular().norm());
                 }
             }
-            let found = together(&all.equilibrium.found);
-            let compared = solved(&all.equilibrium.found);
+            let found = together(&all.equilibrium.status);
+            let compared = solved(&all.equilibrium.status);
             let ends = if directions[3] { 2 } else { 1 };
             let (worst, off) = (worst.of(2 * compared), off.of(ends * compared));
             println!(

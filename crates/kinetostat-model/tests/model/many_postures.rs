@@ -1,6 +1,6 @@
 //! Every preset, many postures at once against the general engine posture by posture.
 
-use kinetostat::batch::{Batch, Found};
+use kinetostat::batch::{Batch, Status};
 use kinetostat::{Mechanism, Pose, Twist, Wrench, moved};
 use kinetostat_model::{Model, preset_names};
 use kinetostat_testing::{LargestEntry, Worst};
@@ -52,7 +52,7 @@ fn every_preset_gives_the_same_alone_and_together() {
             let alone = posture.as_ref().ok().and_then(|p| p.stiffness().ok());
             assert_eq!(
                 alone.is_some(),
-                found.found[i] != Found::Not,
+                found.status[i] != Status::Unsolved,
                 "{}",
                 preset.name
             );
@@ -61,7 +61,7 @@ fn every_preset_gives_the_same_alone_and_together() {
                 let mine = Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c));
                 worst.add((k - mine).largest_entry() / k.largest_entry());
             }
-            if loaded.found[i] == Found::Together {
+            if loaded.status[i] == Status::Vectorised {
                 let posture = posture.expect("a posture");
                 let alone = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
                 let p = Vector3::from_fn(|k, _| loaded.tool.get(i, 9 + k));
@@ -72,16 +72,16 @@ fn every_preset_gives_the_same_alone_and_together() {
                 together += 1;
             }
         }
-        let of = |found: &[Found]| found.iter().filter(|f| **f == Found::Together).count();
-        let solved = found.found.iter().filter(|f| **f != Found::Not).count();
+        let of = |found: &[Status]| found.iter().filter(|f| **f == Status::Vectorised).count();
+        let solved = found.status.iter().filter(|f| f.is_solved()).count();
         let worst = worst.of(solved);
-        let worst_loaded = worst_loaded.of_all(of(&loaded.found));
+        let worst_loaded = worst_loaded.of_all(of(&loaded.status));
         println!(
             "{}: {} and {} of {count} together, apart {worst:.1e} and {worst_loaded:.1e} {}",
             preset.name,
-            of(&found.found),
-            of(&loaded.found),
-            batch.alone().unwrap_or_default()
+            of(&found.status),
+            of(&loaded.status),
+            batch.engine().reason().unwrap_or_default()
         );
         assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
         assert!(worst_loaded < 3e-12, "{}: {worst_loaded:e}", preset.name);

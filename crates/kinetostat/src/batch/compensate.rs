@@ -33,13 +33,13 @@ impl<S: Simd> Machine<'_, S> {
     ) -> Lanes<S> {
         apart!(simd, {
             let zero = Lanes::new(simd, 0.0);
-            let mut miss = minus(&aim.point, &self.point);
+            let mut residual = minus(&aim.point, &self.point);
             let mut most = zero;
             for k in 0..3 {
                 if !directions[k] {
-                    miss[k] = zero;
+                    residual[k] = zero;
                 }
-                most = most.max(miss[k].abs() * (1.0 / self.nominal[0].length));
+                most = most.max(residual[k].abs() * (1.0 / self.nominal[0].length));
             }
             let mut turn = [zero; 3];
             if directions[3] {
@@ -51,7 +51,7 @@ impl<S: Simd> Machine<'_, S> {
             let able = (zero + REGULAR).where_less(good, zero + 1.0, zero);
             let off = (zero + OFF).where_less(most, able, zero);
             for k in 0..3 {
-                let moved = self.target.point[k] + miss[k];
+                let moved = self.target.point[k] + residual[k];
                 self.target.point[k] = select(off, moved, self.target.point[k]);
             }
             if directions[3] {

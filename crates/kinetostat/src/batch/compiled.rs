@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::group::Places;
 use super::plan::Plan;
 use super::run::Work;
-use super::status::Found;
+use super::status::{Engine, Status};
 use super::table::BLOCK;
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
@@ -37,16 +37,16 @@ impl<'m> Batch<'m> {
         }
     }
 
-    /// Why all loaded postures of this machine are solved alone, if they are.
+    /// Which engine loaded postures of this machine are solved by, and why.
     #[must_use]
-    pub fn alone(&self) -> Option<&str> {
-        self.actual.as_ref().err().map(String::as_str)
+    pub fn engine(&self) -> Engine {
+        Engine::of(&self.actual)
     }
 
-    /// Why all unloaded postures of this machine are solved alone, if they are.
+    /// Which engine unloaded postures of this machine are solved by, and why.
     #[must_use]
-    pub fn alone_unloaded(&self) -> Option<&str> {
-        self.nominal.as_ref().err().map(String::as_str)
+    pub fn engine_unloaded(&self) -> Engine {
+        Engine::of(&self.nominal)
     }
 
     pub(super) fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
@@ -143,17 +143,17 @@ fn compiled(
         .collect()
 }
 
-/// Answers of those that were not found together; `None` where there is none.
+/// Answers of those that the kernels have left over; `None` where there is none.
 pub(super) fn left<T: Send>(
-    found: &[Found],
-    alone: impl Fn(usize) -> Result<T> + Sync,
+    status: &[Status],
+    scalar: impl Fn(usize) -> Result<T> + Sync,
 ) -> Vec<(usize, Option<T>)> {
-    let left: Vec<usize> = (0..found.len())
-        .filter(|i| found[*i] != Found::Together)
+    let left: Vec<usize> = (0..status.len())
+        .filter(|i| status[*i] != Status::Vectorised)
         .collect();
     // None or one calls no threads.
     if left.len() < 2 {
-        return left.into_iter().map(|i| (i, alone(i).ok())).collect();
+        return left.into_iter().map(|i| (i, scalar(i).ok())).collect();
     }
-    left.into_par_iter().map(|i| (i, alone(i).ok())).collect()
+    left.into_par_iter().map(|i| (i, scalar(i).ok())).collect()
 }

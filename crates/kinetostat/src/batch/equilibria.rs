@@ -1,11 +1,11 @@
-//! Loaded postures: what is asked of them, and where the answers go.
+//! Loaded postures: what is wanted of them, and where the answers go.
 
 use super::compiled::{BLOCKS, Batch, in_parallel, left};
 use super::group::Places;
 use super::plan::Plan;
 use super::run::{Answers, Work};
 use super::shape::springs;
-use super::status::Found;
+use super::status::{Engine, Status};
 use super::table::{BLOCK, Table};
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
+use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Wrench};
 
 /// Loaded equilibrium of many postures.
@@ -27,12 +28,14 @@ pub struct BatchEquilibrium {
     /// Forces (N) or torques (N m) of the loads on all actuators, in the same order, as
     /// [`MechanismEquilibrium::actuator_forces`].
     pub actuator_forces: Table,
-    /// Tangent stiffness of the tool, 36 numbers as in [`super::BatchStiffness`]. Empty unless asked for.
+    /// Tangent stiffness of the tool, 36 numbers as in [`super::BatchStiffness`]. Empty unless wanted.
     pub stiffness: Table,
-    /// See [`Self::verdict`]. Empty unless asked for: [`Batch::judged_equilibrium`].
+    /// See [`Self::verdict`]. Empty unless wanted: [`Batch::judged_equilibrium`].
     pub verdicts: Table,
-    /// How each was found.
-    pub found: Vec<Found>,
+    /// What became of each.
+    pub status: Vec<Status>,
+    /// Which engine postures of this machine are solved by.
+    pub engine: Engine,
 }
 
 /// Whether an equilibrium holds, and how well.
@@ -52,22 +55,22 @@ pub struct Verdict {
 #[derive(Clone, Debug)]
 pub struct BatchTargets {
     /// Pose for which the machine is commanded, base from tool; numbers that are none where
-    /// `equilibrium.found` says [`Found::Not`].
+    /// `equilibrium.status` says [`Status::Unsolved`].
     pub targets: Vec<Pose>,
     /// The equilibrium of each, without stiffness and verdict.
     pub equilibrium: BatchEquilibrium,
 }
 
-/// How much is asked of an equilibrium.
+/// How much is wanted of an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Asked {
+enum Query {
     Rest,
     Tangent,
     Verdict,
 }
 
-/// The answer of one posture that was solved alone.
-struct Alone {
+/// The answer of the general engine for one posture.
+struct Scalar {
     target: Pose,
     tool: Pose,
     coordinates: Vec<f64>,
@@ -78,30 +81,40 @@ struct Alone {
 }
 
 impl BatchEquilibrium {
+    /// A command of a posture lies outside its actuator's limits.
+    ///
+    /// # Panics
+    /// If the index is out of range, as for a slice.
+    #[must_use]
+    pub fn outside_limits(&self, mechanism: &Mechanism, posture: usize) -> bool {
+        self.commands.outside_limits(mechanism, posture)
+    }
+
     /// Room for so many postures; old numbers stay until they are written over.
-    fn reset(&mut self, batch: &Batch<'_>, asked: Asked, count: usize) {
+    fn reset(&mut self, batch: &Batch<'_>, query: Query, count: usize) {
         let limbs = batch.mechanism.limbs();
         let coordinates = limbs.iter().map(|l| l.actual.coordinate_count()).sum();
         let commands = limbs.iter().map(|l| l.actual.actuators().len()).sum();
-        let stiffness = if asked >= Asked::Tangent { 36 } else { 0 };
+        let stiffness = if query >= Query::Tangent { 36 } else { 0 };
         self.tool.reset(12, count);
         self.coordinates.reset(coordinates, count);
         self.commands.reset(commands, count);
         self.actuator_forces.reset(commands, count);
         self.stiffness.reset(stiffness, count);
-        let verdict = if asked == Asked::Verdict { 3 } else { 0 };
+        let verdict = if query == Query::Verdict { 3 } else { 0 };
         self.verdicts.reset(verdict, count);
-        self.found.clear();
-        self.found.resize(count, Found::Not);
+        self.engine = batch.engine();
+        self.status.clear();
+        self.status.resize(count, Status::Unsolved);
     }
 
-    /// The verdict of one posture; `None` if none was asked for or the posture was not found.
+    /// The verdict of one posture; `None` if none was wanted or the posture was not found.
     ///
     /// # Panics
     /// If the index is out of range, as for a slice.
     #[must_use]
     pub fn verdict(&self, posture: usize) -> Option<Verdict> {
-        if self.verdicts.width() == 0 || self.found[posture] == Found::Not {
+        if self.verdicts.width() == 0 || self.status[posture] == Status::Unsolved {
             return None;
         }
         let [stable, stiffness, share_to_buckling] =
@@ -122,7 +135,7 @@ impl BatchEquilibrium {
         pose(&self.tool, posture)
     }
 
-    fn set(&mut self, i: usize, answer: Option<&Alone>) {
+    fn set(&mut self, i: usize, answer: Option<&Scalar>) {
         let Some(answer) = answer else {
             for table in [
                 &mut self.tool,
@@ -145,11 +158,11 @@ impl BatchEquilibrium {
         self.actuator_forces.set_row(i, |k| answer.forces[k]);
         self.stiffness.set_row(i, |k| answer.stiffness[k]);
         self.verdicts.set_row(i, |k| answer.verdict[k]);
-        self.found[i] = Found::Alone;
+        self.status[i] = Status::Scalar;
     }
 }
 
-impl Alone {
+impl Scalar {
     fn resting(posture: &Posture<'_>, state: &MechanismState) -> Self {
         let mechanism = posture.mechanism();
         Self {
@@ -235,7 +248,7 @@ impl<'m> Batch<'m> {
         tangent: bool,
         out: &mut BatchEquilibrium,
     ) -> Result<()> {
-        self.loaded(&Places::Poses(poses), wrenches, asked(tangent), out)
+        self.loaded(&Places::Poses(poses), wrenches, query(tangent), out)
     }
 
     /// The same for a serial machine with its actuators commanded to `commands`.
@@ -264,7 +277,7 @@ impl<'m> Batch<'m> {
         tangent: bool,
         out: &mut BatchEquilibrium,
     ) -> Result<()> {
-        self.loaded(&self.joints(commands)?, wrenches, asked(tangent), out)
+        self.loaded(&self.joints(commands)?, wrenches, query(tangent), out)
     }
 
     /// As [`Self::equilibrium`] with tangent stiffness and verdicts: what [`Posture::deflected_by`]
@@ -278,7 +291,7 @@ impl<'m> Batch<'m> {
         wrenches: &[Wrench],
     ) -> Result<BatchEquilibrium> {
         let mut out = BatchEquilibrium::default();
-        self.loaded(&Places::Poses(poses), wrenches, Asked::Verdict, &mut out)?;
+        self.loaded(&Places::Poses(poses), wrenches, Query::Verdict, &mut out)?;
         Ok(out)
     }
 
@@ -297,17 +310,17 @@ impl<'m> Batch<'m> {
         let places = Places::Poses(poses);
         self.as_many(&places, wrenches)?;
         let mut equilibrium = BatchEquilibrium::default();
-        equilibrium.reset(self, Asked::Rest, poses.len());
+        equilibrium.reset(self, Query::Rest, poses.len());
         let mut table = Table::default();
         table.reset(12, poses.len());
         // Rotations about some axes only do not add up: what they lead to depends on the way there.
         if directions[3..].iter().all(|d| *d == directions[3]) {
             let wanted = Some(directions);
-            self.together(&places, wrenches, wanted, &mut equilibrium, &mut table);
+            self.vectorised(&places, wrenches, wanted, &mut equilibrium, &mut table);
         }
         let mut targets = poses.to_vec();
         for i in 0..poses.len() {
-            if equilibrium.found[i] == Found::Together {
+            if equilibrium.status[i] == Status::Vectorised {
                 if directions[3] {
                     targets[i] = pose(&table, i);
                 } else {
@@ -316,15 +329,15 @@ impl<'m> Batch<'m> {
                 }
             }
         }
-        let alone = |i: usize| {
+        let scalar = |i: usize| {
             let near = self.posture(&places, i)?;
             let state = near.rest_state();
             let (posture, state) =
                 target_under_load(&near, &poses[i], &wrenches[i], directions, state)?;
-            Ok(Alone::resting(&posture, &state))
+            Ok(Scalar::resting(&posture, &state))
         };
         let nowhere = Pose::translation(f64::NAN, f64::NAN, f64::NAN);
-        for (i, answer) in left(&equilibrium.found, alone) {
+        for (i, answer) in left(&equilibrium.status, scalar) {
             equilibrium.set(i, answer.as_ref());
             targets[i] = answer.map_or(nowhere, |a| a.target);
         }
@@ -344,7 +357,7 @@ impl<'m> Batch<'m> {
     }
 
     /// Solves those postures that kernels can.
-    fn together(
+    fn vectorised(
         &self,
         places: &Places<'_>,
         wrenches: &[Wrench],
@@ -366,8 +379,8 @@ impl<'m> Batch<'m> {
             targets,
         ]
         .map(|table| table.parts(BLOCKS));
-        let parts = out.found.chunks_mut(BLOCK * BLOCKS).enumerate();
-        let works = parts.map(|(k, found)| {
+        let parts = out.status.chunks_mut(BLOCK * BLOCKS).enumerate();
+        let works = parts.map(|(k, status)| {
             let next = [0, 1, 2, 3, 4, 5, 6].map(|i| tables[i].next().unwrap_or_default());
             let [
                 tool_out,
@@ -394,7 +407,7 @@ impl<'m> Batch<'m> {
                     stiffness,
                     verdicts,
                     targets,
-                    found,
+                    status,
                 },
             }
         });
@@ -417,26 +430,26 @@ impl<'m> Batch<'m> {
         &self,
         places: &Places<'_>,
         wrenches: &[Wrench],
-        asked: Asked,
+        query: Query,
         out: &mut BatchEquilibrium,
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
-        out.reset(self, asked, places.len());
-        if asked != Asked::Verdict || self.judges() {
+        out.reset(self, query, places.len());
+        if query != Query::Verdict || self.judges() {
             let mut none = Table::default();
             none.reset(0, places.len());
-            self.together(places, wrenches, None, out, &mut none);
+            self.vectorised(places, wrenches, None, out, &mut none);
         }
-        let alone = |i: usize| {
+        let scalar = |i: usize| {
             let posture = self.posture(places, i)?;
-            if asked == Asked::Rest {
+            if query == Query::Rest {
                 let state = posture.rest_under(&wrenches[i], posture.rest_state())?;
-                return Ok(Alone::resting(&posture, &state));
+                return Ok(Scalar::resting(&posture, &state));
             }
             let found = posture.deflected_by(&wrenches[i])?;
-            Ok(Alone::judged(&posture, &found))
+            Ok(Scalar::judged(&posture, &found))
         };
-        for (i, answer) in left(&out.found, alone) {
+        for (i, answer) in left(&out.status, scalar) {
             out.set(i, answer.as_ref());
         }
         Ok(())
@@ -452,6 +465,6 @@ fn pose(table: &Table, i: usize) -> Pose {
     Pose::from_parts(place.into(), rotation.into())
 }
 
-fn asked(tangent: bool) -> Asked {
-    if tangent { Asked::Tangent } else { Asked::Rest }
+fn query(tangent: bool) -> Query {
+    if tangent { Query::Tangent } else { Query::Rest }
 }

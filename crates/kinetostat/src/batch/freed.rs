@@ -32,45 +32,7 @@ pub(super) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
                 z[c][r] = z[c][r] * unit;
             }
         }
-        let mut regular = one;
-        let (mut v, mut u) = ([[zero; 6]; 6], [[zero; 6]; 6]);
-        for k in 0..joints {
-            let column = z[6 + k];
-            let (mut whole, mut rest) = (zero, zero);
-            for i in 0..6 {
-                whole = column[i].times_plus(column[i], whole);
-                if i >= k {
-                    rest = column[i].times_plus(column[i], rest);
-                }
-            }
-            regular = regular.least_of(rest / whole);
-            let norm = rest.sqrt();
-            let signed = column[k].where_less(zero, -norm, norm);
-            v[k][k..].copy_from_slice(&column[k..6]);
-            v[k][k] = column[k] + signed;
-            let scale = one / (signed * v[k][k]);
-            for i in k..6 {
-                u[k][i] = v[k][i] * scale;
-            }
-            for c in 0..width {
-                let mut along = zero;
-                for i in k..6 {
-                    along = u[k][i].times_plus(z[c][i], along);
-                }
-                for i in k..6 {
-                    z[c][i] = along.times_from(v[k][i], z[c][i]);
-                }
-            }
-            for r in 0..width {
-                let mut along = zero;
-                for i in k..6 {
-                    along = u[k][i].times_plus(z[i][r], along);
-                }
-                for i in k..6 {
-                    z[i][r] = along.times_from(v[k][i], z[i][r]);
-                }
-            }
-        }
+        let (v, u, mut regular) = reflect(simd, joints, width, z);
         let mut m = [[zero; 12]; 12];
         let mut x = [[zero; 6]; 12];
         for p in 0..width {
@@ -93,26 +55,7 @@ pub(super) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
         regular = regular.least_of(solve(simd, joints, width, &mut m, &mut x));
         let mut k = [[zero; 6]; 6];
         k.copy_from_slice(&x[joints..width]);
-        for j in (0..joints).rev() {
-            for c in 0..6 {
-                let mut column = zero;
-                for i in j..6 {
-                    column = u[j][i].times_plus(k[i][c], column);
-                }
-                for i in j..6 {
-                    k[i][c] = column.times_from(v[j][i], k[i][c]);
-                }
-            }
-            for r in 0..6 {
-                let mut row = zero;
-                for i in j..6 {
-                    row = u[j][i].times_plus(k[r][i], row);
-                }
-                for i in j..6 {
-                    k[r][i] = row.times_from(v[j][i], k[r][i]);
-                }
-            }
-        }
+        reflect_back(joints, &v, &u, &mut k);
         for i in 0..6 {
             for j in 0..3 {
                 k[i][j] = k[i][j] * unit;
@@ -121,6 +64,84 @@ pub(super) fn freed<S: Simd>(simd: S, plan: &Plan, z: &mut Mat12<S>) -> (Mat6<S>
         }
         (k, regular)
     })
+}
+
+/// Reflections `1 - v u^T` that turn `E` into `[R; 0]`, on both sides of `[D E; G H]` (column by column); `v`, `u` and
+/// the smallest relative length of a reflected column.
+#[inline(always)]
+fn reflect<S: Simd>(
+    simd: S,
+    joints: usize,
+    width: usize,
+    z: &mut Mat12<S>,
+) -> (Mat6<S>, Mat6<S>, Lanes<S>) {
+    let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
+    let mut regular = one;
+    let (mut v, mut u) = ([[zero; 6]; 6], [[zero; 6]; 6]);
+    for k in 0..joints {
+        let column = z[6 + k];
+        let (mut whole, mut rest) = (zero, zero);
+        for i in 0..6 {
+            whole = column[i].times_plus(column[i], whole);
+            if i >= k {
+                rest = column[i].times_plus(column[i], rest);
+            }
+        }
+        regular = regular.least_of(rest / whole);
+        let norm = rest.sqrt();
+        let signed = column[k].where_less(zero, -norm, norm);
+        v[k][k..].copy_from_slice(&column[k..6]);
+        v[k][k] = column[k] + signed;
+        let scale = one / (signed * v[k][k]);
+        for i in k..6 {
+            u[k][i] = v[k][i] * scale;
+        }
+        for c in 0..width {
+            let mut along = zero;
+            for i in k..6 {
+                along = u[k][i].times_plus(z[c][i], along);
+            }
+            for i in k..6 {
+                z[c][i] = along.times_from(v[k][i], z[c][i]);
+            }
+        }
+        for r in 0..width {
+            let mut along = zero;
+            for i in k..6 {
+                along = u[k][i].times_plus(z[i][r], along);
+            }
+            for i in k..6 {
+                z[i][r] = along.times_from(v[k][i], z[i][r]);
+            }
+        }
+    }
+    (v, u, regular)
+}
+
+/// The stiffness in the axes before the reflections.
+#[inline(always)]
+fn reflect_back<S: Simd>(joints: usize, v: &Mat6<S>, u: &Mat6<S>, k: &mut Mat6<S>) {
+    let zero = k[0][0].same(0.0);
+    for j in (0..joints).rev() {
+        for c in 0..6 {
+            let mut column = zero;
+            for i in j..6 {
+                column = u[j][i].times_plus(k[i][c], column);
+            }
+            for i in j..6 {
+                k[i][c] = column.times_from(v[j][i], k[i][c]);
+            }
+        }
+        for r in 0..6 {
+            let mut row = zero;
+            for i in j..6 {
+                row = u[j][i].times_plus(k[r][i], row);
+            }
+            for i in j..6 {
+                k[r][i] = row.times_from(v[j][i], k[r][i]);
+            }
+        }
+    }
 }
 
 /// `M X = B` in place without pivoting, `X` from row `joints` on; the smallest relative pivot: of the

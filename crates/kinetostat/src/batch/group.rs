@@ -4,11 +4,11 @@ use pulp::Simd;
 
 use super::lanes::Lanes;
 use super::reach::Target;
-use super::status::Found;
+use super::status::Status;
 use super::table::BLOCK;
 use crate::spatial::{Pose, Wrench};
 
-/// Below this relative pivot a posture is solved alone: its rank has to be decided.
+/// Below this relative pivot a posture is left to the general engine: its rank has to be decided.
 pub(super) const REGULAR: f64 = 1e-9;
 
 /// Where the machine is commanded.
@@ -93,12 +93,12 @@ impl Group {
 
     /// Marks the lanes whose least pivot or other measure of good is well above zero.
     #[inline(always)]
-    pub fn conclude<S: Simd>(&self, good: Lanes<S>, found: &mut [Found]) {
+    pub fn conclude<S: Simd>(&self, good: Lanes<S>, status: &mut [Status]) {
         let mut values = [0.0; BLOCK];
         good.store(&mut values);
-        for (own, good) in found[self.first..].iter_mut().zip(&values[..S::F64_LANES]) {
+        for (own, good) in status[self.first..].iter_mut().zip(&values[..S::F64_LANES]) {
             if *good > REGULAR {
-                *own = Found::Together;
+                *own = Status::Vectorised;
             }
         }
     }

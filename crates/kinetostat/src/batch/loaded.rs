@@ -134,17 +134,17 @@ impl<S: Simd> LoadedLimb<S> {
     /// Where the tip is at the present coordinates, and which way gravity points at the masses.
     #[inline(always)]
     pub fn outwards(&mut self, plan: &Plan, gravity: &[f64; 3]) {
-        self.walk::<false>(plan, gravity);
+        self.forward::<false>(plan, gravity);
     }
 
     /// The same, with the places of all motions and masses.
     #[inline(always)]
     pub fn frames(&mut self, plan: &Plan, gravity: &[f64; 3]) {
-        self.walk::<true>(plan, gravity);
+        self.forward::<true>(plan, gravity);
     }
 
     #[inline(always)]
-    fn walk<const PLACES: bool>(&mut self, plan: &Plan, gravity: &[f64; 3]) {
+    fn forward<const PLACES: bool>(&mut self, plan: &Plan, gravity: &[f64; 3]) {
         apart!(self.simd, {
             let simd = self.simd;
             let mut r = identity(simd);
@@ -293,7 +293,7 @@ impl<S: Simd> LoadedLimb<S> {
     }
 
     /// Force and moment of the platform on the tip, in the axes and about the origin of the frame there.
-    /// The walks back keep what is beyond the place reached in the frame there.
+    /// The passes back keep what is beyond the place reached in the frame there.
     #[inline(always)]
     pub fn at_tip(&self) -> (Vec3<S>, Vec3<S>) {
         let zero = Lanes::new(self.simd, 0.0);
@@ -446,7 +446,7 @@ impl<S: Simd> LoadedLimb<S> {
     ) {
         let zero = Lanes::new(self.simd, 0.0);
         // Where the spring is, what it bears there, and what its compliance is multiplied with.
-        let (mut from, mut borne, mut lacks) = ([zero; 6], [zero; 6], torque);
+        let (mut from, mut borne, mut residual) = ([zero; 6], [zero; 6], torque);
         if let Law::Curved(law, _) = &spring.law {
             for d in 0..6 {
                 if let Some(own) = spring.coordinates[d] {
@@ -457,7 +457,7 @@ impl<S: Simd> LoadedLimb<S> {
             (borne, square) = law::torque(law, &from);
             tally.largest = tally.largest.max(square);
             for d in 0..6 {
-                lacks[d] = torque[d] - borne[d];
+                residual[d] = torque[d] - borne[d];
             }
         } else {
             for d in 0..6 {
@@ -467,8 +467,8 @@ impl<S: Simd> LoadedLimb<S> {
             }
         }
         let step = match &spring.law {
-            Law::Parallelogram(..) => self.laws[law].times(&lacks),
-            Law::Constant | Law::Curved(..) => times(&spring.compliance, &lacks),
+            Law::Parallelogram(..) => self.laws[law].times(&residual),
+            Law::Constant | Law::Curved(..) => times(&spring.compliance, &residual),
         };
         for d in 0..6 {
             if let Some(own) = spring.coordinates[d] {

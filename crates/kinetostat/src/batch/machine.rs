@@ -14,7 +14,7 @@ use super::reach::{Joints, Target};
 use super::serial::serial;
 use super::shape::Shape;
 use super::symmetric::Symmetric;
-use super::unloaded::Walk;
+use super::unloaded::ForwardPass;
 use super::vectors::{Mat3, Vec3, identity};
 
 /// One where all commands are angles and lengths that sines are exact for.
@@ -32,7 +32,7 @@ pub(super) fn bounded<S: Simd>(simd: S, commands: &[Lanes<S>]) -> Lanes<S> {
 pub(super) struct Machine<'a, S: Simd> {
     pub nominal: &'a [Plan],
     pub actual: &'a [Plan],
-    walks: Vec<(Walk<S>, Walk<S>)>,
+    passes: Vec<(ForwardPass<S>, ForwardPass<S>)>,
     joints: Vec<Joints<S>>,
     pub limbs: Vec<LoadedLimb<S>>,
     /// Made when it is needed.
@@ -66,8 +66,8 @@ impl<'a, S: Simd> Machine<'a, S> {
         Self {
             nominal,
             actual,
-            walks: plans()
-                .map(|(n, a)| (Walk::new(simd, n), Walk::new(simd, a)))
+            passes: plans()
+                .map(|(n, a)| (ForwardPass::new(simd, n), ForwardPass::new(simd, a)))
                 .collect(),
             joints: nominal.iter().map(|n| Joints::new(simd, n)).collect(),
             limbs: actual.iter().map(|a| LoadedLimb::new(simd, a)).collect(),
@@ -138,18 +138,18 @@ impl<'a, S: Simd> Machine<'a, S> {
         let mut good = Lanes::new(simd, 1.0);
         if aimed {
             let limbs = self.nominal.iter().zip(&mut self.joints);
-            for ((plan, joints), (walk, _)) in limbs.zip(&mut self.walks) {
-                joints.reach(simd, plan, walk, &self.target, true);
+            for ((plan, joints), (forward, _)) in limbs.zip(&mut self.passes) {
+                joints.reach(simd, plan, forward, &self.target, true);
                 good = good.least_of(joints.reached);
             }
             (self.rotation, self.point) = (self.target.rotation, self.target.point);
         } else {
             // Where the commands lead the machine as it is drawn.
-            let (plan, (walk, _)) = (&self.nominal[0], &mut self.walks[0]);
+            let (plan, (forward, _)) = (&self.nominal[0], &mut self.passes[0]);
             let commands = &self.joints[0].commands;
             good = bounded(simd, commands);
-            walk.along(plan, false, plan.steps.len(), commands, &[]);
-            (self.rotation, self.point) = (walk.rotation, walk.point);
+            forward.along(plan, false, plan.steps.len(), commands, &[]);
+            (self.rotation, self.point) = (forward.rotation, forward.point);
         }
         for ((limb, plan), joints) in self.limbs.iter_mut().zip(self.actual).zip(&self.joints) {
             limb.start(plan, &joints.commands, &joints.passive);
@@ -170,16 +170,17 @@ impl<'a, S: Simd> Machine<'a, S> {
         self.factors.clear();
         self.stiffest.clear();
         let mut sum = Symmetric::zero(simd);
-        for ((plan, joints), (_, walk)) in self.actual.iter().zip(&self.joints).zip(&mut self.walks)
+        for ((plan, joints), (_, forward)) in
+            self.actual.iter().zip(&self.joints).zip(&mut self.passes)
         {
-            walk.along(
+            forward.along(
                 plan,
                 true,
                 plan.steps.len(),
                 &joints.commands,
                 &joints.passive,
             );
-            let factors = walk.eliminated(plan);
+            let factors = forward.eliminated(plan);
             let length = plan.length;
             let own = factors.stiffness(simd);
             sum.add(&own.matrix.scaled(1.0 / (length * length), 1.0 / length));

@@ -1,11 +1,11 @@
 //! Many postures at once.
 //!
 //! A machine is compiled once into a [`Batch`]: per limb a list of steps with constants folded.
-//! Kernels walk along the steps with several postures in each number, without a branch that
+//! Kernels go along the steps with several postures in each number, without a branch that
 //! depends on a posture and without allocating; the widest vector instructions of the machine are
 //! chosen at run time. A posture whose lane cannot go on (a singular place, an iteration that does
-//! not contract) is solved once more alone, by the general engine, and so is every posture of a
-//! machine with something that no kernel knows; see [`Batch::alone`].
+//! not contract) is solved by the general engine, and so is every posture of a machine with something that no
+//! kernel knows: the [`Status`] of each posture and the [`Engine`] of the result say so.
 //!
 //! The answer of a posture depends on nothing but that posture: not on its neighbours, the number of
 //! threads or the width of the vectors.
@@ -13,7 +13,10 @@
 mod actuators;
 mod apart;
 mod compensate;
+mod compile;
 mod compiled;
+#[cfg(test)]
+mod conformance;
 mod eliminate;
 mod equilibria;
 mod freed;
@@ -27,6 +30,7 @@ mod newton;
 mod newton_stage;
 #[cfg(test)]
 mod newton_tests;
+mod path;
 mod place;
 mod plan;
 mod platform;
@@ -49,6 +53,7 @@ mod wrenches;
 pub use compiled::Batch;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};
 pub use models::over_machines;
-pub use status::Found;
+pub use path::AlongPath;
+pub use status::{Engine, Status};
 pub use stiffness::BatchStiffness;
 pub use table::Table;

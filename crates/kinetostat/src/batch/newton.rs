@@ -1,9 +1,9 @@
 //! Newton's iteration for a serial limb under load, several postures at once: for loads under which
 //! `theta <- K^-1 tau(theta)` does not contract.
 //!
-//! One walk back and one walk out per step, at a cost that grows with the number of springs and no
+//! One pass back and one pass out per step, at a cost that grows with the number of springs and no
 //! faster. In the axes and about the origin of every frame, with `t` its motion in the step and `w =
-//! (f, m)` the wrench of what lies beyond, the walk back carries `dw = P t + y`. At the tip, a dead wrench
+//! (f, m)` the wrench of what lies beyond, the pass back carries `dw = P t + y`. At the tip, a dead wrench
 //! turns against the frame: `df = hat(f) w`, `dm = hat(m) w`; so do weights. Along a spring of
 //! coordinates `x` with twists `S` (axes of the frame before, about the point after its translations)
 //!
@@ -46,7 +46,7 @@ pub(super) struct Newton<S: Simd> {
     step: Vec<Lanes<S>>,
     next: Vec<Lanes<S>>,
     /// What the springs lack: `tau - K theta`.
-    lacks: Vec<Lanes<S>>,
+    residual: Vec<Lanes<S>>,
     /// Smallest pivot relative to the springs' own stiffness: above zero where the chain is stable.
     stable: Lanes<S>,
     simd: S,
@@ -67,7 +67,7 @@ impl<S: Simd> Newton<S> {
             at: vec![zero; plan.coordinates],
             step: vec![zero; plan.coordinates],
             next: vec![zero; plan.coordinates],
-            lacks: vec![zero; plan.coordinates],
+            residual: vec![zero; plan.coordinates],
             stable: zero,
             simd,
         }
@@ -92,7 +92,7 @@ impl<S: Simd> Newton<S> {
             }
             (limb.bent, limb.far) = (true, Some(wanted));
             limb.outwards(plan, gravity);
-            self.miss(plan, limb);
+            self.update_residual(plan, limb);
             let (mut active, mut done, mut share) = (wanted, zero, one);
             for _ in 0..MOST_STEPS {
                 self.factor(plan, limb);
@@ -107,7 +107,7 @@ impl<S: Simd> Newton<S> {
                         limb.coordinates[k] = select(active, to, self.at[k]);
                     }
                     limb.outwards(plan, gravity);
-                    self.miss(plan, limb);
+                    self.update_residual(plan, limb);
                     self.answer(plan, limb);
                     let left = self.square(plan, zero, one);
                     let most = share.times_from(one * 0.25, one);
@@ -165,7 +165,7 @@ impl<S: Simd> Newton<S> {
 
     /// What the springs lack where the limb is.
     #[inline(always)]
-    fn miss(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
+    fn update_residual(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
         apart!(self.simd, {
             let (mut force, mut moment) = limb.at_tip();
             let mut mass = limb.gravity.len();
@@ -183,7 +183,7 @@ impl<S: Simd> Newton<S> {
                             (joint.held, joint.amount.coordinate)
                         {
                             let x = limb.coordinates[own];
-                            self.lacks[own] = match &joint.law {
+                            self.residual[own] = match &joint.law {
                                 Some(law) => torque * ratio - law::single_torque(law, x),
                                 None => x.times_from(x.same(1.0 / c), torque * ratio),
                             };
@@ -200,7 +200,7 @@ impl<S: Simd> Newton<S> {
                         let borne = times(&spring.stiffness, &x);
                         for d in 0..6 {
                             if let Some(own) = spring.coordinates[d] {
-                                self.lacks[own] = torque[d] - borne[d];
+                                self.residual[own] = torque[d] - borne[d];
                             }
                         }
                     }
@@ -289,14 +289,14 @@ impl<S: Simd> Newton<S> {
                             (joint.held, joint.amount.coordinate)
                         {
                             single -= 1;
-                            let lacks = self.lacks[own];
+                            let residual = self.residual[own];
                             let this = &mut self.singles[single];
                             moved = this.moved;
                             let y = match joint.kind {
                                 MotionKind::Prismatic => component(&force, joint.axis),
                                 MotionKind::Revolute => component(&moment, joint.axis),
                             };
-                            this.free = y.times_plus(y.same(ratio), lacks) * this.reciprocal;
+                            this.free = y.times_plus(y.same(ratio), residual) * this.reciprocal;
                             for k in 0..3 {
                                 force[k] = this.passed_on[k].times_plus(this.free, force[k]);
                                 moment[k] = this.passed_on[3 + k].times_plus(this.free, moment[k]);
@@ -327,7 +327,7 @@ impl<S: Simd> Newton<S> {
                         ];
                         for d in 0..6 {
                             x[d] = match spring.coordinates[d] {
-                                Some(place) => x[d] + self.lacks[place],
+                                Some(place) => x[d] + self.residual[place],
                                 None => zero,
                             };
                         }
@@ -359,7 +359,7 @@ impl<S: Simd> Newton<S> {
         })
     }
 
-    /// The walk out: motions of all springs.
+    /// The pass out: motions of all springs.
     #[inline(always)]
     fn motions(&mut self, plan: &Plan, limb: &LoadedLimb<S>) {
         apart!(self.simd, {

@@ -89,7 +89,7 @@ fn an_elastica_is_found_together() {
         let home = machine.platforms()[1].home;
         let load = force(0.0, 10.0, 0.0);
         let one = batch.equilibrium(&[home], &[load], false).expect("sizes");
-        assert_eq!(one.found[0], Found::Together);
+        assert_eq!(one.status[0], Status::Vectorised);
         let tip = [one.tool.get(0, 9), one.tool.get(0, 10)];
         let exact = elastica(10.0);
         errors.push((tip[0] - exact[0]).hypot(tip[1] - exact[1]));
@@ -121,7 +121,7 @@ fn an_elastica_is_found_together() {
         for i in 0..loads.len() {
             let own = batch.equilibrium(&places[..1], &loads[i..=i], false);
             let own = own.expect("sizes");
-            assert_eq!(own.found[0], all.found[i]);
+            assert_eq!(own.status[0], all.status[i]);
             assert!(own.tool.row(0).eq(all.tool.row(i)), "load {i}");
             assert!(
                 own.coordinates.row(0).eq(all.coordinates.row(i)),
@@ -168,7 +168,7 @@ fn soft_arm() -> Mechanism {
 fn heavily_loaded_arms_are_found_together() {
     let machine = soft_arm();
     let batch = Batch::new(&machine);
-    assert_eq!(batch.alone(), None);
+    assert_eq!(batch.engine(), Engine::Vectorised);
     let irregular = |i: usize| 2.0 * ((i + 1) as f64 * 0.618_033_988_749_895).fract() - 1.0;
     let vector = |i: usize| Vector3::new(irregular(i), irregular(i + 1), irregular(i + 2));
     let count = 24;
@@ -189,11 +189,11 @@ fn heavily_loaded_arms_are_found_together() {
         };
         let posture = batch.posture(&joints, i).expect("a posture");
         let Ok(alone) = posture.deflected_by(&wrenches[i]) else {
-            assert_eq!(all.found[i], Found::Not);
+            assert_eq!(all.status[i], Status::Unsolved);
             continue;
         };
-        println!("{i} {:?} {}", all.found[i], alone.stable());
-        if all.found[i] == Found::Together {
+        println!("{i} {:?} {}", all.status[i], alone.stable());
+        if all.status[i] == Status::Vectorised {
             together += 1;
             assert!(alone.stable());
         }
@@ -203,7 +203,7 @@ fn heavily_loaded_arms_are_found_together() {
             assert!((a - b).abs() < 1e-9, "posture {i}: {a} {b}");
             most = most.max(a.abs());
         }
-        if most > 0.12 && all.found[i] == Found::Together {
+        if most > 0.12 && all.status[i] == Status::Vectorised {
             far += 1;
         }
     }
@@ -219,7 +219,7 @@ fn a_column_beyond_its_buckling_load_is_as_alone() {
     // Euler: 2.47.
     let loads = [-2.0, -2.6, -4.0, -8.0].map(|p| force(p, 0.02, 0.01));
     let found = batch.equilibrium(&[home; 4], &loads, false).expect("sizes");
-    assert_eq!(found.found[0], Found::Together);
+    assert_eq!(found.status[0], Status::Vectorised);
     let posture = machine.posture(&home).expect("home");
     for i in 0..4 {
         let alone = posture.deflected_by(&loads[i]).expect("an equilibrium");
@@ -227,13 +227,13 @@ fn a_column_beyond_its_buckling_load_is_as_alone() {
         println!(
             "{} {:?} {tip:?} {}",
             loads[i].0[0],
-            found.found[i],
+            found.status[i],
             alone.stable()
         );
         assert!(
             (tip - alone.tool.translation.vector).norm() < 1e-9,
             "load {i}"
         );
-        assert!(found.found[i] != Found::Together || alone.stable());
+        assert!(found.status[i] != Status::Vectorised || alone.stable());
     }
 }

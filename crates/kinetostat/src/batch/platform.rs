@@ -11,9 +11,9 @@ use super::plan::Plan;
 use super::symmetric::Symmetric;
 use super::vectors::{Mat3, Vec3, carried, constant, cross, minus, select, turn_between, turned};
 
-/// Rounding of a gap between a limb and its platform, share of the natural length or rad: a few passes
+/// Rounding of the residual between a limb and its platform, share of the natural length or rad: a few passes
 /// over tens of motions.
-const GAP_ROUNDING: f64 = 4e-15;
+const RESIDUAL_ROUNDING: f64 = 4e-15;
 
 /// Limbs that hold one platform.
 pub(super) struct Held6<'a, S: Simd> {
@@ -68,18 +68,18 @@ impl<S: Simd> Held6<'_, S> {
             }
             let arm = carried(&self.rotation, &constant(simd, &self.body.0), &[zero; 3]);
             let lever = cross(&arm, &weight);
-            let mut lacks = *wrench;
+            let mut unbalanced = *wrench;
             for k in 0..3 {
-                lacks[k] = lacks[k] + weight[k];
-                lacks[3 + k] = lacks[3 + k] + lever[k];
+                unbalanced[k] = unbalanced[k] + weight[k];
+                unbalanced[3 + k] = unbalanced[3 + k] + lever[k];
             }
             for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
-                let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
+                let (factors, noise) = (&self.factors[i], self.stiffest[i] * RESIDUAL_ROUNDING);
                 limb.clear(plan);
                 limb.inwards(plan, active);
                 limb.outwards(plan, &self.gravity);
-                let gap = gap(limb, plan, &self.rotation, &self.point);
-                for x in gap {
+                let residual = residual(limb, plan, &self.rotation, &self.point);
+                for x in residual {
                     // A share of the natural length, or rad.
                     moving = (one * TOLERANCE).where_less(x.abs(), one, moving);
                 }
@@ -87,20 +87,20 @@ impl<S: Simd> Held6<'_, S> {
                 let torques = noise * noise * (limb.coordinates.len() as f64);
                 let rounding = torques * (1.0 + 1.0 / (plan.length * plan.length));
                 moving = moving.max(limb.moving(rounding));
-                let (step, _) = correction(simd, limb, plan, factors, gap);
+                let (step, _) = correction(simd, limb, plan, factors, residual);
                 for k in 0..6 {
-                    lacks[k] = lacks[k] - limb.wrench[k] - step[k];
+                    unbalanced[k] = unbalanced[k] - limb.wrench[k] - step[k];
                 }
             }
-            let motion = self.compliance.times(&lacks);
+            let motion = self.compliance.times(&unbalanced);
             for (i, (limb, plan)) in self.limbs.iter_mut().zip(self.plans).enumerate() {
-                let (factors, noise) = (&self.factors[i], self.stiffest[i] * GAP_ROUNDING);
-                let mut gap = gap(limb, plan, &self.rotation, &self.point);
+                let (factors, noise) = (&self.factors[i], self.stiffest[i] * RESIDUAL_ROUNDING);
+                let mut residual = residual(limb, plan, &self.rotation, &self.point);
                 for k in 0..3 {
-                    gap[k] = motion[k].times_plus(one * (1.0 / plan.length), gap[k]);
-                    gap[3 + k] = gap[3 + k] + motion[3 + k];
+                    residual[k] = motion[k].times_plus(one * (1.0 / plan.length), residual[k]);
+                    residual[3 + k] = residual[3 + k] + motion[3 + k];
                 }
-                let (step, joints) = correction(simd, limb, plan, factors, gap);
+                let (step, joints) = correction(simd, limb, plan, factors, residual);
                 let (mut change, mut size) = (zero, zero);
                 for k in 0..6 {
                     let unit = if k < 3 { plan.length } else { 1.0 };
@@ -108,7 +108,7 @@ impl<S: Simd> Held6<'_, S> {
                     change = x.times_plus(x, change);
                     size = w.times_plus(w, size);
                 }
-                // What a gap of rounding makes of wrenches is rounding too: limbs that brace each other
+                // What a residual of rounding makes of wrenches is rounding too: limbs that brace each other
                 // know their inner forces no better.
                 let allowed = (size * (TOLERANCE * TOLERANCE)).max(noise * noise);
                 moving = allowed.where_less(change, one, moving);
@@ -134,21 +134,26 @@ impl<S: Simd> Held6<'_, S> {
 
 /// From a limb's tip to the platform, balanced: share of the natural length, rad.
 #[inline(always)]
-fn gap<S: Simd>(limb: &LoadedLimb<S>, plan: &Plan, to: &Mat3<S>, point: &Vec3<S>) -> [Lanes<S>; 6] {
+fn residual<S: Simd>(
+    limb: &LoadedLimb<S>,
+    plan: &Plan,
+    to: &Mat3<S>,
+    point: &Vec3<S>,
+) -> [Lanes<S>; 6] {
     let l = minus(point, &limb.point);
     let a = turn_between(to, &limb.rotation);
     let share = 1.0 / plan.length;
     [l[0] * share, l[1] * share, l[2] * share, a[0], a[1], a[2]]
 }
 
-/// Change of a limb's wrench (N, N m) and of its passive joints that closes a gap and frees the joints of torque.
+/// Change of a limb's wrench (N, N m) and of its passive joints that closes a residual and frees the joints of torque.
 #[inline(always)]
 fn correction<S: Simd>(
     simd: S,
     limb: &LoadedLimb<S>,
     plan: &Plan,
     factors: &Eliminated<S>,
-    gap: [Lanes<S>; 6],
+    residual: [Lanes<S>; 6],
 ) -> ([Lanes<S>; 6], [Lanes<S>; 6]) {
     let zero = Lanes::new(simd, 0.0);
     let mut torque = [zero; 6];
@@ -156,7 +161,7 @@ fn correction<S: Simd>(
         *x = -limb.torque[*own];
     }
     let mut joints = [zero; 6];
-    let mut wrench = factors.answer(simd, gap, &torque, &mut joints);
+    let mut wrench = factors.answer(simd, residual, &torque, &mut joints);
     for x in &mut wrench[..3] {
         *x = *x * (1.0 / plan.length);
     }

@@ -7,7 +7,7 @@ use pulp::Simd;
 use super::apart::apart;
 use super::lanes::Lanes;
 use super::plan::{Plan, Polar, Rows, Search};
-use super::unloaded::Walk;
+use super::unloaded::ForwardPass;
 use super::vectors::{
     Mat3, Vec3, carried, column, constant, cross, dot, matrix, minus, turn_between,
 };
@@ -41,14 +41,14 @@ impl<S: Simd> Joints<S> {
         }
     }
 
-    /// Joints from home to the target. Unless `all` are asked for, the walk ends at the spherical
+    /// Joints from home to the target. Unless `all` are asked for, the forward ends at the spherical
     /// joint at the limb's end, if it has one, and leaves its angles at home.
     #[inline(always)]
     pub fn reach(
         &mut self,
         simd: S,
         plan: &Plan,
-        walk: &mut Walk<S>,
+        forward: &mut ForwardPass<S>,
         target: &Target<S>,
         all: bool,
     ) {
@@ -59,15 +59,15 @@ impl<S: Simd> Joints<S> {
             *x = Lanes::new(simd, plan.home[*own]);
         }
         self.reached = Lanes::new(simd, 1.0);
-        walk.known = None;
+        forward.known = None;
         if let (Some(polar), false) = (&plan.polar, all) {
-            self.point_to(simd, polar, walk, target, plan);
+            self.point_to(simd, polar, forward, target, plan);
             return;
         }
         let searches = if all { plan.searches.len() } else { 1 };
         // One call in one place: the search is large, and every call is a copy of it.
         for search in &plan.searches[..searches] {
-            self.search(simd, plan, search, walk, target);
+            self.search(simd, plan, search, forward, target);
         }
     }
 
@@ -79,7 +79,7 @@ impl<S: Simd> Joints<S> {
         &mut self,
         simd: S,
         polar: &Polar,
-        walk: &mut Walk<S>,
+        forward: &mut ForwardPass<S>,
         target: &Target<S>,
         plan: &Plan,
     ) {
@@ -114,10 +114,10 @@ impl<S: Simd> Joints<S> {
         }
         // Where the length is zero no direction is a number.
         self.reached = self.reached.least_of(length.abs());
-        walk.known = Some((polar.first, [first, (sine, cosine)]));
+        forward.known = Some((polar.first, [first, (sine, cosine)]));
         self.commands[polar.command] = (length - polar.fixed) * (1.0 / polar.ratio);
         let end = plan.searches[0].end;
-        walk.along(plan, true, end, &self.commands, &self.passive);
+        forward.along(plan, true, end, &self.commands, &self.passive);
     }
 
     /// Newton's iteration.
@@ -127,7 +127,7 @@ impl<S: Simd> Joints<S> {
         simd: S,
         plan: &Plan,
         search: &Search,
-        walk: &mut Walk<S>,
+        forward: &mut ForwardPass<S>,
         target: &Target<S>,
     ) {
         apart!(simd, {
@@ -148,16 +148,16 @@ impl<S: Simd> Joints<S> {
             for pass in 0..=MOST_STEPS {
                 // The last pass only looks where the limb is.
                 let done = pass == MOST_STEPS || active.all_less(0.5);
-                walk.along(plan, done, search.end, &self.commands, &self.passive);
+                forward.along(plan, done, search.end, &self.commands, &self.passive);
                 if done {
                     break;
                 }
                 let mut columns = [[zero; 6]; 6];
-                walk.columns(plan, &search.drives, &mut columns);
-                let miss = minus(&centre, &walk.point);
-                let mut e = [miss[0], miss[1], miss[2], zero, zero, zero];
+                forward.columns(plan, &search.drives, &mut columns);
+                let residual = minus(&centre, &forward.point);
+                let mut e = [residual[0], residual[1], residual[2], zero, zero, zero];
                 if search.rows != Rows::Position {
-                    let turn = turn_between(&target.rotation, &walk.rotation);
+                    let turn = turn_between(&target.rotation, &forward.rotation);
                     for k in 0..3 {
                         e[3 + k] = turn[k] * length;
                         for column in &mut columns {
@@ -165,7 +165,7 @@ impl<S: Simd> Joints<S> {
                         }
                     }
                 }
-                let linear = dot(&miss, &miss);
+                let linear = dot(&residual, &residual);
                 let angular = dot(&[e[3], e[4], e[5]], &[e[3], e[4], e[5]]);
                 let (square, mut step) = match search.rows {
                     Rows::Position if unknowns == 3 => (linear, square_step(&columns, &e)),

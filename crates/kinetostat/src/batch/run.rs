@@ -9,13 +9,13 @@ use super::machine::{Machine, bounded};
 use super::plan::Plan;
 use super::reach::Joints;
 use super::shape::Shape;
-use super::status::Found;
+use super::status::Status;
 use super::symmetric::Symmetric;
-use super::unloaded::Walk;
+use super::unloaded::ForwardPass;
 use super::vectors::{carried, constant};
 use crate::spatial::Wrench;
 
-/// What one thread does at a time: as many postures as `found` has places.
+/// What one thread does at a time: as many postures as `status` has places.
 pub(super) enum Work<'a> {
     Unloaded {
         plans: &'a [Plan],
@@ -23,7 +23,7 @@ pub(super) enum Work<'a> {
         stiffness: &'a mut [f64],
         jacobian: &'a mut [f64],
         commands: &'a mut [f64],
-        found: &'a mut [Found],
+        status: &'a mut [Status],
     },
     Loaded {
         nominal: &'a [Plan],
@@ -49,7 +49,7 @@ pub(super) struct Answers<'a> {
     pub verdicts: &'a mut [f64],
     /// Commanded poses, 12 numbers as `tool`.
     pub targets: &'a mut [f64],
-    pub found: &'a mut [Found],
+    pub status: &'a mut [Status],
 }
 
 impl Work<'_> {
@@ -74,8 +74,8 @@ impl Work<'_> {
     #[cfg(target_arch = "x86_64")]
     fn len(&self) -> usize {
         match self {
-            Self::Unloaded { found, .. } => found.len(),
-            Self::Loaded { answers, .. } => answers.found.len(),
+            Self::Unloaded { status, .. } => status.len(),
+            Self::Loaded { answers, .. } => answers.status.len(),
         }
     }
 }
@@ -112,8 +112,8 @@ impl WithSimd for Work<'_> {
                 stiffness,
                 jacobian,
                 commands,
-                found,
-            } => unloaded(simd, plans, places, [stiffness, jacobian, commands], found),
+                status,
+            } => unloaded(simd, plans, places, [stiffness, jacobian, commands], status),
             Self::Loaded {
                 nominal,
                 actual,
@@ -128,7 +128,7 @@ impl WithSimd for Work<'_> {
                 if !answers.verdicts.is_empty() {
                     machine.shapes = actual.iter().map(|a| Shape::new(simd, a)).collect();
                 }
-                let count = answers.found.len();
+                let count = answers.status.len();
                 for first in (0..count).step_by(S::F64_LANES) {
                     let group = Group { first, count };
                     let wrench = group.wrench(simd, wrenches);
@@ -181,7 +181,7 @@ impl WithSimd for Work<'_> {
                         }
                     }
                     good = good.least_of(machine.numbers(simd, &wrench));
-                    group.conclude(good, answers.found);
+                    group.conclude(good, answers.status);
                 }
             }
         }
@@ -194,44 +194,44 @@ fn unloaded<S: Simd>(
     plans: &[Plan],
     places: Places<'_>,
     [stiffness, jacobian, all_commands]: [&mut [f64]; 3],
-    found: &mut [Found],
+    status: &mut [Status],
 ) {
     let zero = Lanes::new(simd, 0.0);
-    let mut limbs: Vec<(Walk<S>, Joints<S>)> = plans
+    let mut limbs: Vec<(ForwardPass<S>, Joints<S>)> = plans
         .iter()
-        .map(|plan| (Walk::new(simd, plan), Joints::new(simd, plan)))
+        .map(|plan| (ForwardPass::new(simd, plan), Joints::new(simd, plan)))
         .collect();
     let n = plans[0].coordinates;
     let summed = !jacobian.is_empty() && !plans[0].one_each;
     let mut columns = vec![zero; if summed { 6 * n } else { 0 }];
-    let count = found.len();
+    let count = status.len();
     for first in (0..count).step_by(S::F64_LANES) {
         let group = Group { first, count };
         let mut good = Lanes::new(simd, 1.0);
         let mut sum = Symmetric::zero(simd);
         match places {
             Places::Joints { commands, each } => {
-                let (walk, joints) = &mut limbs[0];
+                let (forward, joints) = &mut limbs[0];
                 group.commands(simd, commands, each, &mut joints.commands);
                 let within = bounded(simd, &joints.commands);
                 let steps = plans[0].steps.len();
-                walk.along(&plans[0], true, steps, &joints.commands, &[]);
-                let own = walk.stiffness(&plans[0]);
+                forward.along(&plans[0], true, steps, &joints.commands, &[]);
+                let own = forward.stiffness(&plans[0]);
                 good = own.regular.least_of(within);
                 sum = own.matrix;
             }
             Places::Poses(poses) => {
                 let target = group.target(simd, poses);
-                for (plan, (walk, joints)) in plans.iter().zip(&mut limbs) {
-                    joints.reach(simd, plan, walk, &target, false);
+                for (plan, (forward, joints)) in plans.iter().zip(&mut limbs) {
+                    joints.reach(simd, plan, forward, &target, false);
                     let own = match &plan.sphere {
                         Some(sphere) => {
                             let [x, y, z] = sphere.arm;
                             let arm = constant(simd, &[-x, -y, -z]);
                             let arm = carried(&target.rotation, &arm, &[zero; 3]);
-                            walk.stiffness_at_sphere(plan, &arm)
+                            forward.stiffness_at_sphere(plan, &arm)
                         }
-                        None => walk.stiffness(plan),
+                        None => forward.stiffness(plan),
                     };
                     sum.add(&own.matrix);
                     good = good.least_of(own.regular).least_of(joints.reached);
@@ -257,13 +257,13 @@ fn unloaded<S: Simd>(
             }
         }
         if !jacobian.is_empty() {
-            let (plan, walk) = (&plans[0], &limbs[0].0);
+            let (plan, forward) = (&plans[0], &limbs[0].0);
             columns.fill(zero);
             for (k, screw) in plan.screws.iter().enumerate() {
                 let Some((own, ratio)) = screw.coordinate else {
                     continue;
                 };
-                let twist = walk.twist(plan, k);
+                let twist = forward.twist(plan, k);
                 for row in 0..6 {
                     if summed {
                         let x = &mut columns[row * n + own];
@@ -277,6 +277,6 @@ fn unloaded<S: Simd>(
                 group.put(jacobian, 0, &columns);
             }
         }
-        group.conclude(good, found);
+        group.conclude(good, status);
     }
 }

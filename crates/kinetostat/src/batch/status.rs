@@ -1,13 +1,69 @@
-//! How the answer of a posture was found.
+//! How the answer of a posture was found, and by which engine.
 
-/// How the answer of a posture was found.
+/// What became of one posture of many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Found {
-    /// Together with others.
-    Together,
-    /// Alone, by the general engine.
-    Alone,
-    /// Not at all: the error that the general engine gives for this posture says why. Its numbers
-    /// are not numbers.
-    Not,
+#[non_exhaustive]
+pub enum Status {
+    /// Solved by the vectorised kernels.
+    Vectorised,
+    /// Solved by the general engine, one posture at a time: the machine has something that no kernel knows (see
+    /// [`Engine::Scalar`]), or this posture is singular, nearly, or far from where the kernels' iterations contract.
+    Scalar,
+    /// There is no answer: the error that the general engine gives for this posture says why. Its numbers are NaN.
+    Unsolved,
+}
+
+impl Status {
+    /// There is an answer, whichever engine found it.
+    #[must_use]
+    pub fn is_solved(self) -> bool {
+        self != Self::Unsolved
+    }
+
+    /// One sentence.
+    #[must_use]
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Vectorised => "The posture was solved by the vectorised kernels.",
+            Self::Scalar => "The posture was solved by the general engine, by itself.",
+            Self::Unsolved => {
+                "There is no answer for the posture: it cannot be reached, or has no equilibrium."
+            }
+        }
+    }
+}
+
+/// Which engine a machine's postures are solved by.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Engine {
+    /// The vectorised kernels; single postures that they leave over go to the general engine, see [`Status`].
+    #[default]
+    Vectorised,
+    /// The general engine, one posture at a time.
+    Scalar {
+        /// What about the machine no kernel knows.
+        reason: String,
+    },
+}
+
+impl Engine {
+    /// Of a machine compiled into `plans`, or why it was not.
+    pub(super) fn of<T>(plans: &std::result::Result<T, String>) -> Self {
+        match plans {
+            Ok(_) => Self::Vectorised,
+            Err(reason) => Self::Scalar {
+                reason: reason.clone(),
+            },
+        }
+    }
+
+    /// Why not the vectorised kernels, if it is not them.
+    #[must_use]
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Vectorised => None,
+            Self::Scalar { reason } => Some(reason),
+        }
+    }
 }

@@ -3,11 +3,12 @@
 use super::compiled::{BLOCKS, Batch, in_parallel, left};
 use super::group::Places;
 use super::run::Work;
-use super::status::Found;
+use super::status::{Engine, Status};
 use super::table::{BLOCK, Table};
 use crate::error::Result;
 use crate::machine::posture::Posture;
 use crate::model::kinematics::Kinematics;
+use crate::model::mechanism::Mechanism;
 use crate::spatial::Pose;
 
 /// Unloaded stiffness of many postures.
@@ -22,8 +23,21 @@ pub struct BatchStiffness {
     /// Commands of all actuators (m, rad), in the mechanism's order, as [`Posture::commands`]. Empty
     /// where they were given.
     pub commands: Table,
-    /// How each was found.
-    pub found: Vec<Found>,
+    /// What became of each.
+    pub status: Vec<Status>,
+    /// Which engine postures of this machine are solved by.
+    pub engine: Engine,
+}
+
+impl BatchStiffness {
+    /// A command of a posture lies outside its actuator's limits.
+    ///
+    /// # Panics
+    /// If the index is out of range, as for a slice.
+    #[must_use]
+    pub fn outside_limits(&self, mechanism: &Mechanism, posture: usize) -> bool {
+        self.commands.outside_limits(mechanism, posture)
+    }
 }
 
 impl Batch<'_> {
@@ -78,34 +92,35 @@ impl Batch<'_> {
             Places::Joints { .. } => 0,
         };
         out.commands.reset(commands, count);
-        out.found.clear();
-        out.found.resize(count, Found::Not);
+        out.engine = self.engine_unloaded();
+        out.status.clear();
+        out.status.resize(count, Status::Unsolved);
         if let Ok(nominal) = &self.nominal {
             let parts = out.stiffness.parts(BLOCKS);
             let works = parts
                 .zip(out.jacobian.parts(BLOCKS))
                 .zip(out.commands.parts(BLOCKS))
-                .zip(out.found.chunks_mut(BLOCK * BLOCKS))
+                .zip(out.status.chunks_mut(BLOCK * BLOCKS))
                 .enumerate()
                 .map(
-                    |(k, (((stiffness, jacobian), commands), found))| Work::Unloaded {
+                    |(k, (((stiffness, jacobian), commands), status))| Work::Unloaded {
                         plans: nominal,
                         places: places.from(k * BLOCKS * BLOCK),
                         stiffness,
                         jacobian,
                         commands,
-                        found,
+                        status,
                     },
                 );
             in_parallel(works, count);
         }
-        let alone = |i: usize| {
+        let scalar = |i: usize| {
             let posture = self.posture(places, i)?;
             let found = posture.stiffness()?;
             let columns = jacobian.then(|| self.jacobian(&posture));
             Ok((found.cartesian.matrix, columns, posture.commands()))
         };
-        for (i, answer) in left(&out.found, alone) {
+        for (i, answer) in left(&out.status, scalar) {
             let Some((matrix, columns, own)) = answer else {
                 out.stiffness.set_row(i, |_| f64::NAN);
                 out.jacobian.set_row(i, |_| f64::NAN);
@@ -118,7 +133,7 @@ impl Batch<'_> {
                 out.jacobian
                     .set_row(i, |k| j[(k / coordinates, k % coordinates)]);
             }
-            out.found[i] = Found::Alone;
+            out.status[i] = Status::Scalar;
         }
     }
 

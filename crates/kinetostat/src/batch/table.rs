@@ -1,5 +1,7 @@
 //! Results of many postures, laid out as the kernels write them.
 
+use crate::model::mechanism::Mechanism;
+
 /// Postures that lie side by side.
 pub(super) const BLOCK: usize = 8;
 
@@ -67,6 +69,18 @@ impl Table {
     #[must_use]
     pub fn data(&self) -> &[f64] {
         &self.data
+    }
+
+    /// One of the commands in this row lies outside its actuator's limits.
+    pub(super) fn outside_limits(&self, mechanism: &Mechanism, posture: usize) -> bool {
+        let limbs = mechanism.limbs().iter();
+        let mut own = limbs
+            .flat_map(|l| l.nominal.actuators())
+            .zip(self.row(posture));
+        own.any(|(actuator, command)| {
+            let limits = actuator.limits;
+            limits.is_some_and(|(low, high)| command < low || command > high)
+        })
     }
 
     fn place(&self, posture: usize, number: usize) -> usize {

@@ -1,7 +1,7 @@
-//! Tangent stiffness of a loaded limb, by one walk from its base to its end.
+//! Tangent stiffness of a loaded limb, by one pass from its base to its end.
 //!
 //! With `t` the motion of the place reached and `y` the change of the wrench passed on there (both at the
-//! tip's place), `x` the motions of the passive joints so far and rows as in [`crate::chain::sweep::stages`], the walk
+//! tip's place), `x` the motions of the passive joints so far and rows as in [`crate::chain::sweep::stages`], the pass
 //! carries
 //!
 //! ```text
@@ -24,7 +24,7 @@ use super::plan::{Held, Law, Plan, Spring, Step};
 use super::vectors::{Vec3, cross, dot, minus};
 use super::wrenches::{Mat6, dot6, outer, solve_small, weight};
 
-struct Walk<S: Simd> {
+struct Pass<S: Simd> {
     /// `[D E; G H]`, column by column.
     z: [[Lanes<S>; 12]; 12],
     /// Six and the passive joints.
@@ -47,7 +47,7 @@ pub(super) fn stiffness<S: Simd>(
     apart!(simd, {
         let (zero, one) = (Lanes::new(simd, 0.0), Lanes::new(simd, 1.0));
         let [fx, fy, fz, mx, my, mz] = limb.wrench;
-        let mut walk = Walk {
+        let mut pass = Pass {
             z: [[zero; 12]; 12],
             width: 6 + plan.passive.len(),
             force: [fx, fy, fz],
@@ -59,7 +59,7 @@ pub(super) fn stiffness<S: Simd>(
         for step in &plan.steps {
             if let Step::Mass { mass: m, .. } = step {
                 let arm = minus(&limb.masses[mass], &limb.point);
-                walk.load(&weight(simd, gravity, *m), &arm);
+                pass.load(&weight(simd, gravity, *m), &arm);
                 mass += 1;
             }
         }
@@ -69,9 +69,9 @@ pub(super) fn stiffness<S: Simd>(
                 Step::Mass { mass: m, .. } => {
                     let weight = weight(simd, gravity, *m);
                     let arm = minus(&limb.masses[mass], &limb.point);
-                    walk.node(&weight, &arm);
+                    pass.node(&weight, &arm);
                     let [x, y, z] = weight;
-                    walk.load(&[-x, -y, -z], &arm);
+                    pass.load(&[-x, -y, -z], &arm);
                     mass += 1;
                 }
                 Step::Joint(joint) => {
@@ -84,22 +84,22 @@ pub(super) fn stiffness<S: Simd>(
                     }
                     match joint.held {
                         Held::Spring(_) if joint.law.is_some() => {
-                            walk.stage(&s, one / limb.joint_stiffness(joint, own, 1.0));
+                            pass.stage(&s, one / limb.joint_stiffness(joint, own, 1.0));
                         }
-                        Held::Spring(c) => walk.stage(&s, zero + c),
-                        Held::Passive(slot) => walk.passive(&s, slot),
+                        Held::Spring(c) => pass.stage(&s, zero + c),
+                        Held::Passive(slot) => pass.passive(&s, slot),
                         Held::Fixed => {}
                     }
                 }
                 Step::Spring(spring) => {
-                    let c = compliance(simd, limb, spring, &mut law, &mut walk.regular);
-                    walk.spring(plan, limb, spring, &c);
+                    let c = compliance(simd, limb, spring, &mut law, &mut pass.regular);
+                    pass.spring(plan, limb, spring, &c);
                 }
                 Step::Shift(_) | Step::Rotate(_) => {}
             }
         }
-        walk.node(&[fx, fy, fz], &[zero; 3]);
-        walk.inverse(plan)
+        pass.node(&[fx, fy, fz], &[zero; 3]);
+        pass.inverse(plan)
     })
 }
 
@@ -140,7 +140,7 @@ fn compliance<S: Simd>(
     c
 }
 
-impl<S: Simd> Walk<S> {
+impl<S: Simd> Pass<S> {
     /// Adds a force at a point, to which `arm` leads from the tip's place, to those beyond.
     #[inline(always)]
     fn load(&mut self, force: &Vec3<S>, arm: &Vec3<S>) {

@@ -115,16 +115,16 @@ fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize)
         bent.stiffness,
         bent.verdicts,
     ];
-    let mut found = [free.found, bent.found].concat();
+    let mut found = [free.status, bent.status].concat();
     if joints.is_none() {
         let directions = [true, true, true, false, false, false];
         let targets = batch.targets_under_load(&poses, &wrenches, directions);
         let targets = targets.expect("sizes").equilibrium;
         tables.extend([targets.tool, targets.coordinates, targets.commands]);
-        found.extend(targets.found);
+        found.extend(targets.status);
     }
     CHOSEN.set(None);
-    assert!(found.iter().all(|f| *f == Found::Together));
+    assert!(found.iter().all(|f| *f == Status::Vectorised));
     let rows = |i: usize| tables.iter().flat_map(move |t| t.row(i));
     (0..count).flat_map(rows).map(f64::to_bits).collect()
 }
@@ -160,13 +160,13 @@ fn neighbours_do_not_matter() {
     let backward = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
     for i in 0..count {
         let mirror = count - 1 - i;
-        assert_eq!(forward.found[i], backward.found[mirror]);
+        assert_eq!(forward.status[i], backward.status[mirror]);
         if i == 17 {
-            assert_eq!(forward.found[i], Found::Not);
+            assert_eq!(forward.status[i], Status::Unsolved);
             assert!(forward.tool.row(i).all(f64::is_nan));
             continue;
         }
-        assert_eq!(forward.found[i], Found::Together);
+        assert_eq!(forward.status[i], Status::Vectorised);
         assert!(forward.tool.row(i).eq(backward.tool.row(mirror)));
         assert!(
             forward
@@ -247,7 +247,7 @@ fn a_serial_arm_has_its_tangent() {
         .expect("sizes");
     let free = batch.stiffness_at_joints(&commands, true).expect("sizes");
     for i in 0..count {
-        assert_eq!(all.found[i], Found::Together);
+        assert_eq!(all.status[i], Status::Vectorised);
         let joints = Places::Joints {
             commands: &commands,
             each: 3,
@@ -291,9 +291,9 @@ fn a_jacobian_alone_is_the_one_together() {
     batch
         .stiffness_at_joints_into(&commands, true, &mut alone)
         .expect("sizes");
-    assert_eq!(alone.found, vec![Found::Alone; alone.found.len()]);
+    assert_eq!(alone.status, vec![Status::Scalar; alone.status.len()]);
     assert_eq!(alone.jacobian.len(), together.jacobian.len());
-    for i in 0..alone.found.len() {
+    for i in 0..alone.status.len() {
         for (a, b) in alone.jacobian.row(i).zip(together.jacobian.row(i)) {
             assert!((a - b).abs() < 1e-14, "{a} {b}");
         }
@@ -430,7 +430,7 @@ fn a_heavy_tool_at_given_joints_does_not_remember_its_neighbours() {
         let one = batch
             .equilibrium_at_joints(&commands[3 * i..3 * i + 3], &wrenches[i..=i], false)
             .expect("sizes");
-        assert_eq!(all.found[i], Found::Together);
+        assert_eq!(all.status[i], Status::Vectorised);
         assert!(all.tool.row(i).eq(one.tool.row(0)));
         let joints = Places::Joints {
             commands: &commands,
@@ -453,8 +453,8 @@ fn what_is_no_number_is_not_found() {
         wrenches[2].0[1] = f64::NAN;
         wrenches[5].0[4] = 1e160;
         let found = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
-        assert_ne!(found.found[2], Found::Together);
-        assert_ne!(found.found[5], Found::Together);
+        assert_ne!(found.status[2], Status::Vectorised);
+        assert_ne!(found.status[5], Status::Vectorised);
     }
 }
 

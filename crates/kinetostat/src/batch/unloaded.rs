@@ -21,8 +21,8 @@ use crate::spatial::MotionKind;
 
 type SineCosine<S> = (Lanes<S>, Lanes<S>);
 
-/// Where a limb is and what its springs yield: buffers of one walk.
-pub(super) struct Walk<S: Simd> {
+/// Where a limb is and what its springs yield: buffers of one forward pass.
+pub(super) struct ForwardPass<S: Simd> {
     /// Of the frame reached, base axes.
     pub rotation: Mat3<S>,
     pub point: Vec3<S>,
@@ -36,7 +36,7 @@ pub(super) struct Walk<S: Simd> {
     simd: S,
 }
 
-impl<S: Simd> Walk<S> {
+impl<S: Simd> ForwardPass<S> {
     pub fn new(simd: S, plan: &Plan) -> Self {
         let zero = Lanes::new(simd, 0.0);
         let place = Place {
@@ -54,7 +54,7 @@ impl<S: Simd> Walk<S> {
         }
     }
 
-    /// Walks along the unloaded limb with the given commands and passive joints, up to step `end`.
+    /// Goes along the unloaded limb with the given commands and passive joints, up to step `end`.
     /// With `yields` the compliance comes along.
     #[inline(always)]
     pub fn along(

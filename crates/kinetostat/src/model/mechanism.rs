@@ -156,6 +156,13 @@ impl Mechanism {
         self.loads.get(limb).map_or(&[], Vec::as_slice)
     }
 
+    /// Natural length, m: the mean over its limbs.
+    #[must_use]
+    pub fn natural_length(&self) -> f64 {
+        let sum: f64 = self.limbs.iter().map(|l| l.actual.scale().length).sum();
+        sum / self.limbs.len() as f64
+    }
+
     /// Whether anything acts on it without a load on its tool: gravity, or loads of the model.
     #[must_use]
     pub fn has_own_loads(&self) -> bool {

@@ -39,7 +39,7 @@ fn line<const N: usize>(
     for (k, rows) in rows.iter_mut().enumerate() {
         let task = tasks(k)?;
         let time = median(&task, BLOCK)?;
-        let (alone, not) = task.not_together(BLOCK)?;
+        let (alone, not) = task.not_vectorised(BLOCK)?;
         (lonely, not_found) = (lonely + alone, not_found + not);
         print!("{time:>16.3}");
         rows.push((size, time));

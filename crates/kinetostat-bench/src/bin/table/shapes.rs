@@ -36,13 +36,14 @@ pub fn table() -> Result<()> {
             ];
             let mut lonely = Vec::new();
             for (work, width) in works.into_iter().zip([12, 14, 16]) {
-                let most_alone = machine.task(work, FEW, bowing)?.not_together(BLOCK)?.0 > FEW / 2;
+                let most_alone =
+                    machine.task(work, FEW, bowing)?.not_vectorised(BLOCK)?.0 > FEW / 2;
                 let count = if most_alone { FEW } else { POSTURES };
                 let task = machine.task(work, count, bowing)?;
                 let time = median(&task, BLOCK)?;
                 let each = time * 1e3 / machine.springs as f64;
                 print!("{time:>width$.3}{each:>8.1}");
-                let (alone, not_found) = task.not_together(BLOCK)?;
+                let (alone, not_found) = task.not_vectorised(BLOCK)?;
                 ensure!(
                     not_found == 0,
                     "{not_found} postures of {name} are not found"

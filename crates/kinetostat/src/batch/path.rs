@@ -1,0 +1,156 @@
+//! Postures along a path, where starting each of them from home leads to the branch that a search from neighbour to
+//! neighbour finds.
+//!
+//! The batch starts every posture from home. A program is continued from point to point instead, so that the machine
+//! never changes its branch on the way. A chunk of a path has an answer here only if both are the same: its first
+//! posture, and every one that is far from the one before, is the one that the general engine finds from home, the
+//! others follow without a jump, and all lie within the limits of the actuators. `None` in all other cases: the caller
+//! searches from neighbour to neighbour, which also has the words for points without an answer.
+
+use std::f64::consts::{PI, TAU};
+
+use super::compiled::Batch;
+use super::equilibria::BatchEquilibrium;
+use super::status::{Engine, Status};
+use crate::model::chain::Role;
+use crate::model::mechanism::Mechanism;
+use crate::spatial::{MotionKind, Pose, Wrench};
+
+/// A machine whose postures lie along a path.
+pub struct AlongPath<'m> {
+    mechanism: &'m Mechanism,
+    batch: Option<Batch<'m>>,
+    /// Kernels judge stability, too.
+    judges: bool,
+    length: f64,
+}
+
+impl<'m> AlongPath<'m> {
+    /// A joint that moves farther than this between neighbours (rad, or share of the natural length) may
+    /// be on another branch.
+    pub const JUMP: f64 = 0.1;
+    /// A neighbour farther away than this (share of the machine's size) is no better than a start from rest.
+    pub const NEAR: f64 = 0.05;
+
+    /// Compiles a machine.
+    #[must_use]
+    pub fn new(mechanism: &'m Mechanism) -> Self {
+        let batch = Batch::new(mechanism);
+        // A machine of the general engine gains nothing: it is solved from neighbour to neighbour at once.
+        let batch = (batch.engine() == Engine::Vectorised).then_some(batch);
+        // One posture at home tells whether kernels judge stability.
+        let home = mechanism.platforms()[mechanism.tool()].home;
+        let judged = batch
+            .as_ref()
+            .and_then(|b| b.judged_equilibrium(&[home], &[Wrench::zero()]).ok());
+        Self {
+            mechanism,
+            judges: judged.is_some_and(|j| j.status == [Status::Vectorised]),
+            batch,
+            length: mechanism.natural_length(),
+        }
+    }
+
+    /// A machine whose postures depend on their neighbours, because the tool's orientation follows: every question is
+    /// answered by `None`.
+    #[must_use]
+    pub fn by_neighbours(mechanism: &'m Mechanism) -> Self {
+        Self {
+            mechanism,
+            judges: false,
+            batch: None,
+            length: mechanism.natural_length(),
+        }
+    }
+
+    /// The machine.
+    #[must_use]
+    pub fn mechanism(&self) -> &'m Mechanism {
+        self.mechanism
+    }
+
+    /// The poses to command so that the tool is at `poses` under `wrenches` in these directions (base axes
+    /// `x y z rx ry rz`).
+    #[must_use]
+    pub fn targets(
+        &self,
+        poses: &[Pose],
+        wrenches: &[Wrench],
+        directions: [bool; 6],
+    ) -> Option<Vec<Pose>> {
+        let batch = self.batch.as_ref()?;
+        let found = batch.targets_under_load(poses, wrenches, directions).ok()?;
+        self.continued(poses, &found.equilibrium)
+            .then_some(found.targets)
+    }
+
+    /// Where the tool goes when commanded to `poses` under `wrenches`.
+    #[must_use]
+    pub fn rest(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
+        let found = self.batch.as_ref()?.equilibrium(poses, wrenches, false);
+        found.ok().filter(|found| self.continued(poses, found))
+    }
+
+    /// As [`Self::rest`], with stiffness and stability.
+    #[must_use]
+    pub fn judged(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
+        let batch = self.batch.as_ref().filter(|_| self.judges)?;
+        let found = batch.judged_equilibrium(poses, wrenches);
+        found.ok().filter(|found| self.continued(poses, found))
+    }
+
+    /// All have an answer within the limits of the actuators, on the branch that a search from
+    /// neighbour to neighbour follows.
+    fn continued(&self, poses: &[Pose], found: &BatchEquilibrium) -> bool {
+        let near = Self::NEAR * self.mechanism.size();
+        (0..poses.len()).all(|i| {
+            if !found.status[i].is_solved() || found.outside_limits(self.mechanism, i) {
+                return false;
+            }
+            let place = |i: usize| poses[i].translation.vector;
+            if i > 0 && (place(i) - place(i - 1)).norm() < near {
+                let last = (found.commands.row(i - 1), found.coordinates.row(i - 1));
+                return self.no_jump(found, i, last.0, last.1);
+            }
+            let Ok(own) = self.mechanism.posture(&poses[i]) else {
+                return false;
+            };
+            let passive = own
+                .limbs()
+                .iter()
+                .flat_map(|l| l.coordinates.iter().copied());
+            self.no_jump(found, i, own.commands().into_iter(), passive)
+        })
+    }
+
+    /// No command and no passive joint of a posture lies far from those given.
+    fn no_jump(
+        &self,
+        found: &BatchEquilibrium,
+        i: usize,
+        commands: impl Iterator<Item = f64>,
+        coordinates: impl Iterator<Item = f64>,
+    ) -> bool {
+        let limbs = || self.mechanism.limbs().iter();
+        let far = |kind: MotionKind, difference: f64| match kind {
+            MotionKind::Prismatic => difference.abs() / self.length,
+            MotionKind::Revolute => difference.abs(),
+        };
+        let actuators = limbs().flat_map(|l| l.nominal.actuators());
+        let mut own = actuators.zip(found.commands.row(i).zip(commands));
+        if own.any(|(a, (x, y))| far(a.kind, x - y) > Self::JUMP) {
+            return false;
+        }
+        let joints = limbs().flat_map(|l| l.nominal.coordinates());
+        let mut own = joints.zip(found.coordinates.row(i).zip(coordinates));
+        // A passive joint that has turned round is where it was.
+        let turn = |d: f64| (d + PI).rem_euclid(TAU) - PI;
+        !own.any(|(c, (x, y))| {
+            let difference = match c.kind {
+                MotionKind::Prismatic => x - y,
+                MotionKind::Revolute => turn(x - y),
+            };
+            c.role == Role::Passive && far(c.kind, difference) > Self::JUMP
+        })
+    }
+}
