@@ -46,6 +46,7 @@ mod section;
 mod shown;
 mod svg;
 mod text;
+mod title;
 mod verdict;
 
 use kinetostat_machining::{Run, RunResult};

@@ -6,10 +6,9 @@ use std::fmt::Write as _;
 
 use crate::axis::{Scale, Span};
 use crate::label::{Frame, TEXT_SIZE};
-use crate::number;
-use crate::plot::title_lines;
 use crate::svg::{Anchor, Svg, pixel};
-use crate::text;
+use crate::title::title_lines;
+use crate::{number, text};
 
 const SIZE: (f64, f64) = (760.0, 560.0);
 

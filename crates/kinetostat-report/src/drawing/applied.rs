@@ -7,7 +7,7 @@
 use kinetostat::Wrench;
 use nalgebra::Vector3;
 
-use super::symbol::{self, Point};
+use crate::drawing::symbol::{self, Point};
 use crate::number;
 use crate::outline::Pixel;
 use crate::plot_label::{Beside, Names};

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::order::rim;
+use crate::drawing::order::rim;
 use crate::outline::Pixel;
 use crate::svg::{Svg, pixel};
 

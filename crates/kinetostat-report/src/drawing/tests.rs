@@ -4,9 +4,9 @@ use kinetostat::{Twist, Wrench, moved};
 use kinetostat_model::{Model, preset_names};
 use nalgebra::{Vector3, Vector6};
 
-use super::scene::{BarKind, BlobKind, Scene};
-use super::view::Camera;
-use super::{Drawing, Magnified, Moved, Placed, View};
+use crate::drawing::parts::{BarKind, BlobKind, Scene};
+use crate::drawing::view::Camera;
+use crate::drawing::{Drawing, Magnified, Moved, Placed, View};
 
 fn model(name: &str) -> Model {
     Model::preset(name).expect("a preset")
