@@ -4,16 +4,16 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
+use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::point_names::{Beside, Names};
+use crate::chart::title::title_lines;
 use crate::drawing::order::{Thing, painting_order, rim};
 use crate::drawing::parts::{Bar, BarKind, Blob, BlobKind, Scene};
 use crate::drawing::symbol::{self, Point, flat};
 use crate::drawing::view::Camera;
 use crate::drawing::{Drawing, Magnified, Moved, applied};
-use crate::label::{Frame, TEXT_SIZE};
-use crate::plot_label::{Beside, Names};
 use crate::svg::{Anchor, Svg};
 use crate::text;
-use crate::title::title_lines;
 
 const STYLE: &str = concat!(
     include_str!("../template/palette.css"),

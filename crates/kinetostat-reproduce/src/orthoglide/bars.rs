@@ -7,8 +7,8 @@ use kinetostat::{
 };
 use nalgebra::{Vector3, vector};
 
-use super::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
 use crate::Cause;
+use crate::orthoglide::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
 
 /// Such a machine at one nominal target of the tool, and the joints that command it.
 pub(super) struct Barred {

@@ -5,8 +5,10 @@ use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use rayon::prelude::*;
 
-use super::machine::{Orthoglide, SMALL, target};
-use super::toggle::{Bars, Curve, Place, diagonal, flat, hold, report_fails_at, report_rate};
+use crate::orthoglide::machine::{Orthoglide, SMALL, target};
+use crate::orthoglide::toggle::{
+    Bars, Curve, Place, diagonal, flat, hold, report_fails_at, report_rate,
+};
 use crate::{Cause, Contents, Item};
 
 /// A configuration of the table and its print: coordinate on the diagonal (m), `d0` (mm), `F_cr`

@@ -4,8 +4,8 @@ use kinetostat_report::{Plot, PlotLine};
 use nalgebra::{Matrix2, Vector3};
 use rayon::prelude::*;
 
-use super::circle::{At, Circle, READINGS, Reading};
-use super::machine::{POINTS, cutting};
+use crate::orthoglide::circle::{At, Circle, READINGS, Reading};
+use crate::orthoglide::machine::{POINTS, cutting};
 use crate::{Cause, Contents, Item};
 
 /// What is true of all of chapter 7.

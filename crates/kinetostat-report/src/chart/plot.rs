@@ -5,21 +5,21 @@
 
 use std::collections::BTreeMap;
 
-use crate::axis::{Scale, Span, Tick};
-use crate::chart::legend;
-use crate::label::{Frame, TEXT_SIZE};
-use crate::outline::path_data;
-use crate::plot_label::Names;
-use crate::plot_path::Drawn;
+use crate::chart::axis::{Scale, Span, Tick};
+use crate::chart::dashes::Drawn;
+use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::outline::path_data;
+use crate::chart::panel::legend;
+use crate::chart::point_names::Names;
+use crate::chart::title::title_lines;
 use crate::svg::{Anchor, Svg};
-use crate::title::title_lines;
 use crate::{number, text};
 
 const SIZE: (f64, f64) = (760.0, 480.0);
 
 const STYLE: &str = concat!(
-    include_str!("template/palette.css"),
-    include_str!("template/plot.css")
+    include_str!("../template/palette.css"),
+    include_str!("../template/plot.css")
 );
 
 /// Colours of lines, told apart also without colour vision; further lines begin again.

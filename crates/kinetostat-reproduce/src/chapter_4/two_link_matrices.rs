@@ -4,7 +4,7 @@
 use kinetostat::{Chain, Error, Kinematics, Pose, Wrench};
 use nalgebra::{DMatrix, Matrix6xX, Vector3, vector};
 
-use crate::models::{ALPHA0, elastic_links_of, rigid_links_of};
+use crate::shared::models::{ALPHA0, elastic_links_of, rigid_links_of};
 use crate::{Cause, Contents, Item};
 
 /// Lengths of the links, forces on the middle and on the end.

@@ -2,12 +2,12 @@
 
 use kinetostat_machining::{PointKind, PointResult};
 
-use crate::axis::{Scale, Span};
-use crate::chart::{Sheet, legend};
-use crate::label::{Frame, Labels, TEXT_SIZE};
+use crate::chart::axis::{Scale, Span};
+use crate::chart::label::{Frame, Labels, TEXT_SIZE};
+use crate::chart::outline::{Pixel, first_time, path_data};
+use crate::chart::panel::{Sheet, legend};
 use crate::number::{self, Rounding, norm};
-use crate::outline::{Pixel, first_time, path_data};
-use crate::shown::Shown;
+use crate::run::shown::Shown;
 use crate::svg::{Anchor, Svg};
 use crate::text;
 
