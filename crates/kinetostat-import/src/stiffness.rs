@@ -87,27 +87,14 @@ pub(crate) fn table(given: &JointStiffness, log: &mut Log) -> Result<Stiffnesses
             );
             continue;
         };
-        let plain: String = unit
-            .chars()
-            .filter(|c| !" *·".contains(*c))
-            .collect::<String>()
-            .to_lowercase();
-        let (factor, kind) = match plain.as_str() {
-            "nm/rad" => (1.0, MotionKind::Revolute),
-            "nmm/rad" => (1e-3, MotionKind::Revolute),
-            "nm/deg" => (180.0 / std::f64::consts::PI, MotionKind::Revolute),
-            "n/m" => (1.0, MotionKind::Prismatic),
-            "n/mm" => (1e3, MotionKind::Prismatic),
-            "n/um" | "n/µm" => (1e6, MotionKind::Prismatic),
-            _ => {
-                let known = ["N m/rad", "N mm/rad", "N m/deg", "N/m", "N/mm", "N/um"];
-                log.error(
-                    &at,
-                    format!("the unit '{unit}' is unknown"),
-                    suggestion(unit, known.into_iter()),
-                );
-                continue;
-            }
+        let Some((factor, kind)) = unit_of(unit) else {
+            let known = ["N m/rad", "N mm/rad", "N m/deg", "N/m", "N/mm", "N/um"];
+            log.error(
+                &at,
+                format!("the unit '{unit}' is unknown"),
+                suggestion(unit, known.into_iter()),
+            );
+            continue;
         };
         if found
             .insert(name.to_owned(), (value * factor, kind, at.clone()))
@@ -131,4 +118,22 @@ pub(crate) fn table(given: &JointStiffness, log: &mut Log) -> Result<Stiffnesses
         );
     }
     Ok(found)
+}
+
+/// SI per unit, and the kind of joint that has it.
+fn unit_of(unit: &str) -> Option<(f64, MotionKind)> {
+    let plain: String = unit
+        .chars()
+        .filter(|c| !" *·".contains(*c))
+        .collect::<String>()
+        .to_lowercase();
+    match plain.as_str() {
+        "nm/rad" => Some((1.0, MotionKind::Revolute)),
+        "nmm/rad" => Some((1e-3, MotionKind::Revolute)),
+        "nm/deg" => Some((180.0 / std::f64::consts::PI, MotionKind::Revolute)),
+        "n/m" => Some((1.0, MotionKind::Prismatic)),
+        "n/mm" => Some((1e3, MotionKind::Prismatic)),
+        "n/um" | "n/µm" => Some((1e6, MotionKind::Prismatic)),
+        _ => None,
+    }
 }

@@ -7,6 +7,7 @@ mod applied;
 mod limb;
 mod order;
 mod paint;
+mod parts;
 mod scene;
 mod symbol;
 #[cfg(test)]

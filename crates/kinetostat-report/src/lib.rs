@@ -6,10 +6,12 @@
 //!
 //! # How it is made
 //!
-//! - `verdict` says in plain words what the run means; `facts` collects figures, tables and what was
-//!   asked; `page` fills the template (minijinja with automatic escaping).
-//! - `along` draws what changes along the path, `plan` the path itself with the deviation magnified,
-//!   `preview` the stand-alone picture, `plot` curves over any two quantities, `section` a quantity over a plane. They share `chart`, `axis`, `outline` and `svg`.
+//! - `run`: what a report of a run shows. `meaning` says in plain words what the run means; `facts` collects figures,
+//!   tables and what was asked; `along` draws what changes along the path, `plan` the path itself with the deviation
+//!   magnified, `preview` the stand-alone picture; `page` fills the template (minijinja with automatic escaping).
+//! - `chart`: `plot` draws curves over any two quantities, `section` a quantity over a plane, `panel` values over the
+//!   length of a path. They share `axis`, `outline`, `label` and `title`.
+//! - `drawing`: a machine in space, as lines on paper.
 //! - `number` and `text` decide how numbers and names look, in one place.
 //!
 //! # Why the plots are drawn here and not by a plotting library
@@ -28,33 +30,21 @@
 //! content security policy forbids scripts, network, frames and forms. The style sheet is inline and
 //! constant.
 
-mod along;
-mod axis;
 mod chart;
 mod drawing;
-mod facts;
-mod label;
 mod number;
-mod outline;
-mod page;
-mod plan;
-mod plot;
-mod plot_label;
-mod plot_path;
-mod preview;
-mod section;
-mod shown;
+mod run;
 mod svg;
 mod text;
-mod verdict;
 
 use kinetostat_machining::{Run, RunResult};
 
-use shown::Shown;
+use run::shown::Shown;
+use run::{page, preview};
 
+pub use chart::plot::{Plot, PlotLine, PlotMark};
+pub use chart::section::{Cell, Section};
 pub use drawing::{Drawing, Magnified, Moved, Placed, View};
-pub use plot::{Plot, PlotLine, PlotMark};
-pub use section::{Cell, Section};
 
 /// Why a report could not be made.
 #[derive(Debug, thiserror::Error)]

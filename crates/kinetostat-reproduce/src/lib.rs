@@ -9,26 +9,17 @@
 //! of them.
 
 mod chapter_2;
-mod curves;
-mod cutting;
-mod elastic_figures;
+mod chapter_3;
+mod chapter_4;
+mod chapter_5;
 mod entry;
-mod formula;
-mod mathml;
-mod models;
 mod orthoglide;
 mod page;
-mod passive_joints;
 mod registry;
-mod stewart_gough;
-mod three_link_figures;
-mod three_links;
-mod toggle;
-mod two_link_matrices;
-mod two_links;
+mod shared;
 
 pub use entry::{Entry, Item, Status, is_rounding};
-pub use page::html;
+pub use page::html::html;
 pub use registry::{IDS, all, one};
 
 /// Numbers and plots of an entry; the registry knows its id and title.

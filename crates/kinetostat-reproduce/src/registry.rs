@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use crate::{
-    Cause, Contents, Entry, ReproduceError, chapter_2, elastic_figures, orthoglide, passive_joints,
-    stewart_gough, three_link_figures, three_links, toggle, two_link_matrices, two_links,
-};
+use crate::chapter_3::{passive_joints, stewart_gough};
+use crate::chapter_4::{two_link_matrices, two_links};
+use crate::chapter_5::{elastic_figures, three_link_figures, three_links, toggle};
+use crate::{Cause, Contents, Entry, ReproduceError, chapter_2, orthoglide};
 
 /// How an entry is computed.
 type Compute = fn() -> Result<Contents, Cause>;

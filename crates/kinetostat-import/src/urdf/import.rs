@@ -2,50 +2,31 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinetostat::MotionKind;
+use kinetostat::Pose;
 use kinetostat_model::schema::Section;
 use kinetostat_model::{Model, ModelError, Problem};
 use nalgebra::Vector3;
 
 use crate::log::{At, Log, refusal, some_names};
-use crate::stiffness::{self, JointStiffness};
-use crate::urdf::chain::{Plan, Written, unique};
+use crate::stiffness::{self, JointStiffness, Stiffnesses};
+use crate::urdf::chain::{Plan, Variable, Written, unique};
 use crate::urdf::close::frames;
-use crate::urdf::graph::graph;
-use crate::urdf::loops::{self, LoopFile, Loops};
-use crate::urdf::question::{
-    closed, closings, ends, followers, homes, known_stiffnesses, used, variables,
-};
+use crate::urdf::graph::{Graph, Way, graph};
+use crate::urdf::loops::{self, Loops};
+use crate::urdf::options::UrdfOptions;
 use crate::urdf::remarks::{
     in_metres, left_out, moving_base, one_limb_each, reach, several_platforms, singular, standing,
 };
-use crate::urdf::tree::{Step, tree};
+use crate::urdf::request::{
+    closed, closings, ends, followers, homes, known_stiffnesses, used, variables,
+};
+use crate::urdf::robot::Robot;
+use crate::urdf::tree::{Step, Tree, tree};
 use crate::urdf::write::{Parts, text};
 use crate::urdf::{inertial, read, xml};
 
 /// Name of the section of all links.
 const SECTION: &str = "links";
-
-/// What to make of a URDF.
-#[derive(Clone, Debug, Default)]
-pub struct UrdfOptions {
-    /// Link that stands; the root of the tree if not given.
-    pub base: Option<String>,
-    /// Link that carries the tool; needed unless only one link ends the tree.
-    pub tip: Option<String>,
-    /// Closed loops.
-    pub loops: Option<LoopFile>,
-    /// Joints that nothing drives, besides those of the loop file.
-    pub passive: Vec<String>,
-    /// Joints that do not stand at zero at home, besides those of the loop file: whether the value
-    /// is an angle (rad) or a distance (m), and the value. The kind must be the joint's. A joint
-    /// whose limits leave zero out stands in the middle of them.
-    pub home: BTreeMap<String, (MotionKind, f64)>,
-    /// Stiffness of the drives.
-    pub stiffness: JointStiffness,
-    /// Section of all links: straight beams from joint to joint. Rigid if not given.
-    pub section: Option<Section>,
-}
 
 /// A robot as a model file, and what there is to say about it.
 #[derive(Clone, Debug)]
@@ -81,107 +62,182 @@ pub struct Imported {
 /// # Errors
 /// [`ModelError`] with every problem found, each with its file, line, element and what to do.
 pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Imported, ModelError> {
-    let urdf = urdf.strip_prefix('\u{feff}').unwrap_or(urdf);
     let mut log = Log::default();
-    let index = log.file(file, urdf);
-    let document = xml::parse(urdf, file, index, &mut log)?;
-    let mut robot = read::read(&document, index, &mut log);
+    let (robot, loops, stiffnesses) = read_all(urdf, file, options, &mut log)?;
+    let home = AtHome::new(&robot, &loops, options, file, &mut log)?;
+    known_stiffnesses(&robot, &home.variables, &stiffnesses, &mut log);
     log.stop()?;
-    let loops = match &options.loops {
-        Some(written) => loops::read(written, &mut robot, &mut log),
-        None => Loops::default(),
-    };
-    let stiffnesses = stiffness::table(&options.stiffness, &mut log)?;
-    log.stop()?;
-    let tree = stopped(tree(&robot, &mut log), &mut log)?;
-    let (base, tip) = ends(&robot, &tree, options, file)?;
-    let mut variables = variables(&robot, options, &loops, &mut log);
-    let closings = closings(&robot, &mut log);
-    log.stop()?;
-    let graph = graph(&robot, &tree, &closings, [base, tip], &mut log);
-    let graph = stopped(graph, &mut log)?;
-    used(&graph, &mut variables);
-    followers(&robot, &tree, &mut variables, &mut log);
-    let mut home = homes(&robot, &mut variables, options, &loops, &mut log);
-    log.stop()?;
-    closed(
-        &robot, &tree, base, &closings, &variables, &mut home, &mut log,
-    );
-    log.stop()?;
-    let frames = frames(&robot, &tree, base, &home);
-    known_stiffnesses(&robot, &variables, &stiffnesses, &mut log);
-    log.stop()?;
-    let for_all = one_for_all(&options.stiffness, file)?;
     let plan = Plan {
         robot: &robot,
-        tree: &tree,
-        variables: &variables,
-        home: &home,
+        tree: &home.tree,
+        variables: &home.variables,
+        home: &home.values,
         stiffnesses: &stiffnesses,
-        for_all,
+        for_all: one_for_all(&options.stiffness, file)?,
         section: options.section.as_ref().map(|_| SECTION),
     };
     // What is fixed to the base does not move.
-    let still = |s: &Step| s.variable().is_none_or(|v| !variables[v].moves);
     let mut placed: Vec<bool> = (0..robot.links.len())
-        .map(|l| tree.steps(&robot, base, l).iter().all(still))
+        .map(|l| home.is_fixed(&robot, l))
         .collect();
-    let moving: Vec<usize> = (0..robot.links.len())
-        .filter(|l| !tree.steps(&robot, base, *l).iter().all(still))
-        .collect();
-    let chains: Vec<Written> = graph
-        .ways
-        .iter()
-        .map(|way| plan.chain(way, &mut placed))
-        .collect();
-    one_limb_each(&robot, &variables, &chains, &mut log);
-    log.stop()?;
-    left_out(&robot, &placed, &mut log);
-    let reach = reach(&graph, base);
-    in_metres(&robot, reach, &mut log);
-    log.stop()?;
-    inertial::look(&robot, &moving, reach, &mut log);
-    standing(&robot, &tree, &variables, &home, &mut log);
-    if graph.ways.len() == 1 {
-        singular(&plan, &graph, &frames, reach, &mut log);
-    } else if graph.ways.iter().any(|w| w.from != base || w.to != tip) {
-        several_platforms(&robot, &graph, &mut log);
+    let ways = home.graph.ways.iter();
+    let chains: Vec<Written> = ways.map(|way| plan.chain(way, &mut placed)).collect();
+    remark(&plan, &home, &chains, &placed, &mut log)?;
+    let lists = Lists::of(&chains);
+    if !lists.rigid_drives.is_empty() {
+        log.notice(
+            &robot.at,
+            format!(
+                "drives without a stiffness: {}",
+                some_names(&lists.rigid_drives)
+            ),
+            "they are rigid in the model; fill in their stiffness where it says FILL IN, or give --joint-stiffness",
+        );
     }
+    let toml = model_text(file, options, &robot, &home, chains, &lists)?;
+    let model = Model::from_toml(&toml, "the imported model")?;
+    Ok(Imported {
+        toml,
+        model,
+        notices: log.notices,
+        name: robot.name.clone(),
+        base: robot.links[home.base].name.clone(),
+        tip: robot.links[home.tip].name.clone(),
+        actuators: lists.actuators,
+        rigid_drives: lists.rigid_drives,
+        passive_joints: lists.passive_joints,
+        coupled_joints: lists.coupled_joints,
+        bodies: lists.bodies,
+        loops: robot.constraints.len(),
+    })
+}
+
+/// The files of a robot: its URDF, the loop file and the table of stiffnesses.
+fn read_all(
+    urdf: &str,
+    file: &str,
+    options: &UrdfOptions,
+    log: &mut Log,
+) -> Result<(Robot, Loops, Stiffnesses), ModelError> {
+    let urdf = urdf.strip_prefix('\u{feff}').unwrap_or(urdf);
+    let index = log.file(file, urdf);
+    let document = xml::parse(urdf, file, index, log)?;
+    let mut robot = read::read(&document, index, log);
+    log.stop()?;
+    let loops = match &options.loops {
+        Some(written) => loops::read(written, &mut robot, log),
+        None => Loops::default(),
+    };
+    let stiffnesses = stiffness::table(&options.stiffness, log)?;
+    log.stop()?;
+    Ok((robot, loops, stiffnesses))
+}
+
+/// The robot at home, with its loops closed.
+struct AtHome {
+    tree: Tree,
+    base: usize,
+    tip: usize,
+    graph: Graph,
+    variables: Vec<Variable>,
+    /// Values of the variables, m or rad.
+    values: Vec<f64>,
+    /// Poses of the links in the base.
+    frames: Vec<Pose>,
+}
+
+impl AtHome {
+    fn new(
+        robot: &Robot,
+        loops: &Loops,
+        options: &UrdfOptions,
+        file: &str,
+        log: &mut Log,
+    ) -> Result<Self, ModelError> {
+        let tree = stopped(tree(robot, log), log)?;
+        let (base, tip) = ends(robot, &tree, options, file)?;
+        let mut variables = variables(robot, options, loops, log);
+        let closings = closings(robot, log);
+        log.stop()?;
+        let graph = graph(robot, &tree, &closings, [base, tip], log);
+        let graph = stopped(graph, log)?;
+        used(&graph, &mut variables);
+        followers(robot, &tree, &mut variables, log);
+        let mut values = homes(robot, &mut variables, options, loops, log);
+        log.stop()?;
+        closed(robot, &tree, base, &closings, &variables, &mut values, log);
+        log.stop()?;
+        Ok(Self {
+            frames: frames(robot, &tree, base, &values),
+            tree,
+            base,
+            tip,
+            graph,
+            variables,
+            values,
+        })
+    }
+
+    /// Whether no joint that moves lies between the base and a link.
+    fn is_fixed(&self, robot: &Robot, link: usize) -> bool {
+        let still = |s: &Step| s.variable().is_none_or(|v| !self.variables[v].moves);
+        self.tree.steps(robot, self.base, link).iter().all(still)
+    }
+}
+
+/// What there is to say about the robot, gravest first: what no model can say is an error.
+fn remark(
+    plan: &Plan<'_>,
+    home: &AtHome,
+    chains: &[Written],
+    placed: &[bool],
+    log: &mut Log,
+) -> Result<(), ModelError> {
+    let (robot, graph) = (plan.robot, &home.graph);
+    one_limb_each(robot, &home.variables, chains, log);
+    log.stop()?;
+    left_out(robot, placed, log);
+    let reach = reach(graph, home.base);
+    in_metres(robot, reach, log);
+    log.stop()?;
+    let moving: Vec<usize> = (0..robot.links.len())
+        .filter(|l| !home.is_fixed(robot, *l))
+        .collect();
+    inertial::look(robot, &moving, reach, log);
+    standing(robot, &home.tree, &home.variables, &home.values, log);
+    let between = |w: &Way| w.from != home.base || w.to != home.tip;
+    if graph.ways.len() == 1 {
+        singular(plan, graph, &home.frames, reach, log);
+    } else if graph.ways.iter().any(between) {
+        several_platforms(robot, graph, log);
+    }
+    if !home.is_fixed(robot, home.tree.root) {
+        moving_base(robot, home.base, log);
+    }
+    Ok(())
+}
+
+/// The model file: platforms and limbs under names that are free.
+fn model_text(
+    file: &str,
+    options: &UrdfOptions,
+    robot: &Robot,
+    home: &AtHome,
+    chains: Vec<Written>,
+    lists: &Lists,
+) -> Result<String, ModelError> {
+    let graph = &home.graph;
     let mut names = BTreeSet::from(["base".to_owned()]);
     let named: BTreeMap<usize, String> = graph
         .platforms
         .iter()
         .map(|l| (*l, unique(&mut names, &robot.links[*l].name, "link")))
-        .chain([(base, "base".to_owned())])
+        .chain([(home.base, "base".to_owned())])
         .collect();
-    let gravity = (frames[tree.root].rotation * Vector3::new(0.0, 0.0, -9.81))
+    let gravity = (home.frames[home.tree.root].rotation * Vector3::new(0.0, 0.0, -9.81))
         .map(|x| if x.abs() < 1e-12 { 0.0 } else { x });
-    if !tree.steps(&robot, base, tree.root).iter().all(still) {
-        moving_base(&robot, base, &mut log);
-    }
     let one = chains.len() == 1;
     let mut limb_names = BTreeSet::new();
-    let summed = |of: fn(&Written) -> &Vec<String>| -> Vec<String> {
-        chains.iter().flat_map(of).cloned().collect()
-    };
-    let mut imported = Summary {
-        actuators: summed(|c| &c.actuators),
-        rigid_drives: summed(|c| &c.rigid_drives),
-        passive_joints: summed(|c| &c.passive),
-        coupled_joints: summed(|c| &c.coupled),
-        bodies: chains.iter().flat_map(|c| c.bodies.clone()).collect(),
-    };
-    imported.coupled_joints.dedup();
-    if !imported.rigid_drives.is_empty() {
-        log.notice(
-            &robot.at,
-            format!(
-                "drives without a stiffness: {}",
-                some_names(&imported.rigid_drives)
-            ),
-            "they are rigid in the model; fill in their stiffness where it says FILL IN, or give --joint-stiffness",
-        );
-    }
     let limbs = graph
         .ways
         .iter()
@@ -195,38 +251,23 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
             (name, from, to, chain.lines)
         })
         .collect();
-    let toml = text(&Parts {
+    text(&Parts {
         name: &robot.name.chars().take(100).collect::<String>(),
         file,
-        base: &robot.links[base].name,
-        tip: &robot.links[tip].name,
+        base: &robot.links[home.base].name,
+        tip: &robot.links[home.tip].name,
         gravity: gravity.into(),
         platforms: graph
             .platforms
             .iter()
-            .map(|l| (named[l].clone(), frames[*l]))
+            .map(|l| (named[l].clone(), home.frames[*l]))
             .collect(),
         section: options.section.as_ref().map(|s| (SECTION, s)),
         limbs,
-        rigid_drives: !imported.rigid_drives.is_empty(),
-        masses: !imported.bodies.is_empty(),
+        rigid_drives: !lists.rigid_drives.is_empty(),
+        masses: !lists.bodies.is_empty(),
     })
-    .map_err(|e| refusal(file, format!("the model cannot be written: {e}"), ""))?;
-    let model = Model::from_toml(&toml, "the imported model")?;
-    Ok(Imported {
-        toml,
-        model,
-        notices: log.notices,
-        name: robot.name.clone(),
-        base: robot.links[base].name.clone(),
-        tip: robot.links[tip].name.clone(),
-        actuators: imported.actuators,
-        rigid_drives: imported.rigid_drives,
-        passive_joints: imported.passive_joints,
-        coupled_joints: imported.coupled_joints,
-        bodies: imported.bodies,
-        loops: robot.constraints.len(),
-    })
+    .map_err(|e| refusal(file, format!("the model cannot be written: {e}"), ""))
 }
 
 /// Section of links from a file of its own: the keys of a `[section.NAME]` table of a model file.
@@ -248,7 +289,7 @@ pub fn read_section(text: &str, file: &str) -> Result<Section, ModelError> {
             "write the keys of a section, as in: tube = { outer_diameter_mm = 300, inner_diameter_mm = 260 }, youngs_modulus_gpa = 210, poissons_ratio = 0.3, each on a line of its own",
         );
         match log.stop() {
-            Err(told) => told,
+            Err(error) => error,
             Ok(()) => refusal(file, "this is no section", ""),
         }
     })
@@ -268,12 +309,29 @@ fn one_for_all(stiffness: &JointStiffness, file: &str) -> Result<Option<f64>, Mo
 }
 
 /// Lists over all limbs.
-struct Summary {
+struct Lists {
     actuators: Vec<String>,
     rigid_drives: Vec<String>,
     passive_joints: Vec<String>,
     coupled_joints: Vec<String>,
     bodies: Vec<(String, f64)>,
+}
+
+impl Lists {
+    fn of(chains: &[Written]) -> Self {
+        let summed = |of: fn(&Written) -> &Vec<String>| -> Vec<String> {
+            chains.iter().flat_map(of).cloned().collect()
+        };
+        let mut coupled_joints = summed(|c| &c.coupled);
+        coupled_joints.dedup();
+        Self {
+            actuators: summed(|c| &c.actuators),
+            rigid_drives: summed(|c| &c.rigid_drives),
+            passive_joints: summed(|c| &c.passive),
+            coupled_joints,
+            bodies: chains.iter().flat_map(|c| c.bodies.clone()).collect(),
+        }
+    }
 }
 
 /// The value, or the errors that explain why there is none.

@@ -1,10 +1,10 @@
 //! From the XML tree to a [`Robot`]: every element and attribute that moves or bends it is read or
 //! refused; what does neither is counted and skipped.
 
-use kinetostat::number::short;
 use std::collections::BTreeMap;
 
 use kinetostat::MotionKind;
+use kinetostat::number::short;
 use nalgebra::Matrix3;
 use roxmltree::{Document, Node};
 
@@ -12,7 +12,7 @@ use crate::log::{At, Log, suggestion};
 use crate::urdf::robot::{
     Closure, Constraint, Inertial, Joint, JointType, Link, Mimic, Robot, Side,
 };
-use crate::urdf::values::{children, only};
+use crate::urdf::values::{Reader, children, only};
 
 /// More links or joints are no robot arm.
 const MOST_PARTS: usize = 1_000;
@@ -35,12 +35,6 @@ const SKIPPED: [&str; 15] = [
     "author",
     "self_collision_checking",
 ];
-
-pub(crate) struct Reader<'l> {
-    pub(crate) log: &'l mut Log,
-    pub(crate) file: usize,
-    skipped: BTreeMap<String, usize>,
-}
 
 pub(crate) fn read(document: &Document<'_>, file: usize, log: &mut Log) -> Robot {
     let mut reader = Reader {

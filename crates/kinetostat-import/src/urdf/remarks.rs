@@ -9,7 +9,7 @@ use crate::log::{Log, some_names};
 use crate::urdf::chain::{Plan, Variable, Written};
 use crate::urdf::close::product;
 use crate::urdf::graph::Graph;
-use crate::urdf::question::with_unit;
+use crate::urdf::request::with_unit;
 use crate::urdf::robot::Robot;
 use crate::urdf::tree::{Step, Tree};
 

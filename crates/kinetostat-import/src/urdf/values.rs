@@ -1,9 +1,10 @@
 //! Places, numbers, directions and origins of the XML.
 
+use std::collections::BTreeMap;
+
 use roxmltree::Node;
 
-use crate::log::At;
-use crate::urdf::read::Reader;
+use crate::log::{At, Log};
 use crate::urdf::robot::Origin;
 
 impl Reader<'_> {
@@ -217,4 +218,10 @@ pub(crate) fn children<'a, 'i: 'a>(
 pub(crate) fn only<'a, 'i: 'a>(node: Node<'a, 'i>, tag: &str) -> Option<Node<'a, 'i>> {
     node.children()
         .find(|n| n.is_element() && n.tag_name().name() == tag)
+}
+
+pub(crate) struct Reader<'l> {
+    pub(crate) log: &'l mut Log,
+    pub(crate) file: usize,
+    pub(crate) skipped: BTreeMap<String, usize>,
 }

@@ -67,23 +67,26 @@ pub(crate) fn recognised(text: &Text) -> Option<Header> {
     })
 }
 
+/// Which half of the matrix its type says is written.
+fn halves_of(text: &Text, header: &Header) -> Result<Halves> {
+    match header.kind.as_str() {
+        "RSA" => Ok(Halves::Found),
+        "RUA" => Ok(Halves::Both),
+        other => Err(text
+            .fault(
+                format!("the matrix is of the type {}", short(other)),
+                "a stiffness is RSA or RUA: real and assembled",
+            )
+            .at(3)),
+    }
+}
+
 pub(crate) fn read_hbmat(
     text: &Text,
     companion: Option<&Text>,
     header: Header,
 ) -> Result<Superelement> {
-    let halves = match header.kind.as_str() {
-        "RSA" => Halves::Found,
-        "RUA" => Halves::Both,
-        other => {
-            return Err(text
-                .fault(
-                    format!("the matrix is of the type {}", short(other)),
-                    "a stiffness is RSA or RUA: real and assembled",
-                )
-                .at(3));
-        }
-    };
+    let halves = halves_of(text, &header)?;
     if header.rows > MOST_DOFS {
         return Err(too_many(text, header.rows).at(3));
     }

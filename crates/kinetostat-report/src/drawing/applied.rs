@@ -7,10 +7,10 @@
 use kinetostat::Wrench;
 use nalgebra::Vector3;
 
-use super::symbol::{self, Point};
+use crate::chart::outline::Pixel;
+use crate::chart::point_names::{Beside, Names};
+use crate::drawing::symbol::{self, Point};
 use crate::number;
-use crate::outline::Pixel;
-use crate::plot_label::{Beside, Names};
 use crate::svg::Svg;
 
 /// Length of an arrow that lies on the drawing, and the least that is drawn, pixels.

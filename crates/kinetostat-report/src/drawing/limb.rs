@@ -3,7 +3,7 @@
 use kinetostat::{Chain, Element, Motion, MotionKind, Pose, Role, SpringLaw};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::scene::{Bar, BarKind, Blob, BlobKind, Ground, Scene};
+use crate::drawing::parts::{Bar, BarKind, Blob, BlobKind, Ground, Scene};
 
 /// A limb at a state.
 pub(super) struct Run<'a> {

@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
-use super::order::{Thing, painting_order, rim};
-use super::scene::{Bar, BarKind, Blob, BlobKind, Scene};
-use super::symbol::{self, Point, flat};
-use super::view::Camera;
-use super::{Drawing, Magnified, Moved, applied};
-use crate::label::{Frame, TEXT_SIZE};
-use crate::plot::title_lines;
-use crate::plot_label::{Beside, Names};
+use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::point_names::{Beside, Names};
+use crate::chart::title::title_lines;
+use crate::drawing::order::{Thing, painting_order, rim};
+use crate::drawing::parts::{Bar, BarKind, Blob, BlobKind, Scene};
+use crate::drawing::symbol::{self, Point, flat};
+use crate::drawing::view::Camera;
+use crate::drawing::{Drawing, Magnified, Moved, applied};
 use crate::svg::{Anchor, Svg};
 use crate::text;
 

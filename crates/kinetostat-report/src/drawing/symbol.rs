@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::order::rim;
-use crate::outline::Pixel;
+use crate::chart::outline::Pixel;
+use crate::drawing::order::rim;
 use crate::svg::{Svg, pixel};
 
 /// A point of the drawing with its depth, pixels.

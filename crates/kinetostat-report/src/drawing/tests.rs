@@ -5,9 +5,9 @@ use kinetostat_model::{Model, preset_names};
 use kinetostat_testing::Worst;
 use nalgebra::{Vector3, Vector6};
 
-use super::scene::{BarKind, BlobKind, Scene};
-use super::view::Camera;
-use super::{Drawing, Magnified, Moved, Placed, View};
+use crate::drawing::parts::{BarKind, BlobKind, Scene};
+use crate::drawing::view::Camera;
+use crate::drawing::{Drawing, Magnified, Moved, Placed, View};
 
 fn model(name: &str) -> Model {
     Model::preset(name).expect("a preset")

@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::View;
-use super::order::crossing;
-use super::scene::{BarKind, BlobKind, Scene, corners};
+use crate::drawing::View;
+use crate::drawing::order::crossing;
+use crate::drawing::parts::{BarKind, BlobKind, Scene};
+use crate::drawing::scene::corners;
 
 /// Directions of the drawing in base axes: unit vectors, square to each other.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@ use kinetostat::{
     LinearAssembly, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench,
 };
 
-use super::machine::{Orthoglide, POINTS, inclination, target};
+use crate::orthoglide::machine::{Orthoglide, POINTS, inclination, target};
 use crate::{Cause, Contents, Item, is_rounding};
 
 /// What the tables print, in mm, degrees and N m.

@@ -7,8 +7,8 @@ use kinetostat::{
 };
 use nalgebra::{Vector3, vector};
 
-use super::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
 use crate::Cause;
+use crate::orthoglide::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
 
 /// Such a machine at one nominal target of the tool, and the joints that command it.
 pub(super) struct Barred {
@@ -49,23 +49,9 @@ impl Barred {
             let far = builder.platform(Platform::new(format!("far beam {name}"), far));
             let mut limb =
                 |name: String, from, to, chain: Chain, commands: Vec<f64>, set: &[(&str, f64)]| {
-                    let mut coordinates = chain.home_coordinates();
-                    for (joint, value) in set {
-                        for (i, c) in chain.coordinates().iter().enumerate() {
-                            if c.name == *joint {
-                                coordinates[i] = *value;
-                            }
-                        }
-                    }
+                    let coordinates = coordinates_with(&chain, set);
                     limbs.push((
-                        Limb {
-                            name,
-                            from,
-                            to,
-                            platform_from_tip: Pose::identity(),
-                            nominal: chain.clone(),
-                            actual: chain,
-                        },
+                        limb_of(name, from, to, chain),
                         LimbPosture {
                             commands,
                             coordinates,
@@ -104,14 +90,7 @@ impl Barred {
         for (name, far, leg, q3) in heads {
             let chain = head(Chain::builder(format!("head {name}")), leg).build()?;
             limbs.push((
-                Limb {
-                    name: format!("head {name}"),
-                    from: far,
-                    to: tool,
-                    platform_from_tip: Pose::identity(),
-                    nominal: chain.clone(),
-                    actual: chain,
-                },
+                limb_of(format!("head {name}"), far, tool, chain),
                 LimbPosture {
                     commands: Vec::new(),
                     coordinates: vec![q3],
@@ -136,6 +115,31 @@ impl Barred {
             .mechanism
             .posture_from_joints(&self.target, self.joints.clone())?)
     }
+}
+
+/// A limb as it is drawn, whose tip is the platform's own frame.
+fn limb_of(name: String, from: usize, to: usize, chain: Chain) -> Limb {
+    Limb {
+        name,
+        from,
+        to,
+        platform_from_tip: Pose::identity(),
+        nominal: chain.clone(),
+        actual: chain,
+    }
+}
+
+/// Coordinates of a chain at home, but for joints that are named with their values.
+fn coordinates_with(chain: &Chain, set: &[(&str, f64)]) -> Vec<f64> {
+    let mut coordinates = chain.home_coordinates();
+    for (joint, value) in set {
+        for (i, c) in chain.coordinates().iter().enumerate() {
+            if c.name == *joint {
+                coordinates[i] = *value;
+            }
+        }
+    }
+    coordinates
 }
 
 #[cfg(test)]

@@ -5,9 +5,9 @@ use kinetostat::{Mechanism, Pose, Settings, Wrench, compensate, pose_residual};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::line::Sources;
-use super::machine::{Orthoglide, cutting, target};
 use crate::Cause;
+use crate::orthoglide::line::Sources;
+use crate::orthoglide::machine::{Orthoglide, cutting, target};
 
 /// Points of a circle.
 const POINTS: u32 = 72;

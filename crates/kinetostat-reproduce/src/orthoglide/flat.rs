@@ -5,8 +5,10 @@ use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use rayon::prelude::*;
 
-use super::machine::{Orthoglide, SMALL, target};
-use super::toggle::{Bars, Curve, Place, diagonal, flat, hold, report_fails_at, report_rate};
+use crate::orthoglide::machine::{Orthoglide, SMALL, target};
+use crate::orthoglide::toggle::{
+    Bars, Curve, Place, diagonal, flat, hold, report_fails_at, report_rate,
+};
 use crate::{Cause, Contents, Item};
 
 /// A configuration of the table and its print: coordinate on the diagonal (m), `d0` (mm), `F_cr`
@@ -149,13 +151,25 @@ impl Configuration {
     }
 
     fn items(&self, a: &Answer) -> Result<Vec<Item>, Cause> {
-        let q = self.name;
         let (out, inn) = (self.printed(self.outside), self.printed(self.inside));
-        let missing = || Cause::Missing(format!("a point of {q}"));
+        let missing = || Cause::Missing(format!("a point of {}", self.name));
         let at_out = a.curve.force(out).ok_or_else(missing)?;
         let at_in = a.curve.force(inn).ok_or_else(missing)?;
         let bowed = a.bowed.held(inn)?;
-        let limit = match q {
+        let mut items =
+            self.against_print(a, &self.note_outside(at_out), &self.note_inside(a, at_in));
+        items.extend(self.at_printed_places(a, [at_out, at_in], &bowed));
+        items.extend(self.by_the_iteration(a));
+        items.push(self.pulled_inside(a));
+        items.extend(self.other_conventions(a));
+        items.extend(self.pushed_outside(a));
+        Ok(items)
+    }
+
+    /// Why the limit outside differs from its print, or what it is.
+    fn note_outside(&self, at_out: f64) -> String {
+        let out = self.printed(self.outside);
+        match self.name {
             "Q2" => format!(
                 "not reproduced. Tried: the curve itself has no limit near the print: at {out} mm it passes {at_out:.3} kN smoothly, its first limit is computed here; the report's iteration (6.2), which leaves out the Hessian of the load, stops converging beside the print (see below): the printed place is its end, not the machine's (inferred)"
             ),
@@ -163,12 +177,22 @@ impl Configuration {
             _ => format!(
                 "limit of the force of the toggle; not reproduced to the last digit. Tried: bars that bow (see below), the force at the printed {out} mm ({at_out:.4} kN): the maximum is that flat"
             ),
-        };
-        let knee = format!(
+        }
+    }
+
+    /// What stands for the limit inside, which the curve does not have.
+    fn note_inside(&self, a: &Answer, at_in: f64) -> String {
+        let inn = self.printed(self.inside);
+        format!(
             "no limit: the force goes on growing. Computed is the knee, where its slope falls fastest: the springs of the parallelograms, translations before rotations, give way under tension ({:.3} of the way to buckling), an artefact of lumping a bar into one spring that no bar that bows shows (see below); at the printed {inn} mm the force is {at_in:.3} kN",
             a.knee.share_to_buckling
-        );
-        let mut items = vec![
+        )
+    }
+
+    /// What the report prints of this configuration.
+    fn against_print(&self, a: &Answer, limit: &str, knee: &str) -> Vec<Item> {
+        let q = self.name;
+        vec![
             Item::compared(
                 format!("{q}: distance d0 to the flat posture"),
                 self.distance,
@@ -195,29 +219,36 @@ impl Configuration {
                 self.outside[0],
                 a.outside.force,
                 "kN",
-                &limit,
+                limit,
             ),
             Item::compared(
                 format!("{q}: Δ_cr outside"),
                 self.outside[1],
                 a.outside.moved,
                 "mm",
-                &limit,
+                limit,
             ),
             Item::compared(
                 format!("{q}: F_cr inside"),
                 self.inside[0],
                 a.knee.force,
                 "kN",
-                &knee,
+                knee,
             ),
             Item::compared(
                 format!("{q}: Δ_cr inside"),
                 self.inside[1],
                 a.knee.moved,
                 "mm",
-                &knee,
+                knee,
             ),
+        ]
+    }
+
+    /// Forces at the printed displacements, by the report's springs and by bars that bow.
+    fn at_printed_places(&self, a: &Answer, [at_out, at_in]: [f64; 2], bowed: &Place) -> Vec<Item> {
+        let q = self.name;
+        vec![
             Item::unprinted(
                 format!("{q}: force at the printed Δ_cr outside"),
                 at_out,
@@ -245,13 +276,18 @@ impl Configuration {
                     bowed.slope
                 ),
             ),
-        ];
-        items.push(Item::unprinted(
+        ]
+    }
+
+    /// Where the report's own iteration stops converging.
+    fn by_the_iteration(&self, a: &Answer) -> Vec<Item> {
+        let q = self.name;
+        let mut items = vec![Item::unprinted(
             format!("{q}: rate of the report's iteration at the printed Δ_cr outside"),
             a.rate,
             "",
             "max |mu|: each step of (6.2) multiplies the error by it; above 1 it cannot stay at the equilibrium",
-        ));
+        )];
         if let Some(place) = a.iteration {
             let name = |what: &str| {
                 format!("{q}: {what} outside where the report's iteration stops converging")
@@ -269,7 +305,13 @@ impl Configuration {
             ));
             items.push(Item::unprinted(name("force"), place.force, "kN", why));
         }
-        items.push(match a.bowed_inside {
+        items
+    }
+
+    /// Bars that bow, pulled inside: no limit, or none near the print.
+    fn pulled_inside(&self, a: &Answer) -> Item {
+        let q = self.name;
+        match a.bowed_inside {
             Some(place) => Item::unprinted(
                 format!("{q}: held inside up to, bars that bow"),
                 place.moved,
@@ -295,7 +337,13 @@ impl Configuration {
                     a.bowed_far.slope
                 ),
             ),
-        });
+        }
+    }
+
+    /// Two bars in every leg by other conventions: the first limit on either side.
+    fn other_conventions(&self, a: &Answer) -> Vec<Item> {
+        let q = self.name;
+        let mut items = Vec::new();
         for (name, [outside, inside]) in &a.others {
             for (side, place, to) in [
                 ("outside", outside, self.range.0),
@@ -323,6 +371,13 @@ impl Configuration {
                 items.push(Item::unprinted(what("Δ_cr"), place.moved, "mm", why));
             }
         }
+        items
+    }
+
+    /// Bars that bow, pushed outside: the first limit.
+    fn pushed_outside(&self, a: &Answer) -> Vec<Item> {
+        let q = self.name;
+        let mut items = Vec::new();
         if let Some(place) = a.bowed_outside {
             let why = if place.share_to_buckling > 0.999 {
                 "default law of a link: here the first bar loses its shape (one segment per bar buckles 22 % late), before the force has its limit"
@@ -333,7 +388,7 @@ impl Configuration {
             items.push(Item::unprinted(name("F_cr"), place.force, "kN", why));
             items.push(Item::unprinted(name("Δ_cr"), place.moved, "mm", why));
         }
-        Ok(items)
+        items
     }
 
     fn plot(&self, a: &Answer, range: (f64, f64), title: &str) -> Result<Plot, Cause> {

@@ -4,8 +4,8 @@ use kinetostat_report::{Plot, PlotLine};
 use nalgebra::{Matrix2, Vector3};
 use rayon::prelude::*;
 
-use super::circle::{At, Circle, READINGS, Reading};
-use super::machine::{POINTS, cutting};
+use crate::orthoglide::circle::{At, Circle, READINGS, Reading};
+use crate::orthoglide::machine::{POINTS, cutting};
 use crate::{Cause, Contents, Item};
 
 /// What is true of all of chapter 7.
@@ -473,6 +473,12 @@ pub(crate) fn fig_7_8() -> Result<Contents, Cause> {
     for location in [best, worst] {
         items.extend(compensated(location, &READINGS[0])?);
     }
+    let plots = plots_7_8(&locations)?;
+    Ok(Contents { items, plots })
+}
+
+/// Over the angle: errors, changes and forces of all circles, and the actuators of the best and the worst.
+fn plots_7_8(locations: &[Location]) -> Result<Vec<Plot>, Cause> {
     let compared = |title: &str, y_label: &str, of: fn(&At) -> f64| -> Result<Plot, Cause> {
         let lines = locations
             .iter()
@@ -510,7 +516,7 @@ pub(crate) fn fig_7_8() -> Result<Contents, Cause> {
             |p| p.forces.amax(),
         )?,
     ];
-    for location in [best, worst] {
+    for location in [&locations[0], &locations[3]] {
         plots.push(over_angle(
             format!(
                 "Circle of 50 mm about {}: change of the actuators",
@@ -522,5 +528,5 @@ pub(crate) fn fig_7_8() -> Result<Contents, Cause> {
             |p| p.commands,
         ));
     }
-    Ok(Contents { items, plots })
+    Ok(plots)
 }

@@ -5,7 +5,7 @@ use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::machine::{LARGE, Orthoglide, SMALL, cutting, target};
+use crate::orthoglide::machine::{LARGE, Orthoglide, SMALL, cutting, target};
 use crate::{Cause, Contents, Item};
 
 /// Where the tool goes for each source of error, mm from its target.

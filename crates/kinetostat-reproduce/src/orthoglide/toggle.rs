@@ -7,9 +7,9 @@ use kinetostat::{
 };
 use nalgebra::Vector3;
 
-use super::bars::Barred;
-use super::machine::{Orthoglide, target};
 use crate::Cause;
+use crate::orthoglide::bars::Barred;
+use crate::orthoglide::machine::{Orthoglide, target};
 
 /// Unit vector along (1, 1, 1).
 pub(super) fn diagonal() -> Vector3<f64> {

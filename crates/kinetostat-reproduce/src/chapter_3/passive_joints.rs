@@ -144,128 +144,150 @@ type PlanarRow = (&'static str, Rule, Option<usize>, Place, [Factor; 4]);
 /// A row of Tables 3.2 and 3.3: the joint, the rule's matrix and the chain, what is left of ENTRIES.
 type SpatialRow = (&'static str, (Matrix6<f64>, Place), [&'static str; 8]);
 
+/// Rows of Table 3.1: the joint, the named rule on any matrix and on the beam, and what is printed of the beam
+/// in units of EA/L, EI/L^3, EI/L^2, EI/L.
+const PLANAR_ROWS: [PlanarRow; 4] = [
+    (
+        "no joint",
+        |k| Ok(*k),
+        None,
+        Place::None,
+        [
+            ("1", 1.0, 1, 1),
+            ("12", 12.0, 2, 2),
+            ("-6", -6.0, 2, 3),
+            ("4", 4.0, 3, 3),
+        ],
+    ),
+    (
+        "slide along x",
+        planar_with_slide_along_x,
+        Some(0),
+        Place::End(MotionKind::Prismatic, Axis::X),
+        [
+            ("0", 0.0, 1, 1),
+            ("12", 12.0, 2, 2),
+            ("-6", -6.0, 2, 3),
+            ("4", 4.0, 3, 3),
+        ],
+    ),
+    (
+        "slide along y",
+        planar_with_slide_along_y,
+        Some(1),
+        Place::End(MotionKind::Prismatic, Axis::Y),
+        [
+            ("1", 1.0, 1, 1),
+            ("0", 0.0, 2, 2),
+            ("0", 0.0, 2, 3),
+            ("1", 1.0, 3, 3),
+        ],
+    ),
+    (
+        "hinge about z",
+        planar_with_hinge_at_end,
+        Some(2),
+        Place::End(MotionKind::Revolute, Axis::Z),
+        [
+            ("1", 1.0, 1, 1),
+            ("3", 3.0, 2, 2),
+            ("0", 0.0, 2, 3),
+            ("0", 0.0, 3, 3),
+        ],
+    ),
+];
+
 pub(crate) fn table_3_1() -> Result<Contents, Cause> {
     let (ea, ei) = (
         SECTION.youngs_modulus * SECTION.area,
         SECTION.youngs_modulus * SECTION.second_moment_z,
     );
-    let (l, beam) = (LENGTH, planar_beam(ea, ei, LENGTH)?);
-    // Rows: the joint, the named rule on any matrix and on the beam, and what is printed of the beam
-    // in units of EA/L, EI/L^3, EI/L^2, EI/L.
-    let rows: [PlanarRow; 4] = [
-        (
-            "no joint",
-            |k| Ok(*k),
-            None,
-            Place::None,
-            [
-                ("1", 1.0, 1, 1),
-                ("12", 12.0, 2, 2),
-                ("-6", -6.0, 2, 3),
-                ("4", 4.0, 3, 3),
-            ],
-        ),
-        (
-            "slide along x",
-            planar_with_slide_along_x,
-            Some(0),
-            Place::End(MotionKind::Prismatic, Axis::X),
-            [
-                ("0", 0.0, 1, 1),
-                ("12", 12.0, 2, 2),
-                ("-6", -6.0, 2, 3),
-                ("4", 4.0, 3, 3),
-            ],
-        ),
-        (
-            "slide along y",
-            planar_with_slide_along_y,
-            Some(1),
-            Place::End(MotionKind::Prismatic, Axis::Y),
-            [
-                ("1", 1.0, 1, 1),
-                ("0", 0.0, 2, 2),
-                ("0", 0.0, 2, 3),
-                ("1", 1.0, 3, 3),
-            ],
-        ),
-        (
-            "hinge about z",
-            planar_with_hinge_at_end,
-            Some(2),
-            Place::End(MotionKind::Revolute, Axis::Z),
-            [
-                ("1", 1.0, 1, 1),
-                ("3", 3.0, 2, 2),
-                ("0", 0.0, 2, 3),
-                ("0", 0.0, 3, 3),
-            ],
-        ),
-    ];
-    // A link of no symmetry, for the general matrices on the left.
-    let any = Matrix3::new(5.0, 1.2, -0.7, 1.2, 3.0, 0.9, -0.7, 0.9, 2.0);
+    let beam = planar_beam(ea, ei, LENGTH)?;
     let mut items = Vec::new();
-    for (joint, rule, gone, place, factors) in rows {
+    for (joint, rule, gone, place, factors) in PLANAR_ROWS {
         if let Some(p) = gone {
-            let printed =
-                Matrix3::from_fn(|i, j| any[(i, j)] - any[(i, p)] * any[(p, j)] / any[(p, p)]);
-            let ours = rule(&any)?;
-            let most = (printed - ours).amax();
-            let text = format!("K_jk - K_j{0} K_{0}k / K_{0}{0}", p + 1);
-            items.push(Item::formula(
-                format!("{joint}, any link: largest difference from the printed entries"),
-                &text,
-                0.0,
-                most,
-                "",
-                "The named rule on a matrix without zeros; all nine entries.",
-            ));
+            items.push(on_any_link(joint, rule, p)?);
         }
         let (general, _) = by_elimination(place)?;
         let own = rule(&beam)?;
-        for (printed, value, i, j) in factors {
-            let measure = match (i, j) {
-                (1, 1) => ea / l,
-                (2, 2) => ei / l.powi(3),
-                (3, 3) => ei / l,
-                _ => ei / l.powi(2),
-            };
-            let measured = match (i, j) {
-                (1, 1) => "EA/L",
-                (2, 2) => "EI_z/L^3",
-                (3, 3) => "EI_z/L",
-                _ => "EI_z/L^2",
-            };
-            items.push(Item::formula(
-                format!("{joint}, beam: K{i}{j} / ({measured})"),
-                printed,
-                value,
-                own[(i - 1, j - 1)] / measure,
-                "",
-                "",
-            ));
-        }
-        let pick = [0, 1, 5];
-        let chain = Matrix3::from_fn(|i, j| general[(pick[i], pick[j])]);
-        let most = (0..9)
-            .map(|n| {
-                let (i, j) = (n / 3, n % 3);
-                (chain[(i, j)] - own[(i, j)]).abs() / (beam[(i, i)] * beam[(j, j)]).sqrt()
-            })
-            .fold(0.0, f64::max);
-        items.push(Item::unprinted(
-            format!(
-                "{joint}: the rule against elimination on a chain, largest difference as a share"
-            ),
-            most,
-            "",
-            "",
-        ));
+        items.extend(factors.map(|factor| of_the_beam(joint, factor, &own, ea, ei)));
+        items.push(against_elimination(joint, &own, &beam, &general));
     }
     Ok(Contents {
         items,
         plots: Vec::new(),
     })
+}
+
+/// The printed formula of the general matrices on the left, for a link of no symmetry; `p` is the eliminated direction.
+fn on_any_link(joint: &str, rule: Rule, p: usize) -> Result<Item, Cause> {
+    let any = Matrix3::new(5.0, 1.2, -0.7, 1.2, 3.0, 0.9, -0.7, 0.9, 2.0);
+    let printed = Matrix3::from_fn(|i, j| any[(i, j)] - any[(i, p)] * any[(p, j)] / any[(p, p)]);
+    let ours = rule(&any)?;
+    let most = (printed - ours).amax();
+    let text = format!("K_jk - K_j{0} K_{0}k / K_{0}{0}", p + 1);
+    Ok(Item::formula(
+        format!("{joint}, any link: largest difference from the printed entries"),
+        &text,
+        0.0,
+        most,
+        "",
+        "The named rule on a matrix without zeros; all nine entries.",
+    ))
+}
+
+/// An entry of the beam's matrix as a multiple of its unit.
+fn of_the_beam(
+    joint: &str,
+    (printed, value, i, j): Factor,
+    own: &Matrix3<f64>,
+    ea: f64,
+    ei: f64,
+) -> Item {
+    let l = LENGTH;
+    let measure = match (i, j) {
+        (1, 1) => ea / l,
+        (2, 2) => ei / l.powi(3),
+        (3, 3) => ei / l,
+        _ => ei / l.powi(2),
+    };
+    let measured = match (i, j) {
+        (1, 1) => "EA/L",
+        (2, 2) => "EI_z/L^3",
+        (3, 3) => "EI_z/L",
+        _ => "EI_z/L^2",
+    };
+    Item::formula(
+        format!("{joint}, beam: K{i}{j} / ({measured})"),
+        printed,
+        value,
+        own[(i - 1, j - 1)] / measure,
+        "",
+        "",
+    )
+}
+
+/// The rule beside the elimination of the joint from a chain.
+fn against_elimination(
+    joint: &str,
+    own: &Matrix3<f64>,
+    beam: &Matrix3<f64>,
+    general: &Matrix6<f64>,
+) -> Item {
+    let pick = [0, 1, 5];
+    let chain = Matrix3::from_fn(|i, j| general[(pick[i], pick[j])]);
+    let most = (0..9)
+        .map(|n| {
+            let (i, j) = (n / 3, n % 3);
+            (chain[(i, j)] - own[(i, j)]).abs() / (beam[(i, i)] * beam[(j, j)]).sqrt()
+        })
+        .fold(0.0, f64::max);
+    Item::unprinted(
+        format!("{joint}: the rule against elimination on a chain, largest difference as a share"),
+        most,
+        "",
+        "",
+    )
 }
 
 /// Entries of 3.25 that are not zero, and what a joint leaves of each.

@@ -5,23 +5,21 @@
 
 use std::collections::BTreeMap;
 
-use crate::axis::{Scale, Span};
-use crate::chart::legend;
-use crate::label::{Frame, TEXT_SIZE};
-use crate::outline::path_data;
-use crate::plot_label::Names;
-use crate::plot_path::Drawn;
+use crate::chart::axis::{Scale, Span, Tick};
+use crate::chart::dashes::Drawn;
+use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::outline::path_data;
+use crate::chart::panel::legend;
+use crate::chart::point_names::Names;
+use crate::chart::title::title_lines;
 use crate::svg::{Anchor, Svg};
 use crate::{number, text};
 
 const SIZE: (f64, f64) = (760.0, 480.0);
 
-/// Size of the title; the style sheet says the same.
-pub(crate) const TITLE_SIZE: f64 = 13.5;
-
 const STYLE: &str = concat!(
-    include_str!("template/palette.css"),
-    include_str!("template/plot.css")
+    include_str!("../template/palette.css"),
+    include_str!("../template/plot.css")
 );
 
 /// Colours of lines, told apart also without colour vision; further lines begin again.
@@ -180,6 +178,26 @@ impl Plot {
         }
         let x = Scale::new(x_span, frame.x, frame.right());
         let y = Scale::new(y_span, frame.bottom(), frame.y);
+        self.draw_axes(&mut svg, frame, (&x, &y), [x_span.ticks(8), y_ticks]);
+        let pixel = |p: &(f64, f64)| {
+            let x = x.at(number::drawable(p.0)?);
+            let y = y.at(number::drawable(p.1)?);
+            Some((x, y))
+        };
+        let mut names = Names::within(frame);
+        self.draw_lines(&mut svg, &mut names, pixel);
+        self.draw_marks(&mut svg, &mut names, pixel);
+        svg
+    }
+
+    /// Ground, grid, ticks and the names of the axes.
+    fn draw_axes(
+        &self,
+        svg: &mut Svg,
+        frame: Frame,
+        (x, y): (&Scale, &Scale),
+        [x_ticks, y_ticks]: [Vec<Tick>; 2],
+    ) {
         svg.rectangle(
             "ground",
             (frame.x, frame.y),
@@ -191,7 +209,7 @@ impl Plot {
             svg.line("grid", (frame.x, at), (frame.right(), at));
             svg.text("tick", (frame.x - 7.0, at + 4.2), Anchor::End, &tick.label);
         }
-        for tick in x_span.ticks(8) {
+        for tick in &x_ticks {
             let at = x.at(tick.value);
             svg.line("grid", (at, frame.y), (at, frame.bottom()));
             let base = frame.bottom() + 17.0;
@@ -207,17 +225,20 @@ impl Plot {
         svg.text("name", below, Anchor::Middle, &self.x_label);
         let beside = (20.0, frame.y + 0.5 * frame.height);
         svg.text_upwards("name", beside, &self.y_label);
-        let pixel = |p: &(f64, f64)| {
-            let x = x.at(number::drawable(p.0)?);
-            let y = y.at(number::drawable(p.1)?);
-            Some((x, y))
-        };
-        let mut names = Names::within(frame);
+    }
+
+    /// All curves; the names of points keep away from them.
+    fn draw_lines(
+        &self,
+        svg: &mut Svg,
+        names: &mut Names,
+        pixel: impl Fn(&(f64, f64)) -> Option<(f64, f64)>,
+    ) {
         let mut drawn: BTreeMap<String, Drawn> = BTreeMap::new();
         // What is solid lies on top of what is dashed.
         for dashed in [true, false] {
             for line in self.lines.iter().filter(|l| l.dashed == dashed) {
-                let pixels: Vec<_> = line.points.iter().map(pixel).collect();
+                let pixels: Vec<_> = line.points.iter().map(&pixel).collect();
                 names.line(&pixels, 1.0);
                 let class = class(line);
                 let data = if dashed {
@@ -229,6 +250,15 @@ impl Plot {
                 svg.path(&class, &data);
             }
         }
+    }
+
+    /// Named points: markers last, on top of all names.
+    fn draw_marks(
+        &self,
+        svg: &mut Svg,
+        names: &mut Names,
+        pixel: impl Fn(&(f64, f64)) -> Option<(f64, f64)>,
+    ) {
         let at: Vec<_> = self.marks.iter().map(|m| pixel(&m.at)).collect();
         for at in at.iter().flatten() {
             names.mark(*at, 6.0);
@@ -237,7 +267,7 @@ impl Plot {
             if let Some(at) = at
                 && !mark.name.is_empty()
             {
-                names.write(&mut svg, *at, &mark.name);
+                names.write(svg, *at, &mark.name);
             }
         }
         for (mark, at) in self.marks.iter().zip(&at) {
@@ -249,7 +279,6 @@ impl Plot {
             };
             svg.marker("mark", *at, tooltip);
         }
-        svg
     }
 }
 
@@ -268,36 +297,6 @@ fn about(span: &Span, length: f64) -> Span {
         low: span.middle() - 0.5 * length,
         high: span.middle() + 0.5 * length,
     }
-}
-
-/// A title in at most two lines; what is longer is cut.
-pub(crate) fn title_lines(title: &str, width: f64) -> Vec<String> {
-    let size = |text: &str| text::bold_width(text, TITLE_SIZE);
-    let mut lines = vec![String::new()];
-    for word in title.split(' ').filter(|word| !word.is_empty()) {
-        let last = lines.len() - 1;
-        let longer = if lines[last].is_empty() {
-            word.to_owned()
-        } else {
-            format!("{} {word}", lines[last])
-        };
-        if size(&longer) <= width || lines[last].is_empty() {
-            lines[last] = longer;
-        } else if lines.len() < 2 {
-            lines.push(word.to_owned());
-        } else {
-            let fitting = longer.chars().count().saturating_sub(word.chars().count());
-            lines[last] = format!("{}\u{2026}", text::shorten(&lines[last], fitting));
-            break;
-        }
-    }
-    for line in &mut lines {
-        if size(line) > width {
-            let share = width / size(line);
-            *line = text::shorten(line, (share * line.chars().count() as f64) as usize);
-        }
-    }
-    lines
 }
 
 fn class(line: &PlotLine) -> String {
@@ -340,21 +339,6 @@ mod tests {
         assert!(!svg.contains("NaN") && !svg.contains("<and>"));
         assert!(plot.shape_svg().contains("limit point"));
         assert!(Plot::default().svg().contains("no points to show"));
-    }
-
-    #[test]
-    fn long_titles_take_two_lines_and_no_more() {
-        let long = "a title of many words that goes on and on ".repeat(8);
-        let lines = title_lines(&long, 700.0);
-        assert_eq!(lines.len(), 2);
-        assert!(lines[1].ends_with('\u{2026}'));
-        assert!(
-            lines
-                .iter()
-                .all(|l| text::bold_width(l, TITLE_SIZE) < 720.0)
-        );
-        assert_eq!(title_lines("short", 700.0), ["short"]);
-        assert_eq!(title_lines(&"x".repeat(500), 700.0).len(), 1);
     }
 
     #[test]

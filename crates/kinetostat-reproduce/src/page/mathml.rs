@@ -8,7 +8,7 @@
 use std::iter::Peekable;
 use std::str::Chars;
 
-use crate::formula::GREEK;
+use crate::page::formula::GREEK;
 
 const FUNCTIONS: [&str; 5] = ["sin", "cos", "tan", "arccos", "arcsin"];
 /// Applies a function to what follows; joins factors.

@@ -8,9 +8,11 @@ use kinetostat::{
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::{Vector3, vector};
 
-use crate::curves::{Drawn, lines, marks, of_kind, unstable_entry};
-use crate::models::{ALPHA0, along_x, at_rest, critical_load, elastic_links, held, load_on_middle};
-use crate::three_link_figures::outline;
+use crate::chapter_5::three_link_figures::outline;
+use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
+use crate::shared::models::{
+    ALPHA0, along_x, at_rest, critical_load, elastic_links, held, load_on_middle,
+};
 use crate::{Cause, Contents, Item};
 
 /// Loads, in units of G*.
@@ -183,7 +185,7 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
     items.push(Item::unprinted(
         format!(
             "flat chain with preload: x of its {}",
-            crate::curves::word(limit.kind)
+            crate::shared::curves::word(limit.kind)
         ),
         x + limit.point.parameter,
         "L",

@@ -2,18 +2,19 @@
 
 use minijinja::{Environment, Value, context};
 
-use crate::chart::Sheet;
+use crate::chart::panel::Sheet;
 use crate::number::{self, MISSING};
-use crate::shown::Shown;
-use crate::{along, facts, plan, text, verdict};
+use crate::run::shown::Shown;
+use crate::run::{along, facts, meaning, plan};
+use crate::text;
 
 /// The name ends in `.html`, which switches automatic escaping on.
 const PAGE: &str = "report.html";
 
 const STYLE: &str = concat!(
-    include_str!("template/palette.css"),
-    include_str!("template/plot.css"),
-    include_str!("template/page.css")
+    include_str!("../template/palette.css"),
+    include_str!("../template/plot.css"),
+    include_str!("../template/page.css")
 );
 
 /// Most warnings shown; more are in the result file.
@@ -22,9 +23,9 @@ const MOST_WARNINGS: usize = 100;
 /// Fills the page.
 pub(crate) fn render(result: &Shown<'_>) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
-    environment.add_template(PAGE, include_str!("template/report.html"))?;
+    environment.add_template(PAGE, include_str!("../template/report.html"))?;
     let question = &result.question;
-    let verdict = verdict::verdict(result);
+    let verdict = meaning::verdict(result);
     let warnings: Vec<String> = result
         .warnings
         .iter()

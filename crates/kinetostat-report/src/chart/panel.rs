@@ -2,10 +2,10 @@
 
 use kinetostat_machining::{PointKind, PointResult};
 
-use crate::axis::{Scale, Span, Tick};
-use crate::label::{Frame, Labels, TEXT_SIZE};
-use crate::outline::{path_data, per_column};
-use crate::plot::{TITLE_SIZE, title_lines};
+use crate::chart::axis::{Scale, Span, Tick};
+use crate::chart::label::{Frame, Labels, TEXT_SIZE};
+use crate::chart::outline::{path_data, per_column};
+use crate::chart::title::{TITLE_SIZE, title_lines};
 use crate::svg::{Anchor, Svg, pixel};
 use crate::{number, text};
 

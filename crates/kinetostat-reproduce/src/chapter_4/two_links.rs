@@ -7,8 +7,10 @@ use kinetostat::{
 };
 use kinetostat_report::{Plot, PlotMark};
 
-use crate::curves::{Drawn, lines, marks, of_kind, unstable_entry};
-use crate::models::{ALPHA0, along_x, at_rest, critical_load, held, load_on_middle, rigid_links};
+use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
+use crate::shared::models::{
+    ALPHA0, along_x, at_rest, critical_load, held, load_on_middle, rigid_links,
+};
 use crate::{Cause, Contents, Item};
 
 /// The end held at the displacement `dx` under `g G*`; the upper shape, or the lower one.

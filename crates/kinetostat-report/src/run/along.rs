@@ -2,11 +2,11 @@
 
 use kinetostat_machining::PointResult;
 
-use crate::axis::Span;
-use crate::chart::{Along, Limit, Mark, Panel, Series, Sheet, legend};
-use crate::label::Frame;
+use crate::chart::axis::Span;
+use crate::chart::label::Frame;
+use crate::chart::panel::{Along, Limit, Mark, Panel, Series, Sheet, legend};
 use crate::number::{self, MISSING, Rounding, norm};
-use crate::shown::Shown;
+use crate::run::shown::Shown;
 use crate::svg::Svg;
 use crate::text;
 

@@ -1,6 +1,6 @@
 //! Cutting forces of chapter 2.
 
-use crate::cutting::{
+use crate::chapter_2::cutting::{
     AL_MG_4_5_MN, MONEL_400, Material, largest_force, printed_2_4, spindle_torque,
 };
 use crate::{Cause, Contents, Item};

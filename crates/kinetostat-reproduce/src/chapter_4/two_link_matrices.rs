@@ -4,7 +4,7 @@
 use kinetostat::{Chain, Error, Kinematics, Pose, Wrench};
 use nalgebra::{DMatrix, Matrix6xX, Vector3, vector};
 
-use crate::models::{ALPHA0, elastic_links_of, rigid_links_of};
+use crate::shared::models::{ALPHA0, elastic_links_of, rigid_links_of};
 use crate::{Cause, Contents, Item};
 
 /// Lengths of the links, forces on the middle and on the end.
@@ -171,17 +171,29 @@ pub(crate) fn table_4_1() -> Result<Contents, Cause> {
     ))
 }
 
+/// Arguments of Table 4.2: `q1`, `theta1` to `theta3`, `q2`.
+const CONFIGURATION_4_2: [f64; 5] = [0.4, 0.05, -0.7, -0.03, 0.2];
+
 pub(crate) fn table_4_2() -> Result<Contents, Cause> {
-    let (q1, t1, t2, t3, q2) = (0.4_f64, 0.05_f64, -0.7_f64, -0.03_f64, 0.2_f64);
     let chain = elastic_links_of(L1, L2, ALPHA0)?;
-    let b = blocks(&chain, &[q1, t1, t2, t3, q2])?;
+    let b = blocks(&chain, &CONFIGURATION_4_2)?;
+    let mut items = Vec::new();
+    jacobians_4_2(&mut items, &b);
+    hessians_4_2(&mut items, &b);
+    Ok(tidy(
+        items,
+        "At L1 = 1, L2 = 0.8, q1 = 0.4, theta = (0.05, -0.7, -0.03), q2 = 0.2, G = (0.35, -0.6), F = (-0.9, 0.45). The title says rigid links: it is the case of compliant ones.",
+    ))
+}
+
+/// Columns of the Jacobians of node and end.
+fn jacobians_4_2(i: &mut Vec<Item>, b: &Blocks) {
+    let [q1, t1, t2, t3, _] = CONFIGURATION_4_2;
     let (s1, c1) = q1.sin_cos();
     let (s2, c2) = (q1 + t2).sin_cos();
     let (l1, l2) = (L1 + t1, L2 + t3);
     let (j1, j2, j3, j4) = (c1, s1, -l1 * s1, l1 * c1);
     let (j5, j6, j7, j8) = (-l2 * s2, l2 * c2, c2, s2);
-    let mut items = Vec::new();
-    let i = &mut items;
     let zero = [("0", 0.0), ("0", 0.0), ("0", 0.0)];
     column(
         i,
@@ -249,6 +261,14 @@ pub(crate) fn table_4_2() -> Result<Contents, Cause> {
         [("0", 0.0), ("0", 0.0), ("1", 1.0)],
         "",
     );
+}
+
+/// Entries of the Hessians of the loads on node and end.
+fn hessians_4_2(i: &mut Vec<Item>, b: &Blocks) {
+    let [q1, t1, t2, t3, _] = CONFIGURATION_4_2;
+    let (s1, c1) = q1.sin_cos();
+    let (s2, c2) = (q1 + t2).sin_cos();
+    let (l1, l2) = (L1 + t1, L2 + t3);
     let h1 = -G[0] * s1 + G[1] * c1;
     let h2 = -G[0] * l1 * c1 - G[1] * l1 * s1;
     let h3 = -F[0] * l2 * c2 - F[1] * l2 * s2;
@@ -273,10 +293,6 @@ pub(crate) fn table_4_2() -> Result<Contents, Cause> {
     ] {
         entry(i, name, printed, own, "");
     }
-    Ok(tidy(
-        items,
-        "At L1 = 1, L2 = 0.8, q1 = 0.4, theta = (0.05, -0.7, -0.03), q2 = 0.2, G = (0.35, -0.6), F = (-0.9, 0.45). The title says rigid links: it is the case of compliant ones.",
-    ))
 }
 
 pub(crate) fn text_4_4() -> Result<Contents, Cause> {

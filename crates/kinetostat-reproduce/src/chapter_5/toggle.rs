@@ -8,7 +8,7 @@ use kinetostat::{
 use kinetostat_report::Plot;
 use nalgebra::{Vector3, vector};
 
-use crate::curves::{Drawn, lines, marks, of_kind, unstable_entry};
+use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
 use crate::{Cause, Contents, Item};
 
 /// One of three equal legs: by symmetry its end moves along z and the machine carries three times

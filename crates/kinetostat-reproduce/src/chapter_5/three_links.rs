@@ -7,7 +7,7 @@ use kinetostat::{
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
-use crate::models::{held, linked, s_chain, z_at_rest, z_chain};
+use crate::shared::models::{held, linked, s_chain, z_at_rest, z_chain};
 use crate::{Cause, Contents, Item, Status};
 
 /// All equilibria with the end held at x, springs within half a turn.

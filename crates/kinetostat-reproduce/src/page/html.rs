@@ -3,7 +3,8 @@
 use kinetostat_report::Plot;
 use minijinja::{Environment, Value, context};
 
-use crate::{Entry, Item, ReproduceError, Status, formula, mathml};
+use crate::page::{formula, mathml};
+use crate::{Entry, Item, ReproduceError, Status};
 
 /// The name ends in `.html`, which switches automatic escaping on.
 const PAGE: &str = "reproduce.html";
@@ -16,8 +17,8 @@ const PAGE: &str = "reproduce.html";
 /// [`ReproduceError::Page`] if the template cannot be filled.
 pub fn html(entries: &[Entry]) -> Result<String, ReproduceError> {
     let mut environment = Environment::new();
-    environment.add_template(PAGE, include_str!("template/reproduce.html"))?;
-    let style = [Plot::style(), include_str!("template/reproduce.css")].concat();
+    environment.add_template(PAGE, include_str!("../template/reproduce.html"))?;
+    let style = [Plot::style(), include_str!("../template/reproduce.css")].concat();
     let count = |status: Status| {
         let items = entries.iter().flat_map(|entry| &entry.items);
         items.filter(|item| item.status == status).count()

@@ -7,9 +7,9 @@ use kinetostat::{
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use nalgebra::{Vector3, vector};
 
-use crate::curves::{Drawn, lines, marks, of_kind, unstable_entry};
-use crate::models::{along_x, held, linked, s_chain, z_at_rest, z_chain};
-use crate::three_links::{Shape, pick, shapes};
+use crate::chapter_5::three_links::{Shape, pick, shapes};
+use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
+use crate::shared::models::{along_x, held, linked, s_chain, z_at_rest, z_chain};
 use crate::{Cause, Contents, Item};
 
 /// Displacement of the energy diagram and of the shapes shown; the report's figure names none.

@@ -4,7 +4,7 @@ use kinetostat_machining::{FileRead, PointKind, PointResult, Question, Summary};
 use minijinja::{Value, context};
 
 use crate::number::{self, MISSING, Rounding, norm};
-use crate::shown::Shown;
+use crate::run::shown::Shown;
 use crate::text::{self, or_unknown};
 
 /// A key figure: what, how much, and a line that helps to read it.

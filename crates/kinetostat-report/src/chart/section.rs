@@ -4,19 +4,18 @@
 
 use std::fmt::Write as _;
 
-use crate::axis::{Scale, Span};
-use crate::label::{Frame, TEXT_SIZE};
-use crate::number;
-use crate::plot::title_lines;
+use crate::chart::axis::{Scale, Span};
+use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::title::title_lines;
 use crate::svg::{Anchor, Svg, pixel};
-use crate::text;
+use crate::{number, text};
 
 const SIZE: (f64, f64) = (760.0, 560.0);
 
 const STYLE: &str = concat!(
-    include_str!("template/palette.css"),
-    include_str!("template/plot.css"),
-    include_str!("template/section.css")
+    include_str!("../template/palette.css"),
+    include_str!("../template/plot.css"),
+    include_str!("../template/section.css")
 );
 
 /// Colours of the style sheet, from low to high.

@@ -1,7 +1,7 @@
 //! Dashed lines that lie on each other: mirrored shapes have the same curve, and two rows of dashes
 //! out of step look like a solid line.
 
-use crate::outline::Pixel;
+use crate::chart::outline::Pixel;
 
 /// Nearer than this two lines are drawn as one, pixels.
 const NEAR: f64 = 0.6;

@@ -4,8 +4,8 @@
 //! that is wanted, on few lines. Where nothing near is free, the free place that is nearest, with a
 //! thin line to the point.
 
-use crate::label::{Frame, TEXT_SIZE};
-use crate::outline::Pixel;
+use crate::chart::label::{Frame, TEXT_SIZE};
+use crate::chart::outline::Pixel;
 use crate::svg::{Anchor, Svg};
 use crate::text;
 

@@ -1,10 +1,9 @@
 //! What the options and the loop file ask for, against what the robot has: base and tip, which joints
 //! are passive, where everything stands at home, which stiffnesses there are.
 
-use kinetostat::number;
 use std::collections::BTreeSet;
 
-use kinetostat::MotionKind;
+use kinetostat::{MotionKind, number};
 use kinetostat_model::ModelError;
 use nalgebra::Vector3;
 
@@ -13,9 +12,9 @@ use crate::stiffness::Stiffnesses;
 use crate::urdf::chain::Variable;
 use crate::urdf::close::{Free, close};
 use crate::urdf::graph::{Graph, closing_steps};
-use crate::urdf::import::UrdfOptions;
 use crate::urdf::loops::Loops;
-use crate::urdf::robot::{Closure, JointType, Robot};
+use crate::urdf::options::UrdfOptions;
+use crate::urdf::robot::{Closure, Joint, JointType, Robot};
 use crate::urdf::tree::{Step, Tree};
 
 /// Base and tip.
@@ -237,7 +236,7 @@ pub(crate) fn followers(robot: &Robot, tree: &Tree, variables: &mut [Variable], 
     }
 }
 
-/// Values at home: as told, else zero, else the middle of the limits.
+/// Values at home: as given, else zero, else the middle of the limits.
 pub(crate) fn homes(
     robot: &Robot,
     variables: &mut [Variable],
@@ -269,7 +268,7 @@ pub(crate) fn homes(
             _ => 0.0,
         })
         .collect();
-    let told = loops
+    let given = loops
         .home
         .iter()
         .map(|(at, n, v, turning)| (Some(at), n, *v, *turning))
@@ -279,36 +278,72 @@ pub(crate) fn homes(
                 .iter()
                 .map(|(n, (kind, v))| (None, n, *v, *kind == MotionKind::Revolute)),
         );
-    for (written, name, value, turning) in told {
+    for (written, name, value, turning) in given {
         let from_file = written.is_some();
         let at = written.unwrap_or(&robot.at);
-        let from_option = if from_file { "home" } else { "--home" };
+        let source = Given::source(from_file);
         let Some(joint) = robot.joints.iter().position(|j| j.name == *name) else {
             log.error(
                 at,
-                format!("{from_option}: there is no joint '{name}'"),
+                format!("{source}: there is no joint '{name}'"),
                 suggestion(name, robot.joints.iter().map(|j| j.name.as_str())),
             );
             continue;
         };
         let j = &robot.joints[joint];
-        // An option has no place of its own: the joint's line tells more.
+        // An option has no place of its own: the joint's line says more.
         let at = if from_file { at } else { &j.at };
+        let found = Given {
+            name,
+            value,
+            turning,
+            from_file,
+        };
+        if found.check(at, j, variables[joint].kind, log) {
+            home[joint] = value;
+        }
+    }
+    home
+}
+
+/// A home that the options or the loop file give to a joint.
+struct Given<'a> {
+    name: &'a str,
+    value: f64,
+    /// The value is an angle.
+    turning: bool,
+    from_file: bool,
+}
+
+impl Given<'_> {
+    fn source(from_file: bool) -> &'static str {
+        if from_file { "home" } else { "--home" }
+    }
+
+    /// Whether the joint can stand there; the reason is logged where it cannot.
+    fn check(&self, at: &At, j: &Joint, kind: MotionKind, log: &mut Log) -> bool {
+        let Self {
+            name,
+            value,
+            turning,
+            ..
+        } = *self;
+        let source = Self::source(self.from_file);
         if j.mimic.is_some() || !matches!(j.kind, JointType::Moving(_)) {
             log.error(
                 at,
-                format!("{from_option}: the joint '{name}' does not move by itself"),
+                format!("{source}: the joint '{name}' does not move by itself"),
                 "name the joint that it follows",
             );
-        } else if turning != (variables[joint].kind == MotionKind::Revolute) {
+        } else if turning != (kind == MotionKind::Revolute) {
             log.error(
                 at,
                 format!(
-                    "{from_option}: the joint '{name}' is {}, the value is {}",
+                    "{source}: the joint '{name}' is {}, the value is {}",
                     j.word,
                     if turning { "an angle" } else { "a distance" }
                 ),
-                match (from_file, turning) {
+                match (self.from_file, turning) {
                     (true, _) => "turning joints go under home_rad, sliding ones under home_m",
                     (false, true) => "a joint that slides needs mm or m",
                     (false, false) => "a joint that turns needs deg or rad",
@@ -327,7 +362,7 @@ pub(crate) fn homes(
             log.error(
                 at,
                 format!(
-                    "{from_option}: {} {unit} is outside the limits of the joint '{name}', {} to {} {unit}",
+                    "{source}: {} {unit} is outside the limits of the joint '{name}', {} to {} {unit}",
                     shown(value),
                     shown(low),
                     shown(high)
@@ -335,10 +370,10 @@ pub(crate) fn homes(
                 "choose a value within them",
             );
         } else {
-            home[joint] = value;
+            return true;
         }
+        false
     }
-    home
 }
 
 /// A joint's value in degrees or millimetres.

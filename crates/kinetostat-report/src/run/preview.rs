@@ -2,19 +2,19 @@
 
 use kinetostat_machining::PointKind;
 
-use crate::axis::{Span, Tick};
-use crate::chart::{Along, Panel, Series};
-use crate::label::Frame;
+use crate::chart::axis::{Span, Tick};
+use crate::chart::label::Frame;
+use crate::chart::panel::{Along, Panel, Series};
 use crate::number::{self, norm};
-use crate::plan;
-use crate::shown::Shown;
+use crate::run::plan;
+use crate::run::shown::Shown;
 use crate::svg::{Anchor, Svg};
 
 const SIZE: (f64, f64) = (900.0, 420.0);
 
 const STYLE: &str = concat!(
-    include_str!("template/palette.css"),
-    include_str!("template/plot.css")
+    include_str!("../template/palette.css"),
+    include_str!("../template/plot.css")
 );
 
 /// Decades that are shown at most.

@@ -2,12 +2,12 @@
 
 use kinetostat_machining::{PointKind, PointResult};
 
-use crate::axis::{Scale, Span};
-use crate::chart::{Sheet, legend};
-use crate::label::{Frame, Labels, TEXT_SIZE};
+use crate::chart::axis::{Scale, Span};
+use crate::chart::label::{Frame, Labels, TEXT_SIZE};
+use crate::chart::outline::{Pixel, first_time, path_data};
+use crate::chart::panel::{Sheet, legend};
 use crate::number::{self, Rounding, norm};
-use crate::outline::{Pixel, first_time, path_data};
-use crate::shown::Shown;
+use crate::run::shown::Shown;
 use crate::svg::{Anchor, Svg};
 use crate::text;
 
@@ -58,83 +58,20 @@ pub(crate) fn views(result: &Shown<'_>, sheet: Sheet) -> String {
     );
     let room = sheet.width() - left - right;
     let tallest = if sheet.narrow() { 330.0 } else { 440.0 };
-    let half = 0.5 * (room - left - 20.0);
     let scale;
+    let panels = Panels {
+        result,
+        magnification,
+        above: &above,
+        tallest,
+    };
     match side {
         // A compact path leaves room beside it.
         Some(side) if !sheet.narrow() && above.ratio() < 1.8 && side.ratio() < 4.0 => {
-            scale = above.scale(half, tallest).min(side.scale(half, tallest));
-            let height = above.height(scale).max(side.height(scale)).max(200.0);
-            let frame = Frame {
-                x: left,
-                y,
-                width: half,
-                height,
-            };
-            draw(
-                &mut svg,
-                result,
-                &above,
-                frame,
-                magnification,
-                "Seen from above",
-            );
-            let frame = Frame {
-                x: 2.0 * left + half + 20.0,
-                ..frame
-            };
-            draw(
-                &mut svg,
-                result,
-                &side,
-                frame,
-                magnification,
-                "Seen from the side",
-            );
-            y += height;
+            let half = 0.5 * (room - left - 20.0);
+            (scale, y) = panels.side_by_side(&mut svg, &side, (left, y), half);
         }
-        side => {
-            let wanted = side
-                .as_ref()
-                .map_or(f64::INFINITY, |side| side.scale(room, 220.0));
-            scale = above
-                .scale(room, tallest)
-                .min(wanted.max(above.scale(room, 240.0)));
-            let width = (above.width(scale) + 30.0).clamp(room.min(420.0), room);
-            let x = left + 0.5 * (room - width);
-            let frame = Frame {
-                x,
-                y,
-                width,
-                height: above.height(scale).max(110.0),
-            };
-            draw(
-                &mut svg,
-                result,
-                &above,
-                frame,
-                magnification,
-                "Seen from above",
-            );
-            y = frame.bottom();
-            if let Some(side) = side {
-                let height = side.height(scale).clamp(90.0, 2.0 * tallest);
-                let frame = Frame {
-                    y: y + 78.0,
-                    height,
-                    ..frame
-                };
-                draw(
-                    &mut svg,
-                    result,
-                    &side,
-                    frame,
-                    magnification,
-                    "Seen from the side",
-                );
-                y = frame.bottom();
-            }
-        }
+        side => (scale, y) = panels.one_above_the_other(&mut svg, side.as_ref(), (left, y), room),
     }
     y += 62.0;
     y += draw_legend(
@@ -230,6 +167,85 @@ impl Extent {
             grown(self.across, frame.width),
             grown(self.up, frame.height),
         )
+    }
+}
+
+/// What both views of a path share.
+struct Panels<'a> {
+    result: &'a Shown<'a>,
+    magnification: Option<f64>,
+    above: &'a Extent,
+    /// Largest height of a panel, pixels.
+    tallest: f64,
+}
+
+impl Panels<'_> {
+    fn draw(&self, svg: &mut Svg, extent: &Extent, frame: Frame, title: &str) {
+        draw(svg, self.result, extent, frame, self.magnification, title);
+    }
+
+    /// Two panels of one width at one scale; gives the scale and where they end.
+    fn side_by_side(
+        &self,
+        svg: &mut Svg,
+        side: &Extent,
+        (left, y): (f64, f64),
+        half: f64,
+    ) -> (f64, f64) {
+        let scale = self
+            .above
+            .scale(half, self.tallest)
+            .min(side.scale(half, self.tallest));
+        let height = self.above.height(scale).max(side.height(scale)).max(200.0);
+        let frame = Frame {
+            x: left,
+            y,
+            width: half,
+            height,
+        };
+        self.draw(svg, self.above, frame, "Seen from above");
+        let frame = Frame {
+            x: 2.0 * left + half + 20.0,
+            ..frame
+        };
+        self.draw(svg, side, frame, "Seen from the side");
+        (scale, y + height)
+    }
+
+    /// The view from the side below that from above, where the path has a height.
+    fn one_above_the_other(
+        &self,
+        svg: &mut Svg,
+        side: Option<&Extent>,
+        (left, y): (f64, f64),
+        room: f64,
+    ) -> (f64, f64) {
+        let wanted = side.map_or(f64::INFINITY, |side| side.scale(room, 220.0));
+        let scale = self
+            .above
+            .scale(room, self.tallest)
+            .min(wanted.max(self.above.scale(room, 240.0)));
+        let width = (self.above.width(scale) + 30.0).clamp(room.min(420.0), room);
+        let x = left + 0.5 * (room - width);
+        let frame = Frame {
+            x,
+            y,
+            width,
+            height: self.above.height(scale).max(110.0),
+        };
+        self.draw(svg, self.above, frame, "Seen from above");
+        let mut bottom = frame.bottom();
+        if let Some(side) = side {
+            let height = side.height(scale).clamp(90.0, 2.0 * self.tallest);
+            let frame = Frame {
+                y: bottom + 78.0,
+                height,
+                ..frame
+            };
+            self.draw(svg, side, frame, "Seen from the side");
+            bottom = frame.bottom();
+        }
+        (scale, bottom)
     }
 }
 
