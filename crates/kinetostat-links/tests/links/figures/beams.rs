@@ -100,7 +100,7 @@ fn a_tapered_rectangle_agrees_with_quadrature_in_thirty_digits() {
     }
     at_most(
         "tapered rectangle against quadrature in 30 digits",
-        worst.of(9),
+        worst.of(8),
         1e-11,
         "relative",
     );
