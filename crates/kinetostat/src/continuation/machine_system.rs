@@ -357,6 +357,16 @@ impl CurveSystem for MachineSystem<'_, '_, '_> {
         }
     }
 
+    /// A flat posture: the load starts to move the tool where nothing holds it yet, not along what moves for nothing.
+    fn start_where_still(&self, null: &DMatrix<f64>) -> DVector<f64> {
+        let push = self.conjugate_row(&DVector::zeros(0));
+        let along = null * (null.transpose() * &push);
+        match along.norm() > 1e-9 * push.norm() {
+            true => along.normalize(),
+            false => null.column(0).into_owned(),
+        }
+    }
+
     /// A tool that has turned is elsewhere for the curve.
     fn full_turns(&self) -> Vec<f64> {
         vec![0.0; self.count() + 1]

@@ -15,7 +15,7 @@ pub(crate) fn start_direction<S: CurveSystem>(system: &mut S, z: &DVector<f64>) 
     if sum.norm() > 1e-9 {
         sum.normalize()
     } else if null.ncols() > 0 {
-        null.column(0).into_owned()
+        system.start_where_still(&null.into_owned())
     } else {
         DVector::zeros(m + 1)
     }

@@ -67,6 +67,10 @@ pub(crate) trait CurveSystem {
     fn points_forward(&self, t: &DVector<f64>) -> bool {
         t[self.count()] >= 0.0
     }
+    /// Among null directions in none of which the parameter changes, the one in which a curve starts.
+    fn start_where_still(&self, null: &DMatrix<f64>) -> DVector<f64> {
+        null.column(0).into_owned()
+    }
     /// Full turn of every unknown, 0 where a full turn makes a difference.
     fn full_turns(&self) -> Vec<f64>;
 
