@@ -323,10 +323,10 @@ mod tests {
             "2",
             &[("a", 103_000), ("b", 103_001), ("c", 96_999), ("d", 1)],
         );
-        let told = compare(&now, &before);
-        assert_eq!(told.more, ["b", "d"]);
-        assert_eq!(told.less, ["c", "e (gone)"]);
-        assert_eq!(told.table.lines().count(), 5);
+        let changes = compare(&now, &before);
+        assert_eq!(changes.more, ["b", "d"]);
+        assert_eq!(changes.less, ["c", "e (gone)"]);
+        assert_eq!(changes.table.lines().count(), 5);
         assert_eq!(taken_differently(&now, &before), "");
     }
 

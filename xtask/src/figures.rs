@@ -468,8 +468,8 @@ fn real_programs(figures: &mut Vec<Figure>) -> Result<()> {
             "x.ngc",
         ];
         let used = measure(&scratch.0, &arguments)?;
-        let told = words.iter().all(|w| used.stderr.contains(w));
-        Ok(!used.success && told && !scratch.0.join("x.ngc").exists())
+        let explained = words.iter().all(|w| used.stderr.contains(w));
+        Ok(!used.success && explained && !scratch.0.join("x.ngc").exists())
     };
     figures.push(Figure::yes(
         "371373P.gcode is refused with line and construct",

@@ -33,7 +33,7 @@ pub(crate) fn product(steps: &[Step], start: Pose, values: &[f64]) -> Pose {
 }
 
 /// How far every loop is open: six numbers each, m and rad.
-fn gaps(
+fn residuals(
     robot: &Robot,
     tree: &Tree,
     base: usize,
@@ -41,13 +41,13 @@ fn gaps(
     values: &[f64],
 ) -> DVector<f64> {
     let frames = frames(robot, tree, base, values);
-    let mut gaps = DVector::zeros(6 * closings.len());
+    let mut residuals = DVector::zeros(6 * closings.len());
     for (k, ([parent, child], steps)) in closings.iter().enumerate() {
         let reached = product(steps, frames[*parent], values);
-        let gap = pose_residual(&frames[*child], &reached);
-        gaps.rows_mut(6 * k, 6).copy_from(&gap.0);
+        let residual = pose_residual(&frames[*child], &reached);
+        residuals.rows_mut(6 * k, 6).copy_from(&residual.0);
     }
-    gaps
+    residuals
 }
 
 /// A variable that may move to close the loops, and what it is allowed.
@@ -79,9 +79,9 @@ pub(crate) fn close(
 ) -> (f64, f64) {
     let start = values.to_vec();
     let variables: Vec<usize> = free.iter().map(|f| f.variable).collect();
-    let open = |gap: (f64, f64)| gap.0 > 1e-9 || gap.1 > 1e-9;
+    let open = |residual: (f64, f64)| residual.0 > 1e-9 || residual.1 > 1e-9;
     // Whether it is open, joints outside their limits, distance from the start.
-    let cost = |values: &[f64], gap: (f64, f64)| {
+    let cost = |values: &[f64], residual: (f64, f64)| {
         let outside = free
             .iter()
             .filter(|f| {
@@ -94,11 +94,11 @@ pub(crate) fn close(
             .filter(|f| f.in_tree)
             .map(|f| (values[f.variable] - start[f.variable]).powi(2))
             .sum();
-        (open(gap), outside, away)
+        (open(residual), outside, away)
     };
-    let mut gap = search(robot, tree, base, closings, &variables, values);
+    let mut residual = search(robot, tree, base, closings, &variables, values);
     wrap(free, values);
-    let mut best = (cost(values, gap), values.to_vec());
+    let mut best = (cost(values, residual), values.to_vec());
     let starts = if robot.links.len() <= MOST_LINKS && free.len() <= MOST_FREE {
         STARTS
     } else {
@@ -117,12 +117,12 @@ pub(crate) fn close(
         wrap(free, &mut trial);
         let candidate = cost(&trial, found);
         if candidate.partial_cmp(&best.0) == Some(std::cmp::Ordering::Less) {
-            gap = found;
+            residual = found;
             best = (candidate, trial);
         }
     }
     values.copy_from_slice(&best.1);
-    gap
+    residual
 }
 
 /// Turning joints within half a turn of zero.
@@ -141,20 +141,20 @@ fn search(
     free: &[usize],
     values: &mut [f64],
 ) -> (f64, f64) {
-    let mut gap = gaps(robot, tree, base, closings, values);
+    let mut residual = residuals(robot, tree, base, closings, values);
     let mut damping = 1e-6;
     for _ in 0..200 {
-        if gap.amax() < 1e-14 {
+        if residual.amax() < 1e-14 {
             break;
         }
         let step = 1e-6;
-        let mut jacobian = DMatrix::zeros(gap.len(), free.len());
+        let mut jacobian = DMatrix::zeros(residual.len(), free.len());
         for (column, &v) in free.iter().enumerate() {
             let at = values[v];
             values[v] = at + step;
-            let ahead = gaps(robot, tree, base, closings, values);
+            let ahead = residuals(robot, tree, base, closings, values);
             values[v] = at - step;
-            let behind = gaps(robot, tree, base, closings, values);
+            let behind = residuals(robot, tree, base, closings, values);
             values[v] = at;
             jacobian.set_column(column, &((ahead - behind) / (2.0 * step)));
         }
@@ -165,7 +165,7 @@ fn search(
         let Some(factor) = normal.cholesky() else {
             break;
         };
-        let change = factor.solve(&(jacobian.transpose() * &gap));
+        let change = factor.solve(&(jacobian.transpose() * &residual));
         let before: Vec<f64> = free.iter().map(|v| values[*v]).collect();
         // No joint turns more than half a radian in one step.
         let most = change.amax().max(1e-300);
@@ -173,9 +173,9 @@ fn search(
         for (&v, d) in free.iter().zip(change.iter()) {
             values[v] -= share * d;
         }
-        let next = gaps(robot, tree, base, closings, values);
-        if next.norm() < gap.norm() {
-            gap = next;
+        let next = residuals(robot, tree, base, closings, values);
+        if next.norm() < residual.norm() {
+            residual = next;
             damping = (0.1 * damping).max(1e-14);
         } else {
             for (&v, value) in free.iter().zip(before) {
@@ -189,8 +189,8 @@ fn search(
     }
     (0..closings.len()).fold((0.0, 0.0), |(distance, angle): (f64, f64), k| {
         (
-            distance.max(gap.rows(6 * k, 3).norm()),
-            angle.max(gap.rows(6 * k + 3, 3).norm()),
+            distance.max(residual.rows(6 * k, 3).norm()),
+            angle.max(residual.rows(6 * k + 3, 3).norm()),
         )
     })
 }

@@ -102,15 +102,15 @@ pub(crate) fn check_plausibility(
         );
         let reached = from * tip;
         let wanted = to * limb.platform_from_tip;
-        let gap = (reached.translation.vector - wanted.translation.vector).norm();
+        let distance = (reached.translation.vector - wanted.translation.vector).norm();
         let turn = reached.rotation.angle_to(&wanted.rotation);
-        if gap > 1e-3 * reach.max(1e-3) || turn > 1e-2 {
+        if distance > 1e-3 * reach.max(1e-3) || turn > 1e-2 {
             warn(
                 &place,
                 format!(
                     "at home the limb '{}' ends {} away from the platform '{}'",
                     limb.name,
-                    apart(gap * 1e3, turn.to_degrees()),
+                    apart(distance * 1e3, turn.to_degrees()),
                     mechanism.platforms()[limb.to].name
                 ),
                 "correct the home values of its joints, or the home pose of the platform; the search for joint values starts there",

@@ -113,11 +113,11 @@ fn wrong_end(k: &Matrix6<f64>, length: Option<f64>) -> Option<(String, String)> 
                 true => ("y, rz", "negative"),
                 false => ("z, ry", "positive"),
             };
-            let alone = y.is_none() || z.is_none();
+            let one_plane = y.is_none() || z.is_none();
             Some((
                 format!(
                     "the coupling {plane} has the wrong sign: it is {wanted} at the far end of a link that is held at the other{}",
-                    if alone { "" } else { "; no beam has one of y, rz and z, ry reversed" }
+                    if one_plane { "" } else { "; no beam has one of y, rz and z, ry reversed" }
                 ),
                 format!("check the sign of the entry {plane} and the direction of the axes"),
             ))

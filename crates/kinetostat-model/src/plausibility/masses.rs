@@ -18,9 +18,9 @@ impl LimbCheck<'_> {
                 .collect();
             others.sort_by(f64::total_cmp);
             let beside = others.get(others.len() / 2).copied();
-            let alone = body.mass > 1500.0 * self.size.max(0.3);
+            let heavy = body.mass > 1500.0 * self.size.max(0.3);
             let odd = beside.is_some_and(|m| body.mass > 200.0 * m) && body.mass > 100.0;
-            if alone || odd {
+            if heavy || odd {
                 let beside = match beside {
                     Some(m) if odd => format!(", most others about {} kg", short(m)),
                     _ => format!(", in a machine of {} m", short(self.size)),
@@ -71,7 +71,7 @@ impl LimbCheck<'_> {
         let limbs = self.mechanism.limbs();
         let chain = &limbs[self.limb].nominal;
         // Where other limbs carry too, a light bar may lead to a heavy arm.
-        let alone = limbs.iter().filter(|l| l.to == limbs[self.limb].to).count() == 1;
+        let only_limb = limbs.iter().filter(|l| l.to == limbs[self.limb].to).count() == 1;
         let mut bodies: Vec<&kinetostat::Body> = chain.bodies().iter().collect();
         bodies.retain(|b| b.mass > 0.0);
         bodies.sort_by_key(|b| b.node);
@@ -81,9 +81,9 @@ impl LimbCheck<'_> {
             let lightest = before.into_iter().chain(after);
             let lightest = lightest.min_by(|a, b| a.mass.total_cmp(&b.mass));
             let (other, said) = match (before, lightest) {
-                // Beside one that weighs next to nothing it is that one which is told.
+                // Beside one that weighs next to nothing that one is reported.
                 (Some(before), _) if body.mass > BESIDE * before.mass => continue,
-                (Some(before), _) if alone && body.mass > CARRIED * before.mass => {
+                (Some(before), _) if only_limb && body.mass > CARRIED * before.mass => {
                     (before, "which carries it")
                 }
                 (_, Some(lightest)) if body.mass * BESIDE < lightest.mass => {

@@ -1,4 +1,4 @@
-//! One limb as bars and joints: a walk along the elements of its chain.
+//! One limb as bars and joints, traced along the elements of its chain.
 
 use kinetostat::{Chain, Element, Motion, MotionKind, Pose, Role, SpringLaw};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -33,8 +33,8 @@ const MOTOR: f64 = 12.0;
 const CARRIAGE: f64 = 12.0;
 const RAIL: f64 = 48.0;
 
-/// A walk in progress.
-struct Walk<'a, 'b> {
+/// How far a limb has been traced.
+struct Trace<'a, 'b> {
     run: &'b Run<'a>,
     scene: &'b mut Scene,
     pose: Pose,
@@ -51,13 +51,13 @@ struct Walk<'a, 'b> {
     parallelogram: Option<(usize, f64, Pose)>,
 }
 
-pub(super) fn walk(scene: &mut Scene, run: &Run<'_>) -> Ends {
+pub(super) fn trace(scene: &mut Scene, run: &Run<'_>) -> Ends {
     let chain = run.chain;
     let elements = chain.elements();
     let moves = |e: &Element| matches!(e, Element::Motion(_));
     let first = elements.iter().position(moves).unwrap_or(0);
     let last = elements.iter().rposition(moves).unwrap_or(0);
-    let mut walk = Walk {
+    let mut trace = Trace {
         run,
         scene,
         pose: run.from,
@@ -75,32 +75,32 @@ pub(super) fn walk(scene: &mut Scene, run: &Run<'_>) -> Ends {
         match element {
             Element::Rigid(offset) => {
                 let to_mass = matches!(elements.get(i + 1), Some(Element::Node(n)) if chain.bodies().iter().any(|b| b.node == *n));
-                let bends = walk.bends(i);
+                let bends = trace.bends(i);
                 if !to_mass && !detour && offset.translation.vector.norm() > 1e-9 {
-                    walk.flush_turns();
+                    trace.flush_turns();
                 }
                 let lead = i < first && !bends && !run.start_is_link;
                 let trail = i > last && !run.end_is_link;
                 if start.is_none() && bends {
-                    start = Some(walk.pose.translation.vector);
+                    start = Some(trace.pose.translation.vector);
                 }
-                walk.offset(offset, bends, to_mass || detour || lead || trail);
+                trace.offset(offset, bends, to_mass || detour || lead || trail);
                 // A centre of mass is reached by an offset and left by its inverse.
                 detour = to_mass;
             }
             Element::Motion(motion) => {
-                start.get_or_insert(walk.pose.translation.vector);
-                walk.motion(motion);
+                start.get_or_insert(trace.pose.translation.vector);
+                trace.motion(motion);
                 if i == last {
-                    walk.flush();
-                    end = walk.pose.translation.vector;
+                    trace.flush();
+                    end = trace.pose.translation.vector;
                 }
             }
             Element::Node(_) => {}
         }
     }
-    walk.flush();
-    let tip = walk.pose.translation.vector;
+    trace.flush();
+    let tip = trace.pose.translation.vector;
     let start = start.unwrap_or(tip);
     let begins_on_rail = elements[..].iter().find(|e| moves(e)).is_some_and(
         |e| matches!(e, Element::Motion(m) if m.command.is_some() && m.kind == MotionKind::Prismatic),
@@ -119,7 +119,7 @@ pub(super) fn walk(scene: &mut Scene, run: &Run<'_>) -> Ends {
     Ends { start, end, tip }
 }
 
-impl Walk<'_, '_> {
+impl Trace<'_, '_> {
     fn here(&self) -> Vector3<f64> {
         self.pose.translation.vector
     }

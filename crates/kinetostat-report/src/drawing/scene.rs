@@ -4,7 +4,7 @@ use kinetostat::{Anchor, Kinematics, Load, Mechanism, PlatformLoad};
 use nalgebra::Vector3;
 
 use crate::drawing::Placed;
-use crate::drawing::limb::{Run, walk};
+use crate::drawing::limb::{Run, trace};
 use crate::drawing::parts::{Bar, BarKind, Blob, BlobKind, Plate, Scene, Word};
 use crate::drawing::symbol::MOTOR;
 
@@ -41,7 +41,7 @@ impl Scene {
                 end_is_link: ends[limb.to] < 3,
                 on_base: limb.from == 0,
             };
-            let found = walk(&mut scene, &run);
+            let found = trace(&mut scene, &run);
             points[limb.from].push(found.start);
             if run.end_is_link {
                 let origin = placed.platforms[limb.to].translation.vector;

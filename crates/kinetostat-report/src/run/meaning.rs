@@ -86,34 +86,34 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
              below{program} before the reason is found (see the warnings)."
         ));
     }
-    let mut judged = if result.question.compensated {
+    let mut meaning = if result.question.compensated {
         compensated(result)
     } else {
         analysed(result)
     };
     if let Some(own) = result.own_weight_in_words() {
-        judged.sentence.push(' ');
-        judged.sentence.push_str(&own);
+        meaning.sentence.push(' ');
+        meaning.sentence.push_str(&own);
     }
     if let Some(corners) = result.corners_in_words() {
-        judged.sentence.push(' ');
-        judged.sentence.push_str(&corners);
+        meaning.sentence.push(' ');
+        meaning.sentence.push_str(&corners);
     }
     if cuts_without_load(result) {
-        judged.sentence = format!(
+        meaning.sentence = format!(
             "No cutting force acts on the tool in this run. {}",
-            judged.sentence
+            meaning.sentence
         );
     }
     if summary.max_residual_rotation_deg > SMALLEST_ROTATION {
         let angle = in_type(result).rotation;
-        judged.sentence.push_str(&if result.question.compensated {
+        meaning.sentence.push_str(&if result.question.compensated {
             format!(" The tool stays tilted by up to {angle}, which a program of positions cannot correct.")
         } else {
             format!(" It tilts by up to {angle}.")
         });
     }
-    judged
+    meaning
 }
 
 fn analysed(result: &RunResult) -> Verdict {

@@ -9,14 +9,14 @@ use kinetostat_report::{Plot, PlotMark};
 
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
 use crate::shared::models::{
-    ALPHA0, along_x, at_rest, critical_load, held, load_on_middle, rigid_links,
+    ALPHA0, along_x, at_rest, critical_load, displacement_controlled, load_on_middle, rigid_links,
 };
 use crate::{Cause, Contents, Item};
 
 /// The end held at the displacement `dx` under `g G*`; the upper shape, or the lower one.
 fn problem(chain: &Chain, g: f64, dx: f64, upper: bool) -> Result<ChainProblem<'_>, Cause> {
     let x = at_rest() + dx;
-    let mut problem = held(chain, x);
+    let mut problem = displacement_controlled(chain, x);
     // The chain has one shape above and one below: its posture is known.
     let a = (0.5 * x).acos() * if upper { 1.0 } else { -1.0 };
     problem.posture = vec![a, -2.0 * a, a];

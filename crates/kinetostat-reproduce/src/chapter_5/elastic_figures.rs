@@ -11,7 +11,7 @@ use nalgebra::{Vector3, vector};
 use crate::chapter_5::three_link_figures::outline;
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
 use crate::shared::models::{
-    ALPHA0, along_x, at_rest, critical_load, elastic_links, held, load_on_middle,
+    ALPHA0, along_x, at_rest, critical_load, displacement_controlled, elastic_links, load_on_middle,
 };
 use crate::{Cause, Contents, Item};
 
@@ -19,7 +19,7 @@ use crate::{Cause, Contents, Item};
 const LOADS: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 
 fn problem(chain: &Chain, g: f64, dx: f64) -> Result<ChainProblem<'_>, Cause> {
-    let mut problem = held(chain, at_rest() + dx);
+    let mut problem = displacement_controlled(chain, at_rest() + dx);
     problem.posture = vec![ALPHA0, 0.0, -2.0 * ALPHA0, 0.0, ALPHA0];
     problem.loads = load_on_middle(chain, g)?;
     Ok(problem)
@@ -122,7 +122,7 @@ pub(crate) fn fig_4_4() -> Result<Contents, Cause> {
 /// The flat posture: a fork without preload, a limit point with it.
 fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
     let chain = elastic_links(0.0)?;
-    let straight = held(&chain, 2.0);
+    let straight = displacement_controlled(&chain, 2.0);
     let start = solve_chain(&straight, &Settings::default())?;
     let mut settings = CurveSettings::within(-0.2, 0.05);
     settings.branches = 4;
@@ -149,7 +149,7 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
     let chain = elastic_links(ALPHA0)?;
     let r = 0.5 * x;
     let load = 4.0 * ALPHA0 / r;
-    let mut flat = held(&chain, x);
+    let mut flat = displacement_controlled(&chain, x);
     flat.loads = vec![Load::Dead {
         node: chain.node("middle")?,
         wrench: Wrench::new(vector![0.0, -load, 0.0], Vector3::zeros()),
@@ -277,7 +277,7 @@ pub(crate) fn fig_4_5() -> Result<Contents, Cause> {
             for (k, f) in shapes.iter().enumerate() {
                 let e = &f.equilibrium;
                 let free = f.stable && k_x(e) > 0.0;
-                let verdict = match (f.stable, free) {
+                let stability = match (f.stable, free) {
                     (_, true) => "stable",
                     (true, false) => "stable with the end held, unstable under a dead force",
                     (false, _) => "unstable",
@@ -292,7 +292,7 @@ pub(crate) fn fig_4_5() -> Result<Contents, Cause> {
                         format!("{label}: {what}"),
                         value,
                         unit,
-                        verdict,
+                        stability,
                     ));
                 }
                 plot.lines.push(PlotLine {

@@ -9,7 +9,9 @@ use nalgebra::{Vector3, vector};
 
 use crate::chapter_5::three_links::{Shape, pick, shapes};
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
-use crate::shared::models::{along_x, held, linked, s_chain, z_at_rest, z_chain};
+use crate::shared::models::{
+    along_x, displacement_controlled, linked, s_chain, z_at_rest, z_chain,
+};
 use crate::{Cause, Contents, Item};
 
 /// Displacement of the energy diagram and of the shapes shown; the report's figure names none.
@@ -27,7 +29,7 @@ fn energy(q: f64, elbow: f64) -> Result<Option<f64>, Cause> {
         .spring("theta2", MotionKind::Revolute, z, 1.0, 0.0)
         .translation(vector![1.0, 0.0, 0.0])
         .build()?;
-    let mut problem = held(&chain, 3.0 - DELTA);
+    let mut problem = displacement_controlled(&chain, 3.0 - DELTA);
     let way = vector![3.0 - DELTA - q.cos(), -q.sin()];
     let reach = 0.5 * way.norm();
     if reach >= 1.0 {
@@ -207,8 +209,8 @@ pub(crate) fn fig_5_8() -> Result<Contents, Cause> {
     for (colour, delta) in [0.0, 0.05, 0.1, 0.115, 0.2, 0.4].into_iter().enumerate() {
         let found = shapes(&chain, z_at_rest() - delta)?;
         for (k, e) in found.iter().enumerate() {
-            let verdict = if e.stable { "stable" } else { "unstable" };
-            let label = format!("Delta = {delta}, shape {} ({verdict})", k + 1);
+            let stability = if e.stable { "stable" } else { "unstable" };
+            let label = format!("Delta = {delta}, shape {} ({stability})", k + 1);
             shape_items(&mut items, &label, e);
         }
         // The mirrored Z is the same at all displacements: left out of the picture.
@@ -272,7 +274,7 @@ pub(crate) fn fig_5_8() -> Result<Contents, Cause> {
 }
 
 fn z_curve(chain: &Chain) -> Result<(Curves<'_>, f64), Cause> {
-    let mut problem = held(chain, z_at_rest());
+    let mut problem = displacement_controlled(chain, z_at_rest());
     problem.posture = vec![0.17, -0.52, 0.52, 0.0];
     let start = solve_chain(&problem, &Settings::default())?;
     let mut settings = CurveSettings::within(-0.45, 0.05);
@@ -284,7 +286,7 @@ fn z_curve(chain: &Chain) -> Result<(Curves<'_>, f64), Cause> {
 
 pub(crate) fn fig_5_7() -> Result<Contents, Cause> {
     let chain = s_chain()?;
-    let problem = held(&chain, 3.0);
+    let problem = displacement_controlled(&chain, 3.0);
     let start = solve_chain(&problem, &Settings::default())?;
     let mut settings = CurveSettings::within(-1.52, 0.1);
     settings.largest_turn = 0.05;

@@ -7,13 +7,17 @@ use kinetostat::{
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
-use crate::shared::models::{held, linked, s_chain, z_at_rest, z_chain};
+use crate::shared::models::{displacement_controlled, linked, s_chain, z_at_rest, z_chain};
 use crate::{Cause, Contents, Item, Status};
 
 /// All equilibria with the end held at x, springs within half a turn.
 pub(crate) fn all(chain: &Chain, x: f64) -> Result<Equilibria, Cause> {
     let settings = SearchSettings::default();
-    Ok(equilibria(&held(chain, x), &Bounds::of(chain), &settings)?)
+    Ok(equilibria(
+        &displacement_controlled(chain, x),
+        &Bounds::of(chain),
+        &settings,
+    )?)
 }
 
 /// What Table 5.1 lists of one equilibrium, K = l = 1.
@@ -43,7 +47,7 @@ pub(crate) fn shape(problem: &ChainProblem<'_>, e: &Equilibrium) -> Result<Shape
 
 /// All shapes with the end held at x, by rising energy.
 pub(crate) fn shapes(chain: &Chain, x: f64) -> Result<Vec<Shape>, Cause> {
-    let problem = held(chain, x);
+    let problem = displacement_controlled(chain, x);
     let all = all(chain, x)?;
     let one = |f: &kinetostat::FoundEquilibrium| shape(&problem, &f.equilibrium);
     all.found.iter().map(one).collect()
@@ -62,8 +66,8 @@ pub(crate) fn pick(
 /// The straight chain pressed by `force`: its `S_c` along one motion, and the eigenvalues.
 fn straight(force: f64) -> Result<(f64, Vec<f64>, bool), Cause> {
     let chain = linked("straight chain", &[0.0, 0.0]).build()?;
-    // Any force keeps the chain straight; the end is free along x for the solver, held for the verdict.
-    let mut problem = held(&chain, 3.0);
+    // Any force keeps the chain straight; the end is free along x for the solver, held when its stability is found.
+    let mut problem = displacement_controlled(&chain, 3.0);
     problem.end.prescribed[0] = Prescribed::Wrench;
     problem.end.wrench = Wrench::new(Vector3::new(force, 0.0, 0.0), Vector3::zeros());
     let e = solve_chain(&problem, &Settings::default())?;
@@ -270,7 +274,7 @@ fn z_unstable(items: &mut Vec<Item>, pushed: &[Shape]) -> Result<(), Cause> {
 
 /// The S chain's equilibrium at Delta: arch (stable) or zigzag.
 fn bent(chain: &Chain, delta: f64, stable: bool) -> Result<Shape, Cause> {
-    let mut problem = held(chain, 3.0 - delta);
+    let mut problem = displacement_controlled(chain, 3.0 - delta);
     let a = (1.0 - 0.5 * delta).acos();
     problem.posture = if stable {
         vec![a, -a, -a, a]
@@ -457,7 +461,7 @@ pub(crate) fn eq_5_42() -> Result<Contents, Cause> {
 
 pub(crate) fn text_5_5_1() -> Result<Contents, Cause> {
     let z = z_chain()?;
-    let problem = held(&z, z_at_rest());
+    let problem = displacement_controlled(&z, z_at_rest());
     let home = shapes(&z, z_at_rest())?;
     let rest = pick(&home, "the unloaded Z shape", |e| e.stable)?;
     let e = {

@@ -99,7 +99,7 @@ pub(crate) fn z_at_rest() -> f64 {
 }
 
 /// The end is held at `(x, 0)` and turns freely.
-pub(crate) fn held(chain: &Chain, x: f64) -> ChainProblem<'_> {
+pub(crate) fn displacement_controlled(chain: &Chain, x: f64) -> ChainProblem<'_> {
     let mut end = EndCondition::pose(Pose::translation(x, 0.0, 0.0));
     end.prescribed[5] = Prescribed::Wrench;
     ChainProblem::new(chain, end)
