@@ -32,7 +32,7 @@ pub struct Summary {
     #[serde(default)]
     pub within_tolerance_before: bool,
     /// How far the machine's own weight and the loads of its model put the tool off by themselves where it
-    /// cuts, mm, the largest of [`RunResult::MAX_POSTURES`] places; none where nothing acts without a load on
+    /// cuts, mm, the largest of [`RunResult::MAX_POSTURES`](crate::RunResult::MAX_POSTURES) places; none where nothing acts without a load on
     /// the tool.
     #[serde(default)]
     pub max_error_by_own_weight_mm: Option<f64>,

@@ -78,9 +78,9 @@ impl ToleranceVerdict {
 /// How a written program stands to its tolerance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ToleranceVerdict {
-    /// [`RunResult::allowed_mm`].
+    /// [`RunResult::allowed_mm`](crate::RunResult::allowed_mm).
     pub allowed_mm: f64,
-    /// [`RunResult::holds_tolerance`].
+    /// [`RunResult::holds_tolerance`](crate::RunResult::holds_tolerance).
     pub held: Option<bool>,
     /// Where it is missed most; none where it is held.
     pub missed: Option<MissedTolerance>,

@@ -9,7 +9,7 @@ use crate::writing::jump::Turn;
 /// One motion of the written program: straight, but for arcs that are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Piece {
-    /// Index of the move it is a part of, in [`Path::moves`].
+    /// Index of the move it is a part of, in [`Path::moves`](crate::Path::moves).
     pub move_index: usize,
     /// Share of the move's length at which it begins.
     pub share_from: f64,
@@ -30,7 +30,7 @@ pub struct Piece {
     pub corrected: bool,
     /// An arc that stays an arc, because no correction on it could be written.
     pub kept_arc: bool,
-    /// Its feed was held to [`WriteOptions::max_feed_factor`] times the programmed one, so the part is
+    /// Its feed was held to [`WriteOptions::max_feed_factor`](crate::WriteOptions::max_feed_factor) times the programmed one, so the part is
     /// cut more slowly here than programmed.
     pub feed_limited: bool,
 }

@@ -58,7 +58,7 @@ impl Batch<'_> {
     /// `commands` (m or rad, one after the other for each posture).
     ///
     /// # Errors
-    /// [`Error::Size`] if the numbers are no whole postures, [`Error::Model`] for a machine of
+    /// [`Error::Size`](crate::Error::Size) if the numbers are no whole postures, [`Error::Model`](crate::Error::Model) for a machine of
     /// several limbs or with passive joints.
     pub fn stiffness_at_joints(&self, commands: &[f64], jacobian: bool) -> Result<BatchStiffness> {
         let mut out = BatchStiffness::default();

@@ -57,7 +57,7 @@ pub struct MachineEquilibria {
     /// See `starts`.
     pub hits: usize,
     /// Those that ended where a slide is turned inside out, or at an unstable shape farther than three
-    /// sizes of the machine from the nominal target or with springs beyond [`Bounds::of`] their limb.
+    /// sizes of the machine from the nominal target or with springs beyond [`Bounds::of`](crate::Bounds::of) their limb.
     pub outside: usize,
     /// Starts since the last new equilibrium.
     pub fruitless: usize,

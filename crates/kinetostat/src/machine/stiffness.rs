@@ -75,7 +75,7 @@ impl UnloadedStiffness {
         CartesianCompliance::of(&self.cartesian.matrix, &self.directions, self.length)
     }
 
-    /// As [`MechanismEquilibrium::stiffness_against_force`].
+    /// As [`MechanismEquilibrium::stiffness_against_force`](crate::MechanismEquilibrium::stiffness_against_force).
     #[must_use]
     pub fn stiffness_against_force(&self) -> f64 {
         let own = self.cartesian.symmetric();

@@ -62,7 +62,7 @@ pub struct Limb {
     pub actual: Chain,
 }
 
-/// Platforms, limbs, loads on limbs and gravity. Never changes after [`MechanismBuilder::build`].
+/// Platforms, limbs, loads on limbs and gravity. Never changes after [`MechanismBuilder::build`](crate::MechanismBuilder::build).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mechanism {
     pub(crate) name: String,
@@ -109,7 +109,7 @@ impl Mechanism {
     /// A serial robot: one chain from the base to the platform `tool`.
     ///
     /// # Errors
-    /// As [`MechanismBuilder::build`].
+    /// As [`MechanismBuilder::build`](crate::MechanismBuilder::build).
     pub fn serial(chain: Chain, home: Pose, gravity: Vector3<f64>) -> Result<Self> {
         let name = chain.name.clone();
         let mut builder = Self::builder(&name).gravity(gravity);

@@ -38,7 +38,7 @@ impl MechanismBuilder {
     }
 
     /// Adds a load to the limb of this name. Nodes are those of the limb's chain
-    /// ([`Chain::node`]); `Anchor::Base` and base axes mean the world, also for a limb that starts
+    /// ([`Chain::node`](crate::Chain::node)); `Anchor::Base` and base axes mean the world, also for a limb that starts
     /// at a moving platform. What acts on the limb's tip acts on the platform there. Gravity is
     /// [`Self::gravity`]'s affair, not a load of a limb.
     ///
