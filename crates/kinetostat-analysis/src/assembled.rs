@@ -1,6 +1,6 @@
 //! A machine as built beside the same machine as drawn: what its deviations lock in, without and under load.
 
-use kinetostat::{LinearAssembly, MechanismEquilibrium, Posture, Wrench};
+use kinetostat::{MechanismEquilibrium, Posture, Wrench, machine::LinearAssembly};
 use serde::Serialize;
 
 /// A value without load and under load: of the machine as built, the share of its deviations in it,
@@ -53,9 +53,9 @@ impl Cases<f64> {
 
 /// The four equilibria of one place, and the first-order assembly.
 #[derive(Clone, Debug)]
-pub struct AssembledMachine<'m> {
+pub struct AssembledMachine {
     /// Of the machine as built.
-    pub posture: Posture<'m>,
+    pub posture: Posture,
     /// As drawn and as built, without load.
     pub rest: [MechanismEquilibrium; 2],
     /// The same under load.
@@ -66,16 +66,12 @@ pub struct AssembledMachine<'m> {
     pub linear_loaded: Option<LinearAssembly>,
 }
 
-impl<'m> AssembledMachine<'m> {
+impl AssembledMachine {
     /// Solves both machines in a posture of the machine as built, without load and under a wrench on the tool.
     ///
     /// # Errors
     /// One of them has no equilibrium.
-    pub fn solve(
-        posture: Posture<'m>,
-        drawn: &Posture<'_>,
-        wrench: &Wrench,
-    ) -> kinetostat::Result<Self> {
+    pub fn solve(posture: Posture, drawn: &Posture, wrench: &Wrench) -> kinetostat::Result<Self> {
         let both = |wrench: &Wrench| -> kinetostat::Result<_> {
             Ok([drawn.deflected_by(wrench)?, posture.deflected_by(wrench)?])
         };

@@ -1,8 +1,8 @@
 //! Equilibria at a limit, locked, or free to move.
 
 use kinetostat::{
-    ChainProblem, FoundEquilibrium, Kinematics, Prescribed, SingularValues, shape_criterion,
-    turn_matrix,
+    ChainProblem, Prescribed, equilibrium::FoundEquilibrium, linalg::SingularValues,
+    model::Kinematics, reference::shape_criterion, spatial::turn_matrix,
 };
 use nalgebra::DMatrix;
 

@@ -1,6 +1,9 @@
 //! Forward kinematics without loads, for searches that ask thousands of times.
 
-use kinetostat::{Mechanism, Pose, Role, unloaded_tip};
+use kinetostat::{
+    Mechanism, Pose,
+    model::{Role, unloaded_tip},
+};
 
 /// The tool of a machine for the commands of its actuators, nothing deflected.
 #[derive(Clone, Copy, Debug)]

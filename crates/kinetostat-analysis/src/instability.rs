@@ -1,7 +1,7 @@
 //! How near a load brings a machine to instability: its limbs with their ends held, its links, and
 //! the whole while nothing holds its tool. All shares are 0 unloaded and 1 where stability is lost.
 
-use kinetostat::{LimbPosture, MechanismEquilibrium, Posture};
+use kinetostat::{MechanismEquilibrium, Posture, machine::LimbPosture};
 use nalgebra::{DMatrix, Matrix6};
 
 /// From this share on, a load is near buckling.
@@ -45,7 +45,7 @@ pub struct LinkShare<'e> {
 impl<'e> InstabilityShares<'e> {
     /// Of an equilibrium of a posture.
     #[must_use]
-    pub fn of(posture: &Posture<'_>, state: &'e MechanismEquilibrium) -> Self {
+    pub fn of(posture: &Posture, state: &'e MechanismEquilibrium) -> Self {
         let links = state.limbs.iter().flat_map(|l| {
             l.link_loads.iter().map(move |k| LinkShare {
                 share: k.share,
@@ -128,7 +128,7 @@ fn finite(share: Option<f64>) -> Option<f64> {
 /// share is at least 1, and none where the condensed stiffness, which comes back from infinity behind
 /// the buckling of a limb, does not tell it.
 #[must_use]
-pub fn share_to_instability(posture: &Posture<'_>, loaded: &MechanismEquilibrium) -> Option<f64> {
+pub fn share_to_instability(posture: &Posture, loaded: &MechanismEquilibrium) -> Option<f64> {
     let limbs = loaded.limbs.iter();
     let limbs = limbs.filter_map(|l| finite(l.stability.share_to_buckling));
     let most = limbs
@@ -142,7 +142,7 @@ pub fn share_to_instability(posture: &Posture<'_>, loaded: &MechanismEquilibrium
 /// the stiffness under load `K` and that of the same bent machine with its springs alone, `K_e`.
 /// Both are condensed to the tool, which makes the share nearly straight in the load. `None` where
 /// no direction is elastic.
-fn condensed(posture: &Posture<'_>, loaded: &MechanismEquilibrium) -> Option<f64> {
+fn condensed(posture: &Posture, loaded: &MechanismEquilibrium) -> Option<f64> {
     let limbs = posture.limbs().iter().zip(&loaded.limbs);
     let joints = limbs.map(|(own, bent)| LimbPosture {
         commands: own.commands.clone(),

@@ -1,6 +1,6 @@
 //! What one actuator does to the tool.
 
-use kinetostat::{Mechanism, Pose, Twist, pose_residual};
+use kinetostat::{Mechanism, Pose, Twist, spatial::pose_residual};
 use nalgebra::Vector3;
 
 /// Motion of the tool per m or rad of one actuator, the others held; base axes. None where it cannot move by itself.

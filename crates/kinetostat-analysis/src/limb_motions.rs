@@ -1,11 +1,14 @@
 //! What the joints of one limb can do while the tool stays, and what one limb holds.
 
-use kinetostat::{Kinematics, Mechanism, Posture, Role};
+use kinetostat::{
+    Mechanism, Posture,
+    model::{Kinematics, Role},
+};
 use nalgebra::DMatrix;
 
 /// Actuators of a limb, by their number in it, that can move while both its ends stay, its passive joints following.
 #[must_use]
-pub fn redundant_actuators(posture: &Posture<'_>, limb: usize) -> Vec<usize> {
+pub fn redundant_actuators(posture: &Posture, limb: usize) -> Vec<usize> {
     let index = limb;
     let m = posture.mechanism();
     let limb = &m.limbs()[index];
@@ -43,7 +46,7 @@ pub fn redundant_actuators(posture: &Posture<'_>, limb: usize) -> Vec<usize> {
 /// Directions of the tool in which one limb by itself leaves no motion, links taken as rigid; none of
 /// machines with platforms between base and tool.
 #[must_use]
-pub fn directions_held_by_limb(posture: &Posture<'_>, limb: usize) -> Option<usize> {
+pub fn directions_held_by_limb(posture: &Posture, limb: usize) -> Option<usize> {
     let m = posture.mechanism();
     let mut builder = Mechanism::builder(m.name());
     for platform in m.platforms().iter().skip(1) {

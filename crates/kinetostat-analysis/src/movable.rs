@@ -17,7 +17,7 @@ impl MovableDirections {
     ///
     /// # Errors
     /// Its stiffness cannot be computed.
-    pub fn of(posture: &Posture<'_>) -> kinetostat::Result<Self> {
+    pub fn of(posture: &Posture) -> kinetostat::Result<Self> {
         let own = posture.stiffness()?;
         let rigid: Vec<DVector<f64>> = own
             .directions

@@ -1,6 +1,6 @@
 //! The line through the joints of a chain.
 
-use kinetostat::{Chain, Element, MotionKind, Pose};
+use kinetostat::{Chain, MotionKind, Pose, model::Element};
 use nalgebra::Vector3;
 
 /// Places along a chain at a state, base to tip, m, without repetition.

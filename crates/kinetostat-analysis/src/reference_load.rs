@@ -57,7 +57,7 @@ pub fn reference_forces() -> Vec<Vector3<f64>> {
 /// `assumed`, the first one that is far too much ends the list.
 #[must_use]
 pub fn under_forces(
-    posture: &Posture<'_>,
+    posture: &Posture,
     rest: &MechanismEquilibrium,
     forces: &[Vector3<f64>],
     assumed: bool,

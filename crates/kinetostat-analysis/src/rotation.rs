@@ -3,7 +3,10 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::{CurvePoint, Curves, Pose};
+use kinetostat::{
+    Pose,
+    continuation::{CurvePoint, Curves},
+};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// Continuous rotation vectors of the tool from where the curve starts, base axes, rad.

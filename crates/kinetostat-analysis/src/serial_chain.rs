@@ -1,8 +1,12 @@
 //! The chain of a machine with one limb, commanded for a place, with everything that acts on it.
 
 use kinetostat::{
-    Chain, ChainProblem, CurvePoint, Curves, EndCondition, Kinematics, Load, Mechanism, MotionKind,
-    Parameter, Pose, Posture, Role, SingularValues, Twist, moved,
+    Chain, ChainProblem, EndCondition, Load, Mechanism, MotionKind, Parameter, Pose, Posture,
+    Twist,
+    continuation::{CurvePoint, Curves},
+    linalg::SingularValues,
+    model::{Kinematics, Role},
+    spatial::moved,
 };
 use nalgebra::DMatrix;
 
@@ -36,7 +40,7 @@ impl SerialChain {
     ///
     /// # Errors
     /// The end of the chain cannot be moved to the tool's tip.
-    pub fn of(posture: &Posture<'_>, place: Pose) -> kinetostat::Result<Self> {
+    pub fn of(posture: &Posture, place: Pose) -> kinetostat::Result<Self> {
         let m = posture.mechanism();
         let (tool, limb) = (m.tool(), &m.limbs()[0]);
         let joints = &posture.limbs()[0];

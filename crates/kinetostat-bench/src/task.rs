@@ -56,7 +56,7 @@ impl Places {
 #[derive(Debug)]
 pub struct Task {
     // Its machine lives as long as the program: a benchmark loads a handful.
-    batch: Batch<'static>,
+    batch: Batch,
     places: Places,
     wrenches: Vec<Wrench>,
     work: Work,
@@ -112,14 +112,13 @@ impl Task {
     /// # Errors
     /// If the numbers do not fit the machine.
     pub fn new(machine: Mechanism, work: Work, places: Places, wrenches: &[f64]) -> Result<Self> {
-        let machine: &'static Mechanism = Box::leak(Box::new(machine));
         let numbers = wrenches.len();
         let wrenches: Vec<Wrench> = wrenches
             .chunks_exact(6)
             .map(|row| Wrench(Vector6::from_column_slice(row)))
             .collect();
         let task = Self {
-            batch: Batch::new(machine),
+            batch: Batch::new(&machine),
             places,
             wrenches,
             work,

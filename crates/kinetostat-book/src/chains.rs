@@ -1,7 +1,8 @@
 //! Chains of the report's chapters 4 and 5, all planar in x y, links of 1 m, springs of 1 N m/rad.
 
 use kinetostat::{
-    Chain, ChainProblem, EndCondition, Kinematics, Load, MotionKind, Pose, Prescribed, Wrench,
+    Chain, ChainProblem, EndCondition, Load, MotionKind, Pose, Prescribed, Wrench,
+    model::Kinematics,
 };
 use nalgebra::{Matrix2x3, Matrix3, Matrix3xX, Vector3, vector};
 

@@ -7,7 +7,7 @@
 //! [Klimchik2013], A. Klimchik, A. Pashkevich, D. Chablat, "CAD-based approach for identification of
 //! elasto-static parameters of robotic manipulators", Finite Elements in Analysis and Design 75 (2013).
 
-use kinetostat::hat;
+use kinetostat::spatial::hat;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
 use crate::stiffness_check::DIRECTIONS;
@@ -162,7 +162,7 @@ pub fn rigid_fit(
     let right = own.transpose() * &moved;
     let fitted = inverse * Vector6::from_fn(|i, _| right[i]);
     // Twist at the centre in own units -> twist at `about`.
-    let mut back = kinetostat::shift_matrix(&(about - centre));
+    let mut back = kinetostat::spatial::shift_matrix(&(about - centre));
     for j in 3..6 {
         back.column_mut(j).scale_mut(1.0 / rank.size);
     }
@@ -195,7 +195,7 @@ pub(crate) fn invert(c: &Matrix6<f64>) -> Option<Matrix6<f64>> {
     }
     let scale = Matrix6::from_diagonal(&c.diagonal().map(|d| 1.0 / d.sqrt()));
     let balanced = scale * c * scale;
-    let singular = kinetostat::SingularValues::of(&balanced);
+    let singular = kinetostat::linalg::SingularValues::of(&balanced);
     if singular.least() < 1e-12 * singular.largest() {
         return None;
     }

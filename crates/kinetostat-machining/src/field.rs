@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::load::along_path::LoadAlongPath;
 use crate::near::natural_length;
 use crate::placement::Placement;
-use crate::postures::neighbour::{POSITIONS, in_chunks};
+use crate::postures::neighbour::in_chunks;
 use crate::postures::orientation::Orientation;
 
 /// Answers, for every point of a path, what must be added to the program so that the tool is there
@@ -109,7 +109,9 @@ impl ModelField<'_> {
                 let shift = target.translation.vector - pose.translation.vector;
                 self.placement.to_program(&shift)
             };
-            if let Some(targets) = machine.targets(&poses, &wrenches, POSITIONS) {
+            if let Some(targets) =
+                machine.targets(&poses, &wrenches, kinetostat::Directions::POSITION)
+            {
                 let both = poses.iter().zip(&targets);
                 return both.map(|(p, t)| Ok(correction(p, t))).collect();
             }

@@ -2,7 +2,7 @@
 //! at once, in constant memory.
 
 use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness};
-use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, pose_residual};
+use kinetostat::{Error, Mechanism, Pose, Posture, Twist, Wrench, spatial::pose_residual};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
@@ -170,7 +170,7 @@ pub fn map<R: Send, E: From<RunError>>(
     Ok(())
 }
 
-fn solved(task: &MapTask<'_>, batch: &Batch<'_>, places: std::ops::Range<usize>) -> Vec<MapPlace> {
+fn solved(task: &MapTask<'_>, batch: &Batch, places: std::ops::Range<usize>) -> Vec<MapPlace> {
     let (mut out, mut poses) = (Vec::new(), Vec::new());
     for place in places {
         let index = task.grid.index(place);
@@ -210,7 +210,7 @@ fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
         load_turns: false,
     };
     let near = NEAR * task.mechanism.size();
-    let mut last: Option<Posture<'_>> = None;
+    let mut last: Option<Posture> = None;
     for (place, pose) in out.iter_mut().zip(poses) {
         let close = last.as_ref().filter(|posture| {
             let at = posture.target().translation.vector;
@@ -233,7 +233,7 @@ fn following(task: &MapTask<'_>, poses: &[Pose], out: &mut [MapPlace]) {
     }
 }
 
-fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [MapPlace]) {
+fn unloaded(task: &MapTask<'_>, batch: &Batch, poses: &[Pose], out: &mut [MapPlace]) {
     let found = batch.stiffness(poses);
     let length = natural_length(task.mechanism);
     for (i, place) in out.iter_mut().enumerate() {
@@ -247,7 +247,7 @@ fn unloaded(task: &MapTask<'_>, batch: &Batch<'_>, poses: &[Pose], out: &mut [Ma
 
 fn loaded(
     task: &MapTask<'_>,
-    batch: &Batch<'_>,
+    batch: &Batch,
     wrench: &Wrench,
     poses: &[Pose],
     out: &mut [MapPlace],
@@ -266,11 +266,11 @@ fn loaded(
 
 impl MapPlace {
     /// The machine commanded for the place; none if it cannot be, and the state says why.
-    fn posture<'m>(&mut self, mechanism: &'m Mechanism, pose: &Pose) -> Option<Posture<'m>> {
+    fn posture(&mut self, mechanism: &Mechanism, pose: &Pose) -> Option<Posture> {
         self.within_limits(mechanism.posture(pose))
     }
 
-    fn within_limits<'m>(&mut self, posture: Result<Posture<'m>, Error>) -> Option<Posture<'m>> {
+    fn within_limits(&mut self, posture: Result<Posture, Error>) -> Option<Posture> {
         match posture.and_then(|p| p.within_limits().map(|()| p)) {
             Ok(posture) => return Some(posture),
             Err(Error::OutsideLimits { .. }) => self.state = PlaceState::OutsideLimits,
@@ -355,7 +355,7 @@ impl MapPlace {
         }
     }
 
-    fn take_loaded(&mut self, posture: &Posture<'_>, wrench: &Wrench) {
+    fn take_loaded(&mut self, posture: &Posture, wrench: &Wrench) {
         let Ok(e) = posture.deflected_by(wrench) else {
             self.state = PlaceState::Unanswered;
             return;
@@ -385,7 +385,7 @@ impl MapPlace {
         }
     }
 
-    fn take_stiffness(&mut self, posture: &Posture<'_>) {
+    fn take_stiffness(&mut self, posture: &Posture) {
         let Ok(stiffness) = posture.stiffness() else {
             self.state = PlaceState::Unanswered;
             return;

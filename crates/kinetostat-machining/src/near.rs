@@ -1,7 +1,10 @@
 //! Whether a posture lies near a singular one, for people: distance and direction of the tool's
 //! motion, and what is lost or gained there [R 5.5.3].
 
-use kinetostat::{Mechanism, NearSingularity, Posture, SingularityKind, Twist};
+use kinetostat::{
+    Mechanism, Posture, Twist,
+    machine::{NearSingularity, SingularityKind},
+};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -64,7 +67,7 @@ pub fn natural_length(mechanism: &Mechanism) -> f64 {
 
 /// The nearest singular posture, if it is closer than [`NEAR_SINGULAR`].
 #[must_use]
-pub fn near_singular(posture: &Posture<'_>) -> Option<NearSingular> {
+pub fn near_singular(posture: &Posture) -> Option<NearSingular> {
     let length = natural_length(posture.mechanism());
     let list = posture.near_singularities(NEAR_SINGULAR * length).ok()?;
     // A first-order distance that following corrected upwards may be far.

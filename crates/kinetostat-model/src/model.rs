@@ -263,7 +263,7 @@ fn settle_home(mechanism: &mut Mechanism, findings: &mut Findings) {
     };
     let tool = mechanism.tool();
     let home = mechanism.platforms()[tool].home;
-    let off = kinetostat::pose_residual(&home, &written);
+    let off = kinetostat::spatial::pose_residual(&home, &written);
     // Platforms of the file are counted without the base.
     let place = Place::root().key("platform").index(tool - 1).key("home");
     findings.warnings.push(Finding::new(

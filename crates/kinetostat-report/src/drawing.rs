@@ -14,7 +14,7 @@ mod symbol;
 mod tests;
 mod view;
 
-use kinetostat::{Chain, Limb, Mechanism, MechanismState, Pose, Posture, Wrench};
+use kinetostat::{Chain, Limb, Mechanism, Pose, Posture, Wrench, machine::MechanismState};
 
 /// From where to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,17 +45,17 @@ pub struct Placed {
 impl Placed {
     /// The nominal machine at a posture, springs at rest.
     #[must_use]
-    pub fn at(posture: &Posture<'_>) -> Self {
+    pub fn at(posture: &Posture) -> Self {
         Self::of(posture, &posture.rest_state(), false)
     }
 
     /// The machine as built in a state that was solved for.
     #[must_use]
-    pub fn solved(posture: &Posture<'_>, state: &MechanismState) -> Self {
+    pub fn solved(posture: &Posture, state: &MechanismState) -> Self {
         Self::of(posture, state, true)
     }
 
-    fn of(posture: &Posture<'_>, state: &MechanismState, as_built: bool) -> Self {
+    fn of(posture: &Posture, state: &MechanismState, as_built: bool) -> Self {
         Self {
             platforms: state.platforms.clone(),
             coordinates: state.coordinates.clone(),

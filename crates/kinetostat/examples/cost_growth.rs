@@ -14,8 +14,8 @@
 use std::time::Instant;
 
 use kinetostat::{
-    Chain, CurveSettings, Mechanism, Parameter, Pose, Settings, Twist, Wrench, follow, moved,
-    solve_chain, unloaded_stiffness,
+    Chain, CurveSettings, Mechanism, Parameter, Pose, Settings, Twist, Wrench, follow, solve_chain,
+    spatial::moved, unloaded_stiffness,
 };
 use kinetostat_testing::{Worst, largest};
 use nalgebra::{Vector3, vector};

@@ -34,14 +34,7 @@
 //! for (name, turns) in [("x", 0.0), ("y", 1.0), ("z", 2.0)] {
 //!     let diagonal = Vector3::repeat(1.0).normalize();
 //!     let chain = leg(name, Pose::rotation(diagonal * (third * turns)))?;
-//!     machine = machine.limb(Limb {
-//!         name: name.into(),
-//!         from: 0,
-//!         to: tool,
-//!         platform_from_tip: Pose::identity(),
-//!         nominal: chain.clone(),
-//!         actual: chain,
-//!     });
+//!     machine = machine.limb(Limb::between(name, 0, tool, chain));
 //! }
 //! let machine = machine.build()?;
 //!
@@ -59,8 +52,7 @@
 //! let held = posture.wrench_at(&loaded.tool)?; // F = f(t | t0) [R 6.21]
 //! assert!((held.wrench.0 - cutting.0).norm() < 1e-6);
 //!
-//! let position = [true, true, true, false, false, false];
-//! let target = compensate(&machine, &t0, &cutting, position, &Settings::default())?; // [R 7.13]
+//! let target = compensate(&machine, &t0, &cutting, Directions::POSITION, &Settings::default())?; // [R 7.13]
 //! assert!(target.left_over.linear().norm() < 1e-12); // the tool is where it should be
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -91,98 +83,44 @@
 //! ```
 
 pub mod batch;
-mod chain;
-mod compensation;
-mod continuation;
-mod equilibrium;
-mod error;
-mod linalg;
-mod machine;
-mod model;
+pub mod chain;
+pub mod compensation;
+pub mod continuation;
+pub mod equilibrium;
+pub mod error;
+pub mod linalg;
+pub mod machine;
+pub mod model;
 pub mod number;
-mod reference;
+pub mod reference;
 mod settings;
-mod spatial;
+pub mod spatial;
 
-pub use chain::compliance::CartesianCompliance;
-pub use chain::directions::{Direction, DirectionKind, Share};
+pub use chain::directions::{Direction, DirectionKind};
 pub use chain::equilibrium::Equilibrium;
-pub use chain::found_by::FoundBy;
-pub use chain::graded::{uneven_in_words, uneven_springs_in_words};
-pub use chain::link_load::{LinkLoad, link_loads};
-pub use chain::potential::{is_conservative, load_energy};
 pub use chain::problem::{ChainProblem, EndCondition, Prescribed};
-pub use chain::residual::Residual;
-pub use chain::stability::{ShapeStability, ShapeVerdict};
 pub use chain::stiffness::{ChainStiffness, unloaded_stiffness};
-pub use compensation::following::{compensate_following, target_under_load_following};
-pub use compensation::target::{Compensation, compensate, compensate_from, target_under_load};
-pub use continuation::curve::{
-    Branch, BranchEnd, CurveEquilibrium, CurvePoint, CurveStability, Curves, Jump, Special,
-    SpecialKind,
-};
+pub use compensation::target::{Compensation, compensate};
 pub use continuation::follow::follow;
-pub use continuation::held_curve::{HeldCurve, HeldPoint};
-pub use continuation::machine_curves::MachineCurves;
-pub use continuation::machine_path::{
-    MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind,
-};
-pub use continuation::parameter::{LoadPattern, Parameter};
+pub use continuation::parameter::Parameter;
 pub use continuation::settings::CurveSettings;
-pub use continuation::tool_stability::MachineStability;
-pub use equilibrium::all_of_chain::{Equilibria, FoundEquilibrium, SearchSettings, equilibria};
-pub use equilibrium::all_of_machine::{MachineEquilibria, MachineFound, SpreadSettings};
-pub use equilibrium::bounds::Bounds;
+pub use equilibrium::all_of_chain::equilibria;
 pub use equilibrium::chain::solve_chain;
-pub use equilibrium::critical::{CriticalLoad, CriticalPoint, critical_load_factor};
-pub use equilibrium::critical_tangent::Judged;
-pub use error::{Error, LoadLimit, Result};
-pub use linalg::saddle::Inertia;
-pub use linalg::singular_values::SingularValues;
-pub use machine::assembly::LinearAssembly;
-pub use machine::constraints::{Overconstraint, SelfStress};
-pub use machine::equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
-pub use machine::explain::negative_stiffness::OvercomeSpring;
-pub use machine::inverse::limb::{LimbPosture, inverse_kinematics};
+pub use equilibrium::critical::critical_load_factor;
+pub use error::{Error, Place, Result};
+pub use machine::equilibrium::MechanismEquilibrium;
 pub use machine::posture::Posture;
-pub use machine::singular::near::{NearSingularity, SingularityKind};
-pub use machine::state::MechanismState;
 pub use machine::stiffness::UnloadedStiffness;
 pub use model::beam::BeamSection;
 pub use model::builder::{ActuatorSpec, ChainBuilder};
-pub use model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
-pub use model::kinematics::{Kinematics, NodeTangent, unloaded_tip};
-pub use model::link::{LinkConvention, LinkElasticity, LinkSpec};
-pub use model::loads::check::{TangentCheck, check_tangents};
-pub use model::loads::follower::{Follower, PointForce};
-pub use model::loads::function::FunctionLoad;
-pub use model::loads::length_law::{LengthFunction, LengthLaw, LengthResponse};
+pub use model::chain::Chain;
+pub use model::link::LinkSpec;
+pub use model::loads::length_law::LengthLaw;
 pub use model::loads::load::Load;
 pub use model::loads::node_load::NodeLoad;
 pub use model::loads::platform::PlatformLoad;
-pub use model::loads::strut::{Anchor, Strut};
+pub use model::loads::strut::Anchor;
 pub use model::mechanism::{Limb, Mechanism, Platform};
 pub use model::mechanism_builder::MechanismBuilder;
-pub use model::springs::bilinear::BilinearLaw;
-pub use model::springs::block::{Segment, SpringBlock, SpringLaw};
-pub use model::springs::bowing::BowingLaw;
-pub use model::springs::logarithm::LogarithmLaw;
-pub use model::springs::parallelogram::ParallelogramLaw;
-pub use reference::chain_blocks::ChainBlocks;
-pub use reference::conditions::{Applied, Inapplicable};
-pub use reference::elimination::{LoadedClosedForm, Recursion};
-pub use reference::passive_rules::{
-    Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,
-    planar_with_slide_along_x, planar_with_slide_along_y, with_hinge_at, with_hinge_at_end,
-    with_hinge_at_root, with_slide, with_spherical_joint_at_end, with_universal_joint_at_end,
-};
-pub use reference::report_iteration::{
-    ChainState, IterationOutcome, IterationSettings, ReportIteration, newton_iteration,
-    report_iteration,
-};
-pub use reference::shape_criterion::{ShapeCriterion, shape_criterion};
 pub use settings::Settings;
-pub use spatial::{
-    CartesianStiffness, MotionKind, Pose, Twist, Wrench, hat, moved, pose_residual, shift_matrix,
-    turn_matrix,
-};
+pub use spatial::{CartesianStiffness, Directions, MotionKind, Pose, Twist, Wrench};

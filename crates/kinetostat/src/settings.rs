@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 
 /// Tolerances and limits; the defaults suit every machine in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,7 +34,7 @@ impl Default for Settings {
 }
 
 /// A setting that nothing can be done with.
-pub(crate) fn wrong(place: &str, what: &str, found: impl Debug, asked: &str) -> Error {
+pub(crate) fn wrong(place: &Place, what: &str, found: impl Debug, asked: &str) -> Error {
     Error::model(
         place,
         format!("settings: {what} is {found:?}, {asked} is needed"),
@@ -43,7 +43,7 @@ pub(crate) fn wrong(place: &str, what: &str, found: impl Debug, asked: &str) -> 
 
 impl Settings {
     /// Refuses what no iteration can work with, naming it.
-    pub(crate) fn check(&self, place: &str) -> Result<()> {
+    pub(crate) fn check(&self, place: &Place) -> Result<()> {
         for (what, value) in [("closure", self.closure), ("torque", self.torque)] {
             if !(value > 0.0 && value < 1.0) {
                 return Err(wrong(place, what, value, "a share between 0 and 1"));

@@ -7,7 +7,11 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::{MotionKind, Pose, SingularValues, Twist, moved, pose_residual};
+use kinetostat::{
+    MotionKind, Pose, Twist,
+    linalg::SingularValues,
+    spatial::{moved, pose_residual},
+};
 use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, Vector6};
 
 use crate::comparison::mapping::Mapping;

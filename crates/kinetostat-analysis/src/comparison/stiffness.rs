@@ -1,6 +1,9 @@
 //! Stiffnesses of two machines at the same posture.
 
-use kinetostat::{Mechanism, UnloadedStiffness, shift_matrix, turn_matrix};
+use kinetostat::{
+    Mechanism, UnloadedStiffness,
+    spatial::{shift_matrix, turn_matrix},
+};
 use nalgebra::Matrix6;
 
 use crate::comparison::mapping::Mapping;

@@ -1,6 +1,6 @@
 //! Frames that bring computed poses nearest to measured ones.
 
-use kinetostat::{Pose, SingularValues};
+use kinetostat::{Pose, linalg::SingularValues};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::measured_poses::explanation::Frame;

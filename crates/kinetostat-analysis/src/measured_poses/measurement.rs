@@ -1,6 +1,6 @@
 //! Poses that were measured on a machine, and their differences from computed ones.
 
-use kinetostat::{Pose, pose_residual};
+use kinetostat::{Pose, spatial::pose_residual};
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A pose that was measured: joints as the pendant shows them (m, rad) and the tool's place.

@@ -1,6 +1,6 @@
 //! An offset of one axis, of any size, fitted to measured poses.
 
-use kinetostat::{Pose, pose_residual};
+use kinetostat::{Pose, spatial::pose_residual};
 use nalgebra::{DMatrix, DVector};
 
 use crate::measured_poses::explanation::{Axis, Explanation, Forward, quarter};

@@ -52,7 +52,7 @@ impl fmt::Display for ReachEnd {
     }
 }
 
-pub(crate) fn reach_along_axes(home: &Posture<'_>) -> Result<ReachAlongAxes, ReachError> {
+pub(crate) fn reach_along_axes(home: &Posture) -> Result<ReachAlongAxes, ReachError> {
     if let Some((name, _, _)) = home.limit_violations().first() {
         return Err(ReachError::HomeOutsideLimits {
             actuator: name.clone(),
@@ -94,12 +94,12 @@ pub(crate) fn reach_along_axes(home: &Posture<'_>) -> Result<ReachAlongAxes, Rea
 }
 
 /// The posture at a place near another one, or what forbids it.
-fn at<'m>(
-    from: &Posture<'m>,
+fn at(
+    from: &Posture,
     follows: bool,
     shift: &Vector3<f64>,
     home: &Pose,
-) -> Result<Posture<'m>, ReachEnd> {
+) -> Result<Posture, ReachEnd> {
     let mut target = *home;
     target.translation.vector += shift;
     let (m, place) = (from.mechanism(), &target.translation.vector);
@@ -115,12 +115,7 @@ fn at<'m>(
 }
 
 /// How far (m) along a direction, and what ends it.
-fn march(
-    home: &Posture<'_>,
-    follows: bool,
-    direction: &Vector3<f64>,
-    length: f64,
-) -> (f64, ReachEnd) {
+fn march(home: &Posture, follows: bool, direction: &Vector3<f64>, length: f64) -> (f64, ReachEnd) {
     let origin = *home.target();
     let mut last = home.clone();
     let (mut good, mut step) = (0.0, 0.02 * length);
@@ -157,7 +152,7 @@ fn march(
 
 /// The largest of some boxes of the proportions of `along` (mm) whose corners, edges and faces can
 /// be reached; none if even a small one has gaps.
-fn filled_box(home: &Posture<'_>, follows: bool, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
+fn filled_box(home: &Posture, follows: bool, along: &[[f64; 2]; 3]) -> Option<[[f64; 3]; 2]> {
     if along.iter().flatten().all(|x| *x == 0.0) {
         return None;
     }

@@ -1,6 +1,9 @@
 //! The reach of an arm: one joint after the other, from evenly spread starts.
 
-use kinetostat::{Drive, Element, Limb, Mechanism, MotionKind, Pose, Role};
+use kinetostat::{
+    Limb, Mechanism, MotionKind, Pose,
+    model::{Drive, Element, Role},
+};
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 
 use crate::reach::error::ReachError;

@@ -32,7 +32,7 @@ pub enum Reach {
 ///
 /// # Errors
 /// See [`ReachError`].
-pub fn reach(home: &Posture<'_>) -> Result<Reach, ReachError> {
+pub fn reach(home: &Posture) -> Result<Reach, ReachError> {
     let m = home.mechanism();
     match m.limbs() {
         [limb] if m.platforms().len() == 2 => arm::arm_reach(m, limb).map(Reach::Arm),

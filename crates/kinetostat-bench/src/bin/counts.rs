@@ -105,10 +105,9 @@ fn ready(name: &str, count: usize) -> (Task, Results) {
 }
 
 /// A machine at home for the general engine, and a load.
-fn at_home(file: &str, force: f64, moment: f64) -> (Posture<'static>, Wrench) {
+fn at_home(file: &str, force: f64, moment: f64) -> (Posture, Wrench) {
     let model = kinetostat_model::read_model(&path(file)).expect("a model");
-    // It lives as long as the program.
-    let mechanism = &Box::leak(Box::new(model)).mechanism;
+    let mechanism = model.mechanism;
     let home = mechanism.platforms()[mechanism.tool()].home;
     let wrench = sample::wrenches(0..1, force, moment);
     (

@@ -62,12 +62,12 @@ struct Point {
 }
 
 /// The machine commanded for a point of the line, by its position only where its orientation follows.
-fn at<'m>(
-    mechanism: &'m Mechanism,
+fn at(
+    mechanism: &Mechanism,
     target: &Pose,
     follows: bool,
-    near: Option<&Posture<'_>>,
-) -> kinetostat::Result<Posture<'m>> {
+    near: Option<&Posture>,
+) -> kinetostat::Result<Posture> {
     let (position, rotation) = (&target.translation.vector, &target.rotation);
     match (follows, near) {
         (false, None) => mechanism.posture(target),
@@ -78,7 +78,7 @@ fn at<'m>(
 }
 
 /// The figures of one point, mm, `distance_mm` from the first.
-fn point(solved: &AssembledMachine<'_>, place: Vector3<f64>, distance_mm: f64) -> Point {
+fn point(solved: &AssembledMachine, place: Vector3<f64>, distance_mm: f64) -> Point {
     let mm = |e: &MechanismEquilibrium| e.displacement.linear() * 1e3;
     let [drawn, built] = &solved.rest;
     let deviations = mm(built) - mm(drawn);
@@ -130,7 +130,7 @@ pub(crate) fn answer(
     let mut points = Vec::with_capacity(count);
     let follows = query.mechanism.turns_as_it_moves();
     let mut turned = 0.0_f64;
-    let (mut near, mut near_drawn): (Option<Posture<'_>>, Option<Posture<'_>>) = (None, None);
+    let (mut near, mut near_drawn): (Option<Posture>, Option<Posture>) = (None, None);
     for k in 0..count {
         let share = k as f64 / (count - 1) as f64;
         let place = from + (to - from) * share;

@@ -1,7 +1,9 @@
 //! What assembly locked in at one place: numbers with units, in every case.
 
 use kinetostat::{
-    LinearAssembly, MechanismEquilibrium, MotionKind, Overconstraint, Posture, Role, Wrench,
+    MechanismEquilibrium, MotionKind, Posture, Wrench,
+    machine::{LinearAssembly, Overconstraint},
+    model::Role,
 };
 use kinetostat_analysis::assembled::{AssembledMachine, Cases};
 use kinetostat_machining::{Warning, WarningCode};
@@ -161,7 +163,7 @@ fn size(wrench: &Wrench, length: f64) -> f64 {
     wrench.force().norm().hypot(wrench.moment().norm() / length)
 }
 
-fn directions(over: &Overconstraint, posture: &Posture<'_>) -> Directions {
+fn directions(over: &Overconstraint, posture: &Posture) -> Directions {
     let stresses = over.stresses.iter().map(|stress| StressAnswer {
         in_words: stress.in_words(posture),
         limbs: stress
@@ -180,14 +182,14 @@ fn directions(over: &Overconstraint, posture: &Posture<'_>) -> Directions {
     }
 }
 
-fn platforms(solved: &AssembledMachine<'_>) -> Vec<PlatformAnswer> {
+fn platforms(solved: &AssembledMachine) -> Vec<PlatformAnswer> {
     let mechanism = solved.posture.mechanism();
     let list = mechanism.platforms().iter().enumerate().skip(1);
     let mut list: Vec<PlatformAnswer> = list
         .map(|(p, platform)| {
             let nominal = &solved.posture.platforms()[p];
             let moved = |e: &MechanismEquilibrium| {
-                kinetostat::pose_residual(&e.state.platforms[p], nominal)
+                kinetostat::spatial::pose_residual(&e.state.platforms[p], nominal)
             };
             let degrees = |v: nalgebra::Vector3<f64>| v.map(f64::to_degrees).into();
             PlatformAnswer {
@@ -208,7 +210,7 @@ fn platforms(solved: &AssembledMachine<'_>) -> Vec<PlatformAnswer> {
     list
 }
 
-fn limb(solved: &AssembledMachine<'_>, i: usize, length: f64) -> LimbAnswer {
+fn limb(solved: &AssembledMachine, i: usize, length: f64) -> LimbAnswer {
     let limb = &solved.posture.mechanism().limbs()[i];
     let chain = &limb.actual;
     let nominal = &solved.posture.limbs()[i].coordinates;

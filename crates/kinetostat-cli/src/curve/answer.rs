@@ -1,7 +1,7 @@
 //! The answer of `curve`: branches, named points, jumps and critical loads, with stable names and
 //! units.
 
-use kinetostat::{BranchEnd, SpecialKind};
+use kinetostat::continuation::{BranchEnd, SpecialKind};
 use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;

@@ -1,8 +1,11 @@
 //! The curve of a chain: all branches that cross, and what happens on them.
 
 use kinetostat::{
-    Bounds, BranchEnd, ChainProblem, CurveSettings, Curves, Parameter, SearchSettings, Settings,
-    equilibria, follow, solve_chain,
+    ChainProblem, CurveSettings, Parameter, Settings,
+    continuation::{BranchEnd, Curves},
+    equilibria,
+    equilibrium::{Bounds, SearchSettings},
+    follow, solve_chain,
 };
 use kinetostat_analysis::degenerate::is_degenerate;
 use kinetostat_analysis::rotation::ContinuousRotation;

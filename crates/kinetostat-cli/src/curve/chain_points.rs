@@ -1,6 +1,9 @@
 //! Points of the curves of a chain: those with names, the jumps between them, and the branches.
 
-use kinetostat::{BranchEnd, CurvePoint, Curves, Jump, Parameter, Special, SpecialKind};
+use kinetostat::{
+    Parameter,
+    continuation::{BranchEnd, CurvePoint, Curves, Jump, Special, SpecialKind},
+};
 use kinetostat_analysis::rotation::ContinuousRotation;
 use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::Vector3;

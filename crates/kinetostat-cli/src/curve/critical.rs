@@ -1,7 +1,8 @@
 //! Critical load factors of a chain.
 
 use kinetostat::{
-    ChainProblem, CriticalLoad, CurveSettings, Judged, Parameter, critical_load_factor,
+    ChainProblem, CurveSettings, Parameter, critical_load_factor,
+    equilibrium::{CriticalLoad, Judged},
 };
 use kinetostat_analysis::serial_chain::SerialChain;
 

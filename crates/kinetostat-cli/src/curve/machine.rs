@@ -1,7 +1,8 @@
 //! The curve of a machine of several limbs or platforms: its tool is moved or loaded, all limbs follow.
 
 use kinetostat::{
-    BranchEnd, CurveSettings, EndCondition, MachinePath, PathPoint, PathSpecial, PathSpecialKind,
+    CurveSettings, EndCondition,
+    continuation::{BranchEnd, MachinePath, PathPoint, PathSpecial, PathSpecialKind},
 };
 use kinetostat_machining::{Warning, WarningCode};
 

@@ -1,6 +1,6 @@
 //! The query of `curve`, from its options: what grows, how far, and what acts besides.
 
-use kinetostat::{EndCondition, Load, LoadPattern, Parameter, Twist, Wrench};
+use kinetostat::{EndCondition, Load, Parameter, Twist, Wrench, continuation::LoadPattern};
 use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::{Vector3, Vector6};
 

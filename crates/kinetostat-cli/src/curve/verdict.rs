@@ -1,6 +1,6 @@
 //! What a curve says in one paragraph: where it goes away, and how far it was followed.
 
-use kinetostat::BranchEnd;
+use kinetostat::continuation::BranchEnd;
 use kinetostat_machining::number::counted;
 
 use crate::curve::answer::{CurveAnswer, PointAnswer};

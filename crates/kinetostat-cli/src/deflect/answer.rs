@@ -1,6 +1,8 @@
 //! The answer at one place, stable names with units.
 
-use kinetostat::{DirectionKind, FoundBy, Mechanism, MechanismEquilibrium, MotionKind, Posture};
+use kinetostat::{
+    DirectionKind, Mechanism, MechanismEquilibrium, MotionKind, Posture, chain::FoundBy,
+};
 use kinetostat_analysis::instability::InstabilityShares;
 use kinetostat_machining::{NearSingular, Warning, WarningCode, number as formatter};
 use serde::Serialize;
@@ -113,7 +115,7 @@ pub(crate) struct LinkAnswer {
 
 pub(crate) fn answer(
     query: &PlaceQuery,
-    posture: &Posture<'_>,
+    posture: &Posture,
     loaded: &MechanismEquilibrium,
     rest: &MechanismEquilibrium,
     snapped: bool,
@@ -227,7 +229,7 @@ fn not_conservative(e: &MechanismEquilibrium) -> Vec<String> {
     reasons
 }
 
-fn actuators(mechanism: &Mechanism, posture: &Posture<'_>, forces: &[f64]) -> Vec<ActuatorAnswer> {
+fn actuators(mechanism: &Mechanism, posture: &Posture, forces: &[f64]) -> Vec<ActuatorAnswer> {
     let kinds = mechanism
         .limbs()
         .iter()

@@ -163,7 +163,7 @@ fn platform(a: &Deflection) -> String {
 }
 
 /// Where a share of the way leads: without a potential only the bound is known below which all is well
-/// (see [`kinetostat::CriticalLoad::definite_until`]).
+/// (see [`kinetostat::equilibrium::CriticalLoad::definite_until`]).
 fn limb_in_words(limb: &LimbAnswer) -> String {
     let share = match limb.share_to_buckling {
         Some(mu) if mu.abs() < 1e-6 => "no load bends or buckles it".to_owned(),

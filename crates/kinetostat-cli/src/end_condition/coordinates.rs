@@ -1,6 +1,6 @@
 //! Coordinates of a chain: names, units, values, and the line through its joints.
 
-use kinetostat::{Chain, MotionKind, Role};
+use kinetostat::{Chain, MotionKind, model::Role};
 use serde::Serialize;
 
 use crate::machine::units::unit_of;

@@ -1,6 +1,6 @@
 //! How the tool is held, direction by direction.
 
-use kinetostat::{EndCondition, Pose, Prescribed, Wrench, turn_matrix};
+use kinetostat::{EndCondition, Pose, Prescribed, Wrench, spatial::turn_matrix};
 use nalgebra::{Rotation3, Vector3, Vector6};
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! A machine of several limbs or platforms, commanded for a place.
 
-use kinetostat::{Mechanism, MechanismEquilibrium, NearSingularity, Pose, Posture};
+use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, machine::NearSingularity};
 use kinetostat_analysis::movable::MovableDirections;
 use kinetostat_analysis::outline::chain_outline;
 use kinetostat_machining::{Warning, WarningCode};
@@ -39,7 +39,7 @@ impl CommandedMachine {
     }
 
     /// Commanded for its place.
-    pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
+    pub(crate) fn posture(&self) -> Answer<Posture> {
         let m = &self.mechanism;
         Ok(match (&self.joints, &self.followed) {
             (Some(joints), _) => m.posture_at(joints)?,
@@ -49,7 +49,7 @@ impl CommandedMachine {
     }
 
     /// Coordinates of all limbs, one limb after the other.
-    pub(crate) fn coordinates(&self, posture: &Posture<'_>) -> Vec<CoordinateName> {
+    pub(crate) fn coordinates(&self, posture: &Posture) -> Vec<CoordinateName> {
         let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
         limbs
             .flat_map(|(limb, joints)| {
@@ -64,7 +64,7 @@ impl CommandedMachine {
     }
 
     /// Values of all coordinates, in their units.
-    pub(crate) fn values(&self, posture: &Posture<'_>, e: &MechanismEquilibrium) -> Vec<f64> {
+    pub(crate) fn values(&self, posture: &Posture, e: &MechanismEquilibrium) -> Vec<f64> {
         let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
         limbs
             .zip(&e.limbs)
@@ -75,11 +75,7 @@ impl CommandedMachine {
     }
 
     /// Every limb from its start to its end and back, one after the other, m.
-    pub(crate) fn outline(
-        &self,
-        posture: &Posture<'_>,
-        e: &MechanismEquilibrium,
-    ) -> Vec<Vector3<f64>> {
+    pub(crate) fn outline(&self, posture: &Posture, e: &MechanismEquilibrium) -> Vec<Vector3<f64>> {
         let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
         limbs
             .zip(&e.limbs)
@@ -93,7 +89,7 @@ impl CommandedMachine {
     }
 
     /// Singular postures within a distance (m).
-    pub(crate) fn near_singular(&self, posture: &Posture<'_>, within: f64) -> Answer<Vec<Warning>> {
+    pub(crate) fn near_singular(&self, posture: &Posture, within: f64) -> Answer<Vec<Warning>> {
         let within = within.max(0.1 * self.moves.directions.length);
         let list = posture.near_singularities(within)?;
         let reported = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());

@@ -1,6 +1,9 @@
 //! All equilibria of a chain.
 
-use kinetostat::{Bounds, ChainProblem, Direction, DirectionKind, FoundEquilibrium, equilibria};
+use kinetostat::{
+    ChainProblem, Direction, DirectionKind, equilibria,
+    equilibrium::{Bounds, FoundEquilibrium},
+};
 use kinetostat_analysis::degenerate::is_degenerate;
 use kinetostat_analysis::outline::chain_outline;
 use kinetostat_analysis::serial_chain::SerialChain;

@@ -1,6 +1,9 @@
 //! All equilibria of a machine of several limbs: from many places of its tool, and along curves.
 
-use kinetostat::{DirectionKind, SearchSettings, SpreadSettings};
+use kinetostat::{
+    DirectionKind,
+    equilibrium::{SearchSettings, SpreadSettings},
+};
 
 use crate::end_condition::machine::CommandedMachine;
 use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};

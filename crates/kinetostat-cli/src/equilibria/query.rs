@@ -1,6 +1,6 @@
 //! The query of `equilibria`, from its options.
 
-use kinetostat::{EndCondition, SearchSettings, Twist, moved};
+use kinetostat::{EndCondition, Twist, equilibrium::SearchSettings, spatial::moved};
 use nalgebra::Vector3;
 
 use crate::end_condition::holding::{Holding, holding};
@@ -98,7 +98,7 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
 
 /// A displacement in a free direction would be ignored.
 fn refuse_displaced_and_free(held: &Holding, twist: &Twist) -> Answer<()> {
-    let local = kinetostat::turn_matrix(&held.end.axes).transpose() * twist.0;
+    let local = kinetostat::spatial::turn_matrix(&held.end.axes).transpose() * twist.0;
     let most = local.amax();
     let wrong = (0..6).find(|&k| {
         held.end.prescribed[k] == kinetostat::Prescribed::Wrench && local[k].abs() > 1e-9 * most

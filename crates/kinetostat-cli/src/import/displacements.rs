@@ -28,7 +28,7 @@ pub(crate) fn displacements(args: &DisplacementsArgs) -> Answer<()> {
     let cases = read_displacements(&text, &loads, nodes.as_ref(), units(&args.mesh)?)?;
     let end = metres(&args.end_mm);
     let found = identify(text.name(), &cases, &end)?;
-    let turn = kinetostat::turn_matrix(&axes(&args.mesh)?);
+    let turn = kinetostat::spatial::turn_matrix(&axes(&args.mesh)?);
     let mut remarks = Remarks::default();
     remark_experiments(&found, &cases, &mut remarks);
     let stiffness = if args.filter {

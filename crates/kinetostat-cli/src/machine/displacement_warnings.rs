@@ -1,6 +1,6 @@
 //! Warnings of displacements that are no deflections any more: the machine folds over, or snaps.
 
-use kinetostat::LoadLimit;
+use kinetostat::error::LoadLimit;
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::ui::numbers::{fixed, number, triple};

@@ -1,6 +1,6 @@
 //! Principal directions of a stiffness: their figures, their words, and the joints that move with them.
 
-use kinetostat::{Direction, DirectionKind, Mechanism, MotionKind, Role};
+use kinetostat::{Direction, DirectionKind, Mechanism, MotionKind, model::Role};
 use kinetostat_machining::{Warning, WarningCode};
 use serde::Serialize;
 
@@ -39,8 +39,8 @@ pub(crate) fn uneven(
     mechanism: &Mechanism,
     directions: &[Direction],
 ) -> impl Iterator<Item = Warning> {
-    let said = kinetostat::uneven_in_words(directions).into_iter();
-    let of_springs = kinetostat::uneven_springs_in_words(mechanism);
+    let said = kinetostat::chain::uneven_in_words(directions).into_iter();
+    let of_springs = kinetostat::chain::uneven_springs_in_words(mechanism);
     said.chain(of_springs)
         .map(|said| Warning::new(WarningCode::UnevenStiffness, said))
 }

@@ -1,6 +1,9 @@
 //! A model's stiffnesses, one line each, for the head of a result.
 
-use kinetostat::{Chain, MotionKind, SpringBlock, SpringLaw};
+use kinetostat::{
+    Chain, MotionKind,
+    model::{SpringBlock, SpringLaw},
+};
 use kinetostat_machining::number::{DIGITS, Rounding, significant};
 use kinetostat_model::Model;
 use nalgebra::DMatrix;

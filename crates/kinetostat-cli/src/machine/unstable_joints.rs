@@ -1,6 +1,6 @@
 //! Which joint runs away, and which load pushes it: for `check` and `deflect`.
 
-use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, OvercomeSpring, Posture};
+use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, Posture, machine::OvercomeSpring};
 use kinetostat_model::Model;
 use serde::Serialize;
 
@@ -37,7 +37,7 @@ pub(crate) fn load_names(model: &Model) -> Vec<Vec<String>> {
 
 /// The joints that run away at an equilibrium that is not stable; none where it is.
 pub(crate) fn unstable_joints(
-    posture: &Posture<'_>,
+    posture: &Posture,
     at: &MechanismEquilibrium,
     load_names: &[Vec<String>],
 ) -> Vec<UnstableJoint> {

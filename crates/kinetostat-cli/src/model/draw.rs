@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use kinetostat::{Direction, DirectionKind, MotionKind, Posture, Share, Twist, moved};
+use kinetostat::{
+    Direction, DirectionKind, MotionKind, Posture, Twist, chain::Share, spatial::moved,
+};
 use kinetostat_report::{Drawing, Magnified, Moved, Placed, View};
 
 use crate::files::input_files::InputFiles;
@@ -155,7 +157,7 @@ fn title(query: &PlaceQuery) -> String {
 }
 
 /// The motion in the direction of this rank, the softest first.
-fn motion(posture: &Posture<'_>, rank: usize) -> Answer<(Moved, String)> {
+fn motion(posture: &Posture, rank: usize) -> Answer<(Moved, String)> {
     let stiffness = posture.stiffness()?;
     let mut list: Vec<&Direction> = stiffness
         .directions
@@ -196,7 +198,7 @@ fn motion(posture: &Posture<'_>, rank: usize) -> Answer<(Moved, String)> {
 
 /// Joints and springs that move between two states, `limb: name`, the most first; what moves less
 /// than 0.1 % of all is left out.
-fn behind(posture: &Posture<'_>, from: &Placed, to: &Placed) -> Vec<Share> {
+fn behind(posture: &Posture, from: &Placed, to: &Placed) -> Vec<Share> {
     let mut list = Vec::new();
     for (i, limb) in posture.mechanism().limbs().iter().enumerate() {
         let length = limb.nominal.scale().length;
@@ -230,7 +232,7 @@ const STEP: f64 = 1e-6;
 
 /// The machine, and the machine moved a little along a twist of the tool.
 fn small_motion(
-    posture: &Posture<'_>,
+    posture: &Posture,
     stiffness: &kinetostat::UnloadedStiffness,
     twist: &Twist,
 ) -> Answer<(Placed, Placed)> {
@@ -262,7 +264,7 @@ fn small_motion(
 /// The machine as built under its loads, from where it was commanded.
 fn deflection(
     query: &PlaceQuery,
-    posture: &Posture<'_>,
+    posture: &Posture,
     scale: Option<f64>,
 ) -> Answer<(Moved, String)> {
     let e = posture.deflected_by(&query.wrench)?;

@@ -156,21 +156,18 @@ fn own_loads(model: &Model) -> Vec<String> {
 
 impl PlaceQuery {
     /// The machine commanded for the place, within the limits of its actuators.
-    pub(crate) fn posture(&self) -> Answer<Posture<'_>> {
+    pub(crate) fn posture(&self) -> Answer<Posture> {
         let posture = self.standing()?;
         posture.within_limits()?;
         Ok(posture)
     }
 
-    pub(crate) fn standing(&self) -> kinetostat::Result<Posture<'_>> {
+    pub(crate) fn standing(&self) -> kinetostat::Result<Posture> {
         self.standing_in(&self.mechanism)
     }
 
     /// Another machine of the same nominal geometry, commanded for the place.
-    pub(crate) fn standing_in<'m>(
-        &self,
-        mechanism: &'m Mechanism,
-    ) -> kinetostat::Result<Posture<'m>> {
+    pub(crate) fn standing_in(&self, mechanism: &Mechanism) -> kinetostat::Result<Posture> {
         match (&self.joints, &self.followed) {
             (Some(joints), _) => mechanism.posture_at(joints),
             (None, Some(f)) => mechanism.posture_from_joints(&self.target, f.limbs.clone()),
@@ -184,7 +181,7 @@ impl PlaceQuery {
     }
 
     /// What the pendant shows there; nothing where no controller is declared.
-    pub(crate) fn on_pendant(&self, posture: &Posture<'_>) -> Vec<JointValue> {
+    pub(crate) fn on_pendant(&self, posture: &Posture) -> Vec<JointValue> {
         joints::on_pendant(self.controller.as_ref(), &posture.commands())
     }
 

@@ -1,6 +1,6 @@
 //! The pose that a machine can take where the digits of a place, or its orientation, keep it from it.
 
-use kinetostat::{LimbPosture, Mechanism, Pose};
+use kinetostat::{Mechanism, Pose, machine::LimbPosture};
 use kinetostat_machining::number::{apart, mean_length};
 use kinetostat_machining::{Warning, WarningCode, natural_length};
 
@@ -67,7 +67,7 @@ pub(crate) fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<Warning>
     let Some(nearest) = m.nearest_reachable(&target, AROUND * length) else {
         return Err(error.into());
     };
-    let off = kinetostat::pose_residual(&nearest, &target);
+    let off = kinetostat::spatial::pose_residual(&nearest, &target);
     let (shift, turn) = (off.linear().norm(), off.angular().norm());
     if shift.max(length * turn) <= ROUNDED * length {
         warnings.push(nearest_used(format!(
@@ -78,7 +78,7 @@ pub(crate) fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<Warning>
         return Ok(nearest);
     }
     Err(kinetostat::Error::Unreachable {
-        place: m.name().to_owned(),
+        place: kinetostat::Place::mechanism(m.name()),
         distance_m: shift,
         angle_rad: turn,
         nearest: Box::new(nearest),

@@ -1,8 +1,8 @@
 //! The answer of `stiffness`, stable names with units.
 
 use kinetostat::{
-    CartesianCompliance, CartesianStiffness, ChainStiffness, Direction, DirectionKind, Posture,
-    Wrench,
+    CartesianStiffness, ChainStiffness, Direction, DirectionKind, Posture, Wrench,
+    chain::CartesianCompliance,
 };
 use kinetostat_machining::{NearSingular, Warning, WarningCode};
 use nalgebra::Matrix6;
@@ -81,7 +81,7 @@ pub(crate) struct LimbShare {
 /// Directions with the joints and springs behind them, the stiff ones too.
 pub(crate) fn with_causes(
     directions: &[Direction],
-    behind: impl Fn(&Direction) -> Vec<kinetostat::Share>,
+    behind: impl Fn(&Direction) -> Vec<kinetostat::chain::Share>,
 ) -> Vec<Direction> {
     let mut list = directions.to_vec();
     for direction in &mut list {
@@ -93,7 +93,7 @@ pub(crate) fn with_causes(
 }
 
 /// Names what acts in the model and is not in its unloaded stiffness, and adds the stiffness with it.
-pub(crate) fn with_own_loads(answer: &mut Stiffness, query: &PlaceQuery, posture: &Posture<'_>) {
+pub(crate) fn with_own_loads(answer: &mut Stiffness, query: &PlaceQuery, posture: &Posture) {
     if query.own_loads.is_empty() {
         return;
     }
@@ -115,7 +115,7 @@ pub(crate) fn with_own_loads(answer: &mut Stiffness, query: &PlaceQuery, posture
 
 pub(crate) fn answer(
     query: &PlaceQuery,
-    posture: &Posture<'_>,
+    posture: &Posture,
     (loaded, against_force): (bool, f64),
     cartesian: &CartesianStiffness,
     compliance: &CartesianCompliance,

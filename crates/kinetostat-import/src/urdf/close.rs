@@ -1,6 +1,6 @@
 //! Where everything stands at home, and the passive joints that close the loops there.
 
-use kinetostat::{Pose, pose_residual};
+use kinetostat::{Pose, spatial::pose_residual};
 use nalgebra::{DMatrix, DVector};
 
 use crate::urdf::robot::Robot;

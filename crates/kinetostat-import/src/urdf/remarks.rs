@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use kinetostat::{Pose, pose_residual};
+use kinetostat::{Pose, spatial::pose_residual};
 use nalgebra::{DMatrix, Vector3};
 
 use crate::log::{Log, some_names};
@@ -137,7 +137,7 @@ pub(crate) fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f
             jacobian[(i, column)] = change[i] / unit;
         }
     }
-    let values = kinetostat::SingularValues::of(&jacobian);
+    let values = kinetostat::linalg::SingularValues::of(&jacobian);
     if values.least() < 1e-4 * values.largest() {
         log.notice(
             &plan.robot.at,

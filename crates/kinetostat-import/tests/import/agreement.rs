@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use kinetostat::{Kinematics, MotionKind};
+use kinetostat::{MotionKind, model::Kinematics};
 use kinetostat_import::{Imported, JointStiffness, UrdfOptions};
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{Matrix4, Vector3};

@@ -2,7 +2,7 @@
 //! IRB 8700: the lower arm is pushed by a linear actuator, the upper arm is led by a bar from a crank
 //! beside the shoulder, and the crank carries a counterweight. Lengths and masses are made up.
 
-use kinetostat::{LimbPosture, MechanismEquilibrium, MotionKind, Wrench};
+use kinetostat::{MechanismEquilibrium, MotionKind, Wrench, machine::LimbPosture};
 use kinetostat_import::{Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf};
 use kinetostat_model::schema::{Section, Tube};
 use kinetostat_testing::largest_size;

@@ -118,7 +118,7 @@ fn a_follower_before_its_source_leads() {
     let oracle = crate::oracle::Oracle::new(&text);
     let values = [("two", 0.5), ("three", 0.2)].into();
     let wanted = oracle.pose("a", "e", &values);
-    let k = kinetostat::Kinematics::new(
+    let k = kinetostat::model::Kinematics::new(
         chain,
         &kinetostat::Pose::identity(),
         &chain.home_coordinates(),

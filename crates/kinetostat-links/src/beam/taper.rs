@@ -4,7 +4,7 @@
 //! tip: `c` is the compliance of the slice per length, `T` takes the twist there to the tip. Exact for
 //! prismatic links; for others as good as beam theory is (slender, slopes of the walls small).
 
-use kinetostat::shift_matrix;
+use kinetostat::spatial::shift_matrix;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::beam::section::Shape;

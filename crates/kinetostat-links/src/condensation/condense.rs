@@ -88,7 +88,7 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
         }
     }
     let own = 0.5 * (own + own.transpose());
-    let turn = kinetostat::turn_matrix(&question.axes);
+    let turn = kinetostat::spatial::turn_matrix(&question.axes);
     Ok(Condensed {
         stiffness: turn.transpose() * own * turn,
         end: interface.end,
@@ -258,7 +258,7 @@ fn spider_rows(element: &Superelement, interface: &Interface) -> Vec<Option<Vect
                     let d = usize::from(d) - 1;
                     row[d] = 1.0;
                     // u = phi x arm: component d of -hat(arm) phi.
-                    let turned = -kinetostat::hat(&(interface.places[at] - interface.end));
+                    let turned = -kinetostat::spatial::hat(&(interface.places[at] - interface.end));
                     row.fixed_rows_mut::<3>(3)
                         .copy_from(&turned.row(d).transpose());
                 }
@@ -490,7 +490,7 @@ fn of_average(
 
 /// A compliance at a point `arm` further on.
 fn moved_to(compliance: &Matrix6<f64>, arm: &Vector3<f64>) -> Matrix6<f64> {
-    let shift = kinetostat::shift_matrix(arm);
+    let shift = kinetostat::spatial::shift_matrix(arm);
     shift * compliance * shift.transpose()
 }
 

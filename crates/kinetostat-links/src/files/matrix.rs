@@ -14,7 +14,7 @@
 //! Rows and columns of CSV may stand in any order; that of JSON is x, y, z, rx, ry, rz unless `order`
 //! says otherwise.
 
-use kinetostat::{shift_matrix, turn_matrix};
+use kinetostat::spatial::{shift_matrix, turn_matrix};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 use serde::Deserialize;
 

@@ -4,8 +4,9 @@
 
 use kinetostat::batch::AlongPath;
 use kinetostat::{
-    Error, Mechanism, MechanismEquilibrium, MechanismState, Pose, Posture, Wrench,
-    target_under_load, target_under_load_following,
+    Directions, Error, Mechanism, MechanismEquilibrium, Pose, Posture, Wrench,
+    compensation::{target_under_load, target_under_load_following},
+    machine::MechanismState,
 };
 use rayon::prelude::*;
 
@@ -14,19 +15,16 @@ use crate::postures::orientation::Orientation;
 /// Points that share a chain of starting values.
 pub(crate) const CHUNK: usize = 64;
 
-/// Directions that a program of positions can correct.
-pub(crate) const POSITIONS: [bool; 6] = [true, true, true, false, false, false];
-
 /// Posture and state of the last point solved in a chunk, one memory per kind of question.
 #[derive(Default)]
-pub(crate) struct Neighbour<'m> {
-    last: Option<(Posture<'m>, MechanismState)>,
+pub(crate) struct Neighbour {
+    last: Option<(Posture, MechanismState)>,
 }
 
 pub(crate) const NEAR: f64 = AlongPath::NEAR;
 
-impl<'m> Neighbour<'m> {
-    fn near(&self, pose: &Pose) -> Option<&(Posture<'m>, MechanismState)> {
+impl Neighbour {
+    fn near(&self, pose: &Pose) -> Option<&(Posture, MechanismState)> {
         self.last.as_ref().filter(|(posture, _)| {
             let length = posture.mechanism().size();
             (posture.target().translation.vector - pose.translation.vector).norm() < NEAR * length
@@ -35,17 +33,17 @@ impl<'m> Neighbour<'m> {
 
     fn posture(
         &self,
-        mechanism: &'m Mechanism,
+        mechanism: &Mechanism,
         pose: &Pose,
         orientation: Orientation,
-    ) -> Result<Posture<'m>, Error> {
+    ) -> Result<Posture, Error> {
         let near = self.near(pose).map(|(posture, _)| posture);
         let posture = orientation.posture(mechanism, pose, near)?;
         posture.within_limits()?;
         Ok(posture)
     }
 
-    fn start(&self, posture: &Posture<'m>, pose: &Pose) -> MechanismState {
+    fn start(&self, posture: &Posture, pose: &Pose) -> MechanismState {
         self.near(pose)
             .map_or_else(|| posture.rest_state(), |(_, state)| state.clone())
     }
@@ -53,11 +51,11 @@ impl<'m> Neighbour<'m> {
     /// The posture whose tool is at `pose` under `wrench`.
     pub fn target(
         &mut self,
-        mechanism: &'m Mechanism,
+        mechanism: &Mechanism,
         pose: &Pose,
         wrench: &Wrench,
         orientation: Orientation,
-    ) -> Result<Posture<'m>, Error> {
+    ) -> Result<Posture, Error> {
         let answer = if orientation.follows {
             let near = self.near(pose).map(|(posture, _)| posture);
             let near = orientation.posture(mechanism, pose, near)?;
@@ -74,7 +72,7 @@ impl<'m> Neighbour<'m> {
                     (posture, state)
                 }
             };
-            target_under_load(&near, pose, wrench, POSITIONS, state)?
+            target_under_load(&near, pose, wrench, Directions::POSITION, state)?
         };
         answer.0.within_limits()?;
         self.last = Some(answer.clone());
@@ -84,11 +82,11 @@ impl<'m> Neighbour<'m> {
     /// Where the tool goes when commanded to `pose` under `wrench`.
     pub fn rest(
         &mut self,
-        mechanism: &'m Mechanism,
+        mechanism: &Mechanism,
         pose: &Pose,
         wrench: &Wrench,
         orientation: Orientation,
-    ) -> Result<(Posture<'m>, Pose), Error> {
+    ) -> Result<(Posture, Pose), Error> {
         let posture = self.posture(mechanism, pose, orientation)?;
         let start = self.start(&posture, pose);
         let wrench = orientation.load(wrench, pose, &posture);
@@ -101,11 +99,11 @@ impl<'m> Neighbour<'m> {
     /// As [`Self::rest`], with stiffness and stability.
     pub fn equilibrium(
         &mut self,
-        mechanism: &'m Mechanism,
+        mechanism: &Mechanism,
         pose: &Pose,
         wrench: &Wrench,
         orientation: Orientation,
-    ) -> Result<(Posture<'m>, MechanismEquilibrium), Error> {
+    ) -> Result<(Posture, MechanismEquilibrium), Error> {
         let posture = self.posture(mechanism, pose, orientation)?;
         let start = self.start(&posture, pose);
         let wrench = orientation.load(wrench, pose, &posture);
@@ -117,9 +115,9 @@ impl<'m> Neighbour<'m> {
 
 /// Runs `work` over all items in chunks of [`CHUNK`], each chunk with memories of its own, on all
 /// cores; answers in order.
-pub(crate) fn in_chunks<'m, T: Sync, R: Send>(
+pub(crate) fn in_chunks<T: Sync, R: Send>(
     items: &[T],
-    work: impl Fn(&mut [Neighbour<'m>; 2], &[T]) -> Vec<R> + Sync,
+    work: impl Fn(&mut [Neighbour; 2], &[T]) -> Vec<R> + Sync,
 ) -> Vec<R> {
     let chunks = items.par_chunks(CHUNK);
     chunks

@@ -23,12 +23,12 @@ impl Orientation {
     }
 
     /// The machine commanded for a pose, or for its position.
-    pub fn posture<'m>(
+    pub fn posture(
         self,
-        mechanism: &'m Mechanism,
+        mechanism: &Mechanism,
         pose: &Pose,
-        near: Option<&Posture<'m>>,
-    ) -> Result<Posture<'m>, Error> {
+        near: Option<&Posture>,
+    ) -> Result<Posture, Error> {
         let (position, rotation) = (&pose.translation.vector, &pose.rotation);
         match (self.follows, near) {
             (false, None) => mechanism.posture(pose),
@@ -39,7 +39,7 @@ impl Orientation {
     }
 
     /// The load that was given for the orientation of `pose`, where the tool has another one.
-    pub(crate) fn load(self, wrench: &Wrench, pose: &Pose, posture: &Posture<'_>) -> Wrench {
+    pub(crate) fn load(self, wrench: &Wrench, pose: &Pose, posture: &Posture) -> Wrench {
         if !self.load_turns {
             return *wrench;
         }

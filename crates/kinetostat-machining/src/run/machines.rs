@@ -11,7 +11,7 @@ use crate::task::Task;
 pub(crate) struct Machines<'t, 'm> {
     task: &'t Task<'m>,
     /// The first is the machine without one of the tools.
-    machines: Vec<AlongPath<'m>>,
+    machines: Vec<AlongPath>,
 }
 
 impl<'t, 'm> Machines<'t, 'm> {
@@ -39,7 +39,7 @@ impl<'t, 'm> Machines<'t, 'm> {
     }
 
     /// The machine that cuts at a place, and what is done with the orientation there.
-    pub fn at(&self, site: &Site) -> (&AlongPath<'m>, Orientation) {
+    pub fn at(&self, site: &Site) -> (&AlongPath, Orientation) {
         let tool = self.tool(site);
         let position = |tool: &Tool<'_>| {
             let own = |other: &Tool<'_>| other.number == tool.number;

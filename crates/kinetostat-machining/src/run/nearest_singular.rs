@@ -20,7 +20,7 @@ pub(crate) fn nearest_singular(
         follows: task.placement.orientation_follows,
         load_turns: false,
     };
-    let mut last: Option<Posture<'_>> = None;
+    let mut last: Option<Posture> = None;
     let mut found: Option<(f64, NearSingularPlace)> = None;
     for point in points.iter().step_by(stride) {
         let pose = task.placement.tool_pose(&point.position_mm.into());

@@ -65,10 +65,10 @@ pub(crate) fn solve<S: Iterator<Item = Site>>(
 }
 
 /// Points of a chunk, by vector kernels where there are some, else one after the other.
-pub(crate) fn chunk<'m>(
-    task: &Task<'m>,
-    machine: &AlongPath<'m>,
-    memory: &mut [Neighbour<'m>; 2],
+pub(crate) fn chunk(
+    task: &Task<'_>,
+    machine: &AlongPath,
+    memory: &mut [Neighbour; 2],
     sites: &[Site],
     (orientation, written): (Orientation, bool),
 ) -> Vec<Result<PointResult, RunError>> {
@@ -137,7 +137,7 @@ struct Loaded {
 }
 
 impl Loaded {
-    fn of_posture(posture: &Posture<'_>, equilibrium: &MechanismEquilibrium) -> Self {
+    fn of_posture(posture: &Posture, equilibrium: &MechanismEquilibrium) -> Self {
         let turned = equilibrium.tool.rotation * posture.target().rotation.inverse();
         Self {
             tool: equilibrium.tool,

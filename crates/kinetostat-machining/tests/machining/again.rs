@@ -2,7 +2,8 @@
 //! again until the claim is true.
 
 use kinetostat::{
-    ActuatorSpec, Chain, FunctionLoad, Limb, Load, Mechanism, MotionKind, Platform, Pose, Wrench,
+    ActuatorSpec, Chain, Limb, Load, Mechanism, MotionKind, Platform, Pose, Wrench,
+    model::FunctionLoad,
 };
 use kinetostat_machining::{
     Bounds, CuttingLoad, Placement, ProgramLoad, Question, Run, Task, Unwatched, WarningCode,
@@ -44,14 +45,7 @@ fn gantry(bump: [f64; 2]) -> Mechanism {
     let side = side.with_steps(0.01 * bump[1], 1e-4);
     let mut builder = Mechanism::builder("gantry");
     let tool = builder.platform(Platform::new("tool", home));
-    let limb = Limb {
-        name: "gantry".to_owned(),
-        from: 0,
-        to: tool,
-        platform_from_tip: Pose::identity(),
-        nominal: chain.clone(),
-        actual: chain,
-    };
+    let limb = Limb::between("gantry", 0, tool, chain);
     let builder = builder.limb(limb).load("gantry", Load::function(side));
     builder.build().expect("machine")
 }

@@ -379,7 +379,7 @@ fn inverse(map: &DMatrix<f64>) -> Result<DMatrix<f64>, DVector<f64>> {
     for (mut column, by) in balanced.column_iter_mut().zip(&columns) {
         column /= *by;
     }
-    let singular = kinetostat::SingularValues::of(&balanced);
+    let singular = kinetostat::linalg::SingularValues::of(&balanced);
     let inverse = (singular.least() > 1e-9 * singular.largest())
         .then(|| balanced.try_inverse())
         .flatten()

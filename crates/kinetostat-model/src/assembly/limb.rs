@@ -114,14 +114,9 @@ fn limb(
     };
     let gravity = document.mechanism.gravity_m_per_s2.map(Vector3::from);
     let loads = loads(place, written, &actual, gravity, findings);
-    let limb = Limb {
-        name: written.name.clone(),
-        from: from?,
-        to: to?,
-        platform_from_tip: end,
-        nominal,
-        actual,
-    };
+    let limb = Limb::between(written.name.clone(), from?, to?, nominal)
+        .with_actual(actual)
+        .fixed_at(end);
     Some((limb, loads))
 }
 

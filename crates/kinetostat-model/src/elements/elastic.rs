@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use kinetostat::turn_matrix;
+use kinetostat::spatial::turn_matrix;
 use nalgebra::{Matrix6, Unit, Vector3};
 
 use crate::elements::elasticity::{Elasticity, elasticity};

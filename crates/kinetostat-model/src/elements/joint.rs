@@ -1,7 +1,7 @@
 //! Joints and springs of one degree of freedom: lengths for those that slide, angles for those that
 //! turn.
 
-use kinetostat::{ActuatorSpec, MotionKind, SpringLaw};
+use kinetostat::{ActuatorSpec, MotionKind, model::SpringLaw};
 use nalgebra::{DMatrix, Vector3};
 
 use crate::elements::knee;

@@ -1,6 +1,9 @@
 //! The law of a spring with two stiffnesses.
 
-use kinetostat::{BilinearLaw, MotionKind, SpringLaw};
+use kinetostat::{
+    MotionKind,
+    model::{BilinearLaw, SpringLaw},
+};
 
 use crate::elements::quantity::by_kind;
 use crate::elements::quantity::{Choice, DEG, Found, MM, choice};

@@ -1,6 +1,6 @@
 //! Links and parallelograms: an offset, an elasticity and the axes in which it is one.
 
-use kinetostat::{LinkConvention, LinkSpec, Pose, turn_matrix};
+use kinetostat::{LinkSpec, Pose, model::LinkConvention, spatial::turn_matrix};
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use crate::elements::elastic::{Elastic, along};

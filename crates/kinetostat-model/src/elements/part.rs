@@ -1,6 +1,6 @@
 //! Elements of a chain in SI, before a limb gives them their deviations: one call of the core's builder each.
 
-use kinetostat::{ActuatorSpec, ChainBuilder, LinkSpec, MotionKind, Pose, SpringLaw};
+use kinetostat::{ActuatorSpec, ChainBuilder, LinkSpec, MotionKind, Pose, model::SpringLaw};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// What the core's builder is told, one call each.

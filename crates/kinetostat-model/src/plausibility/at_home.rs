@@ -1,6 +1,6 @@
 //! Where the parts of a limb are when the machine is at home, and which weight its joints carry.
 
-use kinetostat::{Chain, Element, Mechanism, MotionKind, Pose};
+use kinetostat::{Chain, Mechanism, MotionKind, Pose, model::Element};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 /// Poses in the chain's base before every element and at the end, at home.
@@ -12,7 +12,7 @@ pub(crate) fn frames(chain: &Chain) -> Vec<Pose> {
         match element {
             Element::Rigid(offset) => pose *= offset,
             Element::Motion(m) => {
-                let share = |drive: Option<kinetostat::Drive>, values: &[f64]| {
+                let share = |drive: Option<kinetostat::model::Drive>, values: &[f64]| {
                     drive.map_or(0.0, |d| {
                         d.ratio * values.get(d.index).copied().unwrap_or(0.0)
                     })

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use kinetostat::number::short;
-use kinetostat::{MotionKind, SpringLaw};
+use kinetostat::{MotionKind, model::SpringLaw};
 
 use crate::plausibility::limb::LimbCheck;
 use crate::problem::{Finding, Place};

@@ -72,7 +72,7 @@ impl LimbCheck<'_> {
         let chain = &limbs[self.limb].nominal;
         // Where other limbs carry too, a light bar may lead to a heavy arm.
         let only_limb = limbs.iter().filter(|l| l.to == limbs[self.limb].to).count() == 1;
-        let mut bodies: Vec<&kinetostat::Body> = chain.bodies().iter().collect();
+        let mut bodies: Vec<&kinetostat::model::Body> = chain.bodies().iter().collect();
         bodies.retain(|b| b.mass > 0.0);
         bodies.sort_by_key(|b| b.node);
         for (i, body) in bodies.iter().enumerate() {
@@ -110,8 +110,9 @@ impl LimbCheck<'_> {
     fn density(&self, warnings: &mut Vec<Finding>) {
         let chain = &self.mechanism.limbs()[self.limb].nominal;
         let pieces = |link: &str| {
-            let of =
-                |s: &&kinetostat::SpringBlock| s.segment.as_ref().is_some_and(|g| g.link == link);
+            let of = |s: &&kinetostat::model::SpringBlock| {
+                s.segment.as_ref().is_some_and(|g| g.link == link)
+            };
             chain.springs().iter().filter(of).count() as f64
         };
         let links: f64 = chain

@@ -1,7 +1,10 @@
 //! Springs that do not fit the rest of their machine.
 
 use kinetostat::number::short;
-use kinetostat::{MotionKind, Role, SpringLaw};
+use kinetostat::{
+    MotionKind,
+    model::{Role, SpringLaw},
+};
 
 use crate::plausibility::at_home::moments;
 use crate::plausibility::limb::LimbCheck;

@@ -280,9 +280,9 @@ fn a_screw_is_an_actuator_with_a_lead_and_a_free_end() {
     let base = kinetostat::Pose::identity();
     let mut x = vec![0.0; chain.coordinate_count()];
     let commands = vec![0.0; 7];
-    let before = kinetostat::unloaded_tip(chain, &base, &x, &commands);
+    let before = kinetostat::model::unloaded_tip(chain, &base, &x, &commands);
     x[1] = std::f64::consts::FRAC_PI_2;
-    let after = kinetostat::unloaded_tip(chain, &base, &x, &commands);
+    let after = kinetostat::model::unloaded_tip(chain, &base, &x, &commands);
     let rise = after.translation.y - before.translation.y;
     assert!((rise - 1.25e-3).abs() < 1e-15, "{rise}");
     let again = Model::from_toml(&model.to_toml().expect("written"), "again.toml");

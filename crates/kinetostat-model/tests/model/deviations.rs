@@ -40,7 +40,7 @@ chain = "arm"
 /// Tip of the actual, unloaded chain in a posture.
 fn tip(model: &Model, commands: [f64; 2]) -> Pose {
     let limb = &model.mechanism.limbs()[0];
-    kinetostat::unloaded_tip(
+    kinetostat::model::unloaded_tip(
         &limb.actual,
         &Pose::identity(),
         &vec![0.0; limb.actual.coordinate_count()],
@@ -49,7 +49,7 @@ fn tip(model: &Model, commands: [f64; 2]) -> Pose {
 }
 
 fn apart(a: &Pose, b: &Pose) -> f64 {
-    kinetostat::pose_residual(a, b).0.norm()
+    kinetostat::spatial::pose_residual(a, b).0.norm()
 }
 
 const LINKS: [(&str, f64); 4] = [
@@ -101,7 +101,7 @@ fn a_longer_parallelogram_and_a_longer_offset() {
     };
     // All bars of leg y are shorter by 1 mm: as the slide moved by -1 mm at the place where they lie
     // along it.
-    let posture_of = |m: &Model, f: &dyn Fn(&Posture<'_>)| {
+    let posture_of = |m: &Model, f: &dyn Fn(&Posture)| {
         let posture = m.mechanism.posture(&Pose::identity()).expect("posture");
         f(&posture);
     };

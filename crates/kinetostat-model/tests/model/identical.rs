@@ -1,7 +1,7 @@
 //! The answers of a batch are the same bits from any number of threads and in calls of any size.
 
 use kinetostat::batch::{Batch, Status};
-use kinetostat::{Mechanism, Pose, Twist, Wrench, moved};
+use kinetostat::{Mechanism, Pose, Twist, Wrench, spatial::moved};
 use kinetostat_model::Model;
 use nalgebra::{Vector3, Vector6};
 
@@ -38,13 +38,13 @@ fn wrenches(count: usize) -> Vec<Wrench> {
 #[derive(Debug, PartialEq)]
 struct Bits(Vec<Vec<u64>>, Vec<Status>);
 
-fn unloaded(batch: &Batch<'_>, poses: &[Pose]) -> Bits {
+fn unloaded(batch: &Batch, poses: &[Pose]) -> Bits {
     let all = batch.stiffness(poses);
     let row = |i| all.stiffness.row(i).map(f64::to_bits).collect();
     Bits((0..poses.len()).map(row).collect(), all.status)
 }
 
-fn loaded(batch: &Batch<'_>, poses: &[Pose], wrenches: &[Wrench]) -> Bits {
+fn loaded(batch: &Batch, poses: &[Pose], wrenches: &[Wrench]) -> Bits {
     let all = batch
         .equilibrium(poses, wrenches, true)
         .expect("as many wrenches as poses");

@@ -1,8 +1,9 @@
 //! Loads and links of a model file are those that the core builds from the same numbers in SI.
 
 use kinetostat::{
-    Anchor, BeamSection, LengthLaw, LinkConvention, LinkSpec, Load, MechanismEquilibrium,
-    PlatformLoad, Pose, SpringLaw, Wrench,
+    Anchor, BeamSection, LengthLaw, LinkSpec, Load, MechanismEquilibrium, PlatformLoad, Pose,
+    Wrench,
+    model::{LinkConvention, SpringLaw},
 };
 use kinetostat_model::{Model, preset_text};
 use kinetostat_testing::LargestEntry;

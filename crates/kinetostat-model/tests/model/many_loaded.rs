@@ -3,7 +3,9 @@
 
 use kinetostat::batch::{Batch, BatchEquilibrium, Status};
 use kinetostat::{
-    Mechanism, MechanismEquilibrium, Pose, Twist, Wrench, moved, pose_residual, target_under_load,
+    Directions, Mechanism, MechanismEquilibrium, Pose, Twist, Wrench,
+    compensation::target_under_load,
+    spatial::{moved, pose_residual},
 };
 use kinetostat_model::{Model, preset_names};
 use kinetostat_testing::{LargestEntry, Worst, largest_size};
@@ -189,7 +191,7 @@ fn every_preset_is_compensated_the_same_alone_and_together() {
         let mechanism = &model.mechanism;
         let batch = Batch::new(mechanism);
         let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
-        for directions in [[true, true, true, false, false, false], [true; 6]] {
+        for directions in [Directions::POSITION, Directions::ALL] {
             let all = batch
                 .targets_under_load(&poses, &wrenches, directions)
                 .expect("sizes");

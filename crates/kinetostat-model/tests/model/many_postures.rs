@@ -1,7 +1,7 @@
 //! Every preset, many postures at once against the general engine posture by posture.
 
 use kinetostat::batch::{Batch, Status};
-use kinetostat::{Mechanism, Pose, Twist, Wrench, moved};
+use kinetostat::{Mechanism, Pose, Twist, Wrench, spatial::moved};
 use kinetostat_model::{Model, preset_names};
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{Matrix6, Vector3, Vector6};

@@ -1,6 +1,9 @@
 //! Every preset loads, and gives the numbers of its source.
 
-use kinetostat::{Element, Pose, SpringLaw, Wrench};
+use kinetostat::{
+    Pose, Wrench,
+    model::{Element, SpringLaw},
+};
 use kinetostat_model::{Model, preset_names, preset_text, schema};
 use kinetostat_testing::{LargestEntry, largest_size};
 use nalgebra::{Matrix6, Translation3, UnitQuaternion, Vector3};

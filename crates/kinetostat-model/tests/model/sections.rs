@@ -2,8 +2,8 @@
 //! `kinetostat-links` (tested against closed forms) gives for the same numbers.
 
 use kinetostat::{
-    ChainProblem, CurveSettings, EndCondition, Judged, LoadPattern, Pose, Prescribed, Wrench,
-    critical_load_factor,
+    ChainProblem, CurveSettings, EndCondition, Pose, Prescribed, Wrench, continuation::LoadPattern,
+    critical_load_factor, equilibrium::Judged,
 };
 use kinetostat_links::{Shape, Shear, cantilever, in_n_mm};
 use kinetostat_model::Model;

@@ -1,6 +1,9 @@
 //! One limb as bars and joints, traced along the elements of its chain.
 
-use kinetostat::{Chain, Element, Motion, MotionKind, Pose, Role, SpringLaw};
+use kinetostat::{
+    Chain, MotionKind, Pose,
+    model::{Element, Motion, Role, SpringLaw},
+};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::drawing::parts::{Bar, BarKind, Blob, BlobKind, Ground, Scene};

@@ -1,6 +1,6 @@
 //! What there is to draw, in space: bars, joints, plates and ground marks, in metres and base axes.
 
-use kinetostat::{Anchor, Kinematics, Load, Mechanism, PlatformLoad};
+use kinetostat::{Anchor, Load, Mechanism, PlatformLoad, model::Kinematics};
 use nalgebra::Vector3;
 
 use crate::drawing::Placed;

@@ -1,6 +1,6 @@
 //! Drawings of every preset: what is shown can be seen, and what moves stays together.
 
-use kinetostat::{Twist, Wrench, moved};
+use kinetostat::{Twist, Wrench, spatial::moved};
 use kinetostat_model::{Model, preset_names};
 use kinetostat_testing::Worst;
 use nalgebra::{Vector3, Vector6};
@@ -55,7 +55,7 @@ fn no_limb_of_a_preset_points_to_the_eye() {
 /// Where the first joint of a limb without lengths sits, base axes, m.
 fn limb_start(limb: &kinetostat::Limb, from: &kinetostat::Pose) -> Vector3<f64> {
     let home = limb.nominal.home_coordinates();
-    kinetostat::unloaded_tip(&limb.nominal, from, &home, &limb.nominal.home_commands())
+    kinetostat::model::unloaded_tip(&limb.nominal, from, &home, &limb.nominal.home_commands())
         .translation
         .vector
 }

@@ -3,7 +3,7 @@
 
 use crate::common::letters::bold_width;
 
-use kinetostat::{Twist, Wrench, moved};
+use kinetostat::{Twist, Wrench, spatial::moved};
 use kinetostat_model::{Model, preset_names};
 use kinetostat_report::{Drawing, Magnified, Moved, Placed, View};
 use nalgebra::{Vector2, Vector3, Vector6};

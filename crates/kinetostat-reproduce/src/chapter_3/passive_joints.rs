@@ -1,9 +1,12 @@
 //! What passive joints do to the stiffness of a link: equation 3.26, Tables 3.1 to 3.3.
 
 use kinetostat::{
-    Axis, BeamSection, Chain, Error, MotionKind, Pose, planar_beam, planar_with_hinge_at_end,
-    planar_with_slide_along_x, planar_with_slide_along_y, unloaded_stiffness, with_hinge_at_end,
-    with_hinge_at_root, with_slide,
+    BeamSection, Chain, Error, MotionKind, Pose,
+    reference::{
+        Axis, planar_beam, planar_with_hinge_at_end, planar_with_slide_along_x,
+        planar_with_slide_along_y, with_hinge_at_end, with_hinge_at_root, with_slide,
+    },
+    unloaded_stiffness,
 };
 use nalgebra::{Matrix3, Matrix6, Vector3};
 

@@ -53,14 +53,10 @@ fn stiffness(angles: &[(f64, f64); 6]) -> Result<UnloadedStiffness, Cause> {
             .actuator("slide", drive)
             .passive_spherical("head")
             .build()?;
-        builder = builder.limb(Limb {
-            name: format!("leg {}", i + 1),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::translation(a.x, a.y, a.z),
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(
+            Limb::between(format!("leg {}", i + 1), 0, tool, chain)
+                .fixed_at(Pose::translation(a.x, a.y, a.z)),
+        );
     }
     Ok(builder.build()?.posture(&home)?.stiffness()?)
 }

@@ -1,7 +1,7 @@
 //! Tables 4.1 and 4.2: the printed Jacobians and Hessians of the two-link chains, entry by entry, at
 //! a posture without symmetry.
 
-use kinetostat::{Chain, Error, Kinematics, Pose, Wrench};
+use kinetostat::{Chain, Error, Pose, Wrench, model::Kinematics};
 use nalgebra::{DMatrix, Matrix6xX, Vector3, vector};
 
 use crate::shared::models::{ALPHA0, elastic_links_of, rigid_links_of};

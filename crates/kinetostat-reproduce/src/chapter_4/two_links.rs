@@ -2,8 +2,11 @@
 //! Figure 4.3, Table 5.2, equations 4.31, 4.32 and the numbers of the text.
 
 use kinetostat::{
-    Chain, ChainProblem, CurveSettings, Curves, Equilibrium, Prescribed, Settings, SpecialKind,
-    follow, shape_criterion, solve_chain,
+    Chain, ChainProblem, CurveSettings, Equilibrium, Prescribed, Settings,
+    continuation::{Curves, SpecialKind},
+    follow,
+    reference::shape_criterion,
+    solve_chain,
 };
 use kinetostat_report::{Plot, PlotMark};
 
@@ -285,8 +288,9 @@ fn plots(chain: &Chain) -> Result<Vec<Plot>, Cause> {
     ];
     for (colour, (g, name)) in columns.into_iter().enumerate() {
         let c = curve(chain, g, true)?;
-        let at =
-            |p: &kinetostat::CurvePoint| (p.equilibrium.tip.translation.x - at_rest(), p.conjugate);
+        let at = |p: &kinetostat::continuation::CurvePoint| {
+            (p.equilibrium.tip.translation.x - at_rest(), p.conjugate)
+        };
         let drawn = Drawn {
             name,
             colour,
@@ -297,7 +301,7 @@ fn plots(chain: &Chain) -> Result<Vec<Plot>, Cause> {
         force
             .marks
             .extend(marks(&c, &drawn, |k| k == SpecialKind::LoadLimit));
-        let slope = |p: &kinetostat::CurvePoint| {
+        let slope = |p: &kinetostat::continuation::CurvePoint| {
             let shown = if p.slope.abs() < 40.0 {
                 p.slope
             } else {

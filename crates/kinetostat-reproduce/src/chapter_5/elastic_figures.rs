@@ -2,8 +2,11 @@
 //! 4.4 and 4.5. The report prints no numbers of them.
 
 use kinetostat::{
-    Bounds, Chain, ChainProblem, CurvePoint, CurveSettings, Curves, Equilibria, Equilibrium, Load,
-    SearchSettings, Settings, SpecialKind, Wrench, equilibria, follow, solve_chain,
+    Chain, ChainProblem, CurveSettings, Equilibrium, Load, Settings, Wrench,
+    continuation::{CurvePoint, Curves, SpecialKind},
+    equilibria,
+    equilibrium::{Bounds, Equilibria, SearchSettings},
+    follow, solve_chain,
 };
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::{Vector3, vector};
@@ -164,7 +167,8 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
             .iter()
             .filter(|f| !f.stable)
             .min_by(|a, b| {
-                let of = |f: &kinetostat::FoundEquilibrium| node_y(&f.equilibrium).abs();
+                let of =
+                    |f: &kinetostat::equilibrium::FoundEquilibrium| node_y(&f.equilibrium).abs();
                 of(a).total_cmp(&of(b))
             })
             .map(|f| f.equilibrium.clone());
@@ -178,7 +182,7 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
         .specials
         .iter()
         .min_by(|a, b| {
-            let away = |s: &kinetostat::Special| s.point.parameter.abs();
+            let away = |s: &kinetostat::continuation::Special| s.point.parameter.abs();
             away(a).total_cmp(&away(b))
         })
         .ok_or_else(|| missing("the limit point of the flat chain"))?;
@@ -272,7 +276,8 @@ pub(crate) fn fig_4_5() -> Result<Contents, Cause> {
                 "Upper end of the estimate, at 95 %.",
             ));
             // From the upper shape down.
-            let mut shapes: Vec<&kinetostat::FoundEquilibrium> = found.found.iter().collect();
+            let mut shapes: Vec<&kinetostat::equilibrium::FoundEquilibrium> =
+                found.found.iter().collect();
             shapes.sort_by(|a, b| node_y(&b.equilibrium).total_cmp(&node_y(&a.equilibrium)));
             for (k, f) in shapes.iter().enumerate() {
                 let e = &f.equilibrium;

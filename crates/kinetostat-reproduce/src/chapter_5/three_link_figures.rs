@@ -1,8 +1,13 @@
 //! Figures 5.5 to 5.8: energy, shapes and curves of the three-link chains.
 
 use kinetostat::{
-    Chain, CurveSettings, Curves, EndCondition, Judged, Kinematics, LoadPattern, MotionKind, Pose,
-    Prescribed, Settings, SpecialKind, Wrench, critical_load_factor, follow, solve_chain,
+    Chain, CurveSettings, EndCondition, MotionKind, Pose, Prescribed, Settings, Wrench,
+    continuation::{Curves, LoadPattern, SpecialKind},
+    critical_load_factor,
+    equilibrium::Judged,
+    follow,
+    model::Kinematics,
+    solve_chain,
 };
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use nalgebra::{Vector3, vector};

@@ -2,8 +2,12 @@
 //! 5.1, equations 5.32 to 5.34, 5.41 and 5.42.
 
 use kinetostat::{
-    Bounds, Chain, ChainProblem, DirectionKind, EndCondition, Equilibria, Equilibrium, Kinematics,
-    Pose, Prescribed, SearchSettings, Settings, Wrench, equilibria, shape_criterion, solve_chain,
+    Chain, ChainProblem, DirectionKind, EndCondition, Equilibrium, Pose, Prescribed, Settings,
+    Wrench, equilibria,
+    equilibrium::{Bounds, Equilibria, SearchSettings},
+    model::Kinematics,
+    reference::shape_criterion,
+    solve_chain,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -49,7 +53,7 @@ pub(crate) fn shape(problem: &ChainProblem<'_>, e: &Equilibrium) -> Result<Shape
 pub(crate) fn shapes(chain: &Chain, x: f64) -> Result<Vec<Shape>, Cause> {
     let problem = displacement_controlled(chain, x);
     let all = all(chain, x)?;
-    let one = |f: &kinetostat::FoundEquilibrium| shape(&problem, &f.equilibrium);
+    let one = |f: &kinetostat::equilibrium::FoundEquilibrium| shape(&problem, &f.equilibrium);
     all.found.iter().map(one).collect()
 }
 

@@ -3,7 +3,7 @@
 
 use kinetostat::{
     Chain, ChainProblem, CurveSettings, EndCondition, MotionKind, Parameter, Pose, Prescribed,
-    Settings, SpecialKind, Twist, follow, solve_chain,
+    Settings, Twist, continuation::SpecialKind, follow, solve_chain,
 };
 use kinetostat_report::Plot;
 use nalgebra::{Vector3, vector};

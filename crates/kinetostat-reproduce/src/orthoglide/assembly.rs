@@ -1,7 +1,8 @@
 //! Tables 6.1 and 6.2: legs with errors, assembled without a load [R 6.5.1].
 
 use kinetostat::{
-    LinearAssembly, Mechanism, MechanismEquilibrium, MotionKind, Posture, Role, Wrench,
+    Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench, machine::LinearAssembly,
+    model::Role,
 };
 
 use crate::orthoglide::machine::{Orthoglide, POINTS, inclination, target};
@@ -25,7 +26,7 @@ fn most(values: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// Largest spring deflections and torques over the legs; torques by each leg's own stiffness.
-fn springs(row: &mut Row, posture: &Posture<'_>, deflections: &[Vec<f64>]) {
+fn springs(row: &mut Row, posture: &Posture, deflections: &[Vec<f64>]) {
     for ((limb, joints), deflections) in posture
         .mechanism()
         .limbs()
@@ -63,7 +64,7 @@ fn springs(row: &mut Row, posture: &Posture<'_>, deflections: &[Vec<f64>]) {
 }
 
 /// To first order [R 6.15-6.20].
-fn linear(posture: &Posture<'_>, own: &Posture<'_>) -> Result<Row, Cause> {
+fn linear(posture: &Posture, own: &Posture) -> Result<Row, Cause> {
     let LinearAssembly {
         shift,
         wrenches,
@@ -83,7 +84,7 @@ fn linear(posture: &Posture<'_>, own: &Posture<'_>) -> Result<Row, Cause> {
 }
 
 /// Exactly: the equilibrium of the legs as they are.
-fn exact(posture: &Posture<'_>) -> Result<(Row, MechanismEquilibrium), Cause> {
+fn exact(posture: &Posture) -> Result<(Row, MechanismEquilibrium), Cause> {
     let e = posture.deflected_by(&Wrench::zero())?;
     let legs = e
         .limbs
@@ -270,7 +271,7 @@ fn cells(row: &Row, printed: &Printed) -> Vec<(String, &'static str, f64, &'stat
 
 /// All legs with the matrix that the parallelogram of leg 1 has in this posture: what the report's
 /// program did (see the note of the rows).
-fn with_matrices_of_leg_1(own: &Posture<'_>) -> Result<Mechanism, Cause> {
+fn with_matrices_of_leg_1(own: &Posture) -> Result<Mechanism, Cause> {
     Orthoglide {
         matrix_at: Some(inclination(own, 0)),
         ..Orthoglide::case_b()

@@ -2,8 +2,9 @@
 //! convention of choice. Its parallelograms close as loops of the graph.
 
 use kinetostat::{
-    Chain, Limb, LimbPosture, LinkConvention, LinkSpec, Mechanism, MotionKind, Platform, Pose,
-    Posture, Role,
+    Chain, Limb, LinkSpec, Mechanism, MotionKind, Platform, Pose, Posture,
+    machine::LimbPosture,
+    model::{LinkConvention, Role},
 };
 use nalgebra::{Vector3, vector};
 
@@ -110,7 +111,7 @@ impl Barred {
     }
 
     /// Commanded for its target.
-    pub(super) fn posture(&self) -> Result<Posture<'_>, Cause> {
+    pub(super) fn posture(&self) -> Result<Posture, Cause> {
         Ok(self
             .mechanism
             .posture_from_joints(&self.target, self.joints.clone())?)

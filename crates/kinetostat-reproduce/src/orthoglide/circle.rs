@@ -1,7 +1,9 @@
 //! A groove milled in a circle, compensated [R 7.5]: the machine, the circle and the load at every
 //! angle, and what the report's figures show of it.
 
-use kinetostat::{Mechanism, Pose, Settings, Wrench, compensate, pose_residual};
+use kinetostat::{
+    Directions, Mechanism, Pose, Settings, Wrench, compensate, spatial::pose_residual,
+};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -13,7 +15,7 @@ use crate::orthoglide::machine::{Orthoglide, cutting, target};
 const POINTS: u32 = 72;
 
 /// Directions that are compensated: three drives move the tool in three directions.
-pub(super) const POSITION: [bool; 6] = [true, true, true, false, false, false];
+pub(super) const POSITION: Directions = Directions::POSITION;
 
 /// How chapter 7 is read: it leaves the stiffness of the drives and the place of the circles open.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Table 5.3 and Figure 5.11: the neighbourhood of the flat posture [R 5.5.3].
 
-use kinetostat::LinkConvention;
+use kinetostat::model::LinkConvention;
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use rayon::prelude::*;

@@ -5,8 +5,10 @@
 //! here again because the entries need machines that a model file cannot say.
 
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, ChainBuilder, Limb, Mechanism, MotionKind, ParallelogramLaw,
-    Platform, Pose, Posture, Role, SpringLaw, Wrench, turn_matrix,
+    ActuatorSpec, BeamSection, Chain, ChainBuilder, Limb, Mechanism, MotionKind, Platform, Pose,
+    Posture, Wrench,
+    model::{ParallelogramLaw, Role, SpringLaw},
+    spatial::turn_matrix,
 };
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
@@ -89,14 +91,15 @@ impl Orthoglide {
         let mut builder = Mechanism::builder("orthoglide");
         let tool = builder.platform(Platform::new("tool", Pose::identity()));
         for leg in 0..3 {
-            builder = builder.limb(Limb {
-                name: format!("leg {}", ["x", "y", "z"][leg]),
-                from: 0,
-                to: tool,
-                platform_from_tip: Pose::identity(),
-                nominal: self.leg(leg, false)?,
-                actual: self.leg(leg, true)?,
-            });
+            builder = builder.limb(
+                Limb::between(
+                    format!("leg {}", ["x", "y", "z"][leg]),
+                    0,
+                    tool,
+                    self.leg(leg, false)?,
+                )
+                .with_actual(self.leg(leg, true)?),
+            );
         }
         Ok(builder.build()?)
     }
@@ -215,7 +218,7 @@ pub(super) fn cutting(angle: f64) -> Wrench {
 }
 
 /// Inclination of the parallelogram of a leg in a posture, rad.
-pub(super) fn inclination(posture: &Posture<'_>, leg: usize) -> f64 {
+pub(super) fn inclination(posture: &Posture, leg: usize) -> f64 {
     let joints = posture.mechanism().limbs()[leg]
         .nominal
         .indices_of(Role::Passive);

@@ -2,8 +2,12 @@
 //! flat posture ("outside", negative) and away from it ("inside", positive).
 
 use kinetostat::{
-    ChainProblem, CurveSettings, EndCondition, IterationSettings, LinkConvention, Mechanism,
-    Parameter, Posture, Role, Settings, SpecialKind, Twist, follow, report_iteration, solve_chain,
+    ChainProblem, CurveSettings, EndCondition, Mechanism, Parameter, Posture, Settings, Twist,
+    continuation::SpecialKind,
+    follow,
+    model::{LinkConvention, Role},
+    reference::{IterationSettings, report_iteration},
+    solve_chain,
 };
 use nalgebra::Vector3;
 
@@ -56,7 +60,7 @@ impl Curve {
         settings.largest_change = Some(step * 1e-3);
         settings.points = 2000;
         let curves = follow(&problem, &parameter, &start, 0.0, &settings)?;
-        let place = |p: &kinetostat::CurvePoint| Place {
+        let place = |p: &kinetostat::continuation::CurvePoint| Place {
             moved: p.parameter * 1e3,
             force: 3.0 * p.conjugate * 1e-3,
             slope: 3.0 * p.slope * 1e-3,
@@ -134,7 +138,7 @@ impl Curve {
 }
 
 /// The first leg of a commanded machine with its end held at a place (m), not turned.
-fn first_leg<'m>(posture: &Posture<'m>, place: Vector3<f64>) -> Result<ChainProblem<'m>, Cause> {
+fn first_leg(posture: &Posture, place: Vector3<f64>) -> Result<ChainProblem<'_>, Cause> {
     let limb = posture.mechanism().limbs().first();
     let (limb, joints) = limb
         .zip(posture.limbs().first())
@@ -230,7 +234,7 @@ impl Bars {
 }
 
 /// A posture held at a displacement (mm) along the diagonal from `(at, at, at)` m, not turned.
-pub(super) fn hold(posture: &Posture<'_>, at: f64, moved: f64) -> Result<Place, Cause> {
+pub(super) fn hold(posture: &Posture, at: f64, moved: f64) -> Result<Place, Cause> {
     let place = Vector3::repeat(at) + diagonal() * (moved * 1e-3);
     let e = posture.wrench_at(&target(place.into()))?;
     let stiffness = e.stiffness.matrix.fixed_view::<3, 3>(0, 0).into_owned();

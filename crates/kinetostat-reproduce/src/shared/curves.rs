@@ -1,6 +1,6 @@
 //! Curves of equilibria as lines of a plot, and their special points as marks and numbers.
 
-use kinetostat::{CurvePoint, Curves, Special, SpecialKind};
+use kinetostat::continuation::{CurvePoint, Curves, Special, SpecialKind};
 use kinetostat_report::{PlotLine, PlotMark};
 
 /// How a curve is drawn.

@@ -68,7 +68,7 @@ pub enum Asked {
 
 /// The chain with a load or motion of its end by some hundredths of its length.
 pub fn problem(chain: &Chain, asked: Asked) -> ChainProblem<'_> {
-    let start = kinetostat::unloaded_tip(
+    let start = kinetostat::model::unloaded_tip(
         chain,
         &Pose::identity(),
         &chain.home_coordinates(),

@@ -31,14 +31,7 @@ pub fn leg(
         chain = chain.actuator("slide", drive);
     }
     let chain = chain.passive_spherical("s").build()?;
-    Ok(Limb {
-        name: name.into(),
-        from,
-        to,
-        platform_from_tip: Pose::translation(above.x, above.y, above.z),
-        nominal: chain.clone(),
-        actual: chain,
-    })
+    Ok(Limb::between(name, from, to, chain).fixed_at(Pose::translation(above.x, above.y, above.z)))
 }
 
 /// Points of leg `i` of six on circles of two radii.

@@ -13,6 +13,7 @@ use super::lanes::Lanes;
 use super::machine::Machine;
 use super::reach::Target;
 use super::vectors::{minus, select, turn_between, turned};
+use crate::spatial::Directions;
 
 /// Equilibria after which a lane is given up.
 pub(super) const MOST_ROUNDS: usize = 12;
@@ -28,7 +29,7 @@ impl<S: Simd> Machine<'_, S> {
         &mut self,
         simd: S,
         aim: &Target<S>,
-        directions: &[bool; 6],
+        directions: Directions,
         good: Lanes<S>,
     ) -> Lanes<S> {
         apart!(simd, {

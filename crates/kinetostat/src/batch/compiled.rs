@@ -7,7 +7,7 @@ use super::plan::Plan;
 use super::run::Work;
 use super::status::{Engine, Status};
 use super::table::BLOCK;
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::posture::Posture;
 use crate::model::chain::Chain;
@@ -19,19 +19,19 @@ pub(super) const BLOCKS: usize = 32;
 
 /// A machine compiled for many postures.
 #[derive(Clone, Debug)]
-pub struct Batch<'m> {
-    pub(super) mechanism: &'m Mechanism,
+pub struct Batch {
+    pub(super) mechanism: Mechanism,
     /// Of every limb as drawn (unloaded) and as it is (loaded), or why there are none.
     pub(super) nominal: std::result::Result<Vec<Plan>, String>,
     pub(super) actual: std::result::Result<Vec<Plan>, String>,
 }
 
-impl<'m> Batch<'m> {
+impl Batch {
     /// Compiles a machine.
     #[must_use]
-    pub fn new(mechanism: &'m Mechanism) -> Self {
+    pub fn new(mechanism: &Mechanism) -> Self {
         Self {
-            mechanism,
+            mechanism: mechanism.clone(),
             nominal: compiled(mechanism, |limb| &limb.nominal),
             actual: unburdened(mechanism).and_then(|()| compiled(mechanism, |limb| &limb.actual)),
         }
@@ -50,7 +50,7 @@ impl<'m> Batch<'m> {
     }
 
     pub(super) fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
-        let place = || format!("mechanism '{}'", self.mechanism.name());
+        let place = || Place::mechanism(self.mechanism.name());
         let limbs = self.mechanism.limbs();
         let serial = limbs.len() == 1
             && limbs[0]
@@ -81,7 +81,7 @@ impl<'m> Batch<'m> {
         limbs.map(|l| l.nominal.actuators().len()).sum()
     }
 
-    pub(super) fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture<'m>> {
+    pub(super) fn posture(&self, places: &Places<'_>, i: usize) -> Result<Posture> {
         match places {
             Places::Poses(poses) => self.mechanism.posture(&poses[i]),
             Places::Joints { commands, each } => {

@@ -12,9 +12,10 @@ use super::{Batch, Status};
 use crate::chain::sweep::stages::Path;
 use crate::equilibrium::chain::solve_along;
 use crate::{
-    ActuatorSpec, BeamSection, BilinearLaw, Chain, ChainBuilder, ChainProblem, EndCondition, Limb,
-    LimbPosture, LinkConvention, LinkSpec, Mechanism, MotionKind, Platform, Pose, Settings,
-    SpringLaw, Wrench, unloaded_tip,
+    ActuatorSpec, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Limb, LinkSpec,
+    Mechanism, MotionKind, Platform, Pose, Settings, Wrench,
+    machine::LimbPosture,
+    model::{BilinearLaw, LinkConvention, SpringLaw, unloaded_tip},
 };
 
 /// Where a machine comes to rest, and how it is held there.
@@ -406,14 +407,7 @@ fn sliders(law: usize) -> Mechanism {
             .rigid(turned.inverse())
             .build()
             .expect("a leg");
-        builder = builder.limb(Limb {
-            name: format!("leg {i}"),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::identity(),
-            nominal: leg.clone(),
-            actual: leg,
-        });
+        builder = builder.limb(Limb::between(format!("leg {i}"), 0, tool, leg));
     }
     builder.build().expect("a machine")
 }

@@ -9,12 +9,12 @@ use super::status::{Engine, Status};
 use super::table::{BLOCK, Table};
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
 use crate::model::mechanism::Mechanism;
-use crate::spatial::{Pose, Wrench};
+use crate::spatial::{Directions, Pose, Wrench};
 
 /// Loaded equilibrium of many postures.
 #[derive(Clone, Debug, Default)]
@@ -91,7 +91,7 @@ impl BatchEquilibrium {
     }
 
     /// Room for so many postures; old numbers stay until they are written over.
-    fn reset(&mut self, batch: &Batch<'_>, query: Query, count: usize) {
+    fn reset(&mut self, batch: &Batch, query: Query, count: usize) {
         let limbs = batch.mechanism.limbs();
         let coordinates = limbs.iter().map(|l| l.actual.coordinate_count()).sum();
         let commands = limbs.iter().map(|l| l.actual.actuators().len()).sum();
@@ -163,7 +163,7 @@ impl BatchEquilibrium {
 }
 
 impl Scalar {
-    fn resting(posture: &Posture<'_>, state: &MechanismState) -> Self {
+    fn resting(posture: &Posture, state: &MechanismState) -> Self {
         let mechanism = posture.mechanism();
         Self {
             target: *posture.target(),
@@ -176,7 +176,7 @@ impl Scalar {
         }
     }
 
-    fn judged(posture: &Posture<'_>, found: &MechanismEquilibrium) -> Self {
+    fn judged(posture: &Posture, found: &MechanismEquilibrium) -> Self {
         let matrix = &found.stiffness.matrix;
         Self {
             target: *posture.target(),
@@ -195,7 +195,7 @@ impl Scalar {
 }
 
 /// Forces of the loads on the actuators at a state.
-fn forces(posture: &Posture<'_>, state: &MechanismState) -> Vec<f64> {
+fn forces(posture: &Posture, state: &MechanismState) -> Vec<f64> {
     let mechanism = posture.mechanism();
     let limbs = mechanism.limbs().iter().enumerate();
     let own = limbs.flat_map(|(i, limb)| {
@@ -219,7 +219,7 @@ fn forces(posture: &Posture<'_>, state: &MechanismState) -> Vec<f64> {
     own.collect()
 }
 
-impl<'m> Batch<'m> {
+impl Batch {
     /// Equilibrium of the machine as it is, its tool commanded to `poses` and loaded by `wrenches`
     /// (one of each per posture; base axes, about the tool's origin), with the tangent stiffness if
     /// asked for.
@@ -305,7 +305,7 @@ impl<'m> Batch<'m> {
         &self,
         poses: &[Pose],
         wrenches: &[Wrench],
-        directions: [bool; 6],
+        directions: Directions,
     ) -> Result<BatchTargets> {
         let places = Places::Poses(poses);
         self.as_many(&places, wrenches)?;
@@ -314,7 +314,7 @@ impl<'m> Batch<'m> {
         let mut table = Table::default();
         table.reset(12, poses.len());
         // Rotations about some axes only do not add up: what they lead to depends on the way there.
-        if directions[3..].iter().all(|d| *d == directions[3]) {
+        if (3..6).all(|k| directions[k] == directions[3]) {
             let wanted = Some(directions);
             self.vectorised(&places, wrenches, wanted, &mut equilibrium, &mut table);
         }
@@ -361,7 +361,7 @@ impl<'m> Batch<'m> {
         &self,
         places: &Places<'_>,
         wrenches: &[Wrench],
-        directions: Option<[bool; 6]>,
+        directions: Option<Directions>,
         out: &mut BatchEquilibrium,
         targets: &mut Table,
     ) {
@@ -419,7 +419,7 @@ impl<'m> Batch<'m> {
             return Ok(());
         }
         Err(Error::Size {
-            place: format!("mechanism '{}'", self.mechanism.name()),
+            place: Place::mechanism(self.mechanism.name()),
             what: "wrenches",
             expected: places.len(),
             found: wrenches.len(),

@@ -38,7 +38,7 @@ use crate::model::mechanism::Mechanism;
 pub fn over_machines<T: Send>(
     count: usize,
     machine: impl Fn(usize) -> Result<Mechanism> + Sync,
-    ask: impl Fn(usize, &Batch<'_>) -> Result<T> + Sync,
+    ask: impl Fn(usize, &Batch) -> Result<T> + Sync,
 ) -> Vec<Result<T>> {
     (0..count)
         .into_par_iter()

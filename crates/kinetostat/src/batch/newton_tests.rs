@@ -6,7 +6,7 @@ use super::group::Places;
 use super::*;
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Wrench};
-use crate::{ActuatorSpec, BeamSection, Chain, Kinematics, MotionKind};
+use crate::{ActuatorSpec, BeamSection, Chain, MotionKind, model::Kinematics};
 
 const EA: f64 = 1e6;
 

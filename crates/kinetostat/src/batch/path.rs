@@ -14,18 +14,18 @@ use super::equilibria::BatchEquilibrium;
 use super::status::{Engine, Status};
 use crate::model::chain::Role;
 use crate::model::mechanism::Mechanism;
-use crate::spatial::{MotionKind, Pose, Wrench};
+use crate::spatial::{Directions, MotionKind, Pose, Wrench};
 
 /// A machine whose postures lie along a path.
-pub struct AlongPath<'m> {
-    mechanism: &'m Mechanism,
-    batch: Option<Batch<'m>>,
+pub struct AlongPath {
+    mechanism: Mechanism,
+    batch: Option<Batch>,
     /// Kernels judge stability, too.
     judges: bool,
     length: f64,
 }
 
-impl<'m> AlongPath<'m> {
+impl AlongPath {
     /// A joint that moves farther than this between neighbours (rad, or share of the natural length) may
     /// be on another branch.
     pub const JUMP: f64 = 0.1;
@@ -34,7 +34,7 @@ impl<'m> AlongPath<'m> {
 
     /// Compiles a machine.
     #[must_use]
-    pub fn new(mechanism: &'m Mechanism) -> Self {
+    pub fn new(mechanism: &Mechanism) -> Self {
         let batch = Batch::new(mechanism);
         // A machine of the general engine gains nothing: it is solved from neighbour to neighbour at once.
         let batch = (batch.engine() == Engine::Vectorised).then_some(batch);
@@ -44,7 +44,7 @@ impl<'m> AlongPath<'m> {
             .as_ref()
             .and_then(|b| b.judged_equilibrium(&[home], &[Wrench::zero()]).ok());
         Self {
-            mechanism,
+            mechanism: mechanism.clone(),
             judges: judged.is_some_and(|j| j.status == [Status::Vectorised]),
             batch,
             length: mechanism.natural_length(),
@@ -54,9 +54,9 @@ impl<'m> AlongPath<'m> {
     /// A machine whose postures depend on their neighbours, because the tool's orientation follows: every question is
     /// answered by `None`.
     #[must_use]
-    pub fn by_neighbours(mechanism: &'m Mechanism) -> Self {
+    pub fn by_neighbours(mechanism: &Mechanism) -> Self {
         Self {
-            mechanism,
+            mechanism: mechanism.clone(),
             judges: false,
             batch: None,
             length: mechanism.natural_length(),
@@ -65,8 +65,8 @@ impl<'m> AlongPath<'m> {
 
     /// The machine.
     #[must_use]
-    pub fn mechanism(&self) -> &'m Mechanism {
-        self.mechanism
+    pub fn mechanism(&self) -> &Mechanism {
+        &self.mechanism
     }
 
     /// The poses to command so that the tool is at `poses` under `wrenches` in these directions (base axes
@@ -76,7 +76,7 @@ impl<'m> AlongPath<'m> {
         &self,
         poses: &[Pose],
         wrenches: &[Wrench],
-        directions: [bool; 6],
+        directions: Directions,
     ) -> Option<Vec<Pose>> {
         let batch = self.batch.as_ref()?;
         let found = batch.targets_under_load(poses, wrenches, directions).ok()?;
@@ -104,7 +104,7 @@ impl<'m> AlongPath<'m> {
     fn continued(&self, poses: &[Pose], found: &BatchEquilibrium) -> bool {
         let near = Self::NEAR * self.mechanism.size();
         (0..poses.len()).all(|i| {
-            if !found.status[i].is_solved() || found.outside_limits(self.mechanism, i) {
+            if !found.status[i].is_solved() || found.outside_limits(&self.mechanism, i) {
                 return false;
             }
             let place = |i: usize| poses[i].translation.vector;

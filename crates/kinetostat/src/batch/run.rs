@@ -13,7 +13,7 @@ use super::status::Status;
 use super::symmetric::Symmetric;
 use super::unloaded::ForwardPass;
 use super::vectors::{carried, constant};
-use crate::spatial::Wrench;
+use crate::spatial::{Directions, Wrench};
 
 /// What one thread does at a time: as many postures as `status` has places.
 pub(super) enum Work<'a> {
@@ -34,7 +34,7 @@ pub(super) enum Work<'a> {
         wrenches: &'a [Wrench],
         /// Directions in which the tool shall be at the places under load, if they are to be
         /// corrected.
-        directions: Option<[bool; 6]>,
+        directions: Option<Directions>,
         answers: Answers<'a>,
     },
 }
@@ -142,7 +142,7 @@ impl WithSimd for Work<'_> {
                         let Some(directions) = directions else {
                             break;
                         };
-                        let off = machine.correct(simd, &aim, &directions, good);
+                        let off = machine.correct(simd, &aim, directions, good);
                         rounds += 1;
                         if off.all_less(0.5) {
                             break;

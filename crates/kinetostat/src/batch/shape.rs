@@ -1,4 +1,4 @@
-//! Does a limb keep its shape while its end is held? The share to buckling of [`crate::ShapeStability`], several
+//! Does a limb keep its shape while its end is held? The share to buckling of [`crate::chain::ShapeStability`], several
 //! postures at once.
 //!
 //! Springs are counted in units in which their material stiffness is one, `C = M M^T`, so that the share

@@ -40,7 +40,7 @@ impl BatchStiffness {
     }
 }
 
-impl Batch<'_> {
+impl Batch {
     /// Stiffness of the unloaded machine as drawn with the tool at each of the poses.
     #[must_use]
     pub fn stiffness(&self, poses: &[Pose]) -> BatchStiffness {
@@ -138,7 +138,7 @@ impl Batch<'_> {
     }
 
     /// Jacobian of a serial machine as drawn, unloaded, at the tool's origin.
-    fn jacobian(&self, posture: &Posture<'_>) -> nalgebra::Matrix6xX<f64> {
+    fn jacobian(&self, posture: &Posture) -> nalgebra::Matrix6xX<f64> {
         let limb = &self.mechanism.limbs()[0];
         let (base, own) = (
             &self.mechanism.platforms()[limb.from].home,

@@ -10,10 +10,10 @@ use super::*;
 use crate::error::Error;
 use crate::model::kinematics::unloaded_tip;
 use crate::model::mechanism::Mechanism;
-use crate::spatial::Pose;
+use crate::spatial::{Directions, Pose};
 use crate::{
-    ActuatorSpec, BeamSection, BowingLaw, Chain, Limb, LogarithmLaw, MotionKind, Platform,
-    SpringLaw, Wrench,
+    ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench,
+    model::{BowingLaw, LogarithmLaw, SpringLaw},
 };
 
 /// Numbers between -1 and 1 with nothing special about them.
@@ -61,14 +61,13 @@ fn sliders() -> Mechanism {
                 .build()
                 .expect("a leg")
         };
-        builder = builder.limb(Limb {
-            name: format!("leg {i}"),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::identity(),
-            nominal: leg(0.0),
-            actual: leg(if i == 1 { 2e-4 } else { 0.0 }),
-        });
+        builder = builder.limb(
+            Limb::between(format!("leg {i}"), 0, tool, leg(0.0)).with_actual(leg(if i == 1 {
+                2e-4
+            } else {
+                0.0
+            })),
+        );
     }
     builder.build().expect("a machine")
 }
@@ -117,7 +116,7 @@ fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize)
     ];
     let mut found = [free.status, bent.status].concat();
     if joints.is_none() {
-        let directions = [true, true, true, false, false, false];
+        let directions = Directions::POSITION;
         let targets = batch.targets_under_load(&poses, &wrenches, directions);
         let targets = targets.expect("sizes").equilibrium;
         tables.extend([targets.tool, targets.coordinates, targets.commands]);
@@ -261,7 +260,7 @@ fn a_serial_arm_has_its_tangent() {
         assert!(same(&all.stiffness, &alone.stiffness.matrix) < 1e-12);
         let unloaded = posture.stiffness().expect("a stiffness");
         assert!(same(&free.stiffness, &unloaded.cartesian.matrix) < 1e-12);
-        let at = crate::Kinematics::new(
+        let at = crate::model::Kinematics::new(
             &machine.limbs()[0].nominal,
             &Pose::identity(),
             &[0.0; 21],
@@ -313,7 +312,7 @@ fn machines_do_not_matter_to_each_other() {
     // Every arm is a little softer than the one before; one of them is none.
     let machine = |i: usize| {
         if i == 7 {
-            return Err(Error::model("machine 7", "is left out"));
+            return Err(Error::model(crate::Place::mechanism("7"), "is left out"));
         }
         let drive = ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), 2e5 - 1e3 * i as f64);
         let chain = Chain::builder("arm")
@@ -323,7 +322,7 @@ fn machines_do_not_matter_to_each_other() {
             .build()?;
         Mechanism::serial(chain, Pose::identity(), Vector3::zeros())
     };
-    let ask = |_: usize, batch: &Batch<'_>| {
+    let ask = |_: usize, batch: &Batch| {
         let commands: Vec<f64> = (0..5).map(irregular).collect();
         let found = batch.stiffness_at_joints(&commands, false)?;
         Ok(found.stiffness.row(3).collect::<Vec<_>>())

@@ -30,3 +30,15 @@ pub(crate) mod stability;
 pub(crate) mod stiffness;
 pub(crate) mod sweep;
 pub(crate) mod system;
+
+pub use compliance::CartesianCompliance;
+pub use directions::{Direction, DirectionKind, Share};
+pub use equilibrium::Equilibrium;
+pub use found_by::FoundBy;
+pub use graded::{uneven_in_words, uneven_springs_in_words};
+pub use link_load::{LinkLoad, link_loads};
+pub use potential::{is_conservative, load_energy};
+pub use problem::{ChainProblem, EndCondition, Prescribed};
+pub use residual::Residual;
+pub use stability::{ShapeStability, ShapeVerdict};
+pub use stiffness::{ChainStiffness, unloaded_stiffness};

@@ -3,10 +3,10 @@
 use nalgebra::{Rotation3, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
-use crate::model::limits::sensible;
+use crate::model::limits::check_number;
 use crate::model::loads::check::check_load;
 use crate::model::loads::load::Load;
 use crate::spatial::{Pose, Wrench};
@@ -15,7 +15,7 @@ use crate::spatial::{Pose, Wrench};
 /// every tangent.
 pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
     let (chain, base) = (problem.chain, &problem.base);
-    let place = format!("chain '{}'", chain.name());
+    let place = Place::chain(chain.name());
     let end = &problem.end;
     let of_pose = |pose: &Pose| {
         let (p, r) = (pose.translation.vector, pose.rotation.coords);
@@ -29,7 +29,7 @@ pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
     ];
     for (what, numbers) in checked {
         for &value in numbers {
-            sensible(&place, || format!("the {what}"), value)?;
+            check_number(&place, || format!("the {what}"), value)?;
         }
     }
     let (x, commands) = (&problem.posture, &problem.commands);
@@ -132,7 +132,7 @@ pub(crate) fn check_problem(problem: &ChainProblem<'_>) -> Result<()> {
         .chain(problem.end.pose.translation.vector.iter());
     if let Some(value) = numbers.copied().find(|v| !v.is_finite()) {
         return Err(Error::NotFinite {
-            place: format!("chain '{}'", chain.name()),
+            place: Place::chain(chain.name()),
             what: "the end condition".into(),
             value,
         });
@@ -145,7 +145,7 @@ pub(crate) fn check_numbers(
     what: &str,
     v: &Vector6<f64>,
 ) -> Result<()> {
-    let place = format!("chain '{}'", problem.chain.name());
+    let place = Place::chain(problem.chain.name());
     let mut numbers = v.iter();
-    numbers.try_for_each(|x| sensible(&place, || what.to_owned(), *x))
+    numbers.try_for_each(|x| check_number(&place, || what.to_owned(), *x))
 }

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 use crate::chain::directions::axis_in_words;
 use crate::chain::residual::Residual;
 use crate::compensation::target::Compensation;
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::machine::equilibrium::conclude;
 use crate::machine::inverse::limb::wrap;
 use crate::machine::platforms::solver::PlatformSolver;
@@ -57,9 +57,9 @@ fn nearest(rows: &DMatrix<f64>, wanted: &DVector<f64>) -> Option<(DVector<f64>, 
 
 /// Normal of the surface that the tool's reference point moves in, of a machine that has no third direction
 /// anywhere: neither where it stands nor beside home, which may be singular.
-fn surface_normal(at: &Posture<'_>) -> Option<Vector3<f64>> {
-    let mechanism = at.mechanism;
-    let home = mechanism.posture(&mechanism.platforms[mechanism.tool].home);
+fn surface_normal(at: &Posture) -> Option<Vector3<f64>> {
+    let mechanism = at.mechanism.clone();
+    let home = mechanism.posture(&mechanism.platforms()[mechanism.tool()].home);
     let home = home.ok()?;
     let mut beside = Search::new(&home);
     beside.beside(0.05, 0)?;
@@ -81,7 +81,7 @@ fn rank(rows: &DMatrix<f64>) -> usize {
     values.iter().filter(|v| **v > COUNTED * COUNTED).count()
 }
 
-impl Search<'_, '_> {
+impl Search<'_> {
     fn freedoms(&self) -> Option<(DVector<f64>, Freedoms)> {
         let (closure, gaps) = self.closure();
         let (closing, all) = solve(&closure, &gaps)?;
@@ -166,9 +166,9 @@ impl Mechanism {
         &self,
         position: &Vector3<f64>,
         wanted: &UnitQuaternion<f64>,
-    ) -> Result<Posture<'_>> {
+    ) -> Result<Posture> {
         self.check_following(position, wanted)?;
-        let home = self.posture(&self.platforms[self.tool].home)?;
+        let home = self.posture(&self.platforms()[self.tool()].home)?;
         self.followed(&home, position, wanted)
     }
 
@@ -181,8 +181,8 @@ impl Mechanism {
         &self,
         position: &Vector3<f64>,
         wanted: &UnitQuaternion<f64>,
-        near: &Posture<'_>,
-    ) -> Result<Posture<'_>> {
+        near: &Posture,
+    ) -> Result<Posture> {
         self.check_following(position, wanted)?;
         let near = self.posture_from_joints(near.target(), near.limbs().to_vec())?;
         match self.followed(&near, position, wanted) {
@@ -200,8 +200,8 @@ impl Mechanism {
         &self,
         position: &Vector3<f64>,
         wanted: &UnitQuaternion<f64>,
-        near: &Posture<'_>,
-    ) -> Result<Posture<'_>> {
+        near: &Posture,
+    ) -> Result<Posture> {
         self.check_following(position, wanted)?;
         let start = self.posture_from_joints(near.target(), near.limbs().to_vec())?;
         match walk(&start, position, wanted) {
@@ -215,7 +215,7 @@ impl Mechanism {
 
     fn too_far(
         &self,
-        found: &Posture<'_>,
+        found: &Posture,
         position: &Vector3<f64>,
         wanted: &UnitQuaternion<f64>,
     ) -> Error {
@@ -224,15 +224,12 @@ impl Mechanism {
         let outside = surface_normal(found).filter(|n| miss.dot(n).abs() > 0.99 * left);
         let place = match outside {
             Some(normal) => format!(
-                "mechanism '{}', whose tool point stays in a surface (here square to {}) that the target lies outside of",
-                self.name,
+                ", whose tool point stays in a surface (here square to {}) that the target lies outside of",
                 axis_in_words(&normal)
             ),
-            None => format!(
-                "mechanism '{}' with whatever orientation of its tool",
-                self.name
-            ),
+            None => " with whatever orientation of its tool".to_owned(),
         };
+        let place = Place::mechanism(self.name()).with_detail(place);
         Error::Unreachable {
             place,
             distance_m: left,
@@ -246,7 +243,7 @@ impl Mechanism {
         match numbers.find(|x| !x.is_finite()) {
             None => Ok(()),
             Some(value) => Err(Error::NotFinite {
-                place: format!("mechanism '{}'", self.name),
+                place: Place::mechanism(self.name()),
                 what: "the place that is asked for".into(),
                 value,
             }),
@@ -255,10 +252,10 @@ impl Mechanism {
 
     fn followed(
         &self,
-        start: &Posture<'_>,
+        start: &Posture,
         position: &Vector3<f64>,
         wanted: &UnitQuaternion<f64>,
-    ) -> Result<Posture<'_>> {
+    ) -> Result<Posture> {
         let (found, left) = self.followed_to_nearest(start, position, wanted)?;
         if left <= 1e-10 * self.scale().length {
             return Ok(found);
@@ -267,16 +264,16 @@ impl Mechanism {
     }
 
     /// The posture at the position, or nearest to it, and the distance left (m).
-    fn followed_to_nearest<'m>(
-        &'m self,
-        start: &Posture<'_>,
+    fn followed_to_nearest(
+        &self,
+        start: &Posture,
         position: &Vector3<f64>,
         wanted: &UnitQuaternion<f64>,
-    ) -> Result<(Posture<'m>, f64)> {
+    ) -> Result<(Posture, f64)> {
         let length = self.scale().length;
         let start = self.posture_from_joints(start.target(), start.limbs().to_vec())?;
         let reached = 1e-10 * length;
-        let mut best: Option<(Posture<'_>, f64)> = None;
+        let mut best: Option<(Posture, f64)> = None;
         // Straight there in small steps; and where a singular start hides the way, from beside it.
         let first = walk(&start, position, wanted);
         let beside = (0..6).filter_map(|round| {
@@ -300,17 +297,12 @@ impl Mechanism {
     }
 
     /// What was found at (or `left` beside) a position as a posture like any other.
-    fn taken<'m>(
-        &'m self,
-        mut found: Posture<'m>,
-        left: f64,
-        position: &Vector3<f64>,
-    ) -> Result<Posture<'m>> {
+    fn taken(&self, mut found: Posture, left: f64, position: &Vector3<f64>) -> Result<Posture> {
         if left <= 1e-10 * self.scale().length {
             found.target.translation.vector = *position;
-            found.platforms[self.tool] = found.target;
+            found.platforms[self.tool()] = found.target;
         }
-        for (limb, joints) in self.limbs.iter().zip(&mut found.limbs) {
+        for (limb, joints) in self.limbs().iter().zip(&mut found.limbs) {
             wrap(&limb.nominal, joints);
         }
         let target = found.target;
@@ -330,7 +322,7 @@ impl Mechanism {
     /// which may be singular. A place of such a machine is asked for by [`Self::posture_following`].
     #[must_use]
     pub fn turns_as_it_moves(&self) -> bool {
-        let Ok(home) = self.posture(&self.platforms[self.tool].home) else {
+        let Ok(home) = self.posture(&self.platforms()[self.tool()].home) else {
             return false;
         };
         let turns = |round: usize| {
@@ -345,11 +337,11 @@ impl Mechanism {
 }
 
 /// Steps of the position along the straight way; where it ends, and the distance left.
-fn walk<'m>(
-    start: &Posture<'m>,
+fn walk(
+    start: &Posture,
     position: &Vector3<f64>,
     wanted: &UnitQuaternion<f64>,
-) -> Option<(Posture<'m>, f64)> {
+) -> Option<(Posture, f64)> {
     let length = start.mechanism.scale().length;
     let from = start.target.translation.vector;
     let way = position - from;
@@ -389,7 +381,7 @@ fn walk<'m>(
     answer.map(|left| (at, left))
 }
 
-impl Posture<'_> {
+impl Posture {
     /// Directions in which the machine can move the tool's reference point (columns, base axes).
     fn position_freedoms(&self) -> DMatrix<f64> {
         let search = Search::new(self);
@@ -414,16 +406,15 @@ impl Posture<'_> {
 ///
 /// # Errors
 /// As [`Mechanism::posture_following`] and [`Posture::deflected_by`].
-pub fn compensate_following<'m>(
-    near: &Posture<'m>,
+pub fn compensate_following(
+    near: &Posture,
     position: &Vector3<f64>,
     wanted: &UnitQuaternion<f64>,
     wrench: &Wrench,
     start: MechanismState,
-) -> Result<Compensation<'m>> {
-    let (posture, mut solver, residual, desired) =
-        corrected(near, position, wanted, wrench, start)?;
-    let equilibrium = conclude(&mut solver, residual)?;
+) -> Result<Compensation> {
+    let (posture, desired, equilibrium) =
+        corrected(near, position, wanted, wrench, start, conclude)?;
     Ok(Compensation {
         correction: pose_residual(posture.target(), &desired),
         left_over: pose_residual(&equilibrium.tool, &desired),
@@ -437,31 +428,32 @@ pub fn compensate_following<'m>(
 ///
 /// # Errors
 /// As [`compensate_following`].
-pub fn target_under_load_following<'m>(
-    near: &Posture<'m>,
+pub fn target_under_load_following(
+    near: &Posture,
     position: &Vector3<f64>,
     wanted: &UnitQuaternion<f64>,
     wrench: &Wrench,
     start: MechanismState,
-) -> Result<(Posture<'m>, MechanismState)> {
-    let (posture, solver, _, _) = corrected(near, position, wanted, wrench, start)?;
-    Ok((posture, solver.state))
+) -> Result<(Posture, MechanismState)> {
+    let state = |solver: &mut PlatformSolver<'_>, _| Ok(solver.state.clone());
+    let (posture, _, state) = corrected(near, position, wanted, wrench, start, state)?;
+    Ok((posture, state))
 }
 
-type Corrected<'m> = (Posture<'m>, PlatformSolver<'m>, Residual, Pose);
-
-/// The report's own iteration with `a = 1` [R 7.13] on the position.
-fn corrected<'m>(
-    near: &Posture<'m>,
+/// The report's own iteration with `a = 1` [R 7.13] on the position: the posture to command, the pose of the unloaded
+/// machine at the desired position, and what is concluded from the equilibrium.
+fn corrected<T>(
+    near: &Posture,
     position: &Vector3<f64>,
     wanted: &UnitQuaternion<f64>,
     wrench: &Wrench,
     start: MechanismState,
-) -> Result<Corrected<'m>> {
+    conclude: impl FnOnce(&mut PlatformSolver<'_>, Residual) -> Result<T>,
+) -> Result<(Posture, Pose, T)> {
     let mechanism = near.mechanism();
     let tool = mechanism.tool();
     let length = mechanism.scale().length;
-    let carry = |mut posture: Posture<'m>| {
+    let carry = |mut posture: Posture| {
         posture.others.clone_from(&near.others);
         posture.with_settings(*near.settings())
     };
@@ -485,7 +477,9 @@ fn corrected<'m>(
                 ..residual
             };
             solver.target = *posture.target();
-            return Ok((posture, solver, residual, desired));
+            let concluded = conclude(&mut solver, residual)?;
+            drop(solver);
+            return Ok((posture, desired, concluded));
         }
         state = solver.state.clone();
         goal += Vector3::new(miss[0], miss[1], miss[2]);
@@ -494,7 +488,7 @@ fn corrected<'m>(
         posture = carry(next);
     }
     Err(Error::NotConverged {
-        place: format!("compensation on mechanism '{}'", mechanism.name()),
+        place: Place::mechanism(mechanism.name()).during("compensation on "),
         iterations: spent,
         residual_position_m: left,
         residual_torque: 0.0,

@@ -3,3 +3,6 @@
 
 pub(crate) mod following;
 pub(crate) mod target;
+
+pub use following::{compensate_following, target_under_load_following};
+pub use target::{Compensation, compensate, compensate_from, target_under_load};

@@ -7,22 +7,22 @@
 //! What the machine cannot correct stays as a reported residual.
 
 use crate::chain::residual::Residual;
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::Posture;
 use crate::machine::state::{MechanismState, check_state};
-use crate::model::limits::sensible_pose;
+use crate::model::limits::check_pose;
 use crate::model::mechanism::Mechanism;
 use crate::settings::Settings;
-use crate::spatial::{Pose, Twist, Wrench, pose_residual};
+use crate::spatial::{Directions, Pose, Twist, Wrench, pose_residual};
 
 /// A compensated target.
 #[derive(Clone, Debug)]
-pub struct Compensation<'m> {
+pub struct Compensation {
     /// Posture commanded for the modified target `t0F`.
-    pub posture: Posture<'m>,
+    pub posture: Posture,
     /// From the desired pose to the modified target: what is added to the program.
     pub correction: Twist,
     /// From the desired pose to the pose reached under load: what was not corrected.
@@ -34,17 +34,17 @@ pub struct Compensation<'m> {
 /// The modified target for one desired pose and one dead wrench at the tool's origin.
 ///
 /// `directions` (base axes `x y z rx ry rz`) are corrected; a milling program of three axes
-/// corrects positions, `[true, true, true, false, false, false]`; see [`Posture::correctable`].
+/// corrects positions, [`Directions::POSITION`]; see [`Posture::correctable`].
 ///
 /// # Errors
 /// As [`Mechanism::posture`] and [`Posture::deflected_by`].
-pub fn compensate<'m>(
-    mechanism: &'m Mechanism,
+pub fn compensate(
+    mechanism: &Mechanism,
     desired: &Pose,
     wrench: &Wrench,
-    directions: [bool; 6],
+    directions: Directions,
     settings: &Settings,
-) -> Result<Compensation<'m>> {
+) -> Result<Compensation> {
     let posture = mechanism.posture(desired)?.with_settings(*settings);
     let start = posture.rest_state();
     compensate_from(&posture, desired, wrench, directions, start)
@@ -54,13 +54,13 @@ pub fn compensate<'m>(
 ///
 /// # Errors
 /// As [`compensate`].
-pub fn compensate_from<'m>(
-    near: &Posture<'m>,
+pub fn compensate_from(
+    near: &Posture,
     desired: &Pose,
     wrench: &Wrench,
-    directions: [bool; 6],
+    directions: Directions,
     start: MechanismState,
-) -> Result<Compensation<'m>> {
+) -> Result<Compensation> {
     let (mut solver, residual) = solve_target(near, desired, wrench, directions, start)?;
     let equilibrium = conclude(&mut solver, residual)?;
     Ok(Compensation {
@@ -76,18 +76,18 @@ pub fn compensate_from<'m>(
 ///
 /// # Errors
 /// As [`compensate`].
-pub fn target_under_load<'m>(
-    near: &Posture<'m>,
+pub fn target_under_load(
+    near: &Posture,
     desired: &Pose,
     wrench: &Wrench,
-    directions: [bool; 6],
+    directions: Directions,
     start: MechanismState,
-) -> Result<(Posture<'m>, MechanismState)> {
+) -> Result<(Posture, MechanismState)> {
     let (solver, _) = solve_target(near, desired, wrench, directions, start)?;
     Ok((commanded(near, &solver), solver.state))
 }
 
-fn commanded<'m>(near: &Posture<'m>, solver: &PlatformSolver<'m>) -> Posture<'m> {
+fn commanded(near: &Posture, solver: &PlatformSolver<'_>) -> Posture {
     let mut posture = near.clone();
     posture.target = solver.target;
     posture.platforms.clone_from(&solver.nominal);
@@ -97,16 +97,16 @@ fn commanded<'m>(near: &Posture<'m>, solver: &PlatformSolver<'m>) -> Posture<'m>
 }
 
 fn solve_target<'m>(
-    near: &Posture<'m>,
+    near: &'m Posture,
     desired: &Pose,
     wrench: &Wrench,
-    directions: [bool; 6],
+    directions: Directions,
     start: MechanismState,
 ) -> Result<(PlatformSolver<'m>, Residual)> {
     let mechanism = near.mechanism();
     near.finite("the wrench", wrench.0.iter())?;
-    let place = format!("mechanism '{}'", mechanism.name);
-    sensible_pose(&place, "the pose that is wanted", desired)?;
+    let place = Place::mechanism(mechanism.name());
+    check_pose(&place, "the pose that is wanted", desired)?;
     check_state(mechanism, &start)?;
     let mut state = start;
     let tool = mechanism.tool();
@@ -123,7 +123,7 @@ fn solve_target<'m>(
             target.translation.vector[k] = desired.translation.vector[k];
         }
     }
-    if directions[3..].iter().any(|d| *d) {
+    if (3..6).any(|k| directions[k]) {
         pose.rotation = desired.rotation;
     }
     target.rotation = desired.rotation;
@@ -167,7 +167,7 @@ fn solve_target<'m>(
 fn undo_drift(
     solver: &mut PlatformSolver<'_>,
     desired: &Pose,
-    directions: [bool; 6],
+    directions: Directions,
     mut residual: Residual,
 ) -> Residual {
     let tool = solver.mechanism.tool();
@@ -205,7 +205,7 @@ const STEPS: usize = 40;
 fn fixed_point(
     solver: &mut PlatformSolver<'_>,
     desired: &Pose,
-    directions: [bool; 6],
+    directions: Directions,
 ) -> Result<Residual> {
     let mechanism = solver.mechanism;
     let tool = mechanism.tool();
@@ -239,7 +239,7 @@ fn fixed_point(
     }
     // Each step was an equilibrium under the full load; it is the target that was not found.
     Err(Error::NotConverged {
-        place: format!("compensation on mechanism '{}'", mechanism.name()),
+        place: Place::mechanism(mechanism.name()).during("compensation on "),
         iterations: spent,
         residual_position_m: left,
         residual_torque: 0.0,

@@ -165,7 +165,7 @@ pub struct Special<E: CurveEquilibrium = Equilibrium> {
     pub mode: Vec<f64>,
     /// Uncertainty of the place in natural units.
     pub accuracy: f64,
-    /// Branches through it: indices into [`crate::Curves::branches`].
+    /// Branches through it: indices into [`crate::continuation::Curves::branches`].
     pub branches: Vec<usize>,
     /// True if the curve is stable on one side of it at least (for a limit point: under the kind of
     /// load that it limits).

@@ -9,8 +9,8 @@ use crate::continuation::jumps::{crossings, jumps};
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracer::Tracer;
-use crate::error::Result;
-use crate::model::limits::sensible;
+use crate::error::{Place, Result};
+use crate::model::limits::check_number;
 
 /// Follows the equilibrium path through `start` both ways, and the branches connected to it as far
 /// as [`CurveSettings::branches`] allows. `value` is the parameter at the start; the problem
@@ -37,9 +37,9 @@ pub(crate) fn follow_until<'a>(
     settings: &CurveSettings,
     stop: Stop<'_>,
 ) -> Result<Curves<'a>> {
-    let place = format!("chain '{}'", problem.chain.name());
+    let place = Place::chain(problem.chain.name());
     settings.check(&place)?;
-    sensible(&place, || "the parameter at the start".into(), value)?;
+    check_number(&place, || "the parameter at the start".into(), value)?;
     problem.chain.check(&start.coordinates, &problem.commands)?;
     let mut curves = Curves {
         problem: problem.clone(),

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
-use crate::error::Result;
+use crate::error::{Place, Result};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::pseudo_inverse;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
@@ -39,7 +39,7 @@ pub struct HeldCurve {
     pub ended: Option<crate::error::Error>,
 }
 
-impl<'m> Posture<'m> {
+impl Posture {
     /// As [`Posture::wrench_at`], continued from the state of a neighbouring equilibrium, so that
     /// its branch is kept: the tool is taken there directly, and if that fails in ever smaller
     /// steps; never from rest.
@@ -53,8 +53,8 @@ impl<'m> Posture<'m> {
         start: MechanismState,
     ) -> Result<MechanismEquilibrium> {
         self.finite("the pose", pose.to_homogeneous().iter())?;
-        check_state(self.mechanism, &start)?;
-        let tool = self.mechanism.tool;
+        check_state(&self.mechanism, &start)?;
+        let tool = self.mechanism.tool();
         let from = start.platforms[tool];
         let motion = pose_residual(pose, &from);
         let mut solver = self.solver(start, Unknowns::Held);
@@ -121,7 +121,7 @@ impl<'m> Posture<'m> {
         self.finite("the direction", direction.iter())?;
         let Some(direction) = direction.try_normalize(1e-12) else {
             return Err(crate::Error::model(
-                format!("mechanism '{}'", self.mechanism.name),
+                Place::mechanism(self.mechanism.name()),
                 "the direction of a push has no length",
             ));
         };
@@ -135,7 +135,7 @@ impl<'m> Posture<'m> {
         start: Option<MechanismState>,
     ) -> Result<HeldCurve> {
         if let Some(start) = &start {
-            check_state(self.mechanism, start)?;
+            check_state(&self.mechanism, start)?;
         }
         self.finite("a distance along the path", distances.iter())?;
         let mut curve = HeldCurve {
@@ -203,7 +203,7 @@ impl<'m> Posture<'m> {
         force: f64,
         start: &MechanismState,
     ) -> Result<MechanismEquilibrium> {
-        let tool = self.mechanism.tool;
+        let tool = self.mechanism.tool();
         let mut solver = self.solver(start.clone(), Unknowns::Guided);
         let push = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });
         solver.guide = Guide {

@@ -16,7 +16,7 @@ use crate::machine::posture::Posture;
 
 /// A curve of equilibria of a machine and the branches connected to it.
 #[derive(Clone, Debug)]
-pub struct MachineCurves<'p, 'm> {
+pub struct MachineCurves<'p> {
     /// The start's own branch first.
     pub branches: Vec<Branch<MechanismEquilibrium>>,
     /// Limit points, bifurcation points and changes of stability, in the order found.
@@ -25,14 +25,14 @@ pub struct MachineCurves<'p, 'm> {
     pub more_branches: bool,
     /// Index of the start among the points of the first branch.
     pub start: usize,
-    posture: &'p Posture<'m>,
+    posture: &'p Posture,
     parameter: Parameter,
     end: EndCondition,
     settings: CurveSettings,
     first: (MechanismEquilibrium, f64),
 }
 
-impl<'m> Posture<'m> {
+impl Posture {
     /// Equilibria while the parameter runs through `settings.range`, in both directions from its value nearest to zero:
     /// the tool moved along a twist (m, rad; from the nominal target), or a wrench on it times a factor; and the branches
     /// connected to them as far as [`CurveSettings::branches`] allows. `end` says in which directions the tool is held (at
@@ -40,7 +40,7 @@ impl<'m> Posture<'m> {
     ///
     /// Unknowns are the motions of the tool and the load, everything else is condensed: where a limb or another platform
     /// loses its stability while the tool stands still, this is a special point
-    /// ([`crate::SpecialKind::StabilityChange`]), but the branch that leaves there is not followed. Of the settings
+    /// ([`crate::continuation::SpecialKind::StabilityChange`]), but the branch that leaves there is not followed. Of the settings
     /// `largest_turn` and those of the solver do not count.
     ///
     /// # Errors
@@ -51,7 +51,7 @@ impl<'m> Posture<'m> {
         parameter: &Parameter,
         end: &EndCondition,
         settings: &CurveSettings,
-    ) -> Result<MachineCurves<'p, 'm>> {
+    ) -> Result<MachineCurves<'p>> {
         let conditions = ToolConditions::new(self, parameter, end, settings)?;
         let value = 0.0_f64.clamp(settings.range.0, settings.range.1);
         let first = conditions.first_equilibrium(value)?;
@@ -77,7 +77,7 @@ impl<'m> Posture<'m> {
     }
 }
 
-impl MachineCurves<'_, '_> {
+impl MachineCurves<'_> {
     /// Equilibria at one value of the parameter, on all branches.
     ///
     /// # Errors
@@ -146,7 +146,7 @@ impl MachineCurves<'_, '_> {
         Ok(to)
     }
 
-    fn conditions(&self) -> Result<ToolConditions<'_, '_>> {
+    fn conditions(&self) -> Result<ToolConditions<'_>> {
         ToolConditions::new(self.posture, &self.parameter, &self.end, &self.settings)
     }
 }

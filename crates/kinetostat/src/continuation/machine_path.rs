@@ -84,7 +84,7 @@ pub struct MachinePath {
     pub ends: [BranchEnd; 2],
 }
 
-impl Posture<'_> {
+impl Posture {
     /// Equilibria while the parameter runs through `settings.range`, in both directions from its value nearest to zero:
     /// the start's own branch of [`Self::curves`], whose limit points of load and displacement are passed; branches that
     /// cross are named, not followed.
@@ -147,7 +147,7 @@ impl PathPoint {
 
 /// Special points in the order of the path, and which of the curve's they are.
 fn specials_of(
-    curves: &MachineCurves<'_, '_>,
+    curves: &MachineCurves<'_>,
     branch: &Branch<MechanismEquilibrium>,
 ) -> (Vec<PathSpecial>, Vec<usize>) {
     // Segment in which each lies, and where in it.

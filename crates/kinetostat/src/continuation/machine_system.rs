@@ -30,7 +30,7 @@ use crate::continuation::special_points::NO_RATE;
 use crate::continuation::system::{Corrected, CurveSystem, Row};
 use crate::continuation::tool_conditions::ToolConditions;
 use crate::continuation::tool_stability::{MachineStability, condensed_modes};
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::linalg::complement::complement;
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::platforms::parts::Guide;
@@ -64,8 +64,8 @@ struct Held {
 }
 
 /// See above.
-pub(crate) struct MachineSystem<'q, 'p, 'm> {
-    conditions: &'q ToolConditions<'p, 'm>,
+pub(crate) struct MachineSystem<'q, 'p> {
+    conditions: &'q ToolConditions<'p>,
     /// Motions of the tool, balanced, orthonormal; the driven one last.
     motions: DMatrix<f64>,
     /// Metres per unit of a motion.
@@ -83,10 +83,10 @@ pub(crate) struct MachineSystem<'q, 'p, 'm> {
     family: Option<Arc<Family>>,
 }
 
-impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
+impl<'q, 'p> MachineSystem<'q, 'p> {
     /// With units from the first equilibrium and the load factor there; its state.
     pub fn start(
-        conditions: &'q ToolConditions<'p, 'm>,
+        conditions: &'q ToolConditions<'p>,
         first: &MechanismEquilibrium,
         factor: f64,
     ) -> (Self, DVector<f64>) {
@@ -261,7 +261,7 @@ impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
             let path = self.conditions;
             let (q, _) = self.physical(z);
             let mut state = self.near.0.clone();
-            state.platforms[path.posture.mechanism.tool] = self.pose(&q);
+            state.platforms[path.posture.mechanism.tool()] = self.pose(&q);
             let mut guide = path.guide(None);
             let (held, n) = (guide.rows.nrows(), q.len());
             guide.rows = guide.rows.insert_rows(held, n, 0.0);
@@ -306,7 +306,7 @@ impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
         let path = self.conditions;
         let (q, factor) = self.physical(z);
         let mut state = self.near.0.clone();
-        state.platforms[path.posture.mechanism.tool] = self.pose(&q);
+        state.platforms[path.posture.mechanism.tool()] = self.pose(&q);
         let (near, factor_near) = (self.near.1, self.near.2);
         let by = |factor: f64| near + path.pattern * (factor - factor_near);
         let guide: (Guide, f64) = match (row, path.by_motion) {
@@ -330,7 +330,7 @@ impl<'q, 'p, 'm> MachineSystem<'q, 'p, 'm> {
     }
 }
 
-impl CurveSystem for MachineSystem<'_, '_, '_> {
+impl CurveSystem for MachineSystem<'_, '_> {
     type Equilibrium = MechanismEquilibrium;
 
     fn count(&self) -> usize {
@@ -537,7 +537,7 @@ impl CurveSystem for MachineSystem<'_, '_, '_> {
 
     fn not_converged(&mut self, _z: &DVector<f64>, iterations: usize) -> Error {
         Error::NotConverged {
-            place: format!("mechanism '{}'", self.conditions.posture.mechanism.name),
+            place: Place::mechanism(self.conditions.posture.mechanism.name()),
             iterations,
             residual_position_m: self.here.equilibrium.residual.closure_m,
             residual_torque: self.here.equilibrium.residual.torque,
@@ -549,7 +549,7 @@ impl CurveSystem for MachineSystem<'_, '_, '_> {
 }
 
 /// Motions in which the tool is free, and the driven one last, so that its displacement grows with it.
-fn motions_of(path: &ToolConditions<'_, '_>) -> DMatrix<f64> {
+fn motions_of(path: &ToolConditions<'_>) -> DMatrix<f64> {
     if !path.by_motion {
         return path.motions.clone();
     }

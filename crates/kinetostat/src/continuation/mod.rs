@@ -45,3 +45,15 @@ pub(crate) mod tool_equilibrium;
 pub(crate) mod tool_stability;
 pub(crate) mod tool_steps;
 pub(crate) mod tracer;
+
+pub use curve::{
+    Branch, BranchEnd, CurveEquilibrium, CurvePoint, CurveStability, Curves, Jump, Special,
+    SpecialKind,
+};
+pub use follow::follow;
+pub use held_curve::{HeldCurve, HeldPoint};
+pub use machine_curves::MachineCurves;
+pub use machine_path::{MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind};
+pub use parameter::{LoadPattern, Parameter};
+pub use settings::CurveSettings;
+pub use tool_stability::MachineStability;

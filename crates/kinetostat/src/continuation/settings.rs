@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::Result;
+use crate::error::{Place, Result};
 use crate::settings::{Settings, wrong};
 
 /// How far and how finely curves are followed.
@@ -50,7 +50,7 @@ impl CurveSettings {
     }
 
     /// Refuses what no curve can be followed with, naming it.
-    pub(crate) fn check(&self, place: &str) -> Result<()> {
+    pub(crate) fn check(&self, place: &Place) -> Result<()> {
         for (what, (from, to)) in [
             ("range", self.range),
             ("conjugate_range", self.conjugate_range),

@@ -7,15 +7,15 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use crate::chain::problem::{EndCondition, Prescribed};
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::linalg::complement::complement;
 use crate::machine::platforms::parts::Guide;
 use crate::machine::posture::Posture;
 use crate::spatial::{Pose, Wrench, pose_residual, turn_matrix};
 
 /// The question in numbers.
-pub(crate) struct ToolConditions<'p, 'm> {
-    pub(crate) posture: &'p Posture<'m>,
+pub(crate) struct ToolConditions<'p> {
+    pub(crate) posture: &'p Posture,
     pub(crate) settings: CurveSettings,
     /// Wrench on the tool by the factor.
     pub(crate) pattern: Wrench,
@@ -33,14 +33,14 @@ pub(crate) struct ToolConditions<'p, 'm> {
     pub(crate) length: f64,
 }
 
-impl<'p, 'm> ToolConditions<'p, 'm> {
+impl<'p> ToolConditions<'p> {
     pub(crate) fn new(
-        posture: &'p Posture<'m>,
+        posture: &'p Posture,
         parameter: &Parameter,
         end: &EndCondition,
         settings: &CurveSettings,
     ) -> Result<Self> {
-        let place = || format!("mechanism '{}'", posture.mechanism.name);
+        let place = || Place::mechanism(posture.mechanism.name());
         settings.check(&place())?;
         let length = posture.mechanism.scale().length;
         let axes = turn_matrix(&end.axes);
@@ -108,7 +108,7 @@ impl<'p, 'm> ToolConditions<'p, 'm> {
     }
 
     /// For equilibria one by one: held as `end` says at `end.pose`, nothing grows.
-    pub(crate) fn held_at(posture: &'p Posture<'m>, end: &EndCondition) -> Result<Self> {
+    pub(crate) fn held_at(posture: &'p Posture, end: &EndCondition) -> Result<Self> {
         posture.finite("the pose", end.pose.to_homogeneous().iter())?;
         let nothing = LoadPattern {
             end: Wrench::new(nalgebra::Vector3::x(), nalgebra::Vector3::zeros()),

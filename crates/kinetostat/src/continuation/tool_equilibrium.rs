@@ -12,7 +12,7 @@ use crate::machine::platforms::parts::{Guide, Unknowns};
 use crate::machine::state::MechanismState;
 use crate::spatial::{Twist, Wrench, moved, pose_residual};
 
-impl ToolConditions<'_, '_> {
+impl ToolConditions<'_> {
     /// Where the machine comes to rest from a state, if Newton finds it from there.
     pub(crate) fn rest(
         &self,
@@ -79,7 +79,7 @@ impl ToolConditions<'_, '_> {
     /// The equilibrium at a value of the parameter, and the factor of the load there.
     pub(crate) fn first_equilibrium(&self, value: f64) -> Result<(MechanismEquilibrium, f64)> {
         let mut state = self.posture.rest_state();
-        let tool = self.posture.mechanism.tool;
+        let tool = self.posture.mechanism.tool();
         let (wrench, guide) = if self.by_motion {
             let motion = self.pattern.0 * (value / self.pattern.0.norm_squared());
             state.platforms[tool] = moved(&self.posture.target, &Twist(motion));

@@ -59,7 +59,7 @@ impl CurveEquilibrium for MechanismEquilibrium {
     type Stability = MachineStability;
 }
 
-impl ToolConditions<'_, '_> {
+impl ToolConditions<'_> {
     /// Free motions of the tool that the machine at rest can make, balanced, orthonormal.
     pub(crate) fn free_motions(&self) -> DMatrix<f64> {
         match self.posture.wrench_at(&self.posture.target) {

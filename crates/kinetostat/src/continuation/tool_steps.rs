@@ -33,7 +33,7 @@ pub(crate) struct ToolPoint {
     factor: f64,
 }
 
-impl ToolConditions<'_, '_> {
+impl ToolConditions<'_> {
     /// The first point of steps.
     pub(crate) fn first(&self, value: f64) -> Result<ToolPoint> {
         let (e, factor) = self.first_equilibrium(value)?;
@@ -126,7 +126,7 @@ impl ToolConditions<'_, '_> {
     pub(crate) fn step(&self, from: &ToolPoint, by: f64) -> Option<ToolPoint> {
         let (along, rate) = &from.tangent;
         let mut state = from.equilibrium.state.clone();
-        let tool = self.posture.mechanism.tool;
+        let tool = self.posture.mechanism.tool();
         let motion = self.unbalanced(along) * by;
         let row = Vector6::from_fn(|i, _| along[i] * self.unit(i));
         let goal = row.dot(&self.motion(&state.platforms[tool])) + by;

@@ -60,7 +60,7 @@ pub struct FoundEquilibrium {
     /// (flutter), which depends on the masses.
     pub may_flutter: bool,
     /// Potential energy of springs and loads, J, up to a constant of the problem; `None` where a
-    /// load has none (see [`crate::is_conservative`]).
+    /// load has none (see [`crate::chain::is_conservative`]).
     pub potential: Option<f64>,
     /// How many evenly spread starts ended here; 0: found from another equilibrium only.
     pub hits: usize,

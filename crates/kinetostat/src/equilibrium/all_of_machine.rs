@@ -57,7 +57,7 @@ pub struct MachineEquilibria {
     /// See `starts`.
     pub hits: usize,
     /// Those that ended where a slide is turned inside out, or at an unstable shape farther than three
-    /// sizes of the machine from the nominal target or with springs beyond [`Bounds::of`](crate::Bounds::of) their limb.
+    /// sizes of the machine from the nominal target or with springs beyond [`Bounds::of`](crate::equilibrium::Bounds::of) their limb.
     pub outside: usize,
     /// Starts since the last new equilibrium.
     pub fruitless: usize,
@@ -70,7 +70,7 @@ pub struct MachineEquilibria {
     pub settled: bool,
 }
 
-impl Posture<'_> {
+impl Posture {
     /// Equilibria of the machine as it is commanded: the tool held at `end.pose` in the directions
     /// whose pose is prescribed, under the dead wrench `end.wrench` in the others.
     ///

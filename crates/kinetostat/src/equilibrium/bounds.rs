@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::model::chain::{Chain, Role};
 use crate::spatial::MotionKind;
 
@@ -56,7 +56,7 @@ impl Bounds {
         for (what, list) in [("lower bounds", &self.low), ("upper bounds", &self.high)] {
             if list.len() != n {
                 return Err(Error::Size {
-                    place: format!("chain '{}'", chain.name()),
+                    place: Place::chain(chain.name()),
                     what,
                     expected: n,
                     found: list.len(),
@@ -67,7 +67,7 @@ impl Bounds {
             .find(|&i| self.low[i].partial_cmp(&self.high[i]) != Some(std::cmp::Ordering::Less))
         {
             Some(i) => Err(Error::model(
-                format!("chain '{}'", chain.name()),
+                Place::chain(chain.name()),
                 format!(
                     "the bounds of '{}' are {} and {}: the first must be less than the second",
                     chain.coordinates()[i].name,

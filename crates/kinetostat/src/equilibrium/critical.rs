@@ -25,7 +25,7 @@ use crate::equilibrium::chain::solve_chain;
 use crate::equilibrium::critical_tangent::{
     Judged, Tangent, diverges, largest_one, largest_real, linear_prediction,
 };
-use crate::error::Result;
+use crate::error::{Place, Result};
 use crate::spatial::Wrench;
 
 /// Where stability is lost.
@@ -95,7 +95,7 @@ pub fn critical_load_factor(
     judged: Judged,
     settings: &CurveSettings,
 ) -> Result<CriticalLoad> {
-    settings.check(&format!("chain '{}'", problem.chain.name()))?;
+    settings.check(&Place::chain(problem.chain.name()))?;
     let parameter = Parameter::Load(pattern.clone());
     let start = solve_chain(problem, &settings.solver)?;
     let mut system = ChainSystem::new(problem, Some(&parameter), &settings.solver)?;

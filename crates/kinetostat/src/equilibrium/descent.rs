@@ -19,7 +19,7 @@ const LAST: f64 = 1e-7;
 /// Longest step.
 const LONGEST: f64 = 0.2;
 
-impl ToolConditions<'_, '_> {
+impl ToolConditions<'_> {
     /// Where the machine goes to from a state in which its tool is held, if it is let go; `None` where
     /// its loads have no potential.
     pub(crate) fn descend(&self, start: MechanismEquilibrium) -> Option<MechanismEquilibrium> {
@@ -120,7 +120,7 @@ impl ToolConditions<'_, '_> {
         let motion = motions * parts;
         let motion = self.unbalanced(&Vector6::from_fn(|i, _| motion[i]));
         let mut state = here.state.clone();
-        let tool = self.posture.mechanism.tool;
+        let tool = self.posture.mechanism.tool();
         state.platforms[tool] = moved(&here.tool, &Twist(motion));
         let columns = motions.column_iter().map(|column| {
             let column = self.balanced(&Vector6::from_fn(|i, _| column[i]));

@@ -11,7 +11,7 @@ use crate::chain::scaling::SHORT_STEP;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tool_conditions::ToolConditions;
-use crate::error::{Error, LoadLimit, Result};
+use crate::error::{Error, LoadLimit, Place, Result};
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
@@ -47,7 +47,7 @@ enum FollowedTo {
     Lost(bool),
 }
 
-impl<'m> Posture<'m> {
+impl Posture {
     /// Whether a load from rest meets a limit point before it is whole, though `loaded` was found
     /// beyond it: then the machine snaps before, and `loaded` lies on another branch. `rest` is
     /// the equilibrium without the wrench of `loaded`. The load is followed only where secant and
@@ -80,7 +80,7 @@ impl<'m> Posture<'m> {
         &self,
         wrench: &Wrench,
         error: Error,
-    ) -> Result<(PlatformSolver<'m>, Residual)> {
+    ) -> Result<(PlatformSolver<'_>, Residual)> {
         let mut pushed = None;
         for motion in self.costless_motions(wrench) {
             match self.follow_free_motion(&motion, wrench) {
@@ -116,7 +116,7 @@ impl<'m> Posture<'m> {
     }
 
     /// The load grown from rest in short steps.
-    pub(crate) fn grown(&self, wrench: &Wrench) -> Result<(PlatformSolver<'m>, Residual)> {
+    pub(crate) fn grown(&self, wrench: &Wrench) -> Result<(PlatformSolver<'_>, Residual)> {
         let mut solver = self.solver(self.rest_state(), Unknowns::Pose);
         solver.wrench = *wrench;
         let at_rest = solver.evaluate().0;
@@ -130,7 +130,7 @@ impl<'m> Posture<'m> {
         state: MechanismState,
         wrench: &Wrench,
         found_by: FoundBy,
-    ) -> Option<(PlatformSolver<'m>, Residual)> {
+    ) -> Option<(PlatformSolver<'_>, Residual)> {
         let mut solver = self.solver(state, Unknowns::Pose);
         solver.wrench = *wrench;
         let (iterations, balance) = solver.solve(1.0, 0).ok()?;
@@ -149,7 +149,7 @@ impl<'m> Posture<'m> {
             loads: Vec::new(),
         });
         // What it may cost is bounded: it only says why there is no equilibrium.
-        let limbs = self.mechanism.limbs.iter();
+        let limbs = self.mechanism.limbs().iter();
         let coordinates: usize = limbs.map(|l| l.actual.coordinate_count()).sum();
         let mut settings = CurveSettings::within(0.0, 1.0);
         settings.points = (EFFORT / coordinates.max(1)).clamp(10, settings.points);
@@ -244,7 +244,7 @@ impl<'m> Posture<'m> {
 
     fn free_direction(&self, motion: &Twist, wrench: &Wrench) -> Error {
         Error::FreeDirection {
-            place: format!("mechanism '{}'", self.mechanism.name),
+            place: Place::mechanism(self.mechanism.name()),
             reason: format!(
                 "no force is needed where the tool {}, and the load pushes on as far as it could be followed",
                 motion_in_words(motion)

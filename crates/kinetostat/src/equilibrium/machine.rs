@@ -10,7 +10,7 @@ use crate::machine::posture::Posture;
 use crate::machine::state::{MechanismState, check_state};
 use crate::spatial::Wrench;
 
-impl<'m> Posture<'m> {
+impl Posture {
     /// `f^-1(F | t0)`: where the tool goes under a dead wrench at its origin [R 6.28-6.30], with
     /// gravity, preloads and assembly errors of the model.
     ///
@@ -70,7 +70,7 @@ impl<'m> Posture<'m> {
 
     /// Whether one step may have passed the equilibrium to which the growing load leads.
     fn is_far(&self, state: &MechanismState) -> bool {
-        let limbs = self.mechanism.limbs.iter().zip(&self.limbs);
+        let limbs = self.mechanism.limbs().iter().zip(&self.limbs);
         let moved = limbs
             .zip(&state.coordinates)
             .map(|((limb, home), there)| gone(&limb.actual, &home.coordinates, there));
@@ -81,9 +81,9 @@ impl<'m> Posture<'m> {
         &self,
         wrench: &Wrench,
         start: MechanismState,
-    ) -> Result<(PlatformSolver<'m>, Residual)> {
+    ) -> Result<(PlatformSolver<'_>, Residual)> {
         self.finite("the wrench", wrench.0.iter())?;
-        check_state(self.mechanism, &start)?;
+        check_state(&self.mechanism, &start)?;
         let mut solver = self.solver(start, Unknowns::Pose);
         solver.wrench = *wrench;
         match solver.solve_robustly() {

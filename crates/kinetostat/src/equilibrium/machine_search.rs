@@ -62,8 +62,8 @@ impl Candidate {
 }
 
 /// See above.
-pub(crate) struct MachineSearch<'p, 'm> {
-    conditions: ToolConditions<'p, 'm>,
+pub(crate) struct MachineSearch<'p> {
+    conditions: ToolConditions<'p>,
     bounds: Vec<Bounds>,
     /// The first starts: mirrored at the singular postures nearby, and at rest.
     first: Vec<Twist>,
@@ -73,13 +73,13 @@ pub(crate) struct MachineSearch<'p, 'm> {
     rest: Option<MechanismEquilibrium>,
 }
 
-impl<'p, 'm> MachineSearch<'p, 'm> {
-    pub fn new(conditions: ToolConditions<'p, 'm>) -> Self {
+impl<'p> MachineSearch<'p> {
+    pub fn new(conditions: ToolConditions<'p>) -> Self {
         let posture = conditions.posture;
         let mut first = vec![Twist::zero()];
         let near = posture.motion_gained(conditions.length);
         first.extend(near.map(|n| Twist(n.way.0 * (2.0 * n.distance_m))));
-        let limbs = posture.mechanism.limbs.iter();
+        let limbs = posture.mechanism.limbs().iter();
         let commanded = moved(&posture.target, &Twist(conditions.held_motion()));
         Self {
             first,
@@ -95,7 +95,7 @@ impl<'p, 'm> MachineSearch<'p, 'm> {
     fn let_go(&self, k: usize) -> Option<MechanismEquilibrium> {
         let path = &self.conditions;
         let posture = path.posture;
-        let (mechanism, tool) = (posture.mechanism, posture.mechanism.tool);
+        let (mechanism, tool) = (posture.mechanism.clone(), posture.mechanism.tool());
         let motion = match self.first.get(k) {
             Some(motion) => path.freely(&motion.0),
             None => spread(&self.free, k, path),
@@ -113,7 +113,7 @@ impl<'p, 'm> MachineSearch<'p, 'm> {
             return path.descend(held).or_else(|| path.rest(there, &path.dead));
         }
         if k > 0 {
-            for (limb, joints) in mechanism.limbs.iter().zip(&mut state.coordinates) {
+            for (limb, joints) in mechanism.limbs().iter().zip(&mut state.coordinates) {
                 for (i, c) in limb.actual.coordinates().iter().enumerate() {
                     if c.role == Role::Passive && c.kind == MotionKind::Revolute {
                         let share = ((k * 7 + i) as f64 * 0.618_034).fract() - 0.5;
@@ -122,7 +122,7 @@ impl<'p, 'm> MachineSearch<'p, 'm> {
                 }
             }
         }
-        let carriers = mechanism.limbs.iter().enumerate();
+        let carriers = mechanism.limbs().iter().enumerate();
         let carriers = carriers.filter(|(_, l)| l.from == 0 && l.to == tool);
         let carriers: Vec<_> = carriers.collect();
         if k % 4 == 3
@@ -144,8 +144,8 @@ impl<'p, 'm> MachineSearch<'p, 'm> {
     /// Shapes with a drive whose slide is turned inside out do not count, nor do unstable ones far away.
     fn counts(&self, found: &Known) -> bool {
         let posture = self.conditions.posture;
-        let (mechanism, e) = (posture.mechanism, &found.equilibrium);
-        let joints = mechanism.limbs.iter().zip(&e.state.coordinates);
+        let (mechanism, e) = (posture.mechanism.clone(), &found.equilibrium);
+        let joints = mechanism.limbs().iter().zip(&e.state.coordinates);
         let drives = joints.clone().zip(&posture.limbs);
         let mut slides = drives.flat_map(|((limb, x), own)| {
             let drives = limb.actual.actuators().iter().zip(&own.commands);
@@ -185,7 +185,7 @@ impl<'p, 'm> MachineSearch<'p, 'm> {
         let mut list = Vec::new();
         for (i, [crossings, ends]) in motions.into_iter().zip(curves) {
             for state in crossings {
-                let there = state.platforms[path.posture.mechanism.tool];
+                let there = state.platforms[path.posture.mechanism.tool()];
                 let Some(equilibrium) = path.rest(state, &path.dead) else {
                     continue;
                 };
@@ -215,7 +215,7 @@ impl<'p, 'm> MachineSearch<'p, 'm> {
     }
 }
 
-impl Searched for MachineSearch<'_, '_> {
+impl Searched for MachineSearch<'_> {
     /// Its number in the sequence.
     type Start = usize;
     type Candidate = Candidate;
@@ -288,7 +288,7 @@ impl Searched for MachineSearch<'_, '_> {
 
 /// The k-th of evenly spread motions of some directions (balanced): Kronecker's sequence. Distances
 /// are shares of the machine's size, angles of half a turn.
-fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_, '_>) -> Vector6<f64> {
+fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_>) -> Vector6<f64> {
     let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0_f64];
     let parts = DVector::from_fn(free.ncols(), |i, _| {
         2.0 * (k as f64 * roots[i % 6].sqrt()).fract() - 1.0
@@ -298,7 +298,7 @@ fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_, '_>) -> Vecto
     Vector6::from_fn(|i, _| motion[i] * if i < 3 { size } else { PI })
 }
 
-impl ToolConditions<'_, '_> {
+impl ToolConditions<'_> {
     /// With its stability and energy.
     fn described(&self, e: MechanismEquilibrium) -> Known {
         let k = self.balanced_stiffness(&e);

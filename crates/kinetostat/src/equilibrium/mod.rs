@@ -18,3 +18,10 @@ pub(crate) mod machine;
 pub(crate) mod machine_search;
 pub(crate) mod no_equilibrium;
 pub(crate) mod search;
+
+pub use all_of_chain::{Equilibria, FoundEquilibrium, SearchSettings, equilibria};
+pub use all_of_machine::{MachineEquilibria, MachineFound, SpreadSettings};
+pub use bounds::Bounds;
+pub use chain::solve_chain;
+pub use critical::{CriticalLoad, CriticalPoint, critical_load_factor};
+pub use critical_tangent::Judged;

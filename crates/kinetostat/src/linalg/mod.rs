@@ -19,3 +19,6 @@ pub(crate) mod krylov;
 pub(crate) mod saddle;
 pub(crate) mod singular_values;
 pub(crate) mod sparse;
+
+pub use saddle::Inertia;
+pub use singular_values::SingularValues;

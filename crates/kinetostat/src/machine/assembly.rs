@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::machine::network::Network;
 use crate::machine::platform_system::PlatformSystem;
 use crate::machine::posture::Posture;
@@ -24,13 +24,13 @@ pub struct LinearAssembly {
     pub springs: Vec<Vec<f64>>,
 }
 
-impl Posture<'_> {
+impl Posture {
     /// How far the tip of every unloaded actual limb is from its nominal place, `eps_i`, base axes,
     /// its base where it is nominally.
     #[must_use]
     pub fn assembly_errors(&self) -> Vec<Twist> {
-        let m = self.mechanism;
-        m.limbs
+        let m = self.mechanism.clone();
+        m.limbs()
             .iter()
             .zip(&self.limbs)
             .map(|(limb, joints)| {
@@ -73,12 +73,12 @@ impl Posture<'_> {
         wrench: &Wrench,
     ) -> Result<LinearAssembly> {
         self.finite("the wrench", wrench.0.iter())?;
-        let m = self.mechanism;
-        if errors.len() != m.limbs.len() {
+        let m = self.mechanism.clone();
+        if errors.len() != m.limbs().len() {
             return Err(Error::Size {
-                place: format!("mechanism '{}'", m.name),
+                place: Place::mechanism(m.name()),
                 what: "limb errors",
-                expected: m.limbs.len(),
+                expected: m.limbs().len(),
                 found: errors.len(),
             });
         }
@@ -87,7 +87,7 @@ impl Posture<'_> {
         let (size, count) = (6 * moving, rows.count());
         let mut b = DMatrix::zeros(size + count, 1);
         {
-            let mut tool = b.fixed_view_mut::<6, 1>(6 * (m.tool - 1), 0);
+            let mut tool = b.fixed_view_mut::<6, 1>(6 * (m.tool() - 1), 0);
             tool += wrench.0;
         }
         let mut at = size;
@@ -110,7 +110,7 @@ impl Posture<'_> {
         platforms.extend((0..moving).map(|p| Twist(b.fixed_view::<6, 1>(6 * p, 0).into_owned())));
         let carried: Vec<f64> = b.rows(size, count).iter().copied().collect();
         let mut result = LinearAssembly {
-            shift: platforms[m.tool],
+            shift: platforms[m.tool()],
             wrenches: network.wrenches(&platforms, errors, &carried),
             passive: Vec::new(),
             springs: Vec::new(),

@@ -37,7 +37,7 @@ pub struct SelfStress {
 impl SelfStress {
     /// Which limbs fight, and how: `x: force along z and moment about x; y: ...`.
     #[must_use]
-    pub fn in_words(&self, posture: &Posture<'_>) -> String {
+    pub fn in_words(&self, posture: &Posture) -> String {
         let length = posture.mechanism.scale().length;
         let parts = self.wrenches.iter().map(|(limb, wrench)| {
             let (force, moment) = (wrench.force(), wrench.moment());
@@ -48,7 +48,7 @@ impl SelfStress {
             if moment.norm() > 1e-6 * length {
                 words.push(format!("moment about {}", axis_in_words(&moment)));
             }
-            let name = &posture.mechanism.limbs[*limb].name;
+            let name = &posture.mechanism.limbs()[*limb].name;
             format!("{name}: {}", words.join(" and "))
         });
         parts.collect::<Vec<_>>().join("; ")
@@ -66,12 +66,12 @@ pub(crate) struct Constraints {
 /// Motions of a limb's tip by its joints, 6 x k, rotations at `length`: passive joints only, or
 /// with the actuators.
 pub(crate) fn limb_motions(
-    posture: &Posture<'_>,
+    posture: &Posture,
     limb: usize,
     actuators: bool,
     length: f64,
 ) -> DMatrix<f64> {
-    let (l, joints) = (&posture.mechanism.limbs[limb], &posture.limbs[limb]);
+    let (l, joints) = (&posture.mechanism.limbs()[limb], &posture.limbs[limb]);
     let chain = &l.nominal;
     let base = &posture.platforms[l.from];
     let kinematics = Kinematics::new(chain, base, &joints.coordinates, &joints.commands, false);
@@ -98,17 +98,17 @@ pub(crate) fn limb_motions(
 }
 
 impl Constraints {
-    pub fn new(posture: &Posture<'_>, with_actuators_free: bool) -> Self {
-        let m = posture.mechanism;
+    pub fn new(posture: &Posture, with_actuators_free: bool) -> Self {
+        let m = posture.mechanism.clone();
         let length = m.scale().length;
-        let moving = m.platforms.len() - 1;
+        let moving = m.platforms().len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { length };
         let mut wrenches = Vec::new();
         let mut blocks = Vec::new();
-        for i in 0..m.limbs.len() {
+        for i in 0..m.limbs().len() {
             let motions = limb_motions(posture, i, with_actuators_free, length);
             let own = complement(&independent_columns(&motions));
-            let a = ends(posture.mechanism, &posture.platforms, i).matrix(moving);
+            let a = ends(&posture.mechanism, &posture.platforms, i).matrix(moving);
             let a = DMatrix::from_fn(6, 6 * moving, |r, c| a[(r, c)] * unit(r) / unit(c));
             blocks.push(own.transpose() * a);
             wrenches.push(own);
@@ -124,7 +124,7 @@ impl Constraints {
     }
 }
 
-impl Posture<'_> {
+impl Posture {
     /// Over-constraint of the nominal machine at this posture, actuators locked: how many
     /// self-stresses, and in which directions the limbs fight.
     #[must_use]
@@ -171,12 +171,12 @@ impl Posture<'_> {
     /// minimum), and a machine of single limbs the least motion from where the search starts.
     #[must_use]
     pub fn redundancy(&self) -> usize {
-        let m = self.mechanism;
+        let m = self.mechanism.clone();
         let length = m.scale().length;
-        let moving = m.platforms.len() - 1;
+        let moving = m.platforms().len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { length };
         let rank = |actuators: bool| {
-            let own: Vec<DMatrix<f64>> = (0..m.limbs.len())
+            let own: Vec<DMatrix<f64>> = (0..m.limbs().len())
                 .map(|i| limb_motions(self, i, actuators, length))
                 .collect();
             let joints: usize = own.iter().map(DMatrix::ncols).sum();
@@ -185,10 +185,10 @@ impl Posture<'_> {
             for (i, block) in own.iter().enumerate() {
                 all.view_mut((6 * i, at), block.shape()).copy_from(block);
                 at += block.ncols();
-                let a = ends(self.mechanism, &self.platforms, i).matrix(moving);
+                let a = ends(&self.mechanism, &self.platforms, i).matrix(moving);
                 for (r, c) in (0..6).flat_map(|r| (0..6 * moving).map(move |c| (r, c))) {
                     // The tool is held.
-                    if c / 6 + 1 != m.tool {
+                    if c / 6 + 1 != m.tool() {
                         all[(6 * i + r, joints + c)] = a[(r, c)] * unit(r) / unit(c);
                     }
                 }

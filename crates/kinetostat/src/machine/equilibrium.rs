@@ -14,7 +14,7 @@ use crate::chain::problem::{ChainProblem, EndCondition};
 use crate::chain::residual::Residual;
 use crate::chain::stability::ShapeStability;
 use crate::chain::stiffness::ChainStiffness;
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::linalg::sparse::Sparse;
 use crate::machine::directions::{
     balanced_directions, condensed_directions, none_diverges, others_hold,
@@ -188,17 +188,17 @@ pub(crate) fn conclude(
     let m = solver.mechanism;
     if let Some(&(.., value)) = tangent.entries.iter().find(|(.., x)| !x.is_finite()) {
         return Err(Error::NotFinite {
-            place: format!("mechanism '{}'", m.name),
+            place: Place::mechanism(m.name()),
             what: "its tangent stiffness".into(),
             value,
         });
     }
     // What a held tool lacks is what its holder must apply.
     let wrench = match solver.unknowns {
-        Unknowns::Held => Wrench(-unbalanced[m.tool].0),
+        Unknowns::Held => Wrench(-unbalanced[m.tool()].0),
         _ => solver.wrench,
     };
-    let verdicts: Vec<_> = (0..m.limbs.len()).map(|i| solver.verdicts(i)).collect();
+    let verdicts: Vec<_> = (0..m.limbs().len()).map(|i| solver.verdicts(i)).collect();
     let limbs = verdicts.into_iter().enumerate();
     let limbs = limbs.map(|(i, found)| limb_equilibrium(solver, i, found));
     let limbs: Vec<LimbEquilibrium> = limbs.collect::<Result<_>>()?;
@@ -213,8 +213,8 @@ pub(crate) fn conclude(
     let tool = ToolStiffness::of(solver, tangent, &limbs);
     let (platform, others_hold) = tool.stability(solver, conservative, &limbs);
     let answer = MechanismEquilibrium {
-        tool: solver.state.platforms[m.tool],
-        displacement: pose_residual(&solver.state.platforms[m.tool], &solver.target),
+        tool: solver.state.platforms[m.tool()],
+        displacement: pose_residual(&solver.state.platforms[m.tool()], &solver.target),
         conservative,
         energy,
         wrench,
@@ -239,7 +239,7 @@ fn limb_equilibrium(
     i: usize,
     (stiffness, stability): (ChainStiffness, ShapeStability),
 ) -> Result<LimbEquilibrium> {
-    let limb = &solver.mechanism.limbs[i];
+    let limb = &solver.mechanism.limbs()[i];
     let system = solver.limb_system(i);
     let n = limb.actual.coordinate_count();
     let r = limb.actual.actuators().len();
@@ -274,9 +274,9 @@ fn limb_equilibrium(
 fn potential_of_platforms(solver: &PlatformSolver<'_>) -> Option<f64> {
     let m = solver.mechanism;
     let poses = &solver.state.platforms;
-    let weights = m.platforms.iter().zip(poses).skip(1).map(|(p, pose)| {
+    let weights = m.platforms().iter().zip(poses).skip(1).map(|(p, pose)| {
         let centre = pose * nalgebra::Point3::from(p.centre_of_mass);
-        -p.mass * m.gravity.dot(&centre.coords)
+        -p.mass * m.gravity().dot(&centre.coords)
     });
     let weights: f64 = weights.sum();
     // A dead force has a potential; a dead moment is not asked for one here.
@@ -284,7 +284,7 @@ fn potential_of_platforms(solver: &PlatformSolver<'_>) -> Option<f64> {
         let place = poses[*platform].translation.vector;
         (wrench.moment() == nalgebra::Vector3::zeros()).then(|| -wrench.force().dot(&place))
     });
-    let between = m.platform_loads.iter().map(|load| load.energy(poses));
+    let between = m.platform_loads().iter().map(|load| load.energy(poses));
     let outside = dead.chain(between).sum::<Option<f64>>();
     outside.map(|outside| outside + weights)
 }
@@ -304,22 +304,22 @@ impl ToolStiffness {
     fn of(solver: &PlatformSolver<'_>, tangent: Sparse, limbs: &[LimbEquilibrium]) -> Self {
         let m = solver.mechanism;
         let scale = m.scale();
-        let rigid = match m.platforms.len() {
+        let rigid = match m.platforms().len() {
             2 => RigidRows::none(1),
             _ => solver.rigid_rows(&solver.state).0,
         };
         let own: Vec<&ChainStiffness> = limbs.iter().map(|limb| &limb.stiffness).collect();
         let graded = solver.graded(&tangent, &own);
         // With platforms in between, what blocks the tool is not one limb's affair.
-        let (matrix, directions) = if m.platforms.len() > 2 {
-            condensed_directions(&tangent, graded.as_ref(), &rigid, m.tool - 1, scale)
+        let (matrix, directions) = if m.platforms().len() > 2 {
+            condensed_directions(&tangent, graded.as_ref(), &rigid, m.tool() - 1, scale)
         } else {
             let mut matrix = Matrix6::zeros();
             for &(i, j, value) in &tangent.entries {
                 matrix[(i, j)] += value;
             }
-            let own = own.into_iter().zip(&m.limbs).map(|(limb, description)| {
-                let arm = solver.state.platforms[m.tool].rotation
+            let own = own.into_iter().zip(m.limbs()).map(|(limb, description)| {
+                let arm = solver.state.platforms[m.tool()].rotation
                     * description.platform_from_tip.translation.vector;
                 (limb, arm, description.actual.scale())
             });
@@ -343,7 +343,7 @@ impl ToolStiffness {
         limbs: &[LimbEquilibrium],
     ) -> (PlatformStability, bool) {
         let m = solver.mechanism;
-        let (tool, scale) = (m.tool - 1, m.scale());
+        let (tool, scale) = (m.tool() - 1, m.scale());
         let (tangent, rigid, directions) = (&self.tangent, &self.rigid, &self.directions);
         let stiffnesses = directions.iter().map(|d| d.stiffness_n_per_m);
         let least = stiffnesses.fold(f64::INFINITY, f64::min);
@@ -366,7 +366,7 @@ impl ToolStiffness {
     }
 }
 
-impl Posture<'_> {
+impl Posture {
     /// `f(t | t0)`: the wrench that holds the tool at `pose` [R 6.21].
     ///
     /// # Errors
@@ -374,7 +374,7 @@ impl Posture<'_> {
     pub fn wrench_at(&self, pose: &Pose) -> Result<MechanismEquilibrium> {
         self.finite("the pose", pose.to_homogeneous().iter())?;
         let mut state = self.rest_state();
-        state.platforms[self.mechanism.tool] = *pose;
+        state.platforms[self.mechanism.tool()] = *pose;
         let mut solver = self.solver(state, Unknowns::Held);
         let residual = solver.solve_robustly()?;
         conclude(&mut solver, residual)

@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::linalg::saddle::{Saddle, pseudo_inverse, rows_certainly_independent};
 use crate::machine::inverse::limb::{LimbPosture, wrap_passive};
 use crate::machine::posture::Posture;
@@ -58,8 +58,8 @@ impl Mechanism {
     /// # Errors
     /// A list of the wrong length or a number that is not finite; [`Error::NoClosure`] where the
     /// loops do not close all the way from home to these commands.
-    pub fn posture_at(&self, commands: &[f64]) -> Result<Posture<'_>> {
-        let place = || format!("mechanism '{}'", self.name);
+    pub fn posture_at(&self, commands: &[f64]) -> Result<Posture> {
+        let place = || Place::mechanism(self.name());
         if commands.len() != self.actuator_count() {
             return Err(Error::Size {
                 place: place(),
@@ -70,7 +70,7 @@ impl Mechanism {
         }
         let mut rest = commands;
         let wanted: Vec<&[f64]> = self
-            .limbs
+            .limbs()
             .iter()
             .map(|limb| {
                 let (own, others) = rest.split_at(limb.nominal.actuators.len());
@@ -78,15 +78,15 @@ impl Mechanism {
                 own
             })
             .collect();
-        for (limb, own) in self.limbs.iter().zip(&wanted) {
+        for (limb, own) in self.limbs().iter().zip(&wanted) {
             limb.nominal.check(&limb.nominal.home_coordinates(), own)?;
         }
-        if let [limb] = &self.limbs[..]
+        if let [limb] = &self.limbs()[..]
             && limb.nominal.indices_of(Role::Passive).is_empty()
         {
             return self.open(limb.nominal.home_coordinates(), wanted[0].to_vec());
         }
-        let home = self.posture(&self.platforms[self.tool].home)?;
+        let home = self.posture(&self.platforms()[self.tool()].home)?;
         let mut at = Shape {
             platforms: home.platforms().to_vec(),
             limbs: home.limbs().to_vec(),
@@ -94,7 +94,7 @@ impl Mechanism {
         let start = at.limbs.clone();
         let length = self.scale().length;
         let longest = self
-            .limbs
+            .limbs()
             .iter()
             .zip(wanted.iter().zip(&start))
             .flat_map(|(limb, (to, from))| {
@@ -143,16 +143,16 @@ impl Mechanism {
                 }
             }
         }
-        for (limb, joints) in self.limbs.iter().zip(&mut at.limbs) {
+        for (limb, joints) in self.limbs().iter().zip(&mut at.limbs) {
             wrap_passive(&limb.nominal, joints);
         }
-        self.posture_from_joints(&at.platforms[self.tool], at.limbs)
+        self.posture_from_joints(&at.platforms[self.tool()], at.limbs)
     }
 
     /// A single limb whose joints are all known.
-    fn open(&self, coordinates: Vec<f64>, commands: Vec<f64>) -> Result<Posture<'_>> {
-        let limb = &self.limbs[0];
-        let base = &self.platforms[limb.from].home;
+    fn open(&self, coordinates: Vec<f64>, commands: Vec<f64>) -> Result<Posture> {
+        let limb = &self.limbs()[0];
+        let base = &self.platforms()[limb.from].home;
         let tip = unloaded_tip(&limb.nominal, base, &coordinates, &commands);
         let target = tip * limb.platform_from_tip.inverse();
         let joints = LimbPosture {
@@ -165,9 +165,9 @@ impl Mechanism {
     /// Moves platforms and passive joints until every loop closes; `Err` holds the gap.
     fn close(&self, mut at: Shape) -> std::result::Result<Shape, (f64, f64)> {
         let length = self.scale().length;
-        let moving = 6 * (self.platforms.len() - 1);
+        let moving = 6 * (self.platforms().len() - 1);
         let passive: Vec<Vec<usize>> = self
-            .limbs
+            .limbs()
             .iter()
             .map(|l| l.nominal.indices_of(Role::Passive))
             .collect();
@@ -176,11 +176,11 @@ impl Mechanism {
         let mut gap = (f64::INFINITY, f64::INFINITY);
         let mut last = f64::INFINITY;
         for _ in 0..30 {
-            let mut matrix = DMatrix::zeros(6 * self.limbs.len(), columns);
-            let mut closure = DVector::zeros(6 * self.limbs.len());
+            let mut matrix = DMatrix::zeros(6 * self.limbs().len(), columns);
+            let mut closure = DVector::zeros(6 * self.limbs().len());
             let mut first = moving;
             gap = (0.0, 0.0);
-            for (i, limb) in self.limbs.iter().enumerate() {
+            for (i, limb) in self.limbs().iter().enumerate() {
                 let joints = &at.limbs[i];
                 let (from, to) = (&at.platforms[limb.from], &at.platforms[limb.to]);
                 let target = to * limb.platform_from_tip;
@@ -214,7 +214,7 @@ impl Mechanism {
                 closure.fixed_rows_mut::<6>(6 * i).copy_from(&c.0);
             }
             // Lengths and angles: rotations count at the natural length, in rows and in columns.
-            for i in 0..6 * self.limbs.len() {
+            for i in 0..6 * self.limbs().len() {
                 if i % 6 >= 3 {
                     matrix.row_mut(i).scale_mut(length);
                     closure[i] *= length;
@@ -233,7 +233,7 @@ impl Mechanism {
             for (j, scale) in scales.iter_mut().enumerate().take(moving) {
                 *scale = if j % 6 < 3 { length } else { 1.0 };
             }
-            for (limb, own) in self.limbs.iter().zip(&passive) {
+            for (limb, own) in self.limbs().iter().zip(&passive) {
                 for (k, &q) in own.iter().enumerate() {
                     if limb.nominal.coordinates[q].kind == MotionKind::Prismatic {
                         scales[first + k] = length;
@@ -249,7 +249,7 @@ impl Mechanism {
             let most = step.amax();
             let share = if most > 0.5 { 0.5 / most } else { 1.0 };
             let by = |j: usize| share * step[j] * scales[j];
-            for p in 1..self.platforms.len() {
+            for p in 1..self.platforms().len() {
                 let twist = Twist(Vector6::from_fn(|k, _| by(6 * (p - 1) + k)));
                 at.platforms[p] = moved(&at.platforms[p], &twist);
             }

@@ -7,20 +7,21 @@ use crate::machine::inverse::limb::blocked_motions;
 use crate::machine::network::ends;
 use crate::machine::platforms::solver::rates_of;
 use crate::machine::posture::Posture;
+use crate::spatial::Directions;
 
-impl Posture<'_> {
+impl Posture {
     /// Motions that the nominal machine can command or make freely, as an orthonormal basis, 6 x k
     /// (rotations in units of the natural length).
     #[must_use]
     pub fn mobility(&self) -> DMatrix<f64> {
-        let m = self.mechanism;
-        let moving = m.platforms.len() - 1;
+        let m = self.mechanism.clone();
+        let moving = m.platforms().len() - 1;
         let length = m.scale().length;
         let mut blocked = DMatrix::zeros(6 * moving, 6 * moving);
-        for (i, (limb, joints)) in m.limbs.iter().zip(&self.limbs).enumerate() {
+        for (i, (limb, joints)) in m.limbs().iter().zip(&self.limbs).enumerate() {
             let own = limb.nominal.scale().length;
             // From the mechanism's units to SI, to the tip, to the limb's units.
-            let mut to_limb = ends(self.mechanism, &self.platforms, i).matrix(moving);
+            let mut to_limb = ends(&self.mechanism, &self.platforms, i).matrix(moving);
             to_limb.rows_mut(3, 3).scale_mut(own);
             for (j, mut column) in to_limb.column_iter_mut().enumerate() {
                 if j % 6 >= 3 {
@@ -43,7 +44,7 @@ impl Posture<'_> {
         if moving == 1 {
             return all;
         }
-        let tool = all.rows(6 * (m.tool - 1), 6).into_owned();
+        let tool = all.rows(6 * (m.tool() - 1), 6).into_owned();
         // What moves other platforms only leaves nothing here; its rounding is no motion.
         if tool.amax() < 1e-6 {
             return DMatrix::zeros(6, 0);
@@ -55,12 +56,12 @@ impl Posture<'_> {
     /// natural length): [`Self::mobility`] without what passive joints allow on their own.
     #[must_use]
     pub fn commanded_motions(&self) -> DMatrix<f64> {
-        let m = self.mechanism;
+        let m = self.mechanism.clone();
         let basis = self.mobility();
         let mut motions = basis.clone();
         motions.rows_mut(3, 3).unscale_mut(m.scale().length);
         let mut driven = DMatrix::zeros(basis.ncols(), basis.ncols());
-        for rates in rates_of(m, &self.platforms, &self.limbs) {
+        for rates in rates_of(&m, &self.platforms, &self.limbs) {
             let rates = rates * &motions;
             driven += rates.transpose() * rates;
         }
@@ -70,11 +71,11 @@ impl Posture<'_> {
     /// Base directions `x y z rx ry rz` of the tool that the machine can correct by itself:
     /// a choice, translations first, of as many as its actuators drive.
     #[must_use]
-    pub fn correctable(&self) -> [bool; 6] {
+    pub fn correctable(&self) -> Directions {
         let basis = self.commanded_motions();
-        let mut chosen = [false; 6];
+        let mut chosen = Directions::NONE;
         let mut rows: Vec<nalgebra::DVector<f64>> = Vec::new();
-        for (i, flag) in chosen.iter_mut().enumerate() {
+        for i in 0..6 {
             let mut row = basis.row(i).transpose();
             let size = row.norm();
             for r in &rows {
@@ -84,7 +85,7 @@ impl Posture<'_> {
             if row.norm() > 1e-6 * size.max(1e-3) && row.norm() > 1e-6 {
                 row.normalize_mut();
                 rows.push(row);
-                *flag = true;
+                chosen = chosen.with(i);
             }
         }
         chosen

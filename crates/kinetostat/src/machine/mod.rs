@@ -26,3 +26,13 @@ pub(crate) mod singular;
 pub(crate) mod state;
 pub(crate) mod stiffness;
 pub(crate) mod turned_loads;
+
+pub use assembly::LinearAssembly;
+pub use constraints::{Overconstraint, SelfStress};
+pub use equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
+pub use explain::negative_stiffness::OvercomeSpring;
+pub use inverse::limb::{LimbPosture, inverse_kinematics};
+pub use posture::Posture;
+pub use singular::near::{NearSingularity, SingularityKind};
+pub use state::MechanismState;
+pub use stiffness::UnloadedStiffness;

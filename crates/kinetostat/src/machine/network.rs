@@ -52,7 +52,7 @@ impl Ends {
 
 /// Where a limb begins and ends while the platforms are in these poses.
 pub(crate) fn ends(mechanism: &Mechanism, platforms: &[Pose], limb: usize) -> Ends {
-    let l = &mechanism.limbs[limb];
+    let l = &mechanism.limbs()[limb];
     let (base, end) = (&platforms[l.from], &platforms[l.to]);
     let arm: Vector3<f64> = end.rotation * l.platform_from_tip.translation.vector;
     let tip = end.translation.vector + arm;
@@ -63,15 +63,15 @@ pub(crate) fn ends(mechanism: &Mechanism, platforms: &[Pose], limb: usize) -> En
 }
 
 impl Network {
-    pub fn new(posture: &Posture<'_>) -> Result<Self> {
-        let m = posture.mechanism;
+    pub fn new(posture: &Posture) -> Result<Self> {
+        let m = posture.mechanism.clone();
         let mut network = Self {
             limbs: Vec::new(),
             motions: Vec::new(),
             rigid: Vec::new(),
-            platforms: m.platforms.len(),
+            platforms: m.platforms().len(),
         };
-        for (i, (limb, joints)) in m.limbs.iter().zip(&posture.limbs).enumerate() {
+        for (i, (limb, joints)) in m.limbs().iter().zip(&posture.limbs).enumerate() {
             let base = posture.platforms[limb.from];
             let k =
                 unloaded_stiffness(&limb.nominal, &base, &joints.coordinates, &joints.commands)?;
@@ -96,7 +96,7 @@ impl Network {
                 false => DMatrix::from_columns(&normals),
             });
             network.limbs.push(k);
-            network.motions.push(ends(m, &posture.platforms, i));
+            network.motions.push(ends(&m, &posture.platforms, i));
         }
         Ok(network)
     }

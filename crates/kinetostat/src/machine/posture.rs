@@ -3,7 +3,7 @@
 //!
 //! The thing right of the bar is a [`Posture`]; the thing left of it is an argument.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse};
 use crate::machine::inverse::limb::{LimbPosture, inverse_kinematics};
 use crate::machine::platforms::parts::Unknowns;
@@ -16,8 +16,8 @@ use crate::spatial::{MotionKind, Pose, Wrench};
 
 /// A mechanism whose actuators are commanded for a nominal target of the tool.
 #[derive(Clone, Debug)]
-pub struct Posture<'m> {
-    pub(crate) mechanism: &'m Mechanism,
+pub struct Posture {
+    pub(crate) mechanism: Mechanism,
     settings: Settings,
     pub(crate) target: Pose,
     /// Nominal poses of all platforms, the base first.
@@ -35,7 +35,7 @@ impl Mechanism {
     /// # Errors
     /// [`Error::Unreachable`] with the nearest pose, naming the limb; for a graph of several moving
     /// platforms the nearest pose is the last one reached on the straight way from home.
-    pub fn posture(&self, target: &Pose) -> Result<Posture<'_>> {
+    pub fn posture(&self, target: &Pose) -> Result<Posture> {
         self.posture_from(target, None)
     }
 
@@ -43,16 +43,16 @@ impl Mechanism {
     ///
     /// # Errors
     /// As [`Self::posture`].
-    pub fn posture_near(&self, target: &Pose, near: &Posture<'_>) -> Result<Posture<'_>> {
+    pub fn posture_near(&self, target: &Pose, near: &Posture) -> Result<Posture> {
         self.posture_from(target, Some(near))
     }
 
-    fn posture_from(&self, target: &Pose, near: Option<&Posture<'_>>) -> Result<Posture<'_>> {
-        let place = format!("mechanism '{}'", self.name);
-        crate::model::limits::sensible_pose(&place, "the target pose", target)?;
-        let mut platforms: Vec<Pose> = self.platforms.iter().map(|p| p.home).collect();
-        platforms[self.tool] = *target;
-        let limbs = if self.platforms.len() > 2 {
+    fn posture_from(&self, target: &Pose, near: Option<&Posture>) -> Result<Posture> {
+        let place = Place::mechanism(self.name());
+        crate::model::limits::check_pose(&place, "the target pose", target)?;
+        let mut platforms: Vec<Pose> = self.platforms().iter().map(|p| p.home).collect();
+        platforms[self.tool()] = *target;
+        let limbs = if self.platforms().len() > 2 {
             let start = near.map(|near| GraphPosture {
                 platforms: near.platforms.clone(),
                 limbs: near.limbs.clone(),
@@ -61,8 +61,8 @@ impl Mechanism {
             platforms = found.platforms;
             found.limbs
         } else {
-            let mut limbs = Vec::with_capacity(self.limbs.len());
-            for (i, limb) in self.limbs.iter().enumerate() {
+            let mut limbs = Vec::with_capacity(self.limbs().len());
+            for (i, limb) in self.limbs().iter().enumerate() {
                 let tip = target * limb.platform_from_tip;
                 let start = near.map(|near| &near.limbs[i]);
                 let base = &platforms[limb.from];
@@ -72,7 +72,7 @@ impl Mechanism {
             limbs
         };
         Ok(Posture {
-            mechanism: self,
+            mechanism: self.clone(),
             settings: Settings::default(),
             target: *target,
             platforms,
@@ -87,25 +87,21 @@ impl Mechanism {
     ///
     /// # Errors
     /// Lists of the wrong length.
-    pub fn posture_from_joints(
-        &self,
-        target: &Pose,
-        limbs: Vec<LimbPosture>,
-    ) -> Result<Posture<'_>> {
-        if limbs.len() != self.limbs.len() {
+    pub fn posture_from_joints(&self, target: &Pose, limbs: Vec<LimbPosture>) -> Result<Posture> {
+        if limbs.len() != self.limbs().len() {
             return Err(Error::Size {
-                place: format!("mechanism '{}'", self.name),
+                place: Place::mechanism(self.name()),
                 what: "limb postures",
-                expected: self.limbs.len(),
+                expected: self.limbs().len(),
                 found: limbs.len(),
             });
         }
-        for (limb, joints) in self.limbs.iter().zip(&limbs) {
+        for (limb, joints) in self.limbs().iter().zip(&limbs) {
             limb.nominal.check(&joints.coordinates, &joints.commands)?;
         }
         let platforms = self.platforms_from_joints(target, &limbs);
         Ok(Posture {
-            mechanism: self,
+            mechanism: self.clone(),
             settings: Settings::default(),
             target: *target,
             platforms,
@@ -117,14 +113,14 @@ impl Mechanism {
     /// Nominal poses of the platforms: those of the base and the tool are known, the others follow
     /// along the limbs from what is known, nearest first.
     fn platforms_from_joints(&self, target: &Pose, limbs: &[LimbPosture]) -> Vec<Pose> {
-        let mut platforms: Vec<Pose> = self.platforms.iter().map(|p| p.home).collect();
-        platforms[self.tool] = *target;
+        let mut platforms: Vec<Pose> = self.platforms().iter().map(|p| p.home).collect();
+        platforms[self.tool()] = *target;
         let mut known: Vec<bool> = (0..platforms.len())
-            .map(|p| p == 0 || p == self.tool)
+            .map(|p| p == 0 || p == self.tool())
             .collect();
         loop {
             let before = known.clone();
-            for (limb, joints) in self.limbs.iter().zip(limbs) {
+            for (limb, joints) in self.limbs().iter().zip(limbs) {
                 if before[limb.from] == before[limb.to] || (known[limb.from] && known[limb.to]) {
                     continue;
                 }
@@ -150,11 +146,11 @@ impl Mechanism {
     }
 }
 
-impl<'m> Posture<'m> {
+impl Posture {
     /// The mechanism.
     #[must_use]
-    pub fn mechanism(&self) -> &'m Mechanism {
-        self.mechanism
+    pub fn mechanism(&self) -> &Mechanism {
+        &self.mechanism
     }
 
     /// Nominal target of the tool, `t0`.
@@ -192,10 +188,10 @@ impl<'m> Posture<'m> {
     /// [`Error::Model`] for the base or a platform that does not exist; [`Error::NotFinite`].
     pub fn with_wrench_on(mut self, platform: usize, wrench: Wrench) -> Result<Self> {
         self.finite("the wrench on a platform", wrench.0.iter())?;
-        let count = self.mechanism.platforms.len();
+        let count = self.mechanism.platforms().len();
         if platform == 0 || platform >= count {
             return Err(Error::model(
-                format!("mechanism '{}'", self.mechanism.name),
+                Place::mechanism(self.mechanism.name()),
                 format!(
                     "a wrench acts on platform {platform}; those that move are 1 to {}",
                     count - 1
@@ -218,7 +214,7 @@ impl<'m> Posture<'m> {
         let names = self.mechanism.actuator_names();
         let actuators = self
             .mechanism
-            .limbs
+            .limbs()
             .iter()
             .flat_map(|l| &l.nominal.actuators);
         names
@@ -241,7 +237,7 @@ impl<'m> Posture<'m> {
         else {
             return Ok(());
         };
-        let limbs = self.mechanism.limbs.iter();
+        let limbs = self.mechanism.limbs().iter();
         let kind = limbs
             .flat_map(|l| &l.nominal.actuators)
             .zip(self.mechanism.actuator_names())
@@ -272,9 +268,9 @@ impl<'m> Posture<'m> {
         }
     }
 
-    pub(crate) fn solver(&self, state: MechanismState, unknowns: Unknowns) -> PlatformSolver<'m> {
+    pub(crate) fn solver(&self, state: MechanismState, unknowns: Unknowns) -> PlatformSolver<'_> {
         let mut solver = PlatformSolver::new(
-            self.mechanism,
+            &self.mechanism,
             self.settings,
             self.limbs.clone(),
             state,
@@ -291,10 +287,10 @@ impl<'m> Posture<'m> {
         what: &str,
         mut values: impl Iterator<Item = &'a f64>,
     ) -> Result<()> {
-        let place = format!("mechanism '{}'", self.mechanism.name);
+        let place = Place::mechanism(self.mechanism.name());
         self.settings.check(&place)?;
         values.try_for_each(|value| {
-            crate::model::limits::sensible(&place, || what.to_owned(), *value)
+            crate::model::limits::check_number(&place, || what.to_owned(), *value)
         })
     }
 }

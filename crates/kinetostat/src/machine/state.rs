@@ -1,18 +1,18 @@
 //! The state of a machine: where its platforms are and what its limbs do.
 
-use crate::error::{Error, Result};
-use crate::model::limits::{sensible_all, sensible_pose};
+use crate::error::{Error, Part, Place, Result};
+use crate::model::limits::{check_numbers, check_pose};
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Wrench};
 
 /// Refuses a state that is not one of this mechanism.
 pub(crate) fn check_state(mechanism: &Mechanism, state: &MechanismState) -> Result<()> {
-    let place = format!("mechanism '{}'", mechanism.name);
-    let limbs = mechanism.limbs.len();
+    let place = Place::mechanism(mechanism.name());
+    let limbs = mechanism.limbs().len();
     let lists = [
         (
             "the state to start from, its platforms",
-            mechanism.platforms.len(),
+            mechanism.platforms().len(),
             state.platforms.len(),
         ),
         (
@@ -38,22 +38,22 @@ pub(crate) fn check_state(mechanism: &Mechanism, state: &MechanismState) -> Resu
     }
     let what = "a number of the state to start from";
     for pose in &state.platforms {
-        sensible_pose(&place, what, pose)?;
+        check_pose(&place, what, pose)?;
     }
-    for (limb, own) in mechanism.limbs.iter().zip(&state.coordinates) {
+    for (limb, own) in mechanism.limbs().iter().zip(&state.coordinates) {
         let (expected, found) = (limb.nominal.coordinate_count(), own.len());
         if expected != found {
             return Err(Error::Size {
-                place: format!("{place}: limb '{}'", limb.name),
+                place: place.part(Part::Limb(limb.name.clone())),
                 what: "the state to start from, its coordinates",
                 expected,
                 found,
             });
         }
-        sensible_all(&place, what, own)?;
+        check_numbers(&place, what, own)?;
     }
     let mut wrenches = state.wrenches.iter();
-    wrenches.try_for_each(|wrench| sensible_all(&place, what, &wrench.0))
+    wrenches.try_for_each(|wrench| check_numbers(&place, what, &wrench.0))
 }
 
 /// Poses, coordinates and end wrenches of a mechanism: where an iteration starts and ends.

@@ -12,31 +12,31 @@ use crate::machine::network::Network;
 use crate::machine::posture::Posture;
 use crate::spatial::CartesianStiffness;
 
-impl Posture<'_> {
+impl Posture {
     /// Unloaded stiffness of the nominal mechanism, at the tool's origin, base axes [R 3.10, 3.13],
     /// all other platforms free.
     ///
     /// # Errors
     /// Wrong sizes only; a singular stiffness is a result.
     pub fn stiffness(&self) -> Result<UnloadedStiffness> {
-        let m = self.mechanism;
+        let m = self.mechanism.clone();
         let network = Network::new(self)?;
         let scale = m.scale();
         // Nothing acts: no more than the limbs' own.
-        let scales = m.limbs.iter().map(|limb| limb.nominal.scale());
+        let scales = m.limbs().iter().map(|limb| limb.nominal.scale());
         let own = network.limbs.iter().zip(scales.clone());
         let own = own.zip(&network.motions).map(|((k, s), e)| (k, s, e));
         let graded = GradedPlatforms::of(scale, network.moving(), own);
-        let (matrix, directions) = if m.platforms.len() > 2 {
+        let (matrix, directions) = if m.platforms().len() > 2 {
             let (total, rigid) = (network.stiffness(), network.rows());
-            condensed_directions(&total, graded.as_ref(), &rigid, m.tool - 1, scale)
+            condensed_directions(&total, graded.as_ref(), &rigid, m.tool() - 1, scale)
         } else {
             let mut total = Matrix6::zeros();
             for (k, ends) in network.limbs.iter().zip(&network.motions) {
                 total += ends.to.1.transpose() * k.cartesian.matrix * ends.to.1;
             }
             let arms = m
-                .limbs
+                .limbs()
                 .iter()
                 .map(|limb| self.target.rotation * limb.platform_from_tip.translation.vector);
             let own = network.limbs.iter().zip(arms).zip(scales);

@@ -25,7 +25,7 @@ impl PlatformSolver<'_> {
 
     /// Where the limbs begin and end now.
     fn ends(&self) -> Vec<Ends> {
-        let limbs = 0..self.mechanism.limbs.len();
+        let limbs = 0..self.mechanism.limbs().len();
         limbs
             .map(|i| ends(self.mechanism, &self.state.platforms, i))
             .collect()
@@ -35,7 +35,7 @@ impl PlatformSolver<'_> {
     pub fn graded(&self, tangent: &Sparse, limbs: &[&ChainStiffness]) -> Option<GradedPlatforms> {
         let m = self.mechanism;
         let ends = self.ends();
-        let scales = m.limbs.iter().map(|limb| limb.actual.scale());
+        let scales = m.limbs().iter().map(|limb| limb.actual.scale());
         let own = limbs.iter().zip(scales).zip(&ends);
         let own = own.map(|((k, scale), ends)| (*k, scale, ends));
         let graded = GradedPlatforms::of(m.scale(), tangent.rows / 6, own)?;
@@ -48,7 +48,7 @@ impl PlatformSolver<'_> {
         let (m, at) = (self.mechanism, &self.state);
         let mut sum = Sparse::zeros(tangent.rows, tangent.columns);
         let mut loaded = false;
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let to = 6 * (limb.to - 1);
             sum.add(to, to, &self.turned_force(i, at));
             if limb.from == 0 {

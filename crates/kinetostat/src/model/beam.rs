@@ -6,7 +6,7 @@
 use nalgebra::Matrix6;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result, Whole};
 use crate::model::limits::positive;
 
 /// Section and material of a straight prismatic link along its local x axis.
@@ -69,7 +69,7 @@ impl BeamSection {
                 "its area is {} m^2, a positive number is needed: the inner diameter is larger than the outer one",
                 self.area
             );
-            return Err(Error::model("section", reason));
+            return Err(Error::model(Place::of(Whole::Section), reason));
         }
         for (what, value) in [
             ("length (m)", length),
@@ -80,7 +80,7 @@ impl BeamSection {
             ("second moment about z (m^4)", self.second_moment_z),
             ("torsion constant (m^4)", self.torsion_constant),
         ] {
-            positive("section", what, value)?;
+            positive(&Place::of(Whole::Section), what, value)?;
         }
         Ok(())
     }

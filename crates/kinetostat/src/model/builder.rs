@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
 use crate::model::springs::block::{Segment, SpringBlock, SpringLaw, balanced};
 use crate::model::springs::parallelogram::ParallelogramLaw;
@@ -309,7 +309,7 @@ impl ChainBuilder {
     }
 
     /// A virtual spring of one degree of freedom with any law of one coordinate, such as
-    /// [`crate::BilinearLaw`].
+    /// [`crate::model::BilinearLaw`].
     #[must_use]
     pub fn spring_with_law(
         mut self,
@@ -567,7 +567,7 @@ impl ChainBuilder {
     /// [`Error::Model`] for an axis without direction, a stiffness that is not symmetric and
     /// positive definite, a name used twice, or a number that is not finite.
     pub fn build(mut self) -> Result<Chain> {
-        let place = format!("chain '{}'", self.chain.name);
+        let place = Place::chain(self.chain.name.as_str());
         self = self.node("tip");
         if let Some(reason) = self.mistake {
             return Err(Error::model(place, reason));

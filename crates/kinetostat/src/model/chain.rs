@@ -9,8 +9,8 @@
 use nalgebra::{Matrix3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
-use crate::model::limits::sensible;
+use crate::error::{Error, Place, Result};
+use crate::model::limits::check_number;
 use crate::model::springs::block::SpringBlock;
 use crate::spatial::{MotionKind, Pose};
 
@@ -202,7 +202,7 @@ impl Chain {
             .iter()
             .position(|n| n == name)
             .ok_or_else(|| Error::UnknownName {
-                place: format!("chain '{}'", self.name),
+                place: Place::chain(self.name.as_str()),
                 what: "node",
                 name: name.into(),
                 known: self.nodes.join(", "),
@@ -230,7 +230,7 @@ impl Chain {
     pub fn with_end(&self, name: &str, offset: &Pose) -> Result<Self> {
         if self.nodes.iter().any(|n| n == name) {
             return Err(Error::model(
-                format!("chain '{}'", self.name),
+                Place::chain(self.name.as_str()),
                 format!("the name '{name}' is used twice"),
             ));
         }
@@ -245,7 +245,7 @@ impl Chain {
 
     /// Checks the lengths of a configuration and that its numbers are finite.
     pub(crate) fn check(&self, coordinates: &[f64], commands: &[f64]) -> Result<()> {
-        let place = || format!("chain '{}'", self.name);
+        let place = || Place::chain(self.name.as_str());
         for (what, expected, given) in [
             ("coordinates", self.coordinates.len(), coordinates),
             ("commands", self.actuators.len(), commands),
@@ -259,7 +259,7 @@ impl Chain {
                 });
             }
             for (i, &value) in given.iter().enumerate() {
-                sensible(&place(), || format!("{what}[{i}]"), value)?;
+                check_number(&place(), || format!("{what}[{i}]"), value)?;
             }
         }
         Ok(())

@@ -1,13 +1,13 @@
 //! Numbers that can be calculated with: finite, and not so large that their products are not.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::number::short;
 
-/// Refuses a pose with a number that [`sensible`] refuses.
-pub(crate) fn sensible_pose(place: &str, what: &str, pose: &crate::spatial::Pose) -> Result<()> {
+/// Refuses a pose with a number that [`check_number`] refuses.
+pub(crate) fn check_pose(place: &Place, what: &str, pose: &crate::spatial::Pose) -> Result<()> {
     let (p, r) = (pose.translation.vector, pose.rotation.coords);
     for value in [p.x, p.y, p.z, r.x, r.y, r.z, r.w] {
-        sensible(place, || what.to_owned(), value)?;
+        check_number(place, || what.to_owned(), value)?;
     }
     Ok(())
 }
@@ -16,10 +16,10 @@ pub(crate) fn sensible_pose(place: &str, what: &str, pose: &crate::spatial::Pose
 pub(crate) const LARGEST: f64 = 1e60;
 
 /// Refuses a number that is not finite, or so large that its powers are not.
-pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Result<()> {
+pub(crate) fn check_number(place: &Place, what: impl Fn() -> String, value: f64) -> Result<()> {
     if !value.is_finite() {
         return Err(Error::NotFinite {
-            place: place.to_owned(),
+            place: place.clone(),
             what: what(),
             value,
         });
@@ -38,7 +38,7 @@ pub(crate) fn sensible(place: &str, what: impl Fn() -> String, value: f64) -> Re
     Ok(())
 }
 
-/// The first of some named numbers that [`sensible`] refuses, in words.
+/// The first of some named numbers that [`check_number`] refuses, in words.
 pub(crate) fn odd_number<'a>(
     numbers: impl IntoIterator<Item = (&'a str, &'a f64)>,
 ) -> Option<String> {
@@ -52,17 +52,17 @@ pub(crate) fn odd_number<'a>(
     })
 }
 
-pub(crate) fn sensible_all<'a>(
-    place: &str,
+pub(crate) fn check_numbers<'a>(
+    place: &Place,
     what: &str,
     numbers: impl IntoIterator<Item = &'a f64>,
 ) -> Result<()> {
     let mut numbers = numbers.into_iter();
-    numbers.try_for_each(|x| sensible(place, || what.to_owned(), *x))
+    numbers.try_for_each(|x| check_number(place, || what.to_owned(), *x))
 }
 
 /// Refuses what is not a positive, finite number.
-pub(crate) fn positive(place: &str, what: &str, value: f64) -> Result<()> {
+pub(crate) fn positive(place: &Place, what: &str, value: f64) -> Result<()> {
     if value > 0.0 && value < LARGEST {
         return Ok(());
     }

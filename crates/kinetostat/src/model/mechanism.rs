@@ -5,10 +5,12 @@
 //! and the actual one, with its assembly and manufacturing errors, which decides where the machine
 //! goes.
 
+use std::sync::Arc;
+
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::error::Result;
+use crate::error::{Error, Place, Result};
 use crate::model::chain::{Chain, Scale};
 use crate::model::loads::load::Load;
 use crate::model::loads::platform::PlatformLoad;
@@ -62,9 +64,49 @@ pub struct Limb {
     pub actual: Chain,
 }
 
-/// Platforms, limbs, loads on limbs and gravity. Never changes after [`MechanismBuilder::build`](crate::MechanismBuilder::build).
+impl Limb {
+    /// A limb as it is drawn, from one platform to another (their indices), whose tip is the reference
+    /// point of the second.
+    #[must_use]
+    pub fn between(name: impl Into<String>, from: usize, to: usize, chain: Chain) -> Self {
+        Self {
+            name: name.into(),
+            from,
+            to,
+            platform_from_tip: Pose::identity(),
+            nominal: chain.clone(),
+            actual: chain,
+        }
+    }
+
+    /// The same limb with its tip fixed elsewhere on the second platform (platform from tip).
+    #[must_use]
+    pub fn fixed_at(mut self, platform_from_tip: Pose) -> Self {
+        self.platform_from_tip = platform_from_tip;
+        self
+    }
+
+    /// The same limb with the geometry that exists, errors included.
+    #[must_use]
+    pub fn with_actual(mut self, actual: Chain) -> Self {
+        self.actual = actual;
+        self
+    }
+}
+
+/// Platforms, limbs, loads on limbs and gravity. Never changes after
+/// [`MechanismBuilder::build`](crate::MechanismBuilder::build), and is shared: a copy costs nothing, so that
+/// postures and batches own theirs and go to other threads with it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "MechanismParts", into = "MechanismParts")]
 pub struct Mechanism {
+    parts: Arc<MechanismParts>,
+}
+
+/// What a mechanism is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Mechanism")]
+pub(crate) struct MechanismParts {
     pub(crate) name: String,
     pub(crate) platforms: Vec<Platform>,
     pub(crate) limbs: Vec<Limb>,
@@ -86,6 +128,20 @@ pub struct Mechanism {
         serialize_with = "refuse_platform_loads"
     )]
     pub(crate) platform_loads: Vec<PlatformLoad>,
+}
+
+impl From<MechanismParts> for Mechanism {
+    fn from(parts: MechanismParts) -> Self {
+        Self {
+            parts: Arc::new(parts),
+        }
+    }
+}
+
+impl From<Mechanism> for MechanismParts {
+    fn from(mechanism: Mechanism) -> Self {
+        Arc::unwrap_or_clone(mechanism.parts)
+    }
 }
 
 /// A load may be a function, which no file holds; to leave it out in silence would be worse.
@@ -114,83 +170,118 @@ impl Mechanism {
         let name = chain.name.clone();
         let mut builder = Self::builder(&name).gravity(gravity);
         let tool = builder.platform(Platform::new("tool", home));
-        builder
-            .limb(Limb {
-                name,
-                from: 0,
-                to: tool,
-                platform_from_tip: Pose::identity(),
-                nominal: chain.clone(),
-                actual: chain,
-            })
-            .build()
+        builder.limb(Limb::between(name, 0, tool, chain)).build()
     }
 
     /// Name.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.name
+        &self.parts.name
     }
 
     /// Platforms; index 0 is the fixed base.
     #[must_use]
     pub fn platforms(&self) -> &[Platform] {
-        &self.platforms
+        &self.parts.platforms
     }
 
     /// Limbs.
     #[must_use]
     pub fn limbs(&self) -> &[Limb] {
-        &self.limbs
+        &self.parts.limbs
+    }
+
+    /// Index of the platform of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the names that exist.
+    pub fn platform_named(&self, name: &str) -> Result<usize> {
+        let names = self.platforms().iter().map(|platform| &platform.name);
+        self.index_of("platform", name, names)
+    }
+
+    /// Index of the limb of this name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the names that exist.
+    pub fn limb_named(&self, name: &str) -> Result<usize> {
+        let names = self.limbs().iter().map(|limb| &limb.name);
+        self.index_of("limb", name, names)
+    }
+
+    fn index_of<'a>(
+        &self,
+        what: &'static str,
+        name: &str,
+        names: impl Iterator<Item = &'a String>,
+    ) -> Result<usize> {
+        let known: Vec<&str> = names.map(String::as_str).collect();
+        let index = known.iter().position(|known| *known == name);
+        index.ok_or_else(|| Error::UnknownName {
+            place: self.place(),
+            what,
+            name: name.to_owned(),
+            known: known.join(", "),
+        })
+    }
+
+    /// To change it; where it is shared, a copy.
+    pub(crate) fn parts_mut(&mut self) -> &mut MechanismParts {
+        Arc::make_mut(&mut self.parts)
+    }
+
+    /// This mechanism, as errors name it.
+    pub(crate) fn place(&self) -> Place {
+        Place::mechanism(self.name())
     }
 
     /// Gravity, m/s^2, base axes.
     #[must_use]
     pub fn gravity(&self) -> Vector3<f64> {
-        self.gravity
+        self.parts.gravity
     }
 
     /// Loads on a limb besides gravity, in the order in which they were added.
     #[must_use]
     pub fn loads(&self, limb: usize) -> &[Load] {
-        self.loads.get(limb).map_or(&[], Vec::as_slice)
+        self.parts.loads.get(limb).map_or(&[], Vec::as_slice)
     }
 
     /// Natural length, m: the mean over its limbs.
     #[must_use]
     pub fn natural_length(&self) -> f64 {
-        let sum: f64 = self.limbs.iter().map(|l| l.actual.scale().length).sum();
-        sum / self.limbs.len() as f64
+        let sum: f64 = self.limbs().iter().map(|l| l.actual.scale().length).sum();
+        sum / self.limbs().len() as f64
     }
 
     /// Whether anything acts on it without a load on its tool: gravity, or loads of the model.
     #[must_use]
     pub fn has_own_loads(&self) -> bool {
-        let loads = self.loads.iter().map(Vec::len).sum::<usize>() + self.platform_loads.len();
-        self.gravity != Vector3::zeros() || loads > 0
+        let loads =
+            self.parts.loads.iter().map(Vec::len).sum::<usize>() + self.parts.platform_loads.len();
+        self.gravity() != Vector3::zeros() || loads > 0
     }
 
     /// The same machine without gravity and without the loads of its model (springs between nodes,
     /// counterweights and so on). Deviations and preloads of springs inside its limbs stay.
     #[must_use]
     pub fn without_own_loads(&self) -> Self {
-        Self {
-            gravity: Vector3::zeros(),
-            loads: Vec::new(),
-            platform_loads: Vec::new(),
-            ..self.clone()
-        }
+        let mut parts = MechanismParts::clone(&self.parts);
+        parts.gravity = Vector3::zeros();
+        parts.loads.clear();
+        parts.platform_loads.clear();
+        parts.into()
     }
 
     /// Loads on platforms, those between limbs included, in the order in which they were added.
     #[must_use]
     pub fn platform_loads(&self) -> &[PlatformLoad] {
-        &self.platform_loads
+        &self.parts.platform_loads
     }
 
     /// Everything that acts on a limb between its ends: gravity, then its loads.
     pub(crate) fn acting(&self, limb: usize) -> Vec<Load> {
-        let gravity = (self.gravity != Vector3::zeros()).then_some(Load::Gravity(self.gravity));
+        let gravity = (self.gravity() != Vector3::zeros()).then_some(Load::Gravity(self.gravity()));
         gravity
             .into_iter()
             .chain(self.loads(limb).iter().cloned())
@@ -201,7 +292,7 @@ impl Mechanism {
     /// only where everything before its node, from the fixed base on, turns about one axis.
     #[must_use]
     pub fn load_conservative(&self, limb: usize, load: &Load) -> bool {
-        let own = &self.limbs[limb];
+        let own = &self.limbs()[limb];
         match load {
             Load::Dead { wrench, .. } if own.from != 0 => wrench.moment() == Vector3::zeros(),
             load => load.conservative(&own.actual),
@@ -219,9 +310,9 @@ impl Mechanism {
     /// about one axis only.
     pub(crate) fn tool_moment_has_potential(&self, moment: &Vector3<f64>) -> bool {
         *moment == Vector3::zeros()
-            || self.limbs.iter().any(|limb| {
+            || self.limbs().iter().any(|limb| {
                 limb.from == 0
-                    && limb.to == self.tool
+                    && limb.to == self.tool()
                     && moments_have_potential(&limb.actual, limb.actual.tip())
             })
     }
@@ -229,14 +320,18 @@ impl Mechanism {
     /// Index of the platform that carries the tool: the last one.
     #[must_use]
     pub fn tool(&self) -> usize {
-        self.tool
+        self.parts.tool
     }
 
     /// Natural length and stiffness: means over the limbs as they are.
     pub(crate) fn scale(&self) -> Scale {
-        let count = self.limbs.len() as f64;
+        let count = self.limbs().len() as f64;
         let mean = |of: fn(Scale) -> f64| {
-            self.limbs.iter().map(|l| of(l.actual.scale())).sum::<f64>() / count
+            self.limbs()
+                .iter()
+                .map(|l| of(l.actual.scale()))
+                .sum::<f64>()
+                / count
         };
         Scale {
             length: mean(|s| s.length),
@@ -249,17 +344,17 @@ impl Mechanism {
     #[must_use]
     pub fn size(&self) -> f64 {
         let lengths: Vec<f64> = self
-            .limbs
+            .limbs()
             .iter()
             .map(|l| l.nominal.scale().length)
             .collect();
         // Lengths of the shortest ways to all platforms.
-        let mut ways = vec![f64::INFINITY; self.platforms.len()];
+        let mut ways = vec![f64::INFINITY; self.platforms().len()];
         ways[0] = 0.0;
         let mut shorter = true;
         while shorter {
             shorter = false;
-            for (limb, length) in self.limbs.iter().zip(&lengths) {
+            for (limb, length) in self.limbs().iter().zip(&lengths) {
                 for (to, from) in [(limb.to, limb.from), (limb.from, limb.to)] {
                     if ways[from] + length < ways[to] {
                         ways[to] = ways[from] + length;
@@ -269,8 +364,8 @@ impl Mechanism {
             }
         }
         let longest = lengths.iter().copied().fold(0.0, f64::max);
-        match ways[self.tool].is_finite() {
-            true => longest.max(ways[self.tool]),
+        match ways[self.tool()].is_finite() {
+            true => longest.max(ways[self.tool()]),
             false => longest,
         }
     }
@@ -278,14 +373,14 @@ impl Mechanism {
     /// Number of actuators of all limbs.
     #[must_use]
     pub fn actuator_count(&self) -> usize {
-        self.limbs.iter().map(|l| l.nominal.actuators.len()).sum()
+        self.limbs().iter().map(|l| l.nominal.actuators.len()).sum()
     }
 
     /// `limb.actuator` of every actuator, in the order of [`crate::Posture::commands`].
     #[must_use]
     pub fn actuator_names(&self) -> Vec<String> {
-        let single = self.limbs.len() == 1;
-        self.limbs
+        let single = self.limbs().len() == 1;
+        self.limbs()
             .iter()
             .flat_map(|l| {
                 l.nominal.actuators.iter().map(move |a| {
@@ -305,7 +400,7 @@ impl Mechanism {
     /// (platform from tool): a spindle's tip, say. Results then refer to that point.
     #[must_use]
     pub fn with_tool(&self, tool: &Pose) -> Self {
-        let mut moved = self.clone();
+        let mut moved = MechanismParts::clone(&self.parts);
         let inverse = tool.inverse();
         for limb in &mut moved.limbs {
             if limb.to == moved.tool {
@@ -328,6 +423,6 @@ impl Mechanism {
             (inverse * nalgebra::Point3::from(platform.centre_of_mass)).coords;
         let turn = tool.rotation.to_rotation_matrix();
         platform.inertia = turn.matrix().transpose() * platform.inertia * turn.matrix();
-        moved
+        moved.into()
     }
 }

@@ -4,20 +4,20 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Part, Place, Result};
 use crate::model::kinematics::Kinematics;
-use crate::model::limits::{sensible_all, sensible_pose};
+use crate::model::limits::{check_numbers, check_pose};
 use crate::model::loads::check::check_load;
 use crate::model::loads::load::Load;
 use crate::model::loads::platform::PlatformLoad;
-use crate::model::mechanism::{Limb, Mechanism, Platform};
+use crate::model::mechanism::{Limb, Mechanism, MechanismParts, Platform};
 use crate::model::mechanism_check::{check_platform, check_platform_load};
 use crate::spatial::Pose;
 
 /// Builds a [`Mechanism`].
 #[derive(Clone, Debug)]
 pub struct MechanismBuilder {
-    mechanism: Mechanism,
+    mechanism: MechanismParts,
     /// Name of a limb and a load on it.
     loads: Vec<(String, Load)>,
 }
@@ -58,14 +58,7 @@ impl MechanismBuilder {
     /// let mut machine = Mechanism::builder("sprung arm");
     /// let tool = machine.platform(Platform::new("tool", Pose::translation(1.0, 0.0, 0.0)));
     /// let machine = machine
-    ///     .limb(Limb {
-    ///         name: "arm".into(),
-    ///         from: 0,
-    ///         to: tool,
-    ///         platform_from_tip: Pose::identity(),
-    ///         nominal: chain.clone(),
-    ///         actual: chain,
-    ///     })
+    ///     .limb(Limb::between("arm", 0, tool, chain))
     ///     .load("arm", Load::spring_between(post, lug, 4e3, 0.3))
     ///     .build()?;
     /// let home = machine.platforms()[tool].home;
@@ -104,12 +97,12 @@ impl MechanismBuilder {
     /// a limb that does not exist.
     pub fn build(self) -> Result<Mechanism> {
         let mut m = self.mechanism;
-        let place = format!("mechanism '{}'", m.name);
+        let place = Place::mechanism(m.name.as_str());
         let fault = |reason: String| Err(Error::model(place.clone(), reason));
         if m.platforms.len() < 2 {
             return fault("it has no moving platform".into());
         }
-        sensible_all(&place, "gravity", &m.gravity)?;
+        check_numbers(&place, "gravity", &m.gravity)?;
         for names in [
             m.platforms.iter().map(|p| &p.name).collect::<Vec<_>>(),
             m.limbs.iter().map(|l| &l.name).collect(),
@@ -130,9 +123,9 @@ impl MechanismBuilder {
                     limb.name, limb.from, limb.to
                 ));
             }
-            let of_limb = format!("{place}: limb '{}'", limb.name);
+            let of_limb = place.part(Part::Limb(limb.name.clone()));
             let tip = &limb.platform_from_tip;
-            sensible_pose(&of_limb, "the pose of its tip on the platform", tip)?;
+            check_pose(&of_limb, "the pose of its tip on the platform", tip)?;
             if limb.to == 0 {
                 return fault(format!(
                     "limb '{}': it ends at the base; write it from the base to the moving platform",
@@ -192,7 +185,7 @@ impl MechanismBuilder {
             m.loads.resize(m.loads.len().max(index + 1), Vec::new());
             m.loads[index].push(load);
         }
-        Ok(m)
+        Ok(m.into())
     }
 }
 
@@ -201,7 +194,7 @@ impl Mechanism {
     #[must_use]
     pub fn builder(name: impl Into<String>) -> MechanismBuilder {
         MechanismBuilder {
-            mechanism: Self {
+            mechanism: MechanismParts {
                 name: name.into(),
                 platforms: vec![Platform::new("base", Pose::identity())],
                 limbs: Vec::new(),

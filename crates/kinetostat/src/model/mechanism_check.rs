@@ -1,18 +1,18 @@
 //! Whether the numbers of a mechanism's platforms, of the loads on them, and of a state to start from are
 //! numbers that can be calculated with.
 
-use crate::error::{Error, Result};
-use crate::model::limits::{sensible_all, sensible_pose};
+use crate::error::{Error, Part, Place, Result};
+use crate::model::limits::{check_numbers, check_pose};
 use crate::model::loads::platform::PlatformLoad;
-use crate::model::mechanism::{Mechanism, Platform};
+use crate::model::mechanism::{MechanismParts, Platform};
 
 /// Refuses a platform without a sensible home, mass or inertia.
-pub(crate) fn check_platform(place: &str, platform: &Platform) -> Result<()> {
-    let place = format!("{place}: platform '{}'", platform.name);
-    sensible_pose(&place, "the home pose", &platform.home)?;
-    sensible_all(&place, "the mass", [&platform.mass])?;
-    sensible_all(&place, "the centre of mass", &platform.centre_of_mass)?;
-    sensible_all(&place, "the inertia", &platform.inertia)?;
+pub(crate) fn check_platform(place: &Place, platform: &Platform) -> Result<()> {
+    let place = place.part(Part::Platform(platform.name.clone()));
+    check_pose(&place, "the home pose", &platform.home)?;
+    check_numbers(&place, "the mass", [&platform.mass])?;
+    check_numbers(&place, "the centre of mass", &platform.centre_of_mass)?;
+    check_numbers(&place, "the inertia", &platform.inertia)?;
     if platform.mass < 0.0 {
         let reason = format!(
             "the mass is {} kg, a number that is not negative is needed",
@@ -24,11 +24,11 @@ pub(crate) fn check_platform(place: &str, platform: &Platform) -> Result<()> {
 }
 
 /// Refuses a load on platforms whose numbers, or whose answers at home, are none.
-pub(crate) fn check_platform_load(mechanism: &Mechanism, load: &PlatformLoad) -> Result<()> {
-    let place = format!("mechanism '{}'", mechanism.name);
+pub(crate) fn check_platform_load(mechanism: &MechanismParts, load: &PlatformLoad) -> Result<()> {
+    let place = Place::mechanism(mechanism.name.as_str());
     if let PlatformLoad::Wrench { point, wrench, .. } = load {
-        sensible_all(&place, "the place of a wrench on a platform", point)?;
-        sensible_all(&place, "a wrench on a platform", &wrench.0)?;
+        check_numbers(&place, "the place of a wrench on a platform", point)?;
+        check_numbers(&place, "a wrench on a platform", &wrench.0)?;
     }
     check_platforms(mechanism, load)?;
     let home: Vec<_> = mechanism.platforms.iter().map(|p| p.home).collect();
@@ -37,17 +37,17 @@ pub(crate) fn check_platform_load(mechanism: &Mechanism, load: &PlatformLoad) ->
     load.tangents(&home, &mut tangents);
     let what = "what a load on platforms answers at home";
     for (_, wrench) in &wrenches {
-        sensible_all(&place, what, &wrench.0)?;
+        check_numbers(&place, what, &wrench.0)?;
     }
     tangents
         .iter()
-        .try_for_each(|tangent| sensible_all(&place, what, &tangent.matrix))
+        .try_for_each(|tangent| check_numbers(&place, what, &tangent.matrix))
 }
 
 /// That a load fits the platforms.
-fn check_platforms(mechanism: &Mechanism, load: &PlatformLoad) -> Result<()> {
+fn check_platforms(mechanism: &MechanismParts, load: &PlatformLoad) -> Result<()> {
     let fault = |reason: String| {
-        let place = format!("mechanism '{}'", mechanism.name);
+        let place = Place::mechanism(mechanism.name.as_str());
         Err(Error::model(place, reason))
     };
     let own = load.platforms();

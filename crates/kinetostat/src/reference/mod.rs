@@ -10,3 +10,17 @@ pub(crate) mod elimination;
 pub(crate) mod passive_rules;
 pub(crate) mod report_iteration;
 pub(crate) mod shape_criterion;
+
+pub use chain_blocks::ChainBlocks;
+pub use conditions::{Applied, Inapplicable};
+pub use elimination::{LoadedClosedForm, Recursion};
+pub use passive_rules::{
+    Axis, Elimination, eliminate_passive, planar_beam, planar_with_hinge_at_end,
+    planar_with_slide_along_x, planar_with_slide_along_y, with_hinge_at, with_hinge_at_end,
+    with_hinge_at_root, with_slide, with_spherical_joint_at_end, with_universal_joint_at_end,
+};
+pub use report_iteration::{
+    ChainState, IterationOutcome, IterationSettings, ReportIteration, newton_iteration,
+    report_iteration,
+};
+pub use shape_criterion::{ShapeCriterion, shape_criterion};

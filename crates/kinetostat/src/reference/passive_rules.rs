@@ -6,8 +6,8 @@
 
 use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
-use crate::error::{Error, Result};
-use crate::model::limits::{positive, sensible};
+use crate::error::{Error, Place, Result, Whole};
+use crate::model::limits::{check_number, positive};
 
 /// A pivot below this share of the terms that make it up is rounding: the direction is free.
 const FREE: f64 = 1e-12;
@@ -37,21 +37,23 @@ pub fn eliminate_passive<const N: usize>(
     check(stiffness)?;
     for &value in column {
         let what = || "the motion of the end per unit of the joint".to_owned();
-        sensible(PLACE, what, value)?;
+        check_number(&place(), what, value)?;
     }
     if column.amax() == 0.0 {
         let reason = "the joint moves the end in no direction: its column is zero";
-        return Err(Error::model(PLACE, reason));
+        return Err(Error::model(place(), reason));
     }
     Ok(eliminated(stiffness, column))
 }
 
-const PLACE: &str = "passive joint rule";
+fn place() -> Place {
+    Place::of(Whole::PassiveJointRule)
+}
 
 /// Refuses what is no stiffness of an unloaded link.
 fn check<const N: usize>(k: &SMatrix<f64, N, N>) -> Result<()> {
     for &value in k {
-        sensible(PLACE, || "an entry of the stiffness".to_owned(), value)?;
+        check_number(&place(), || "an entry of the stiffness".to_owned(), value)?;
     }
     for i in 0..N {
         // A direction that another joint freed is zero to rounding.
@@ -62,7 +64,7 @@ fn check<const N: usize>(k: &SMatrix<f64, N, N>) -> Result<()> {
                 i + 1,
                 k[(i, i)]
             );
-            return Err(Error::model(PLACE, reason));
+            return Err(Error::model(place(), reason));
         }
         for j in 0..i {
             let (a, b) = (k[(i, j)], k[(j, i)]);
@@ -73,7 +75,7 @@ fn check<const N: usize>(k: &SMatrix<f64, N, N>) -> Result<()> {
                     i + 1,
                     j + 1
                 );
-                return Err(Error::model(PLACE, reason));
+                return Err(Error::model(place(), reason));
             }
         }
     }
@@ -208,7 +210,7 @@ pub fn planar_beam(tension: f64, bending: f64, length: f64) -> Result<Matrix3<f6
         ("bending EI", bending),
         ("length", length),
     ] {
-        positive("planar beam", what, value)?;
+        positive(&Place::of(Whole::Section), what, value)?;
     }
     let coupling = -6.0 * bending / length.powi(2);
     Ok(Matrix3::new(

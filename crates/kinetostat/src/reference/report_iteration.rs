@@ -21,7 +21,7 @@ use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::{ChainProblem, check_numbers};
 use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::system::Row;
-use crate::error::Result;
+use crate::error::{Place, Result};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
 use crate::model::chain::Chain;
@@ -40,7 +40,7 @@ pub struct IterationSettings {
 
 impl IterationSettings {
     /// Refuses what no iteration can end by, naming it.
-    fn check(&self, place: &str) -> Result<()> {
+    fn check(&self, place: &Place) -> Result<()> {
         if !(self.tolerance > 0.0 && self.tolerance < 1.0) {
             let asked = "a number between 0 and 1";
             return Err(wrong(place, "tolerance", self.tolerance, asked));
@@ -190,7 +190,7 @@ fn iterate(
         coordinates: problem.posture.clone(),
         wrench: Wrench::zero(),
     });
-    settings.check(&format!("chain '{}'", chain.name()))?;
+    settings.check(&Place::chain(chain.name()))?;
     chain.check(&start.coordinates, &problem.commands)?;
     check_numbers(problem, "the wrench of the start", &start.wrench.0)?;
     let mut z = system.state(&start.coordinates, &start.wrench, 0.0);

@@ -3,7 +3,7 @@
 //! `S_c = V^T (H - K) V`, where the columns of `V` span the motions that the end condition leaves. Its
 //! sign tells whether the shape holds; its size depends on what is taken as the unit of a motion: here
 //! a turn of one radian and a slide of a stated length count alike, and `V` is orthonormal. The share of
-//! the way to buckling `mu` of [`crate::ShapeStability`] depends on no such choice: prefer it.
+//! the way to buckling `mu` of [`crate::chain::ShapeStability`] depends on no such choice: prefer it.
 //!
 //! `H` is the whole Hessian with the terms of loads on nodes [R 5.23], which the print leaves out of
 //! [R 5.10-5.21] and of Table 5.2 (erratum).
@@ -13,7 +13,7 @@ use nalgebra::DMatrix;
 use crate::chain::equilibrium::{Equilibrium, System};
 use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::stability::neutral_motions;
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::column_space;
 use crate::spatial::MotionKind;
@@ -52,7 +52,7 @@ impl ShapeCriterion {
 /// chain.
 ///
 /// ```
-/// use kinetostat::*;
+/// use kinetostat::{*, reference::{ShapeCriterion, shape_criterion}};
 /// use nalgebra::{Vector3, vector};
 ///
 /// // Figure 5.7 of the report: three links of 1 m, two springs of 1 N m/rad, pushed by 0.2 m.
@@ -78,7 +78,7 @@ pub fn shape_criterion(
 ) -> Result<ShapeCriterion> {
     let chain = problem.chain;
     let n = chain.coordinate_count();
-    let place = || format!("shape criterion of '{}'", chain.name());
+    let place = || Place::chain(chain.name()).during(crate::error::SHAPE_CRITERION);
     if !(length > 0.0 && length.is_finite()) {
         return Err(Error::Model {
             place: place(),

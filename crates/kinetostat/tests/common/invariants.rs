@@ -2,8 +2,8 @@
 //! and statics, never against the core's own.
 
 use kinetostat::{
-    ChainProblem, Equilibrium, Load, MechanismEquilibrium, Posture, Prescribed, ShapeStability,
-    Wrench, hat,
+    ChainProblem, Equilibrium, Load, MechanismEquilibrium, Posture, Prescribed, Wrench,
+    chain::ShapeStability, spatial::hat,
 };
 use kinetostat_testing::{LargestEntry, largest, largest_size};
 use nalgebra::{DVector, Matrix6, Vector3};
@@ -178,7 +178,7 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
 /// Closure, balance of every platform about its own origin, torques of every limb, energy, tangent
 /// and verdicts of a mechanism's equilibrium.
 #[track_caller]
-pub fn assert_equilibrium(posture: &Posture<'_>, e: &MechanismEquilibrium) {
+pub fn assert_equilibrium(posture: &Posture, e: &MechanismEquilibrium) {
     let m = posture.mechanism();
     let flat = Flat::at_state(posture, &e.state, &e.wrench);
     let rows = flat.residual();

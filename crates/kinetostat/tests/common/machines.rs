@@ -2,7 +2,7 @@
 
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, ChainBuilder, Limb, Mechanism, MotionKind, Platform, Pose,
-    turn_matrix,
+    spatial::turn_matrix,
 };
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
@@ -87,14 +87,10 @@ impl Orthoglide {
         let mut builder = Mechanism::builder("orthoglide");
         let tool = builder.platform(Platform::new("tool", Pose::identity()));
         for i in self.order {
-            builder = builder.limb(Limb {
-                name: ["x", "y", "z"][i].into(),
-                from: 0,
-                to: tool,
-                platform_from_tip: Pose::identity(),
-                nominal: self.leg(i, false),
-                actual: self.leg(i, true),
-            });
+            builder = builder.limb(
+                Limb::between(["x", "y", "z"][i], 0, tool, self.leg(i, false))
+                    .with_actual(self.leg(i, true)),
+            );
         }
         builder.build().expect("orthoglide")
     }

@@ -223,7 +223,7 @@ pub fn random_chain(rng: &mut Rng, recipe: &Recipe) -> RandomChain {
 
 impl RandomChain {
     pub fn tip(&self) -> Pose {
-        kinetostat::unloaded_tip(&self.chain, &self.base, &self.posture, &self.commands)
+        kinetostat::model::unloaded_tip(&self.chain, &self.base, &self.posture, &self.commands)
     }
 
     pub fn problem(&self, end: kinetostat::EndCondition) -> kinetostat::ChainProblem<'_> {

@@ -6,8 +6,8 @@ use crate::curves_and_bifurcations::{
     ELASTIC, elastic_links, elastic_problem, held, z_chain, z_unloaded,
 };
 use kinetostat::{
-    BeamSection, Bounds, Chain, ChainProblem, EndCondition, Equilibria, FoundEquilibrium,
-    MotionKind, Prescribed, SearchSettings, Wrench, equilibria,
+    BeamSection, Chain, ChainProblem, EndCondition, MotionKind, Prescribed, Wrench, equilibria,
+    equilibrium::{Bounds, Equilibria, FoundEquilibrium, SearchSettings},
 };
 use kinetostat_testing::{LargestEntry, largest, largest_size};
 use nalgebra::{Vector3, vector};
@@ -438,7 +438,7 @@ fn a_link_has_one_description_of_its_orientation() {
 /// Where the end of an unloaded chain is.
 fn chain_end(chain: &Chain) -> kinetostat::Pose {
     let home = chain.home_coordinates();
-    let k = kinetostat::Kinematics::new(
+    let k = kinetostat::model::Kinematics::new(
         chain,
         &kinetostat::Pose::identity(),
         &home,

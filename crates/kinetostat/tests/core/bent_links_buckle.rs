@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use kinetostat::*;
+use kinetostat::{model::LinkConvention, *};
 use nalgebra::{Vector3, vector};
 
 use crate::fuzz_short::fuzz::rod::slender;

@@ -2,8 +2,9 @@
 //! one load, and jumps between branches. Against the column's search of all shapes and statics by hand.
 
 use kinetostat::{
-    BranchEnd, CurveSettings, EndCondition, FoundBy, LoadPattern, Parameter, Pose, Prescribed,
-    SpecialKind, Wrench,
+    CurveSettings, EndCondition, Parameter, Pose, Prescribed, Wrench,
+    chain::FoundBy,
+    continuation::{BranchEnd, LoadPattern, SpecialKind},
 };
 use nalgebra::{Vector3, vector};
 

@@ -6,8 +6,8 @@ use crate::common::{
     orthoglide_point, random_chain, same_stiffness,
 };
 use kinetostat::{
-    CartesianStiffness, ChainProblem, EndCondition, Load, Pose, Settings, Twist, Wrench, moved,
-    solve_chain,
+    CartesianStiffness, ChainProblem, EndCondition, Load, Pose, Settings, Twist, Wrench,
+    solve_chain, spatial::moved,
 };
 use kinetostat_testing::Worst;
 use nalgebra::Vector3;
@@ -86,7 +86,7 @@ pub fn extended(seed: u64) -> Extended {
         if extended { b.rigid(pose) } else { b }.build().unwrap()
     };
     let (short, long) = (build(false), build(true));
-    let rest = kinetostat::unloaded_tip(&short, &Pose::identity(), &[0.0; 12], &[]);
+    let rest = kinetostat::model::unloaded_tip(&short, &Pose::identity(), &[0.0; 12], &[]);
     let target = moved(&rest, &Twist::new(rng.vector(0.004), rng.vector(0.02)));
     let held = |chain, pose| {
         let problem = ChainProblem::new(chain, EndCondition::pose(pose));
@@ -167,7 +167,7 @@ fn another_tool_point_sees_the_same_machine() {
         let arm = e.tool.rotation * tool.translation.vector;
         let o = there.deflected_by(&wrench.shifted(&arm)).unwrap();
         assert_equilibrium(&there, &o);
-        let miss = kinetostat::pose_residual(&(e.tool * tool), &o.tool);
+        let miss = kinetostat::spatial::pose_residual(&(e.tool * tool), &o.tool);
         assert!(miss.0.norm() < 1e-12, "{index}: {miss:?}");
         let k = CartesianStiffness {
             matrix: e.stiffness.matrix,
@@ -217,7 +217,7 @@ pub fn reordered() -> Reordered {
             );
             assert_equilibrium(&p, &e);
             assert_equilibrium(&q, &o);
-            let miss = kinetostat::pose_residual(&e.tool, &o.tool);
+            let miss = kinetostat::spatial::pose_residual(&e.tool, &o.tool);
             tool.add(miss.0.norm());
             let k = balanced_error(&e.stiffness.matrix, &o.stiffness.matrix);
             stiffness.add(k);

@@ -3,12 +3,13 @@
 use crate::common::{Orthoglide, Rng, arm, assert_equilibrium, orthoglide_point};
 use crate::oracle::Flat;
 use kinetostat::{
-    LimbPosture, Mechanism, Pose, Settings, Wrench, compensate, compensate_from, pose_residual,
+    Directions, Mechanism, Pose, Settings, Wrench, compensate, compensation::compensate_from,
+    machine::LimbPosture, spatial::pose_residual,
 };
 use kinetostat_testing::LargestEntry;
 use nalgebra::{Vector3, vector};
 
-const POSITION: [bool; 6] = [true, true, true, false, false, false];
+const POSITION: Directions = Directions::POSITION;
 
 pub fn heavy_arm() -> Mechanism {
     Mechanism::serial(arm(true), Pose::identity(), vector![0.0, 0.0, -9.81]).unwrap()
@@ -27,7 +28,7 @@ pub fn reachable(machine: &Mechanism, rng: &mut Rng) -> (Pose, LimbPosture) {
         coordinates: limb.home_coordinates(),
     };
     (
-        kinetostat::unloaded_tip(
+        kinetostat::model::unloaded_tip(
             limb,
             &Pose::identity(),
             &joints.coordinates,
@@ -44,12 +45,18 @@ fn an_arm_corrects_all_six_directions_under_weight_and_force() {
     for pose in 0..8 {
         let (desired, joints) = reachable(&machine, &mut rng);
         let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
-        assert_eq!(posture.correctable(), [true; 6], "pose {pose}");
+        assert_eq!(posture.correctable(), Directions::ALL, "pose {pose}");
         let wrench = rng.wrench(2000.0, 300.0);
         let before = posture.deflected_by(&wrench).unwrap();
         assert_equilibrium(&posture, &before);
-        let c =
-            compensate_from(&posture, &desired, &wrench, [true; 6], posture.rest_state()).unwrap();
+        let c = compensate_from(
+            &posture,
+            &desired,
+            &wrench,
+            Directions::ALL,
+            posture.rest_state(),
+        )
+        .unwrap();
         assert_equilibrium(&c.posture, &c.equilibrium);
         assert!(
             c.left_over.0.norm() < 1e-12,
@@ -77,7 +84,7 @@ fn an_arm_corrects_all_six_directions_under_weight_and_force() {
         assert!(miss.0.norm() < 1e-10, "pose {pose}: oracle {miss:?}");
         // The commands are those of the modified target.
         let target = *c.posture.target();
-        let tip = kinetostat::unloaded_tip(
+        let tip = kinetostat::model::unloaded_tip(
             &machine.limbs()[0].nominal,
             &Pose::identity(),
             &c.posture.limbs()[0].coordinates,
@@ -119,8 +126,7 @@ fn single_rotations_can_be_corrected_with_the_others_left() {
         let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
         let wrench = rng.wrench(4000.0, 900.0);
         for k in 3..6 {
-            let mut directions = POSITION;
-            directions[k] = true;
+            let directions = POSITION.with(k);
             let c = compensate_from(
                 &posture,
                 &desired,
@@ -249,7 +255,7 @@ fn the_rates_of_the_commands_are_exact() {
             &posture,
             &desired,
             &rng.wrench(2000.0, 300.0),
-            [true; 6],
+            Directions::ALL,
             posture.rest_state(),
         )
         .unwrap();
@@ -299,5 +305,5 @@ fn the_mobility_of_a_turned_lever_is_that_of_its_tool_point() {
         (basis.column(0).dot(&motion).abs() - 1.0).abs() < 1e-9,
         "{basis}"
     );
-    assert_eq!(posture.correctable().iter().filter(|d| **d).count(), 1);
+    assert_eq!(posture.correctable().len(), 1);
 }

@@ -7,8 +7,9 @@ use crate::common::{
 };
 use crate::oracle::Flat;
 use kinetostat::{
-    Chain, Limb, LimbPosture, Mechanism, Platform, Pose, Posture, Twist, Wrench, moved,
-    pose_residual,
+    Chain, Directions, Limb, Mechanism, Platform, Pose, Posture, Twist, Wrench,
+    machine::LimbPosture,
+    spatial::{moved, pose_residual},
 };
 use kinetostat_testing::{Worst, largest};
 use nalgebra::{Matrix3, Vector3, Vector6};
@@ -28,7 +29,7 @@ pub struct Apart {
 
 /// Solves both ways from rest and compares everything.
 #[track_caller]
-pub fn apart(label: &str, posture: &Posture<'_>, wrench: &Wrench) -> Apart {
+pub fn apart(label: &str, posture: &Posture, wrench: &Wrench) -> Apart {
     let e = posture
         .deflected_by(wrench)
         .unwrap_or_else(|error| panic!("{label}: {error}"));
@@ -55,7 +56,7 @@ pub fn apart(label: &str, posture: &Posture<'_>, wrench: &Wrench) -> Apart {
 }
 
 #[track_caller]
-fn compare(label: &str, posture: &Posture<'_>, wrench: &Wrench) {
+fn compare(label: &str, posture: &Posture, wrench: &Wrench) {
     let d = apart(label, posture, wrench);
     assert!(d.tool < 1e-10, "{label}: tool {:e}", d.tool);
     assert!(d.wrench < 1e-8, "{label}: limb wrenches {:e}", d.wrench);
@@ -108,7 +109,7 @@ fn a_heavy_arm_under_gravity_and_two_kilonewton() {
             commands,
             coordinates: limb.home_coordinates(),
         };
-        let target = kinetostat::unloaded_tip(
+        let target = kinetostat::model::unloaded_tip(
             limb,
             &Pose::identity(),
             &joints.coordinates,
@@ -156,7 +157,9 @@ pub fn cut(rng: &mut Rng, passive: usize, mass: f64) -> Cut {
     let mut builder = Mechanism::builder("parts").gravity(gravity);
     let mut middle = Platform::new("middle", Pose::identity());
     let none: Vec<f64> = vec![];
-    let at = |c: &Chain, base: &Pose, x: &[f64], q: &[f64]| kinetostat::unloaded_tip(c, base, x, q);
+    let at = |c: &Chain, base: &Pose, x: &[f64], q: &[f64]| {
+        kinetostat::model::unloaded_tip(c, base, x, q)
+    };
     middle.home = at(
         &first.chain,
         &Pose::identity(),
@@ -174,13 +177,8 @@ pub fn cut(rng: &mut Rng, passive: usize, mass: f64) -> Cut {
     let _ = none;
     let middle = builder.platform(middle);
     let tool = builder.platform(Platform::new("tool", target));
-    let limb = |name: &str, from, to, tip: Pose, chain: &Chain| Limb {
-        name: name.into(),
-        from,
-        to,
-        platform_from_tip: tip,
-        nominal: chain.clone(),
-        actual: chain.clone(),
+    let limb = |name: &str, from, to, tip: Pose, chain: &Chain| {
+        Limb::between(name, from, to, chain.clone()).fixed_at(tip)
     };
     let parts = builder
         .limb(limb("first", 0, middle, join.inverse(), &first.chain))
@@ -321,7 +319,7 @@ proptest! {
         let r = random_chain(&mut rng, &Recipe { stages: 3, passive: 0, preload: 0.02, ..Recipe::default() });
         let machine = Mechanism::serial(r.chain.clone(), Pose::identity(), rng.axis() * 9.81).unwrap();
         let joints = LimbPosture { commands: r.commands.clone(), coordinates: r.posture.clone() };
-        let target = kinetostat::unloaded_tip(&r.chain, &Pose::identity(), &r.posture, &r.commands);
+        let target = kinetostat::model::unloaded_tip(&r.chain, &Pose::identity(), &r.posture, &r.commands);
         let posture = machine.posture_from_joints(&target, vec![joints]).unwrap();
         compare("random", &posture, &rng.wrench(100.0, 10.0));
     }
@@ -371,9 +369,14 @@ fn compensation_of_several_platforms_closes_or_is_refused() {
         .posture_from_joints(&c.target, c.part_posture.clone())
         .unwrap();
     let wrench = rng.wrench(50.0, 5.0);
-    let position = [true, true, true, false, false, false];
-    let found =
-        kinetostat::compensate_from(&parts, &c.target, &wrench, position, parts.rest_state());
+    let position = Directions::POSITION;
+    let found = kinetostat::compensation::compensate_from(
+        &parts,
+        &c.target,
+        &wrench,
+        position,
+        parts.rest_state(),
+    );
     if let Err(error) = &found {
         println!("refused: {error}");
     }
@@ -405,14 +408,7 @@ fn another_tool_point_keeps_limbs_that_start_at_the_tool() {
     weight.mass = 10.0;
     let weight = builder.platform(weight);
     let tool = builder.platform(Platform::new("tool", home));
-    let limb = |name: &str, from, to, chain: &Chain| Limb {
-        name: name.into(),
-        from,
-        to,
-        platform_from_tip: Pose::identity(),
-        nominal: chain.clone(),
-        actual: chain.clone(),
-    };
+    let limb = |name: &str, from, to, chain: &Chain| Limb::between(name, from, to, chain.clone());
     let machine = builder
         .limb(limb("arm", 0, tool, &arm))
         .limb(limb("hanger", tool, weight, &hanger))

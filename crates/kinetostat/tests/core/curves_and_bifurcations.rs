@@ -6,9 +6,13 @@ use crate::common::{
 };
 use crate::curves_of_columns::press;
 use kinetostat::{
-    Anchor, BranchEnd, Chain, ChainProblem, CurvePoint, CurveSettings, Curves, EndCondition,
-    Equilibrium, Judged, Load, LoadPattern, MotionKind, Parameter, Pose, Prescribed, Settings,
-    Special, SpecialKind, Twist, Wrench, critical_load_factor, follow, moved, solve_chain,
+    Anchor, Chain, ChainProblem, CurveSettings, EndCondition, Equilibrium, Load, MotionKind,
+    Parameter, Pose, Prescribed, Settings, Twist, Wrench,
+    continuation::{BranchEnd, CurvePoint, Curves, LoadPattern, Special, SpecialKind},
+    critical_load_factor,
+    equilibrium::Judged,
+    follow, solve_chain,
+    spatial::moved,
 };
 use nalgebra::{Vector3, vector};
 
@@ -413,7 +417,7 @@ pub fn elastic_limit(g: f64, y: f64) -> [f64; 4] {
     let mut problem = elastic_problem(&chain, g, -0.05);
     problem.posture = vec![y.atan2(1.0) * 0.6, -0.05, 0.0, -0.05, 0.0];
     problem.posture[2] = -2.0 * problem.posture[0];
-    let bounds = kinetostat::Bounds::of(&chain);
+    let bounds = kinetostat::equilibrium::Bounds::of(&chain);
     let all = kinetostat::equilibria(&problem, &bounds, &Default::default()).unwrap();
     let start = &all.found.last().unwrap().equilibrium;
     assert!(!start.stability.stable, "{label}");

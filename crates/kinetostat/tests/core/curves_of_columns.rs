@@ -3,8 +3,12 @@
 use crate::common::{close, planar_column};
 use crate::curves_and_bifurcations::{assert_curves, held, of_kind, solved};
 use kinetostat::{
-    BeamSection, Chain, ChainProblem, CurveSettings, EndCondition, Judged, LinkSpec, LoadPattern,
-    MotionKind, Parameter, Pose, Prescribed, SpecialKind, Wrench, critical_load_factor, follow,
+    BeamSection, Chain, ChainProblem, CurveSettings, EndCondition, LinkSpec, MotionKind, Parameter,
+    Pose, Prescribed, Wrench,
+    continuation::{LoadPattern, SpecialKind},
+    critical_load_factor,
+    equilibrium::Judged,
+    follow,
 };
 use kinetostat_testing::{largest, largest_size};
 use nalgebra::{Vector3, vector};

@@ -5,9 +5,12 @@ use crate::curves_and_bifurcations::solved;
 use crate::curves_of_columns::press;
 use crate::fuzz_short::fuzz::rod::slender;
 use kinetostat::{
-    BeamSection, Bounds, BranchEnd, Chain, ChainProblem, CurveSettings, Curves, EndCondition,
-    LinkSpec, MotionKind, Parameter, Pose, Prescribed, SearchSettings, SpecialKind, Twist, Wrench,
-    equilibria, follow,
+    BeamSection, Chain, ChainProblem, CurveSettings, EndCondition, LinkSpec, MotionKind, Parameter,
+    Pose, Prescribed, Twist, Wrench,
+    continuation::{BranchEnd, Curves, SpecialKind},
+    equilibria,
+    equilibrium::{Bounds, SearchSettings},
+    follow,
 };
 use kinetostat_testing::least;
 use nalgebra::{Vector3, vector};
@@ -77,7 +80,7 @@ fn a_round_clamped_rod_buckles_into_one_family() {
         assert_eq!(p.dead.inertia.zero, 1);
     }
     // Elastica under a dead load, the tip turned by 60 deg: P / P_E = (2 K(k) / pi)^2, k = sin 30 deg.
-    let turned = |p: &kinetostat::CurvePoint| p.equilibrium.tip.rotation.angle();
+    let turned = |p: &kinetostat::continuation::CurvePoint| p.equilibrium.tip.rotation.angle();
     let elastica = (2.0 * 1.685_750_354_812_596 / std::f64::consts::PI).powi(2) * critical;
     let there = c.at(elastica).unwrap();
     let bent: Vec<_> = there.iter().filter(|p| turned(p) > 0.1).collect();

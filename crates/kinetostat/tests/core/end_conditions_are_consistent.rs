@@ -2,7 +2,8 @@
 
 use crate::common::{Recipe, Rng, assert_chain_equilibrium, cases, random_chain};
 use kinetostat::{
-    EndCondition, Load, Prescribed, Settings, Twist, Wrench, moved, pose_residual, solve_chain,
+    EndCondition, Load, Prescribed, Settings, Twist, Wrench, solve_chain,
+    spatial::{moved, pose_residual},
 };
 use nalgebra::Rotation3;
 use proptest::prelude::*;

@@ -5,7 +5,7 @@ use crate::common::{
     Orthoglide, Recipe, Rng, assert_chain_equilibrium, assert_equilibrium, cases, orthoglide_point,
     random_chain,
 };
-use kinetostat::{EndCondition, Load, Settings, Twist, Wrench, moved, solve_chain};
+use kinetostat::{EndCondition, Load, Settings, Twist, Wrench, solve_chain, spatial::moved};
 use nalgebra::{Vector3, vector};
 use proptest::prelude::*;
 

@@ -11,8 +11,8 @@
 use crate::common::{RandomChain, Recipe, Rng, random_chain};
 use crate::oracle::{balanced_solve, springs};
 use kinetostat::{
-    ChainProblem, EndCondition, Equilibrium, Kinematics, Pose, Settings, Twist, Wrench, moved,
-    solve_chain,
+    ChainProblem, EndCondition, Equilibrium, Pose, Settings, Twist, Wrench, model::Kinematics,
+    solve_chain, spatial::moved,
 };
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};

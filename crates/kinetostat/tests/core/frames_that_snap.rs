@@ -13,8 +13,10 @@
 //! which shares nothing with the library.
 
 use kinetostat::{
-    BeamSection, Chain, ChainProblem, CurveSettings, Curves, EndCondition, LinkSpec, Load,
-    LoadPattern, Parameter, Pose, Prescribed, Settings, SpecialKind, Wrench, follow, solve_chain,
+    BeamSection, Chain, ChainProblem, CurveSettings, EndCondition, LinkSpec, Load, Parameter, Pose,
+    Prescribed, Settings, Wrench,
+    continuation::{Curves, LoadPattern, SpecialKind},
+    follow, solve_chain,
 };
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4, vector};
 
@@ -135,7 +137,7 @@ pub fn limits_of_chain(frame: &PlaneFrame, refined: usize, settings: &CurveSetti
             // Nearest point of the curve tells the order.
             let points = &curves.branches[0].points;
             let near = points.iter().min_by(|a, b| {
-                let d = |p: &kinetostat::CurvePoint| {
+                let d = |p: &kinetostat::continuation::CurvePoint| {
                     (p.conjugate - s.point.conjugate).abs() / frame.end().0
                         + (p.parameter - s.point.parameter).abs() / settings.range.1
                 };

@@ -37,7 +37,7 @@ proptest! {
         // Independent axes only: more than three slides, say, cannot all count.
         let frames = Frames::new(&chain, &base, &home, &[]);
         let j = frames.jacobian(frames.tip());
-        let passive = chain.indices_of(kinetostat::Role::Passive);
+        let passive = chain.indices_of(kinetostat::model::Role::Passive);
         let own = j.select_columns(&passive);
         let gram = (own.transpose() * &own).symmetric_eigenvalues();
         let independent = gram.iter().filter(|x| **x > 1e-9).count();
@@ -60,8 +60,8 @@ proptest! {
         let k = unloaded_stiffness(&r.chain, &r.base, &r.posture, &r.commands).unwrap();
         let frames = Frames::new(&r.chain, &r.base, &r.posture, &r.commands);
         let j = frames.jacobian(frames.tip());
-        let q = j.select_columns(&r.chain.indices_of(kinetostat::Role::Passive));
-        let t = j.select_columns(&r.chain.indices_of(kinetostat::Role::Spring));
+        let q = j.select_columns(&r.chain.indices_of(kinetostat::model::Role::Passive));
+        let t = j.select_columns(&r.chain.indices_of(kinetostat::model::Role::Spring));
         // J_q K_Cq + J_theta K_Ctheta = I on the motions that exist (all six here).
         let identity = q * &k.passive + t * &k.springs;
         prop_assert!((identity - nalgebra::DMatrix::identity(6, 6)).largest_entry() < 1e-9);
@@ -186,14 +186,10 @@ fn six_legs(spherical: bool, singular: bool) -> kinetostat::Mechanism {
             ))
             .build()
             .unwrap();
-        builder = builder.limb(Limb {
-            name: format!("leg {i}"),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::translation(a.x, a.y, a.z),
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(
+            Limb::between(format!("leg {i}"), 0, tool, chain)
+                .fixed_at(Pose::translation(a.x, a.y, a.z)),
+        );
     }
     builder.build().unwrap()
 }
@@ -236,7 +232,7 @@ fn legs_that_spin_change_nothing_for_the_platform() {
         crate::common::assert_equilibrium(&p, &e);
         crate::common::assert_equilibrium(&q, &o);
         assert!(e.stable() && o.stable());
-        let miss = kinetostat::pose_residual(&e.tool, &o.tool);
+        let miss = kinetostat::spatial::pose_residual(&e.tool, &o.tool);
         assert!(miss.0.norm() < 1e-11, "{miss:?}");
         crate::common::same_stiffness("loaded", &o.stiffness.matrix, &e.stiffness.matrix, 1e-8);
     }

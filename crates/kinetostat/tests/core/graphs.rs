@@ -4,15 +4,17 @@ use crate::common::{Rng, assert_equilibrium, balanced_error};
 use crate::oracle::{Flat, Frames, balanced_solve, springs};
 use crate::platforms::{anchors, lattice, leg};
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
-    Posture, Settings, Twist, Wrench, compensate, moved, pose_residual, unloaded_tip,
+    ActuatorSpec, BeamSection, Chain, DirectionKind, Directions, Limb, Mechanism, MotionKind,
+    Platform, Pose, Posture, Settings, Twist, Wrench, compensate,
+    model::unloaded_tip,
+    spatial::{moved, pose_residual},
 };
 use kinetostat_testing::Worst;
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 
 /// `K_C` of the unloaded nominal machine as one dense system over all coordinates, wrenches and
 /// platforms: nothing is condensed. `[0 J A; J^T -K 0; A^T 0 0]`, with the tool held.
-pub fn flat_stiffness(posture: &Posture<'_>) -> Matrix6<f64> {
+pub fn flat_stiffness(posture: &Posture) -> Matrix6<f64> {
     let m = posture.mechanism();
     let moving = m.platforms().len() - 1;
     let counts: Vec<usize> = m
@@ -176,7 +178,7 @@ fn hybrids() -> Vec<Mechanism> {
 
 /// Closure of all limbs and the tool at the target.
 #[track_caller]
-pub fn assert_closes(posture: &Posture<'_>) {
+pub fn assert_closes(posture: &Posture) {
     let m = posture.mechanism();
     for (limb, joints) in m.limbs().iter().zip(posture.limbs()) {
         let base = posture.platforms()[limb.from];
@@ -333,7 +335,7 @@ fn hybrids_are_compensated() {
     for machine in hybrids() {
         let home = machine.platforms()[machine.tool()].home;
         let wrench = rng.wrench(200.0, 20.0);
-        let all = [true; 6];
+        let all = Directions::ALL;
         let found = compensate(&machine, &home, &wrench, all, &Settings::default()).unwrap();
         let again = found.posture.deflected_by(&wrench).unwrap();
         let miss = pose_residual(&again.tool, &home).0.norm();
@@ -377,7 +379,7 @@ fn redundant_actuators_take_the_commands_nearest_to_home() {
         let mut sum = x * x + y * y;
         for (k, limb) in machine.limbs()[1..].iter().enumerate() {
             let below = match limb.nominal.elements()[0] {
-                kinetostat::Element::Rigid(pose) => pose.translation.vector,
+                kinetostat::model::Element::Rigid(pose) => pose.translation.vector,
                 _ => panic!("a leg starts with its foot"),
             };
             let above = (target * limb.platform_from_tip).translation.vector;
@@ -569,14 +571,11 @@ fn a_graph_with_errors_strains_itself_to_first_order() {
                 }
                 chain.build().unwrap()
             };
-            builder = builder.limb(Limb {
-                name: name.into(),
-                from,
-                to,
-                platform_from_tip: arm,
-                nominal: build(Pose::identity()),
-                actual: build(error),
-            });
+            builder = builder.limb(
+                Limb::between(name, from, to, build(Pose::identity()))
+                    .with_actual(build(error))
+                    .fixed_at(arm),
+            );
         }
         let machine = builder.build().unwrap();
         let posture = machine.posture(&homes[2]).unwrap();

@@ -7,7 +7,8 @@ use crate::oracle::Flat;
 use crate::platforms::leg;
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, LengthLaw, Limb, Mechanism, MotionKind, Platform,
-    PlatformLoad, Pose, Settings, Twist, Wrench, moved, pose_residual,
+    PlatformLoad, Pose, Settings, Twist, Wrench,
+    spatial::{moved, pose_residual},
 };
 use kinetostat_testing::largest;
 use nalgebra::{Vector3, vector};
@@ -15,7 +16,7 @@ use nalgebra::{Vector3, vector};
 /// The chain with its base put elsewhere: an error of assembly.
 fn misplaced(chain: &Chain, error: &Pose) -> Chain {
     let mut written = serde_json::to_value(chain).unwrap();
-    let rigid = serde_json::to_value(kinetostat::Element::Rigid(*error)).unwrap();
+    let rigid = serde_json::to_value(kinetostat::model::Element::Rigid(*error)).unwrap();
     written["elements"].as_array_mut().unwrap().insert(0, rigid);
     serde_json::from_value(written).unwrap()
 }

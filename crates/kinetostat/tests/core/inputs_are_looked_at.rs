@@ -2,9 +2,11 @@
 //! error that names the argument, or a finite answer. And messages about what was asked wrongly.
 
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, ChainBlocks, ChainProblem, EndCondition, Error, LinkSpec,
-    MotionKind, Pose, Prescribed, Result, Settings, Wrench, eliminate_passive, inverse_kinematics,
-    planar_beam, solve_chain, unloaded_stiffness, with_hinge_at_root,
+    ActuatorSpec, BeamSection, Chain, ChainProblem, EndCondition, Error, LinkSpec, MotionKind,
+    Pose, Prescribed, Result, Settings, Wrench,
+    machine::inverse_kinematics,
+    reference::{ChainBlocks, eliminate_passive, planar_beam, with_hinge_at_root},
+    solve_chain, unloaded_stiffness,
 };
 use nalgebra::{Matrix6, Vector3, Vector6, vector};
 
@@ -121,7 +123,11 @@ fn inputs() -> Vec<(&'static str, Ask)> {
             "motion of the end",
             Box::new(|x| {
                 let k = tube().cantilever(0.5)?;
-                Ok(matrix(&with_hinge_at_root(&k, kinetostat::Axis::Z, x)?))
+                Ok(matrix(&with_hinge_at_root(
+                    &k,
+                    kinetostat::reference::Axis::Z,
+                    x,
+                )?))
             }),
         ),
         (

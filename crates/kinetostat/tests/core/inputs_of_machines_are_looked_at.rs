@@ -3,10 +3,16 @@
 //! finite answer.
 
 use kinetostat::{
-    Anchor, Chain, ChainProblem, CurveSettings, EndCondition, IterationSettings, Judged, LengthLaw,
-    Limb, Load, LoadPattern, Mechanism, MechanismState, MotionKind, Parameter, Platform,
-    PlatformLoad, Pose, Result, Settings, Twist, Wrench, compensate_from, critical_load_factor,
-    follow, newton_iteration, report_iteration, solve_chain,
+    Anchor, Chain, ChainProblem, CurveSettings, EndCondition, LengthLaw, Limb, Load, Mechanism,
+    MotionKind, Parameter, Platform, PlatformLoad, Pose, Result, Settings, Twist, Wrench,
+    compensation::compensate_from,
+    continuation::LoadPattern,
+    critical_load_factor,
+    equilibrium::Judged,
+    follow,
+    machine::MechanismState,
+    reference::{IterationSettings, newton_iteration, report_iteration},
+    solve_chain,
 };
 use nalgebra::{UnitQuaternion, Vector3, vector};
 
@@ -103,18 +109,13 @@ fn machine(change: impl Fn(&mut Parts)) -> Result<Mechanism> {
     let middle = builder.platform(parts.middle);
     let tool = builder.platform(Platform::new("tool", Pose::translation(2.0, 0.0, 0.0)));
     for (name, from, to) in [("lower", 0, middle), ("upper", middle, tool)] {
-        builder = builder.limb(Limb {
-            name: name.into(),
-            from,
-            to,
-            platform_from_tip: if to == middle {
+        builder = builder.limb(
+            Limb::between(name, from, to, chain()).fixed_at(if to == middle {
                 parts.tip
             } else {
                 Pose::identity()
-            },
-            nominal: chain(),
-            actual: chain(),
-        });
+            }),
+        );
     }
     builder = builder.gravity(parts.gravity);
     if let Some(load) = parts.on_limb {
@@ -148,7 +149,7 @@ fn from(change: impl Fn(&mut MechanismState, &mut Pose, &mut Wrench)) -> Result<
     change(&mut state, &mut pose, &mut wrench);
     let settled = posture.deflected_from(&wrench, state.clone())?;
     let none = [false; 6];
-    let compensated = compensate_from(&posture, &pose, &wrench, none, state)?;
+    let compensated = compensate_from(&posture, &pose, &wrench, none.into(), state)?;
     Ok([
         numbers(&settled.tool),
         numbers(&compensated.equilibrium.tool),

@@ -5,7 +5,7 @@ use crate::common::{
     Orthoglide, Recipe, Rng, assert_chain_equilibrium, assert_equilibrium, orthoglide_point,
     random_chain,
 };
-use kinetostat::{EndCondition, Settings, Twist, Wrench, moved, solve_chain};
+use kinetostat::{EndCondition, Settings, Twist, Wrench, solve_chain, spatial::moved};
 use nalgebra::{Vector3, vector};
 
 /// Solved cases of `count`, for displacements of the given size.

@@ -2,7 +2,11 @@
 //! the base, on random spatial chains with off-axis geometry.
 
 use crate::common::{Recipe, Rng, cases, random_chain};
-use kinetostat::{Kinematics, Twist, Wrench, moved, pose_residual};
+use kinetostat::{
+    Twist, Wrench,
+    model::Kinematics,
+    spatial::{moved, pose_residual},
+};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{DVector, Vector6};
 use proptest::prelude::*;
@@ -74,7 +78,7 @@ fn tiny_rigid_rotations_are_kept() {
             .translation(nalgebra::Vector3::x() * 2.0)
             .build()
             .unwrap();
-        let tip = kinetostat::unloaded_tip(&chain, &kinetostat::Pose::identity(), &[], &[]);
+        let tip = kinetostat::model::unloaded_tip(&chain, &kinetostat::Pose::identity(), &[], &[]);
         let found = tip.translation.vector.y;
         assert!(
             (found / (2.0 * angle) - 1.0).abs() < 1e-6,

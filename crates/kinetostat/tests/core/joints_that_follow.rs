@@ -1,7 +1,7 @@
 //! A motion that is coupled to an actuator follows the joint: its command and the deflection of its
 //! drive. So mimic joints and levers between joints are written.
 
-use kinetostat::{ActuatorSpec, Chain, Kinematics, MotionKind, Pose, Wrench};
+use kinetostat::{ActuatorSpec, Chain, MotionKind, Pose, Wrench, model::Kinematics};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{UnitQuaternion, Vector3, vector};
 

@@ -5,9 +5,12 @@
 
 use crate::common::{close, same_stiffness};
 use kinetostat::{
-    BeamSection, BowingLaw, Chain, ChainBuilder, ChainProblem, EndCondition, Equilibrium,
-    LinkConvention, LinkSpec, Load, MotionKind, Pose, Settings, SpringLaw, Twist, Wrench, hat,
-    moved, shift_matrix, solve_chain, unloaded_stiffness,
+    BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Equilibrium, LinkSpec, Load,
+    MotionKind, Pose, Settings, Twist, Wrench,
+    model::{BowingLaw, LinkConvention, SpringLaw},
+    solve_chain,
+    spatial::{hat, moved, shift_matrix},
+    unloaded_stiffness,
 };
 use nalgebra::{Matrix3, Matrix6, Vector3, vector};
 use std::f64::consts::PI;
@@ -524,7 +527,7 @@ fn the_45_degree_bend_of_bathe_and_bolourchi() {
 fn coupled(length: f64) -> Matrix6<f64> {
     let straight = shearing(&general(), 2e7, length);
     let turn = Pose::rotation(vector![0.4, 0.0, 0.0]);
-    let turn = kinetostat::turn_matrix(&turn.rotation.to_rotation_matrix());
+    let turn = kinetostat::spatial::turn_matrix(&turn.rotation.to_rotation_matrix());
     let shift = shift_matrix(&vector![0.0, 0.02, -0.01]);
     shift.transpose() * turn * straight * turn.transpose() * shift
 }

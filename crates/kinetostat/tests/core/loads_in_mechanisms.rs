@@ -5,9 +5,13 @@
 use crate::common::{Rng, balanced_error, block_error, cases};
 use kinetostat::{
     ActuatorSpec, Anchor, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Error,
-    FunctionLoad, LengthLaw, Limb, LimbPosture, LinkSpec, Load, Mechanism, MechanismEquilibrium,
-    MotionKind, Platform, Pose, Posture, Settings, Twist, Wrench, is_conservative, load_energy,
-    moved, pose_residual, solve_chain,
+    LengthLaw, Limb, LinkSpec, Load, Mechanism, MechanismEquilibrium, MotionKind, Platform, Pose,
+    Posture, Settings, Twist, Wrench,
+    chain::{is_conservative, load_energy},
+    machine::LimbPosture,
+    model::FunctionLoad,
+    solve_chain,
+    spatial::{moved, pose_residual},
 };
 use kinetostat_testing::{LargestEntry, largest_size};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};
@@ -111,7 +115,7 @@ fn limb(name: &str, from: usize, to: usize, tip: Pose, chain: &Chain) -> Limb {
 }
 
 fn home(chain: &Chain, base: &Pose) -> Pose {
-    kinetostat::unloaded_tip(
+    kinetostat::model::unloaded_tip(
         chain,
         base,
         &chain.home_coordinates(),
@@ -120,7 +124,7 @@ fn home(chain: &Chain, base: &Pose) -> Pose {
 }
 
 /// Commanded as at home, whatever hangs on what.
-fn at_home(machine: &Mechanism) -> Posture<'_> {
+fn at_home(machine: &Mechanism) -> Posture {
     let joints = machine.limbs().iter().map(|l| LimbPosture {
         commands: l.nominal.home_commands(),
         coordinates: l.nominal.home_coordinates(),
@@ -271,14 +275,14 @@ fn hybrid(seed: u64, all: bool) -> Mechanism {
 }
 
 /// Held at a small twist from a pose.
-fn held(posture: &Posture<'_>, pose: &Pose, axis: usize, size: f64) -> MechanismEquilibrium {
+fn held(posture: &Posture, pose: &Pose, axis: usize, size: f64) -> MechanismEquilibrium {
     let mut twist = Twist::zero();
     twist.0[axis] = size;
     posture.wrench_at(&moved(pose, &twist)).unwrap()
 }
 
 /// Fourth-order differences over motions of the held tool: energy, and wrench (6 x 6).
-fn by_differences(posture: &Posture<'_>, pose: &Pose, step: f64) -> (Vector6<f64>, Matrix6<f64>) {
+fn by_differences(posture: &Posture, pose: &Pose, step: f64) -> (Vector6<f64>, Matrix6<f64>) {
     let (mut energy, mut stiffness) = (Vector6::zeros(), Matrix6::zeros());
     for k in 0..6 {
         let at = |share: f64| held(posture, pose, k, share * step);

@@ -5,9 +5,12 @@ use crate::common::invariants::antisymmetric_error;
 use crate::common::{RandomChain, Recipe, Rng, balanced_error, cases, close, random_chain};
 use crate::stored_stiffness_is_the_derivative_of_the_wrench::differences;
 use kinetostat::{
-    Anchor, Chain, ChainProblem, EndCondition, Equilibrium, Error, FunctionLoad, Kinematics,
-    LengthLaw, LengthResponse, Load, MotionKind, Pose, Prescribed, Settings, Twist, Wrench,
-    check_tangents, is_conservative, load_energy, moved, solve_chain,
+    Anchor, Chain, ChainProblem, EndCondition, Equilibrium, Error, LengthLaw, Load, MotionKind,
+    Pose, Prescribed, Settings, Twist, Wrench,
+    chain::{is_conservative, load_energy},
+    model::{FunctionLoad, Kinematics, LengthResponse, check_tangents},
+    solve_chain,
+    spatial::moved,
 };
 use kinetostat_testing::largest_size;
 use nalgebra::{DMatrix, Matrix3, Vector3, vector};
@@ -548,14 +551,7 @@ fn a_machine_names_the_joints_of_its_limbs() {
     let mut builder = Mechanism::builder("rocker");
     let tool = builder.platform(Platform::new("tool", Pose::translation(0.5, 0.0, 0.0)));
     for name in ["left", "right"] {
-        builder = builder.limb(Limb {
-            name: name.into(),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::identity(),
-            nominal: chain(name),
-            actual: chain(name),
-        });
+        builder = builder.limb(Limb::between(name, 0, tool, chain(name)));
     }
     let machine = builder.build().unwrap();
     let posture = machine.posture(&Pose::translation(0.5, 0.0, 0.0)).unwrap();

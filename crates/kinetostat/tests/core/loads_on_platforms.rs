@@ -4,8 +4,8 @@ use crate::common::{Rng, assert_equilibrium, balanced_error};
 use crate::graphs::{arm_with_parallel_wrist, limb, turns};
 use crate::oracle::Flat;
 use kinetostat::{
-    Chain, LengthLaw, Mechanism, MotionKind, PlatformLoad, Pose, Twist, Wrench, moved,
-    pose_residual,
+    Chain, LengthLaw, Mechanism, MotionKind, PlatformLoad, Pose, Twist, Wrench,
+    spatial::{moved, pose_residual},
 };
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, vector};

@@ -2,9 +2,12 @@
 //! where its symmetric part is indefinite, and what is left open.
 
 use kinetostat::{
-    Bounds, Chain, ChainProblem, CurveSettings, EndCondition, Judged, Limb, Load, LoadPattern,
-    Mechanism, MotionKind, Parameter, Platform, Pose, SearchSettings, Settings, SpreadSettings,
-    Wrench, critical_load_factor, equilibria, follow, solve_chain,
+    Chain, ChainProblem, CurveSettings, EndCondition, Limb, Load, Mechanism, MotionKind, Parameter,
+    Platform, Pose, Settings, Wrench,
+    continuation::LoadPattern,
+    critical_load_factor, equilibria,
+    equilibrium::{Bounds, Judged, SearchSettings, SpreadSettings},
+    follow, solve_chain,
 };
 use nalgebra::{Matrix2, Vector2, Vector3, vector};
 
@@ -132,14 +135,7 @@ fn machine_of(chain: &Chain, follower: f64) -> Mechanism {
     let tool = builder.platform(Platform::new("tool", home));
     let press = Wrench::new(vector![-follower, 0.0, 0.0], Vector3::zeros());
     builder
-        .limb(Limb {
-            name: "column".into(),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::identity(),
-            nominal: chain.clone(),
-            actual: chain.clone(),
-        })
+        .limb(Limb::between("column", 0, tool, chain.clone()))
         .load("column", Load::follower(chain.tip(), press))
         .build()
         .unwrap()
@@ -212,7 +208,9 @@ fn every_way_of_asking_says_the_same_of_a_column_under_a_follower() {
                 let free = EndCondition::wrench(push);
                 let all = posture.equilibria(&free, &few).unwrap();
                 let all = all.found.iter();
-                let own = |limbs: &[kinetostat::LimbEquilibrium]| straight(&limbs[0].coordinates);
+                let own = |limbs: &[kinetostat::machine::LimbEquilibrium]| {
+                    straight(&limbs[0].coordinates)
+                };
                 for f in all.filter(|f| own(&f.equilibrium.limbs)) {
                     asked[0] += 1;
                     let told = (f.stable, f.may_flutter);

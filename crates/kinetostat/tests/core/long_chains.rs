@@ -1,7 +1,7 @@
 //! Chains long enough to be solved by sweeps along them: judged by the oracle's kinematics and dense
 //! matrices, by known closed forms, and by differences.
 
-use kinetostat::*;
+use kinetostat::{chain::Residual, model::LinkConvention, spatial::moved, *};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector3, vector};
 

@@ -1,8 +1,8 @@
 //! How far a posture is from one where a limb loses a motion, against closed forms.
 
 use kinetostat::{
-    ActuatorSpec, Chain, Mechanism, MotionKind, NearSingularity, Platform, Pose, Posture,
-    SingularityKind,
+    ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture,
+    machine::{NearSingularity, SingularityKind},
 };
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3, vector};
 use proptest::prelude::*;
@@ -59,12 +59,12 @@ fn arm(frame: &Pose, parts: &[Part], home: &[f64]) -> Mechanism {
     machine.limb(own).build().unwrap()
 }
 
-fn at_home(machine: &Mechanism) -> Posture<'_> {
+fn at_home(machine: &Mechanism) -> Posture {
     let home = machine.platforms()[machine.tool()].home;
     machine.posture(&home).unwrap()
 }
 
-fn nearest(posture: &Posture<'_>, within: f64) -> NearSingularity {
+fn nearest(posture: &Posture, within: f64) -> NearSingularity {
     let list = posture.near_singularities(within).unwrap();
     let lost = list.into_iter().find(|n| n.kind == SingularityKind::Lost);
     lost.expect("a singular posture is near")

@@ -3,7 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::*;
+use kinetostat::{
+    equilibrium::{Equilibria, Judged},
+    spatial::pose_residual,
+    *,
+};
 use nalgebra::{Vector3, vector};
 
 use crate::fuzz_short::fuzz::rod::slender;

@@ -2,9 +2,11 @@
 //! while held and under a dead load, both signs of the load. Against energies written by hand.
 
 use kinetostat::{
-    ActuatorSpec, BranchEnd, Chain, CurveSettings, EndCondition, LoadPattern, MachinePath,
-    Mechanism, MotionKind, Parameter, PathPoint, PathSpecialKind, Platform, Pose, Posture,
-    Prescribed, SpreadSettings, Twist, Wrench, moved,
+    ActuatorSpec, Chain, CurveSettings, EndCondition, Mechanism, MotionKind, Parameter, Platform,
+    Pose, Posture, Prescribed, Twist, Wrench,
+    continuation::{BranchEnd, LoadPattern, MachinePath, PathPoint, PathSpecialKind},
+    equilibrium::SpreadSettings,
+    spatial::moved,
 };
 use kinetostat_testing::{LargestEntry, Worst, largest, least as least_of};
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6, vector};
@@ -203,7 +205,7 @@ fn least(hessian: &Matrix6<f64>, directions: &[usize]) -> f64 {
 /// Returns the largest difference of the wrench as a share of the largest.
 fn against_energy(
     legs: &Legs,
-    posture: &Posture<'_>,
+    posture: &Posture,
     path: &MachinePath,
     driven: &[usize],
     free: &[usize],
@@ -482,7 +484,8 @@ fn all_shapes_of_a_column_of_several_limbs_are_found() {
             let case = format!("{pieces} pieces, {load} N");
             let force = Wrench::new(vector![-load, 0.0, 0.0], Vector3::zeros());
             let all = posture.equilibria(&free(plane, force), &settings).unwrap();
-            let place = |f: &kinetostat::MachineFound| f.equilibrium.tool.translation.vector;
+            let place =
+                |f: &kinetostat::equilibrium::MachineFound| f.equilibrium.tool.translation.vector;
             let places: Vec<_> = all.found.iter().map(|f| (place(f), f.stable)).collect();
             assert_eq!(places.len(), expected, "{case}: {places:?}");
             let straight = places.iter().filter(|(at, _)| at[sides[1]].abs() < 1e-6);
@@ -561,7 +564,7 @@ fn a_frame_beyond_its_critical_load_has_a_stable_shape_elsewhere() {
                 .equilibria(&end, &SpreadSettings::default())
                 .unwrap();
             let stable: Vec<_> = all.found.iter().filter(|f| f.stable).collect();
-            let nearby = |f: &&&kinetostat::MachineFound| {
+            let nearby = |f: &&&kinetostat::equilibrium::MachineFound| {
                 (f.equilibrium.tool.translation.z / h - 1.0).abs() < 0.2
             };
             assert_eq!(

@@ -3,7 +3,8 @@
 
 use crate::common::{Orthoglide, Rng, orthoglide_point};
 use kinetostat::{
-    ActuatorSpec, Chain, DirectionKind, Mechanism, MotionKind, Pose, Twist, Wrench, pose_residual,
+    ActuatorSpec, Chain, DirectionKind, Mechanism, MotionKind, Pose, Twist, Wrench,
+    spatial::pose_residual,
 };
 use kinetostat_testing::LargestEntry;
 use nalgebra::{Matrix6, UnitQuaternion, Vector3, vector};
@@ -23,7 +24,7 @@ fn planar(turn: UnitQuaternion<f64>) -> Mechanism {
             .translation(vector![0.5 - 0.1 * k as f64, 0.0, 0.0]);
     }
     let chain = builder.build().unwrap();
-    let home = kinetostat::unloaded_tip(
+    let home = kinetostat::model::unloaded_tip(
         &chain,
         &Pose::identity(),
         &chain.home_coordinates(),

@@ -1,8 +1,8 @@
 //! Places asked for by position only, against closed forms: the orientation follows.
 
 use kinetostat::{
-    ActuatorSpec, Chain, ChainBuilder, Error, Mechanism, MotionKind, Platform, Pose, Settings,
-    SingularityKind, Wrench, compensate, compensate_following,
+    ActuatorSpec, Chain, ChainBuilder, Directions, Error, Mechanism, MotionKind, Platform, Pose,
+    Settings, Wrench, compensate, compensation::compensate_following, machine::SingularityKind,
 };
 use kinetostat_testing::{LargestEntry, least};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3, vector};
@@ -411,7 +411,7 @@ fn a_machine_that_holds_its_orientation_gives_the_same_correction_either_way() {
         near.rest_state(),
     )
     .unwrap();
-    let positions = [true, true, true, false, false, false];
+    let positions = Directions::POSITION;
     let held = compensate(&machine, &wanted, &wrench, positions, &Settings::default()).unwrap();
     let apart = (follows.correction.0 - held.correction.0).largest_entry();
     assert!(

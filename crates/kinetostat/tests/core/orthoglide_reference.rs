@@ -5,7 +5,7 @@ use crate::common::{
     Orthoglide, all_close, assert_equilibrium, block_error, close, golden, matrix, name, number,
     numbers, rank,
 };
-use kinetostat::{MechanismEquilibrium, Pose, Role, Twist, Wrench, compensate};
+use kinetostat::{Directions, MechanismEquilibrium, Pose, Twist, Wrench, compensate, model::Role};
 use kinetostat_testing::{LargestEntry, largest_size};
 use nalgebra::{Matrix6, Vector3};
 use serde_json::Value;
@@ -399,7 +399,7 @@ fn a_compensated_target_brings_the_tool_to_every_reference_point() {
     }
     .build();
     let wrench = milling(&file);
-    let position = [true, true, true, false, false, false];
+    let position = Directions::POSITION;
     for point in file["points"].as_array().unwrap() {
         let desired = target(point);
         let c = compensate(&machine, &desired, &wrench, position, &Default::default()).unwrap();
@@ -407,7 +407,7 @@ fn a_compensated_target_brings_the_tool_to_every_reference_point() {
         assert!(c.left_over.linear().norm() < 1e-12, "{:?}", c.left_over);
         // Three drives: the rotation is what it is, and it is reported.
         let again = c.posture.deflected_by(&wrench).unwrap();
-        let miss = kinetostat::pose_residual(&again.tool, &desired);
+        let miss = kinetostat::spatial::pose_residual(&again.tool, &desired);
         assert!(miss.linear().norm() < 1e-12, "{miss:?}");
         assert!((miss.angular() - c.left_over.angular()).norm() < 1e-11);
         assert!(c.left_over.angular().norm() > 1e-4);

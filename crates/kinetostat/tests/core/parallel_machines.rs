@@ -3,8 +3,8 @@
 use crate::common::{Orthoglide, Rng, assert_equilibrium, balanced_error, orthoglide_point};
 use crate::graphs::limb;
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
-    SingularityKind, Twist, Wrench, moved,
+    ActuatorSpec, BeamSection, Chain, DirectionKind, Directions, Limb, Mechanism, MotionKind,
+    Platform, Pose, Twist, Wrench, machine::SingularityKind, spatial::moved,
 };
 use kinetostat_testing::{LargestEntry, Worst, largest};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};
@@ -34,14 +34,10 @@ fn puu(error: f64) -> Mechanism {
                 .build()
                 .unwrap()
         };
-        machine = machine.limb(Limb {
-            name: name.into(),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::identity(),
-            nominal: build(0.0),
-            actual: build(error * (1.0 + 0.3 * k as f64)),
-        });
+        machine = machine.limb(
+            Limb::between(name, 0, tool, build(0.0))
+                .with_actual(build(error * (1.0 + 0.3 * k as f64))),
+        );
     }
     machine.build().unwrap()
 }
@@ -235,7 +231,9 @@ pub fn planar_3_rrr_apart() -> f64 {
         let e = posture.deflected_by(&wrench).unwrap();
         assert!(e.stable());
         let expected = planar.pose(&planar.minimum(&target, &load));
-        let off = kinetostat::pose_residual(&e.tool, &expected).0.norm();
+        let off = kinetostat::spatial::pose_residual(&e.tool, &expected)
+            .0
+            .norm();
         worst.add(off / e.displacement.0.norm());
     }
     worst.value()
@@ -622,10 +620,7 @@ fn a_delta_is_compensated_in_its_three_directions() {
     let (machine, _) = delta(4000.0);
     let home = machine.platforms()[machine.tool()].home;
     let posture = machine.posture(&home).unwrap();
-    assert_eq!(
-        posture.correctable(),
-        [true, true, true, false, false, false]
-    );
+    assert_eq!(posture.correctable(), Directions::POSITION);
     let pull = Wrench::new(vector![20.0, -10.0, -30.0], vector![0.5, 0.2, -0.1]);
     let found = kinetostat::compensate(
         &machine,

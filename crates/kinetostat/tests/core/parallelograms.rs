@@ -10,7 +10,9 @@
 use crate::common::balanced_error;
 use crate::graphs::limb;
 use crate::oracle::{Frames, balanced_solve, springs};
-use kinetostat::{Chain, Mechanism, MotionKind, Platform, Pose, Posture, Twist, Wrench, moved};
+use kinetostat::{
+    Chain, Mechanism, MotionKind, Platform, Pose, Posture, Twist, Wrench, spatial::moved,
+};
 use kinetostat_testing::Worst;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6, vector};
 
@@ -98,7 +100,7 @@ pub fn parallelogram_apart() -> [f64; 2] {
 
 /// `-1/2 sum F . c2(y, y)` of all limbs that end at the tool, of the linear answer to a displacement,
 /// J; nothing of the core but the description of the chains.
-fn third_order_energy(posture: &Posture<'_>, t: &Vector6<f64>) -> f64 {
+fn third_order_energy(posture: &Posture, t: &Vector6<f64>) -> f64 {
     let m = posture.mechanism();
     let own = m.limbs().iter().zip(posture.limbs());
     own.filter(|(limb, _)| limb.to == m.tool())
@@ -126,7 +128,7 @@ fn third_order_energy(posture: &Posture<'_>, t: &Vector6<f64>) -> f64 {
 
 /// What the lumped link's wrench lacks, to leading order: the gradient of the difference of the
 /// third-order energies (differences of fourth order are exact for a cubic).
-fn predicted(a: &Posture<'_>, b: &Posture<'_>, t: &Vector6<f64>) -> Vector6<f64> {
+fn predicted(a: &Posture, b: &Posture, t: &Vector6<f64>) -> Vector6<f64> {
     let energy = |t: &Vector6<f64>| third_order_energy(b, t) - third_order_energy(a, t);
     Vector6::from_fn(|k, _| {
         let step = 1e-3;
@@ -183,7 +185,7 @@ pub fn left_out() -> [f64; 3] {
         let along = Pose::rotation(Vector3::y() * q) * vector![stretch, 0.0, 0.0];
         let tension = 2.0 * AXIAL * stretch;
         let pose = moved(&far, &Twist::new(along, Vector3::zeros()));
-        let k = |p: &Posture<'_>| p.wrench_at(&pose).unwrap().stiffness.matrix[(4, 4)];
+        let k = |p: &Posture| p.wrench_at(&pose).unwrap().stiffness.matrix[(4, 4)];
         let gained = k(&b) - k(&a);
         let formula = tension * (WIDTH * q.sin()).powi(2) / (4.0 * LENGTH);
         let size = tension * WIDTH * WIDTH / (4.0 * LENGTH);

@@ -2,8 +2,8 @@
 //! third one beyond: all three are kept.
 
 use kinetostat::{
-    Bounds, Chain, ChainProblem, EndCondition, MotionKind, Pose, Prescribed, SearchSettings,
-    Wrench, equilibria,
+    Chain, ChainProblem, EndCondition, MotionKind, Pose, Prescribed, Wrench, equilibria,
+    equilibrium::{Bounds, SearchSettings},
 };
 use nalgebra::{Vector3, vector};
 

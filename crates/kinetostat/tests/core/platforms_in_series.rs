@@ -4,8 +4,8 @@
 use crate::common::Rng;
 use crate::graphs::{legs, limb};
 use kinetostat::{
-    ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture, SingularityKind, Twist,
-    moved,
+    ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture, Twist,
+    machine::SingularityKind, spatial::moved,
 };
 use kinetostat_testing::least as least_of;
 use nalgebra::{Matrix3, RowVector3, Vector2, Vector3, Vector6, vector};
@@ -105,13 +105,13 @@ fn stack(stages: &[Stage]) -> Mechanism {
     builder.build().unwrap()
 }
 
-fn at_home(machine: &Mechanism) -> Posture<'_> {
+fn at_home(machine: &Mechanism) -> Posture {
     let home = machine.platforms()[machine.tool()].home;
     machine.posture(&home).unwrap()
 }
 
 /// The determinants of all stages.
-fn lines(stages: &[Stage], posture: &Posture<'_>) -> Vec<f64> {
+fn lines(stages: &[Stage], posture: &Posture) -> Vec<f64> {
     let places = posture.platforms().windows(2);
     let both = stages.iter().zip(places);
     both.map(|(s, p)| s.lines(&(p[0].inverse() * p[1])))
@@ -216,7 +216,7 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
                 // There the legs of that stage meet.
                 let target = moved(posture.target(), &Twist(found.way.0 * found.distance_m));
                 let there = machine.posture_near(&target, &posture).unwrap();
-                let least = |p: &Posture<'_>| {
+                let least = |p: &Posture| {
                     let sizes = lines(&stages, p).into_iter().map(f64::abs);
                     least_of(sizes)
                 };

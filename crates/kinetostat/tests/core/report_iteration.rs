@@ -6,9 +6,14 @@ use crate::common::{Recipe, Rng, assert_chain_equilibrium, close, planar_column,
 use crate::curves_and_bifurcations::{held, z_chain, z_unloaded};
 use crate::oracle::{self, Frames};
 use kinetostat::{
-    ChainProblem, ChainState, EndCondition, Equilibrium, IterationOutcome, IterationSettings,
-    Kinematics, ReportIteration, Settings, Twist, moved, newton_iteration, report_iteration,
+    ChainProblem, EndCondition, Equilibrium, Settings, Twist,
+    model::Kinematics,
+    reference::{
+        ChainState, IterationOutcome, IterationSettings, ReportIteration, newton_iteration,
+        report_iteration,
+    },
     solve_chain,
+    spatial::moved,
 };
 use kinetostat_testing::{LargestEntry, Worst, largest, largest_size};
 use nalgebra::DMatrix;
@@ -329,7 +334,7 @@ fn spatial_run(problem: &ChainProblem<'_>, exact: &Equilibrium) -> SpatialRun {
     // The rule speaks of elementary motions; a coordinate that drives two has no single axis.
     let single = |i: usize| {
         let drives = chain.elements().iter().filter(|e| {
-            matches!(e, kinetostat::Element::Motion(m)
+            matches!(e, kinetostat::model::Element::Motion(m)
                 if m.coordinate.is_some_and(|d| d.index == i))
         });
         drives.count() == 1

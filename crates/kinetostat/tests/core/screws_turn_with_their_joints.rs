@@ -4,8 +4,10 @@
 use std::f64::consts::TAU;
 
 use kinetostat::{
-    ActuatorSpec, Chain, Limb, LimbPosture, Mechanism, MotionKind, Platform, Pose, Twist,
-    inverse_kinematics, moved, pose_residual, unloaded_tip,
+    ActuatorSpec, Chain, Limb, Mechanism, MotionKind, Platform, Pose, Twist,
+    machine::{LimbPosture, inverse_kinematics},
+    model::unloaded_tip,
+    spatial::{moved, pose_residual},
 };
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6, vector};
@@ -62,14 +64,10 @@ fn hexapod(rod: Rod) -> Mechanism {
             .passive_universal("head", Vector3::y(), Vector3::x())
             .build()
             .unwrap();
-        builder = builder.limb(Limb {
-            name: format!("strut {i}"),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::from_parts(head.into(), turn),
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(
+            Limb::between(format!("strut {i}"), 0, tool, chain)
+                .fixed_at(Pose::from_parts(head.into(), turn)),
+        );
     }
     builder.build().unwrap()
 }

@@ -8,9 +8,9 @@ use crate::common::{
 use crate::oracle::{self, Frames};
 use kinetostat::{
     BeamSection, Chain, ChainProblem, DirectionKind, EndCondition, Equilibrium, Load, MotionKind,
-    Pose, Prescribed, Settings, Twist, Wrench, moved, solve_chain,
+    Pose, Prescribed, Settings, Twist, Wrench, solve_chain, spatial::moved,
 };
-use kinetostat::{Limb, LimbPosture, Mechanism, Platform, ShapeVerdict};
+use kinetostat::{Limb, Mechanism, Platform, chain::ShapeVerdict, machine::LimbPosture};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 use proptest::prelude::*;
@@ -156,16 +156,17 @@ fn what_is_neutral_is_taken_out_beside_what_the_load_holds() {
     ] {
         let end = EndCondition::wrench(Wrench::new(force, Vector3::zeros()));
         let problem = ChainProblem::new(chain, end);
-        let search = kinetostat::SearchSettings {
+        let search = kinetostat::equilibrium::SearchSettings {
             fruitless: 30,
             starts: 60,
             ..Default::default()
         };
-        let bounds = kinetostat::Bounds::of(chain);
+        let bounds = kinetostat::equilibrium::Bounds::of(chain);
         let all = kinetostat::equilibria(&problem, &bounds, &search).unwrap();
         let lowest = &all.found[0];
         assert!(lowest.stable, "{}: the lowest must be stable", chain.name());
-        let criterion = kinetostat::shape_criterion(&problem, &lowest.equilibrium, 1.0).unwrap();
+        let criterion =
+            kinetostat::reference::shape_criterion(&problem, &lowest.equilibrium, 1.0).unwrap();
         let own = &criterion.eigenvalues;
         assert!(criterion.neutral > 0, "{}: {own:?}", chain.name());
         assert!(criterion.holds(), "{}: {own:?}", chain.name());
@@ -533,14 +534,7 @@ fn pressed_middle_platform(p: f64, k: f64) -> Mechanism {
         ("second", middle, tool, second),
         ("guide", 0, tool, guide),
     ] {
-        builder = builder.limb(Limb {
-            name: name.into(),
-            from,
-            to,
-            platform_from_tip: Pose::identity(),
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(Limb::between(name, from, to, chain));
     }
     builder.build().unwrap()
 }

@@ -1,6 +1,6 @@
 //! Singular values, eigenvalues and triangles at clustered values: what ranks rest on.
 
-use kinetostat::SingularValues;
+use kinetostat::linalg::SingularValues;
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, DVector};
 

@@ -32,14 +32,10 @@ pub fn machine(file: &Value, case: &Value, arm_in_chain: bool) -> Mechanism {
         }
         let chain = chain.build().unwrap();
         let tip = if arm_in_chain { Vector3::zeros() } else { a };
-        builder = builder.limb(Limb {
-            name: format!("leg {i}"),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::translation(tip.x, tip.y, tip.z),
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(
+            Limb::between(format!("leg {i}"), 0, tool, chain)
+                .fixed_at(Pose::translation(tip.x, tip.y, tip.z)),
+        );
     }
     builder.build().unwrap()
 }

@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use kinetostat::*;
+use kinetostat::{spatial::shift_matrix, *};
 use nalgebra::{Matrix6, Vector3, vector};
 
 use crate::fuzz_short::fuzz::platforms::{Series, rows};
@@ -109,25 +109,11 @@ fn compliances_of_rods_beside_and_behind_each_other_add_up() {
         for (name, y) in [("left", offset), ("right", -offset)] {
             let from = Pose::translation(0.0, y, 0.0);
             let chain = rod(name, from, 0.6);
-            builder = builder.limb(Limb {
-                name: name.into(),
-                from: 0,
-                to: behind,
-                platform_from_tip: from,
-                nominal: chain.clone(),
-                actual: chain,
-            });
+            builder = builder.limb(Limb::between(name, 0, behind, chain).fixed_at(from));
         }
         let chain = rod("front", Pose::identity(), 0.4);
         let machine = builder
-            .limb(Limb {
-                name: "front".into(),
-                from: behind,
-                to: tool,
-                platform_from_tip: Pose::identity(),
-                nominal: chain.clone(),
-                actual: chain,
-            })
+            .limb(Limb::between("front", behind, tool, chain))
             .build()
             .unwrap();
         let found = machine.posture(&home).unwrap().stiffness().unwrap();

@@ -4,7 +4,7 @@
 //! three), so `M diag(d) M^T` of whole numbers is a matrix of whole numbers, held exactly up to 2^53, whose
 //! eigenvalues are exactly `9 d`.
 
-use kinetostat::*;
+use kinetostat::{chain::uneven_springs_in_words, reference::Elimination, *};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
@@ -188,14 +188,7 @@ fn tool_on(axial: f64, places: &[Vector3<f64>], home: Pose) -> Mechanism {
         let tip = from * Pose::translation(1.0, 0.0, 0.0);
         let name = format!("rod {i}");
         let chain = rod(axial, &name, from);
-        builder = builder.limb(Limb {
-            name,
-            from: 0,
-            to: tool,
-            platform_from_tip: home.inverse() * tip,
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(Limb::between(name, 0, tool, chain).fixed_at(home.inverse() * tip));
     }
     builder.build().unwrap()
 }

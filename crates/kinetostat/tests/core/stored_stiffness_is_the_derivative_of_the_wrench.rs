@@ -7,8 +7,10 @@ use std::sync::Arc;
 use crate::common::{Recipe, Rng, assert_chain_equilibrium, balanced_error, cases, random_chain};
 use crate::oracle::{self, Frames};
 use kinetostat::{
-    ChainProblem, EndCondition, Equilibrium, Kinematics, Load, NodeLoad, NodeTangent, Settings,
-    Twist, Wrench, moved, solve_chain,
+    ChainProblem, EndCondition, Equilibrium, Load, NodeLoad, Settings, Twist, Wrench,
+    model::{Kinematics, NodeTangent},
+    solve_chain,
+    spatial::moved,
 };
 use kinetostat_testing::largest;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
@@ -142,7 +144,7 @@ proptest! {
                 next.end = EndCondition::wrench(w);
                 next.posture.clone_from(&e.coordinates);
                 let found = solve_chain(&next, &Settings { torque: 1e-13, ..Settings::default() }).unwrap();
-                kinetostat::pose_residual(&found.tip, &e.tip).0
+                kinetostat::spatial::pose_residual(&found.tip, &e.tip).0
             };
             k.set_column(column, &((8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * unit[column])));
         }

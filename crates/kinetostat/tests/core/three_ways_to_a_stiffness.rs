@@ -4,11 +4,17 @@
 use crate::beam_tables_3_2_and_3_3::{expand, section};
 use crate::common::{Recipe, Rng, balanced_error, cases, close, golden, random_chain};
 use kinetostat::{
-    Axis, BeamSection, Chain, ChainBlocks, DirectionKind, EndCondition, Inapplicable, Load,
-    MotionKind, Pose, Role, Settings, Twist, Wrench, eliminate_passive, moved, planar_beam,
-    planar_with_hinge_at_end, planar_with_slide_along_x, planar_with_slide_along_y, solve_chain,
-    unloaded_stiffness, with_hinge_at_end, with_hinge_at_root, with_slide,
-    with_spherical_joint_at_end,
+    BeamSection, Chain, DirectionKind, EndCondition, Load, MotionKind, Pose, Settings, Twist,
+    Wrench,
+    model::Role,
+    reference::{
+        Axis, ChainBlocks, Inapplicable, eliminate_passive, planar_beam, planar_with_hinge_at_end,
+        planar_with_slide_along_x, planar_with_slide_along_y, with_hinge_at_end,
+        with_hinge_at_root, with_slide, with_spherical_joint_at_end,
+    },
+    solve_chain,
+    spatial::moved,
+    unloaded_stiffness,
 };
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6, vector};

@@ -3,8 +3,8 @@
 
 use crate::common::{assert_chain_equilibrium, close, golden, number};
 use kinetostat::{
-    Chain, ChainProblem, DirectionKind, EndCondition, LimbPosture, Load, Mechanism, MotionKind,
-    Pose, Prescribed, Wrench, solve_chain,
+    Chain, ChainProblem, DirectionKind, EndCondition, Load, Mechanism, MotionKind, Pose,
+    Prescribed, Wrench, machine::LimbPosture, solve_chain,
 };
 use nalgebra::{Matrix2, Vector3, vector};
 use serde_json::Value;

@@ -2,9 +2,9 @@
 
 use crate::common::{Orthoglide, arm, orthoglide_point, planar_column};
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Error, Limb,
-    LimbPosture, Load, Mechanism, MotionKind, Platform, Pose, Settings, SpringLaw, Twist, Wrench,
-    solve_chain, unloaded_stiffness,
+    ActuatorSpec, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Error, Limb, Load,
+    Mechanism, MotionKind, Platform, Pose, Settings, Twist, Wrench, machine::LimbPosture,
+    model::SpringLaw, solve_chain, unloaded_stiffness,
 };
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, vector};
 
@@ -156,14 +156,7 @@ fn chains_that_make_no_sense_are_refused_by_name() {
 fn mechanisms_that_make_no_sense_are_refused_by_name() {
     let chain = c().spring6("s", &k6(), [0.0; 6]).build().unwrap();
     let other = c().spring6("t", &k6(), [0.0; 6]).build().unwrap();
-    let limb = |name: &str, from, to| Limb {
-        name: name.into(),
-        from,
-        to,
-        platform_from_tip: Pose::identity(),
-        nominal: chain.clone(),
-        actual: chain.clone(),
-    };
+    let limb = |name: &str, from, to| Limb::between(name, from, to, chain.clone());
     let refuse = |limbs: Vec<Limb>, platforms: Vec<Platform>, parts: &[&str]| {
         let mut b = Mechanism::builder("m");
         for p in platforms {

@@ -2,8 +2,10 @@
 //! in their flat posture, free bars, limit points on the way. Against statics by hand.
 
 use kinetostat::{
-    ActuatorSpec, Chain, CurveSettings, EndCondition, Error, LoadLimit, LoadPattern, Mechanism,
-    MotionKind, Parameter, PathSpecialKind, Platform, Pose, Wrench,
+    ActuatorSpec, Chain, CurveSettings, EndCondition, Error, Mechanism, MotionKind, Parameter,
+    Platform, Pose, Wrench,
+    continuation::{LoadPattern, PathSpecialKind},
+    error::LoadLimit,
 };
 use nalgebra::{Matrix2, Vector2, Vector3, vector};
 

@@ -2,10 +2,13 @@
 //! ordinary and extreme sizes, regular and singular postures.
 
 use kinetostat::{
-    ActuatorSpec, Anchor, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition,
-    FunctionLoad, Kinematics, LengthLaw, LengthResponse, LinkConvention, LinkSpec, Load,
-    MotionKind, NodeLoad, NodeTangent, Pose, Prescribed, Result, SpringLaw, Twist, Wrench, moved,
-    unloaded_tip,
+    ActuatorSpec, Anchor, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, LengthLaw,
+    LinkSpec, Load, MotionKind, NodeLoad, Pose, Prescribed, Result, Twist, Wrench,
+    model::{
+        FunctionLoad, Kinematics, LengthResponse, LinkConvention, NodeTangent, SpringLaw,
+        unloaded_tip,
+    },
+    spatial::moved,
 };
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 
@@ -335,7 +338,7 @@ pub fn problem<'a>(random: &mut Random, sizes: &Sizes, chain: &'a Chain) -> Chai
     }
     let far = [0.0, 0.0, 0.3, 3.0, 10.0][random.below(5)];
     for (x, c) in problem.posture.iter_mut().zip(chain.coordinates()) {
-        if c.role == kinetostat::Role::Passive {
+        if c.role == kinetostat::model::Role::Passive {
             *x += far * random.signed() * unit(c.kind);
         }
     }

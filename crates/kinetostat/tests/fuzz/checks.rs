@@ -2,9 +2,11 @@
 //! oracle's kinematics and by differences of energies written down anew.
 
 use kinetostat::{
-    ChainBlocks, ChainProblem, ChainStiffness, Direction, DirectionKind, Equilibrium, Error,
-    Inapplicable, Kinematics, Load, MotionKind, Prescribed, ShapeStability, SpringBlock, SpringLaw,
-    Wrench, load_energy,
+    ChainProblem, ChainStiffness, Direction, DirectionKind, Equilibrium, Error, Load, MotionKind,
+    Prescribed, Wrench,
+    chain::{ShapeStability, load_energy},
+    model::{Kinematics, SpringBlock, SpringLaw},
+    reference::{ChainBlocks, Inapplicable},
 };
 use kinetostat_testing::Worst;
 use nalgebra::{DMatrix, Isometry3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};

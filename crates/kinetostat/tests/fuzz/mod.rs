@@ -13,10 +13,16 @@ mod struts;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use kinetostat::{
-    Bounds, ChainBlocks, ChainProblem, CurveSettings, IterationOutcome, IterationSettings, Judged,
-    LoadPattern, Parameter, Prescribed, SearchSettings, Settings, Wrench, critical_load_factor,
-    equilibria, follow, newton_iteration, report_iteration, shape_criterion, solve_chain,
-    unloaded_stiffness,
+    ChainProblem, CurveSettings, Parameter, Prescribed, Settings, Wrench,
+    continuation::LoadPattern,
+    critical_load_factor, equilibria,
+    equilibrium::{Bounds, Judged, SearchSettings},
+    follow,
+    reference::{
+        ChainBlocks, IterationOutcome, IterationSettings, newton_iteration, report_iteration,
+        shape_criterion,
+    },
+    solve_chain, unloaded_stiffness,
 };
 
 use cases::Sizes;
@@ -324,7 +330,7 @@ pub fn notices(seed: u64) -> Option<bool> {
     let chain = cases::chain(&mut random, &sizes, size).ok()?;
     let problem = cases::problem(&mut random, &sizes, &chain);
     let mut e = solve_chain(&problem, &Settings::default()).ok()?;
-    let springs = chain.indices_of(kinetostat::Role::Spring);
+    let springs = chain.indices_of(kinetostat::model::Role::Spring);
     let held = problem.end.prescribed == [Prescribed::Pose; 6];
     if springs.is_empty() || !held || e.stiffness.count(kinetostat::DirectionKind::Rigid) > 0 {
         return None;
@@ -337,7 +343,7 @@ pub fn notices(seed: u64) -> Option<bool> {
     e.coordinates[moved] += 1e-4 * unit;
     // Poses of the moved chain, so that the conditions have to see it.
     let x = &e.coordinates;
-    let k = kinetostat::Kinematics::new(&chain, &problem.base, x, &problem.commands, false);
+    let k = kinetostat::model::Kinematics::new(&chain, &problem.base, x, &problem.commands, false);
     e.nodes = (0..chain.nodes().len()).map(|i| k.node_pose(i)).collect();
     e.tip = k.tip_pose();
     let broken = catch_unwind(AssertUnwindSafe(|| checks::equilibrium(&problem, &e, 1e-7)));
@@ -502,7 +508,11 @@ fn parameter(random: &mut Random, problem: &ChainProblem<'_>, sizes: &Sizes) -> 
     })
 }
 
-fn point(problem: &ChainProblem<'_>, parameter: &Parameter, p: &kinetostat::CurvePoint) {
+fn point(
+    problem: &ChainProblem<'_>,
+    parameter: &Parameter,
+    p: &kinetostat::continuation::CurvePoint,
+) {
     assert!(p.parameter.is_finite(), "parameter {}", p.parameter);
     assert!(p.conjugate.is_finite(), "conjugate {}", p.conjugate);
     assert!(p.arc.is_finite(), "arc {}", p.arc);
@@ -524,7 +534,7 @@ fn point_at(
     match parameter {
         Parameter::Displacement(twist) => {
             let way = kinetostat::Twist(twist.0 * value);
-            here.end.pose = kinetostat::moved(&problem.end.pose, &way);
+            here.end.pose = kinetostat::spatial::moved(&problem.end.pose, &way);
         }
         Parameter::Load(pattern) => {
             here.end.wrench = Wrench(problem.end.wrench.0 + pattern.end.0 * value);

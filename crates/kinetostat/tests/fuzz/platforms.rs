@@ -2,7 +2,7 @@
 
 use kinetostat::{
     Chain, ChainBuilder, Direction, Limb, LinkSpec, Mechanism, Platform, Pose, Wrench,
-    pose_residual,
+    spatial::pose_residual,
 };
 use kinetostat_testing::Worst;
 use nalgebra::{Matrix3, Vector3, Vector6, vector};
@@ -81,14 +81,7 @@ impl Series {
             let to = builder.platform(Platform::new(&name, home));
             let name = format!("rod {i}");
             let chain = self.rod(Chain::builder(&name), i).build().expect("a rod");
-            limbs.push(Limb {
-                name,
-                from: to - 1,
-                to,
-                platform_from_tip: Pose::identity(),
-                nominal: chain.clone(),
-                actual: chain,
-            });
+            limbs.push(Limb::between(name, to - 1, to, chain));
         }
         if mixed {
             limbs.reverse();

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use kinetostat::{
     Chain, ChainProblem, CurveSettings, EndCondition, Error, LinkSpec, Mechanism, Parameter, Pose,
-    Settings, SpecialKind, Wrench, follow, pose_residual, solve_chain,
+    Settings, Wrench, continuation::SpecialKind, follow, solve_chain, spatial::pose_residual,
 };
 use nalgebra::{Vector3, vector};
 

@@ -2,8 +2,8 @@
 //! they stretch.
 
 use kinetostat::{
-    Chain, ChainProblem, CurveSettings, EndCondition, LinkSpec, Parameter, Pose, Settings,
-    SpecialKind, Wrench, follow, solve_chain,
+    Chain, ChainProblem, CurveSettings, EndCondition, LinkSpec, Parameter, Pose, Settings, Wrench,
+    continuation::SpecialKind, follow, solve_chain,
 };
 use nalgebra::{Vector3, vector};
 

@@ -3,8 +3,8 @@
 //! from statics: a strut carries an axial force only.
 
 use kinetostat::{
-    ActuatorSpec, Chain, ChainBlocks, ChainBuilder, DirectionKind, Limb, Mechanism, MotionKind,
-    Platform, Pose, unloaded_stiffness,
+    ActuatorSpec, Chain, ChainBuilder, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
+    reference::ChainBlocks, unloaded_stiffness,
 };
 use kinetostat_testing::Worst;
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -131,14 +131,9 @@ fn machine(random: &mut Random) {
         let wrench = Vector6::new(along.x, along.y, along.z, arm.x, arm.y, arm.z);
         asked += axial * wrench * wrench.transpose();
         most.add(axial);
-        builder = builder.limb(Limb {
-            name,
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::translation(hand.x, hand.y, hand.z),
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(
+            Limb::between(name, 0, tool, chain).fixed_at(Pose::translation(hand.x, hand.y, hand.z)),
+        );
     }
     let most = most.of(6);
     let machine = builder.build().expect("a machine");

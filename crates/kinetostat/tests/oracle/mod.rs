@@ -5,7 +5,9 @@
 //! Nothing of the core's kinematics, load terms, saddle solver or platform condensation is used;
 //! only the description of chains and mechanisms and the algebra of poses is shared.
 
-use kinetostat::{Anchor, Chain, Element, Mechanism, MotionKind, PlatformLoad, Pose, Wrench};
+use kinetostat::{
+    Anchor, Chain, Mechanism, MotionKind, PlatformLoad, Pose, Wrench, model::Element,
+};
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
@@ -275,7 +277,7 @@ pub struct Flat<'m> {
 
 impl<'m> Flat<'m> {
     /// At rest for a posture.
-    pub fn at_rest(posture: &kinetostat::Posture<'m>) -> Self {
+    pub fn at_rest(posture: &'m kinetostat::Posture) -> Self {
         let m = posture.mechanism();
         let start = posture.rest_state();
         Self {
@@ -295,8 +297,8 @@ impl<'m> Flat<'m> {
 
     /// At a state of the core.
     pub fn at_state(
-        posture: &kinetostat::Posture<'m>,
-        state: &kinetostat::MechanismState,
+        posture: &'m kinetostat::Posture,
+        state: &kinetostat::machine::MechanismState,
         load: &Wrench,
     ) -> Self {
         Self {

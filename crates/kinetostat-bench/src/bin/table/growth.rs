@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use kinetostat::{
-    ActuatorSpec, BeamSection, Chain, Limb, LinkConvention, LinkSpec, Mechanism, MotionKind,
-    Platform, Pose,
+    ActuatorSpec, BeamSection, Chain, Limb, LinkSpec, Mechanism, MotionKind, Platform, Pose,
+    model::LinkConvention,
 };
 use kinetostat_bench::{Places, Task, Work, sample};
 use nalgebra::Vector3;
@@ -116,14 +116,7 @@ fn table_on_legs(legs: usize) -> Result<Mechanism> {
             .translation(Vector3::new(-0.6, 0.0, 0.0))
             .rigid(Pose::rotation(Vector3::z() * -turn))
             .build()?;
-        builder = builder.limb(Limb {
-            name: format!("leg {i}"),
-            from: 0,
-            to: tool,
-            platform_from_tip: Pose::identity(),
-            nominal: chain.clone(),
-            actual: chain,
-        });
+        builder = builder.limb(Limb::between(format!("leg {i}"), 0, tool, chain));
     }
     Ok(builder.build()?)
 }

@@ -59,7 +59,7 @@ pub(crate) struct AssumptionsFinding {
 
 /// Looks at the assumptions at home.
 pub(crate) fn assumptions(
-    posture: &Posture<'_>,
+    posture: &Posture,
     rest: &MechanismEquilibrium,
     force: Option<Vector3<f64>>,
 ) -> AssumptionsFinding {
@@ -150,7 +150,7 @@ impl AssumptionsFinding {
     /// The worst of the reference loads, and the machine under it.
     fn under(
         &mut self,
-        posture: &Posture<'_>,
+        posture: &Posture,
         rest: &MechanismEquilibrium,
         force: Option<Vector3<f64>>,
     ) -> Option<MechanismEquilibrium> {
@@ -244,7 +244,7 @@ impl AssumptionsFinding {
 
     fn large_displacement(
         &mut self,
-        posture: &Posture<'_>,
+        posture: &Posture,
         rest: &MechanismEquilibrium,
         loaded: &MechanismEquilibrium,
     ) {
@@ -296,7 +296,7 @@ impl AssumptionsFinding {
     /// there is none or that is worse.
     fn buckling(
         &mut self,
-        posture: &Posture<'_>,
+        posture: &Posture,
         rest: &MechanismEquilibrium,
         loaded: Option<&MechanismEquilibrium>,
         force_given: bool,

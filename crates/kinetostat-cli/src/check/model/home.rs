@@ -55,7 +55,7 @@ const DIRECTIONS: [&str; 6] = [
 
 pub(crate) fn at_home(
     m: &Mechanism,
-    posture: &Posture<'_>,
+    posture: &Posture,
     force: Option<Vector3<f64>>,
     limbs: &mut [LimbFinding],
     load_names: &[Vec<String>],
@@ -103,11 +103,7 @@ pub(crate) fn at_home(
                 joints.map(|j| format!("{}: {j}", l.name))
             })
             .collect(),
-        correctable_directions: DIRECTIONS
-            .iter()
-            .zip(correctable)
-            .filter_map(|(name, can)| can.then_some(*name))
-            .collect(),
+        correctable_directions: correctable.iter().map(|k| DIRECTIONS[k]).collect(),
         stiffness_rank: stiffness.rank(),
         principal_directions: stiffness.directions.iter().map(principal).collect(),
         shift_without_load_mm: (rest.displacement.linear() * 1e3).into(),

@@ -1,7 +1,7 @@
 //! Limbs of a model: what they are made of, and what each of them holds.
 
 use kinetostat::number::counted;
-use kinetostat::{MotionKind, Role};
+use kinetostat::{MotionKind, model::Role};
 use kinetostat_model::Model;
 use kinetostat_model::schema::{Convention, Element};
 use serde::Serialize;
@@ -123,7 +123,7 @@ fn links(model: &Model, index: usize) -> Vec<LinkFinding> {
             let name = element
                 .name()
                 .map_or_else(|| format!("{} {}", element.word(), i + 1), str::to_owned);
-            let own = |s: &&kinetostat::Segment| s.link == name;
+            let own = |s: &&kinetostat::model::Segment| s.link == name;
             let pieces = || chain.springs().iter().filter_map(|s| s.segment.as_ref());
             let piece = pieces().find(own)?;
             let slenderness = std::f64::consts::PI / piece.link_length;

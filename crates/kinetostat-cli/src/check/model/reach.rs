@@ -49,7 +49,7 @@ impl From<Result<Reach, ReachError>> for ReachFinding {
 }
 
 /// Reach of a machine from its posture at home.
-pub(crate) fn reach_from(home: &Posture<'_>) -> ReachFinding {
+pub(crate) fn reach_from(home: &Posture) -> ReachFinding {
     reach(home).into()
 }
 

@@ -142,7 +142,11 @@ fn a_tapered_link_agrees_with_fine_segmentation() {
                 .expect("regular");
             own[(1, 1)] += h / (g * p.shear_area_y);
             own[(2, 2)] += h / (g * p.shear_area_z);
-            let t = kinetostat::shift_matrix(&Vector3::new(L - h * f64::from(i + 1), 0.0, 0.0));
+            let t = kinetostat::spatial::shift_matrix(&Vector3::new(
+                L - h * f64::from(i + 1),
+                0.0,
+                0.0,
+            ));
             compliance += t * own * t.transpose();
         }
         errors.push(apart(&compliance.try_inverse().expect("regular"), &k));

@@ -31,8 +31,9 @@ fn truth() -> Matrix6<f64> {
     let k = BeamSection::tube(7e10, 2.7e10, 0.08, 0.07)
         .cantilever(0.5)
         .expect("a section");
-    let turn = kinetostat::turn_matrix(&nalgebra::Rotation3::new(Vector3::new(0.3, -0.7, 0.4)));
-    let shift = kinetostat::shift_matrix(&Vector3::new(0.03, -0.05, 0.02));
+    let turn =
+        kinetostat::spatial::turn_matrix(&nalgebra::Rotation3::new(Vector3::new(0.3, -0.7, 0.4)));
+    let shift = kinetostat::spatial::shift_matrix(&Vector3::new(0.03, -0.05, 0.02));
     shift.transpose() * turn * k * turn.transpose() * shift
 }
 

@@ -37,7 +37,7 @@ pub struct Machine {
 }
 
 /// The machine in a posture, from its file and the values of its joints.
-pub fn structure(model: &Model, posture: &Posture<'_>) -> Machine {
+pub fn structure(model: &Model, posture: &Posture) -> Machine {
     let mechanism = &model.mechanism;
     let mut s = Structure::new();
     let mut nodes = vec![BASE];

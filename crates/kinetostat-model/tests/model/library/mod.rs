@@ -6,7 +6,7 @@ mod machine;
 mod msa;
 mod urdf;
 
-use kinetostat::{Pose, Posture, Role, Wrench, pose_residual};
+use kinetostat::{Pose, Posture, Wrench, model::Role, spatial::pose_residual};
 use kinetostat_model::Model;
 use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -54,7 +54,7 @@ pub fn preset(name: &str) -> Model {
 /// The posture at a target or, where the machine cannot take it (a planar machine, a tripod that shifts
 /// by the way), at a place near it: commands are changed until the unloaded machine stands as near
 /// as it can, and inverse kinematics has to find these commands again.
-pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture<'m>) -> Posture<'m> {
+pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture) -> Posture {
     let mechanism = &model.mechanism;
     if let Ok(posture) = mechanism.posture_near(target, start) {
         return posture;
@@ -112,7 +112,7 @@ pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture<'m>) ->
                 rates.set_column(j, &(way(&here, &stand(&more)) / 1e-4));
             }
             inverse = {
-                let own = kinetostat::SingularValues::of(&rates);
+                let own = kinetostat::linalg::SingularValues::of(&rates);
                 own.pseudo_inverse(1e-6 / own.largest())
             };
         }
@@ -136,7 +136,7 @@ pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture<'m>) ->
 }
 
 /// Whether a machine can turn its tool.
-pub fn turns(posture: &Posture<'_>) -> bool {
+pub fn turns(posture: &Posture) -> bool {
     let motions = posture.mobility();
     motions.nrows() == 6 && motions.rows(3, 3).largest_entry() > 1e-6
 }

@@ -15,6 +15,7 @@ use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::equilibrium::chain::solve_along;
+use crate::model::{Role, unloaded_tip};
 use crate::*;
 
 /// In [-1, 1).

@@ -33,7 +33,7 @@ pub struct OvercomeSpring {
     pub by_load: Vec<f64>,
 }
 
-impl Posture<'_> {
+impl Posture {
     /// Springs that the loads beat at an equilibrium of this posture, the weakest against its loads
     /// first. None in a machine that is stable joint by joint; a stable machine may have some, held by
     /// their neighbours or by other limbs.
@@ -41,9 +41,9 @@ impl Posture<'_> {
     /// # Errors
     /// An equilibrium of another machine.
     pub fn overcome_springs(&self, at: &MechanismEquilibrium) -> Result<Vec<OvercomeSpring>> {
-        let m = self.mechanism;
+        let m = self.mechanism.clone();
         let mut found = Vec::new();
-        for (index, (limb, here)) in m.limbs.iter().zip(&at.limbs).enumerate() {
+        for (index, (limb, here)) in m.limbs().iter().zip(&at.limbs).enumerate() {
             let (chain, joints) = (&limb.actual, &self.limbs[index]);
             chain.check(&here.coordinates, &joints.commands)?;
             let base = at.state.platforms[limb.from];

@@ -13,13 +13,13 @@ impl UnloadedStiffness {
     /// stiffness of) moves by a small twist (m, rad; base axes, at the tool's origin), named
     /// `limb: joint`, the most first. Only limbs that run from the base to the tool are asked.
     #[must_use]
-    pub fn behind(&self, posture: &Posture<'_>, twist: &Twist) -> Vec<Share> {
+    pub fn behind(&self, posture: &Posture, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter();
         limbs_behind(posture.mechanism(), posture.target(), limbs, twist)
     }
 
     /// With names at its free directions.
-    pub(crate) fn named(mut self, posture: &Posture<'_>) -> Self {
+    pub(crate) fn named(mut self, posture: &Posture) -> Self {
         for i in 0..self.directions.len() {
             if loose(&self.directions[i]) {
                 self.directions[i].behind = self.behind(posture, &self.directions[i].twist);

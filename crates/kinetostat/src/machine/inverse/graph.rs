@@ -13,7 +13,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector6};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::linalg::block_elimination::{BlockFactors, FEW, Pivots};
 use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::limb::{LimbPosture, inverse_kinematics};
@@ -44,7 +44,7 @@ pub(crate) fn graph_inverse(
     let search = GraphSearch::new(mechanism);
     if let Some(start) = start {
         let mut at = start.clone();
-        at.platforms[mechanism.tool] = *target;
+        at.platforms[mechanism.tool()] = *target;
         if let Ok(found) = search.close(at) {
             return search.settled(found, true);
         }
@@ -53,10 +53,10 @@ pub(crate) fn graph_inverse(
         }
     }
     let home = search.home()?;
-    let off = pose_residual(target, &home.platforms[mechanism.tool]).0;
+    let off = pose_residual(target, &home.platforms[mechanism.tool()]).0;
     if off.amax() <= 1e-9 * search.length.max(1.0) {
         let mut found = home;
-        found.platforms[mechanism.tool] = *target;
+        found.platforms[mechanism.tool()] = *target;
         let found = search
             .close(found)
             .map_err(|_| search.unreachable(target, target))?;
@@ -72,9 +72,9 @@ pub(crate) fn graph_inverse(
 /// that all limbs close; `None` where they do not.
 pub(crate) fn graph_nearest(mechanism: &Mechanism, target: &Pose) -> Option<Pose> {
     let mut search = GraphSearch::new(mechanism);
-    let mut platforms: Vec<Pose> = mechanism.platforms.iter().map(|p| p.home).collect();
-    platforms[mechanism.tool] = *target;
-    let limbs = mechanism.limbs.iter().map(|limb| LimbPosture {
+    let mut platforms: Vec<Pose> = mechanism.platforms().iter().map(|p| p.home).collect();
+    platforms[mechanism.tool()] = *target;
+    let limbs = mechanism.limbs().iter().map(|limb| LimbPosture {
         commands: limb.nominal.home_commands(),
         coordinates: limb.nominal.home_coordinates(),
     });
@@ -88,7 +88,7 @@ pub(crate) fn graph_nearest(mechanism: &Mechanism, target: &Pose) -> Option<Pose
     };
     search.tool_free = true;
     let closed = search.close(near).ok()?;
-    Some(closed.platforms[mechanism.tool])
+    Some(closed.platforms[mechanism.tool()])
 }
 
 /// Motion of every limb's commands per motion of the tool (base axes, at its origin), r x 6 each:
@@ -97,7 +97,7 @@ pub(crate) fn graph_rates(mechanism: &Mechanism, at: &GraphPosture) -> Vec<DMatr
     let search = GraphSearch::new(mechanism);
     let network = search.network(at, LEAST_DAMPING, None);
     let mut rates: Vec<DMatrix<f64>> = mechanism
-        .limbs
+        .limbs()
         .iter()
         .map(|l| DMatrix::zeros(l.nominal.actuators.len(), 6))
         .collect();
@@ -111,7 +111,7 @@ pub(crate) fn graph_rates(mechanism: &Mechanism, at: &GraphPosture) -> Vec<DMatr
             continue;
         };
         for ((limb, own), (rate, own_joints)) in mechanism
-            .limbs
+            .limbs()
             .iter()
             .zip(&network)
             .zip(rates.iter_mut().zip(&joints))
@@ -173,7 +173,7 @@ impl<'m> GraphSearch<'m> {
         Self {
             mechanism,
             passive: mechanism
-                .limbs
+                .limbs()
                 .iter()
                 .map(|l| l.nominal.indices_of(Role::Passive))
                 .collect(),
@@ -190,9 +190,9 @@ impl<'m> GraphSearch<'m> {
     /// Home of the model with every limb closed where the platforms are meant to be.
     fn home(&self) -> Result<GraphPosture> {
         let m = self.mechanism;
-        let platforms: Vec<Pose> = m.platforms.iter().map(|p| p.home).collect();
+        let platforms: Vec<Pose> = m.platforms().iter().map(|p| p.home).collect();
         let closed: Result<Vec<LimbPosture>> = m
-            .limbs
+            .limbs()
             .iter()
             .map(|limb| {
                 let tip = platforms[limb.to] * limb.platform_from_tip;
@@ -204,7 +204,7 @@ impl<'m> GraphSearch<'m> {
             Err(error) => error,
         };
         // Platforms written down roughly: they find their own places, the tool excepted.
-        let limbs = m.limbs.iter().map(|limb| LimbPosture {
+        let limbs = m.limbs().iter().map(|limb| LimbPosture {
             commands: limb.nominal.home_commands(),
             coordinates: limb.nominal.home_coordinates(),
         });
@@ -218,7 +218,7 @@ impl<'m> GraphSearch<'m> {
     fn unreachable(&self, target: &Pose, nearest: &Pose) -> Error {
         let miss = pose_residual(target, nearest);
         Error::Unreachable {
-            place: format!("mechanism '{}'", self.mechanism.name),
+            place: Place::mechanism(self.mechanism.name()),
             distance_m: miss.linear().norm(),
             angle_rad: miss.angular().norm(),
             nearest: Box::new(*nearest),
@@ -227,7 +227,7 @@ impl<'m> GraphSearch<'m> {
 
     /// Follows the straight way to the target; `Err` holds the last pose of the tool reached.
     fn walk(&self, from: GraphPosture, target: &Pose) -> std::result::Result<GraphPosture, Pose> {
-        let tool = self.mechanism.tool;
+        let tool = self.mechanism.tool();
         let start = from.platforms[tool];
         let way = pose_residual(target, &start);
         let (mut at, mut share, mut step) = (from, 0.0_f64, 0.125_f64);
@@ -259,9 +259,9 @@ impl<'m> GraphSearch<'m> {
     fn network(&self, at: &GraphPosture, damping: f64, home: Option<&GraphPosture>) -> Vec<Linked> {
         let m = self.mechanism;
         let units = self.units();
-        (0..m.limbs.len())
+        (0..m.limbs().len())
             .map(|i| {
-                let (limb, joints) = (&m.limbs[i], &at.limbs[i]);
+                let (limb, joints) = (&m.limbs()[i], &at.limbs[i]);
                 let chain = &limb.nominal;
                 let base = &at.platforms[limb.from];
                 let (x, commands) = (&joints.coordinates, &joints.commands);
@@ -344,10 +344,10 @@ impl<'m> GraphSearch<'m> {
     /// tool only where it is free.
     fn factorised<'n>(&self, network: &'n [Linked]) -> Option<Factorised<'n>> {
         let m = self.mechanism;
-        let count = m.platforms.len();
+        let count = m.platforms().len();
         let place: Vec<Option<usize>> = (0..count)
             .scan(0, |next, p| {
-                Some((p != 0 && (self.tool_free || p != m.tool)).then(|| {
+                Some((p != 0 && (self.tool_free || p != m.tool())).then(|| {
                     *next += 6;
                     *next - 6
                 }))
@@ -355,7 +355,7 @@ impl<'m> GraphSearch<'m> {
             .collect();
         let size = 6 * place.iter().flatten().count();
         let mut a = Sparse::zeros(size, size);
-        for (limb, own) in m.limbs.iter().zip(network) {
+        for (limb, own) in m.limbs().iter().zip(network) {
             let ends = [
                 (place[limb.to], &own.by_to),
                 (place[limb.from], &own.by_from),
@@ -390,23 +390,23 @@ impl<'m> GraphSearch<'m> {
     fn solve(&self, own: &Factorised<'_>, tool_motion: Option<&Vector6<f64>>) -> Option<Moves> {
         let m = self.mechanism;
         let (network, place) = (own.network, &own.place);
-        let count = m.platforms.len();
+        let count = m.platforms().len();
         let mut b = DMatrix::zeros(6 * place.iter().flatten().count(), 1);
         let lack = |limb: usize| match tool_motion {
             None => network[limb].closure,
             Some(motion) => {
-                let (description, own) = (&m.limbs[limb], &network[limb]);
+                let (description, own) = (&m.limbs()[limb], &network[limb]);
                 let mut s = Vector6::zeros();
-                if description.to == m.tool {
+                if description.to == m.tool() {
                     s += own.by_to * motion;
                 }
-                if description.from == m.tool {
+                if description.from == m.tool() {
                     s += own.by_from * motion;
                 }
                 s
             }
         };
-        for (i, (limb, own)) in m.limbs.iter().zip(network).enumerate() {
+        for (i, (limb, own)) in m.limbs().iter().zip(network).enumerate() {
             let pull = own.matrix * lack(i);
             for (row, by_row) in [
                 (place[limb.to], &own.by_to),
@@ -429,7 +429,7 @@ impl<'m> GraphSearch<'m> {
             }
         }
         let joints: Vec<DVector<f64>> = m
-            .limbs
+            .limbs()
             .iter()
             .zip(network)
             .enumerate()
@@ -614,7 +614,7 @@ impl<'m> GraphSearch<'m> {
 
     /// Passive rotations in (-pi, pi]; actuators with limits in the turn nearest to their range.
     fn wrapped(&self, mut at: GraphPosture) -> GraphPosture {
-        for (limb, joints) in self.mechanism.limbs.iter().zip(&mut at.limbs) {
+        for (limb, joints) in self.mechanism.limbs().iter().zip(&mut at.limbs) {
             crate::machine::inverse::limb::wrap(&limb.nominal, joints);
         }
         at

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::linalg::saddle::pseudo_inverse;
 use crate::model::chain::{Chain, Drive, Element, Motion, Role};
 use crate::model::kinematics::Kinematics;
@@ -31,9 +31,9 @@ pub fn inverse_kinematics(
     target: &Pose,
     start: Option<&LimbPosture>,
 ) -> Result<LimbPosture> {
-    let place = format!("limb '{}'", chain.name());
+    let place = Place::limb(chain.name());
     for (what, pose) in [("the pose of the base", base), ("the target pose", target)] {
-        crate::model::limits::sensible_pose(&place, what, pose)?;
+        crate::model::limits::check_pose(&place, what, pose)?;
     }
     if let Some(start) = start {
         chain.check(&start.coordinates, &start.commands)?;

@@ -19,18 +19,18 @@ impl Mechanism {
     pub fn nearest_reachable(&self, target: &Pose, limit: f64) -> Option<Pose> {
         let length = self.scale().length;
         let size = |t: &Twist| t.linear().norm().max(length * t.angular().norm());
-        if self.platforms.len() > 2 {
+        if self.platforms().len() > 2 {
             let found = graph_nearest(self, target)?;
             return (size(&pose_residual(&found, target)) <= limit).then_some(found);
         }
         let mut pose = *target;
         for _ in 0..STEPS {
             // What every limb lacks, and the motions that it cannot make: rows in the tool's twist.
-            let mut rows = DMatrix::zeros(6 * self.limbs.len(), 6);
-            let mut lacks = DVector::zeros(6 * self.limbs.len());
+            let mut rows = DMatrix::zeros(6 * self.limbs().len(), 6);
+            let mut lacks = DVector::zeros(6 * self.limbs().len());
             let (mut all_reach, mut most) = (true, 0.0_f64);
-            for (i, limb) in self.limbs.iter().enumerate() {
-                let base = &self.platforms[limb.from].home;
+            for (i, limb) in self.limbs().iter().enumerate() {
+                let base = &self.platforms()[limb.from].home;
                 let tip = pose * limb.platform_from_tip;
                 let (joints, lack) = match inverse_kinematics(&limb.nominal, base, &tip, None) {
                     Ok(joints) => (joints, Twist::zero()),
@@ -81,14 +81,15 @@ impl Mechanism {
     /// Puts the tool's home at the nearest pose that the machine can take, if it lies within `limit`
     /// (see [`Self::nearest_reachable`]). The home as it was, if it was changed.
     pub fn settle_home(&mut self, limit: f64) -> Option<Pose> {
-        let home = self.platforms[self.tool].home;
+        let home = self.platforms()[self.tool()].home;
         if self.posture(&home).is_ok() {
             return None;
         }
         let nearest = self.nearest_reachable(&home, limit)?;
-        self.platforms[self.tool].home = nearest;
+        let tool = self.tool();
+        self.parts_mut().platforms[tool].home = nearest;
         if self.posture(&nearest).is_err() {
-            self.platforms[self.tool].home = home;
+            self.parts_mut().platforms[tool].home = home;
             return None;
         }
         Some(home)

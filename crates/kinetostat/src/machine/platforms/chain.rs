@@ -22,7 +22,7 @@ impl PlatformSolver<'_> {
         self.linear.len() == 1
             && self.state.platforms.len() == 2
             && self.follows()
-            && !self.mechanism.limbs[0]
+            && !self.mechanism.limbs()[0]
                 .actual
                 .coordinates()
                 .iter()
@@ -58,7 +58,7 @@ impl PlatformSolver<'_> {
         for (i, mut column) in across.column_iter_mut().enumerate() {
             column /= unit(i);
         }
-        let pose = &self.state.platforms[self.mechanism.tool];
+        let pose = &self.state.platforms[self.mechanism.tool()];
         let conditions = self.guide.rows_at(pose) * back;
         let (of_wrench, of_motion) = (&across * wrench, &across * motion);
         let mut rows = EndRows {
@@ -104,7 +104,7 @@ impl PlatformSolver<'_> {
             self.balance = Some(balance);
             new = Some((with_hessian, rows));
         }
-        let (tool, k) = (self.mechanism.tool, self.guided());
+        let (tool, k) = (self.mechanism.tool(), self.guided());
         let pose = &self.state.platforms[tool];
         let balance = self.balance.as_ref()?;
         let missing = match k {

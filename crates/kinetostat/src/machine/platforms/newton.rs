@@ -169,7 +169,7 @@ impl PlatformSolver<'_> {
     /// Longest share of a step over which the linearisation says something.
     fn longest(&self, step: &PlatformStep, steps: &[DVector<f64>]) -> f64 {
         let mut length = 1.0_f64;
-        for (limb, step) in self.mechanism.limbs.iter().zip(steps) {
+        for (limb, step) in self.mechanism.limbs().iter().zip(steps) {
             length = length.min(step_limit(&limb.actual, step.iter().skip(6).copied()));
         }
         // Platforms that follow their limbs go as far as those.
@@ -189,7 +189,7 @@ impl PlatformSolver<'_> {
     /// Size of the motion of all limbs in a correction: root of the sum of squares of turns (rad) and
     /// slides (in natural lengths).
     fn extent<'v>(&self, steps: impl Iterator<Item = &'v DVector<f64>>) -> f64 {
-        let limbs = self.mechanism.limbs.iter().zip(steps);
+        let limbs = self.mechanism.limbs().iter().zip(steps);
         limbs
             .flat_map(|(limb, step)| {
                 let length = limb.actual.scale().length;
@@ -241,7 +241,7 @@ impl PlatformSolver<'_> {
             for (j, x) in self.state.coordinates[i].iter_mut().enumerate() {
                 *x = start[j] + length * step[6 + j];
             }
-            for block in self.mechanism.limbs[i].actual.springs() {
+            for block in self.mechanism.limbs()[i].actual.springs() {
                 block.follow(start, self.share, &mut self.state.coordinates[i]);
             }
         }
@@ -281,7 +281,7 @@ impl PlatformSolver<'_> {
         longest: f64,
     ) -> Result<crate::chain::residual::Residual> {
         let aside = aside(longest);
-        for (i, limb) in self.mechanism.limbs.iter().enumerate() {
+        for (i, limb) in self.mechanism.limbs().iter().enumerate() {
             self.state.coordinates[i] =
                 crate::chain::scaling::nudged(&limb.actual, &self.posture[i].coordinates, aside);
             self.state.wrenches[i] = Wrench::zero();
@@ -339,7 +339,7 @@ impl PlatformSolver<'_> {
     ) -> Error {
         let residual = balance.residual(iterations);
         Error::NotConverged {
-            place: format!("mechanism '{}'", self.mechanism.name),
+            place: crate::error::Place::mechanism(self.mechanism.name()),
             iterations,
             residual_position_m: residual.closure_m,
             residual_torque: residual.torque,

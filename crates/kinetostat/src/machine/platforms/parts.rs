@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
 
-use crate::spatial::{Pose, Twist, Wrench, hat, pose_residual};
+use crate::spatial::{Directions, Pose, Twist, Wrench, hat, pose_residual};
 
 /// How the unknowns of the platform equations are divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +13,7 @@ pub(crate) enum Unknowns {
     Held,
     /// The tool is held in the directions that are `true` and the nominal target moves there
     /// instead: compensation.
-    Target([bool; 6]),
+    Target(Directions),
     /// The tool is held where [`PlatformSolver::guide`] says, and the wrenches that hold it there
     /// follow: a part of [`PlatformSolver::wrench`]. Everything else moves.
     Guided,

@@ -67,7 +67,7 @@ pub(crate) struct PlatformSolver<'m> {
     pub share: f64,
     /// How the state was found.
     pub found_by: FoundBy,
-    /// See [`crate::Residual::rate`], of the limbs' wrenches and coordinates.
+    /// See [`crate::chain::Residual::rate`], of the limbs' wrenches and coordinates.
     pub rate: Option<f64>,
     pub length: f64,
     pub stiffness: f64,
@@ -109,7 +109,7 @@ impl<'m> PlatformSolver<'m> {
         state: MechanismState,
         unknowns: Unknowns,
     ) -> Self {
-        let limbs = &mechanism.limbs;
+        let limbs = &mechanism.limbs();
         let factors: Vec<Vec<f64>> = limbs
             .iter()
             .zip(&posture)
@@ -137,8 +137,8 @@ impl<'m> PlatformSolver<'m> {
             settings,
             wrench: Wrench::zero(),
             others: Vec::new(),
-            target: state.platforms[mechanism.tool],
-            nominal: mechanism.platforms.iter().map(|p| p.home).collect(),
+            target: state.platforms[mechanism.tool()],
+            nominal: mechanism.platforms().iter().map(|p| p.home).collect(),
             posture,
             unknowns,
             guide: Guide::none(),
@@ -161,7 +161,7 @@ impl<'m> PlatformSolver<'m> {
 
     /// Arm from the reference point of `to` to the limb's tip at a state, base axes, m.
     pub fn arm(&self, limb: usize, at: &MechanismState) -> Vector3<f64> {
-        let l = &self.mechanism.limbs[limb];
+        let l = &self.mechanism.limbs()[limb];
         at.platforms[l.to].rotation * l.platform_from_tip.translation.vector
     }
 
@@ -173,7 +173,7 @@ impl<'m> PlatformSolver<'m> {
 
     /// Evaluates a limb at the present state.
     pub fn evaluate_limb(&mut self, i: usize) {
-        let limb = &self.mechanism.limbs[i];
+        let limb = &self.mechanism.limbs()[i];
         let system = &mut self.linear[i].system;
         for _ in 0..2 {
             system.evaluate(
@@ -201,7 +201,7 @@ impl<'m> PlatformSolver<'m> {
         for k in 0..self.tree.len() {
             let i = self.tree[k];
             self.evaluate_limb(i);
-            let limb = &self.mechanism.limbs[i];
+            let limb = &self.mechanism.limbs()[i];
             let tip = self.linear[i].system.kinematics.tip_pose();
             self.state.platforms[limb.to] = tip * limb.platform_from_tip.inverse();
         }
@@ -216,17 +216,17 @@ impl<'m> PlatformSolver<'m> {
         let mut exceeding = 0.0_f64;
         // Wrench still missing on each platform, about its origin.
         let mut lack: Vec<Wrench> = m
-            .platforms
+            .platforms()
             .iter()
             .zip(&self.state.platforms)
             .map(|(p, pose)| {
-                let weight = m.gravity * (p.mass * self.share);
+                let weight = m.gravity() * (p.mass * self.share);
                 Wrench::new(weight, (pose.rotation * p.centre_of_mass).cross(&weight))
             })
             .collect();
-        lack[m.tool] = lack[m.tool] + self.wrench * self.share;
+        lack[m.tool()] = lack[m.tool()] + self.wrench * self.share;
         let mut others = self.others.clone();
-        for load in &m.platform_loads {
+        for load in m.platform_loads() {
             load.wrenches(&self.state.platforms, &mut others);
         }
         for (platform, wrench) in others {
@@ -249,7 +249,7 @@ impl<'m> PlatformSolver<'m> {
                 .sqrt()
         };
         forces = lack.iter().skip(1).map(size).fold(forces, f64::max);
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let arm = self.arm(i, &self.state);
             let (x, f) = (&self.state.coordinates[i], &self.state.wrenches[i]);
             let linear = &mut self.linear[i];
@@ -279,14 +279,14 @@ impl<'m> PlatformSolver<'m> {
         }
         let mut force = 0.0_f64;
         if self.unknowns == Unknowns::Guided {
-            let missing = self.guide.lack(&self.state.platforms[m.tool]);
+            let missing = self.guide.lack(&self.state.platforms[m.tool()]);
             let missing = missing.amax();
             merit += (missing * root).powi(2);
             closure_m = closure_m.max(missing);
         }
         for (k, w) in lack.iter().enumerate().skip(1) {
             // Whoever holds the tool supplies what it lacks.
-            if self.unknowns != Unknowns::Held || k != m.tool {
+            if self.unknowns != Unknowns::Held || k != m.tool() {
                 force = force.max(size(w));
                 merit += size(w).powi(2);
             }
@@ -315,7 +315,7 @@ impl<'m> PlatformSolver<'m> {
     /// Commands every limb for the present nominal target; false where it cannot be reached.
     pub fn retarget(&mut self) -> bool {
         let m = self.mechanism;
-        if m.platforms.len() > 2 {
+        if m.platforms().len() > 2 {
             let start = GraphPosture {
                 platforms: self.nominal.clone(),
                 limbs: self.posture.clone(),
@@ -326,21 +326,21 @@ impl<'m> PlatformSolver<'m> {
             (self.nominal, self.posture) = (found.platforms, found.limbs);
             return true;
         }
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let tip = self.target * limb.platform_from_tip;
-            let base = m.platforms[limb.from].home;
+            let base = m.platforms()[limb.from].home;
             match inverse_kinematics(&limb.nominal, &base, &tip, Some(&self.posture[i])) {
                 Ok(found) => self.posture[i] = found,
                 Err(_) => return false,
             }
         }
-        self.nominal[m.tool] = self.target;
+        self.nominal[m.tool()] = self.target;
         true
     }
 
     /// Rates of the commands at the present posture.
     pub fn refresh_rates(&mut self) {
-        self.nominal[self.mechanism.tool] = self.target;
+        self.nominal[self.mechanism.tool()] = self.target;
         self.rates = rates_of(self.mechanism, &self.nominal, &self.posture);
     }
 
@@ -353,7 +353,7 @@ impl<'m> PlatformSolver<'m> {
         for (linear, (limb, factors)) in self
             .linear
             .iter_mut()
-            .zip(self.mechanism.limbs.iter().zip(&self.factors))
+            .zip(self.mechanism.limbs().iter().zip(&self.factors))
         {
             // A limb that cannot move in all directions has no regular system: its end apart from them.
             let swept = linear.system.sweep.is_some();
@@ -386,7 +386,7 @@ impl<'m> PlatformSolver<'m> {
 
     /// Stiffness at its tip and stability of its shape of a limb after [`Self::finish`].
     pub fn verdicts(&mut self, limb: usize) -> (ChainStiffness, ShapeStability) {
-        let chain = &self.mechanism.limbs[limb].actual;
+        let chain = &self.mechanism.limbs()[limb].actual;
         // Wrench and coordinates per unit motion of the tip, (6 + n) x 6.
         let units = self.linear[limb].solution.columns(1, 6).into_owned();
         let system = &self.linear[limb].system;
@@ -414,7 +414,7 @@ pub(crate) fn rates_of(
     platforms: &[Pose],
     limbs: &[LimbPosture],
 ) -> Vec<DMatrix<f64>> {
-    if mechanism.platforms.len() > 2 {
+    if mechanism.platforms().len() > 2 {
         let at = GraphPosture {
             platforms: platforms.to_vec(),
             limbs: limbs.to_vec(),
@@ -422,7 +422,7 @@ pub(crate) fn rates_of(
         return graph_rates(mechanism, &at);
     }
     // The tip of a limb moves like the tool that it is fixed to.
-    let rates = mechanism.limbs.iter().zip(limbs).map(|(l, p)| {
+    let rates = mechanism.limbs().iter().zip(limbs).map(|(l, p)| {
         let arm = platforms[l.to].rotation * l.platform_from_tip.translation.vector;
         let rates = command_rates(&l.nominal, &platforms[l.from], p) * shift_matrix(&arm);
         DMatrix::from_fn(rates.nrows(), 6, |i, j| rates[(i, j)])
@@ -432,18 +432,18 @@ pub(crate) fn rates_of(
 
 /// Limbs from the base outwards; none where a platform has another number of limbs to it than one.
 fn tree(mechanism: &Mechanism) -> Vec<usize> {
-    let mut placed = vec![false; mechanism.platforms.len()];
+    let mut placed = vec![false; mechanism.platforms().len()];
     placed[0] = true;
     let mut order = Vec::new();
     while let Some(next) = mechanism
-        .limbs
+        .limbs()
         .iter()
         .position(|l| placed[l.from] && !placed[l.to])
     {
-        placed[mechanism.limbs[next].to] = true;
+        placed[mechanism.limbs()[next].to] = true;
         order.push(next);
     }
-    if order.len() != mechanism.limbs.len() || placed.contains(&false) {
+    if order.len() != mechanism.limbs().len() || placed.contains(&false) {
         order.clear();
     }
     order

@@ -12,7 +12,7 @@ use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::state::MechanismState;
 use crate::model::chain::Scale;
-use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
+use crate::spatial::{Directions, Twist, Wrench, hat, rotational, shift_matrix};
 
 /// Conditions on the motions of the platforms besides their balance.
 struct Conditions {
@@ -27,7 +27,7 @@ struct Conditions {
 }
 
 /// Whether an unknown of the platforms' motions is one of the tool that the target's motion replaces.
-fn is_exchanged(exchanged: &[bool; 6], tool: usize, unknown: usize) -> bool {
+fn is_exchanged(exchanged: Directions, tool: usize, unknown: usize) -> bool {
     (tool..tool + 6).contains(&unknown) && exchanged[unknown - tool]
 }
 
@@ -99,7 +99,7 @@ impl PlatformSolver<'_> {
     /// 6P x 6P, and by the nominal target's motion, 6P x 6; arms and loads as at a state.
     pub fn tangents(&self, at: &MechanismState) -> (Sparse, DMatrix<f64>) {
         let m = self.mechanism;
-        let p = m.platforms.len() - 1;
+        let p = m.platforms().len() - 1;
         let mut by_pose = Sparse::zeros(6 * p, 6 * p);
         let mut by_target = DMatrix::zeros(6 * p, 6);
         let add = |matrix: &mut Sparse, row: usize, column: usize, block: &Matrix6<f64>| {
@@ -109,7 +109,7 @@ impl PlatformSolver<'_> {
             let mut view = by_target.view_mut((6 * (row - 1), 0), (6, 6));
             view += block;
         };
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let arm = self.arm(i, at);
             let t = shift_matrix(&arm);
             let k = self.limb_stiffness(i);
@@ -166,14 +166,14 @@ impl PlatformSolver<'_> {
     ) {
         let m = self.mechanism;
         // A weight keeps its direction while its lever arm turns.
-        for (k, platform) in m.platforms.iter().enumerate().skip(1) {
-            let weight = m.gravity * (platform.mass * self.share);
+        for (k, platform) in m.platforms().iter().enumerate().skip(1) {
+            let weight = m.gravity() * (platform.mass * self.share);
             let arm = at.platforms[k].rotation * platform.centre_of_mass;
             let block = -rotational(&(hat(&weight) * hat(&arm)));
             add(k, k, &block);
         }
         let mut own = Vec::new();
-        for load in &m.platform_loads {
+        for load in m.platform_loads() {
             load.tangents(&at.platforms, &mut own);
         }
         for tangent in own {
@@ -189,10 +189,10 @@ impl PlatformSolver<'_> {
     /// and what they must be, k.
     pub fn rigid_rows(&self, at: &MechanismState) -> (RigidRows, DVector<f64>) {
         let m = self.mechanism;
-        let mut rows = RigidRows::none(m.platforms.len() - 1);
+        let mut rows = RigidRows::none(m.platforms().len() - 1);
         let count = self.linear.iter().map(|l| l.rigid.ncols()).sum();
         let mut needed = DVector::zeros(count);
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let linear = &self.linear[i];
             let k = linear.rigid.ncols();
             if k == 0 {
@@ -242,25 +242,25 @@ impl PlatformSolver<'_> {
         at: &MechanismState,
     ) -> Option<PlatformStep> {
         let m = self.mechanism;
-        let p = m.platforms.len() - 1;
+        let p = m.platforms().len() - 1;
         if self.unknowns == Unknowns::Held && p == 1 {
             return Some(PlatformStep {
                 motions: vec![Twist::zero()],
                 target: Twist::zero(),
-                carried: vec![Wrench::zero(); m.limbs.len()],
+                carried: vec![Wrench::zero(); m.limbs().len()],
                 push: Wrench::zero(),
             });
         }
         let (mut a, by_target) = self.tangents(at);
         let mut b = self.condensed_residuals(unbalanced, at);
-        let tool = 6 * (m.tool - 1);
+        let tool = 6 * (m.tool() - 1);
         let exchanged = self.exchanged();
         a.entries
-            .retain(|(_, j, _)| !is_exchanged(&exchanged, tool, *j));
+            .retain(|(_, j, _)| !is_exchanged(exchanged, tool, *j));
         for k in (0..6).filter(|&k| exchanged[k]) {
             a.add(0, tool + k, &by_target.column(k));
         }
-        let mut conditions = self.conditions(at, &exchanged);
+        let mut conditions = self.conditions(at, exchanged);
         if self.unknowns == Unknowns::Held {
             self.hold_tool(&mut a, &mut b, &mut conditions);
         }
@@ -280,14 +280,14 @@ impl PlatformSolver<'_> {
         } = &conditions;
         PlatformSystem::with_reactions(a, sizes, rigid, reactions, scale).solve(&mut b);
         let finite = b.iter().all(|x| x.is_finite());
-        finite.then(|| self.step_from(&b, &exchanged))
+        finite.then(|| self.step_from(&b, exchanged))
     }
 
     /// Directions of the tool that are held while the nominal target moves in their place.
-    fn exchanged(&self) -> [bool; 6] {
+    fn exchanged(&self) -> Directions {
         match self.unknowns {
             Unknowns::Target(held) => held,
-            _ => [false; 6],
+            _ => Directions::NONE,
         }
     }
 
@@ -302,11 +302,11 @@ impl PlatformSolver<'_> {
     /// What the platforms lack once every limb has closed its own residuals, 6P x 1.
     fn condensed_residuals(&self, unbalanced: &[Wrench], at: &MechanismState) -> DMatrix<f64> {
         let m = self.mechanism;
-        let mut b = DMatrix::zeros(6 * (m.platforms.len() - 1), 1);
+        let mut b = DMatrix::zeros(6 * (m.platforms().len() - 1), 1);
         for (k, w) in unbalanced.iter().enumerate().skip(1) {
             b.view_mut((6 * (k - 1), 0), (6, 1)).copy_from(&w.0);
         }
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let solution = &self.linear[i].solution;
             let t = shift_matrix(&self.arm(i, at));
             let change = t.transpose() * solution.fixed_view::<6, 1>(0, 0);
@@ -327,15 +327,15 @@ impl PlatformSolver<'_> {
     }
 
     /// What limbs that cannot move and the guide of the tool demand of the platforms' motions.
-    fn conditions(&self, at: &MechanismState, exchanged: &[bool; 6]) -> Conditions {
+    fn conditions(&self, at: &MechanismState, exchanged: Directions) -> Conditions {
         let m = self.mechanism;
-        let tool = 6 * (m.tool - 1);
+        let tool = 6 * (m.tool() - 1);
         let root = self.stiffness.sqrt();
         let (mut sizes, mut needed) = self.rigid_rows(at);
         let (first, guided) = (needed.len(), self.guide_rows());
         if guided > 0 {
-            let (pose, from) = (&self.state.platforms[m.tool], &at.platforms[m.tool]);
-            let row = sizes.grow(m.tool - 1, guided);
+            let (pose, from) = (&self.state.platforms[m.tool()], &at.platforms[m.tool()]);
+            let row = sizes.grow(m.tool() - 1, guided);
             let rows = self.guide.rows_at(from) * root;
             sizes.matrix.add(row, tool, &rows);
             needed = needed.resize_vertically(first + guided, 0.0);
@@ -362,7 +362,7 @@ impl PlatformSolver<'_> {
 
     /// The tool stays; the other platforms find their places.
     fn hold_tool(&self, a: &mut Sparse, b: &mut DMatrix<f64>, conditions: &mut Conditions) {
-        let tool = 6 * (self.mechanism.tool - 1);
+        let tool = 6 * (self.mechanism.tool() - 1);
         let own = tool..tool + 6;
         a.entries
             .retain(|(i, j, _)| !own.contains(i) && !own.contains(j));
@@ -381,16 +381,16 @@ impl PlatformSolver<'_> {
     }
 
     /// The step that the solution of the platforms' system stands for.
-    fn step_from(&self, solution: &DMatrix<f64>, exchanged: &[bool; 6]) -> PlatformStep {
+    fn step_from(&self, solution: &DMatrix<f64>, exchanged: Directions) -> PlatformStep {
         let m = self.mechanism;
-        let p = m.platforms.len() - 1;
+        let p = m.platforms().len() - 1;
         let mut motions: Vec<Twist> = (0..p)
             .map(|k| Twist(solution.fixed_view::<6, 1>(6 * k, 0).into_owned()))
             .collect();
         let mut target = Twist::zero();
         for k in (0..6).filter(|&k| exchanged[k]) {
-            target.0[k] = motions[m.tool - 1].0[k];
-            motions[m.tool - 1].0[k] = 0.0;
+            target.0[k] = motions[m.tool() - 1].0[k];
+            motions[m.tool() - 1].0[k] = 0.0;
         }
         let mut at = 6 * p;
         let carried = self.linear.iter().map(|linear| {
@@ -428,7 +428,7 @@ impl PlatformSolver<'_> {
                 motions[platform - 1]
             }
         };
-        m.limbs
+        m.limbs()
             .iter()
             .enumerate()
             .map(|(i, limb)| {

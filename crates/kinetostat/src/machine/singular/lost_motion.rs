@@ -84,9 +84,9 @@ fn step_joints(chain: &Chain, joints: &mut LimbPosture, by: &[f64], length: f64)
 }
 
 /// A search on all joints of the machine.
-pub(crate) struct Search<'p, 'm> {
-    pub(crate) at: Posture<'m>,
-    start: &'p Posture<'m>,
+pub(crate) struct Search<'p> {
+    pub(crate) at: Posture,
+    start: &'p Posture,
     pub(crate) length: f64,
     /// Unknowns: motions of platforms, then joints limb by limb.
     first: Vec<usize>,
@@ -95,13 +95,13 @@ pub(crate) struct Search<'p, 'm> {
     idle: DMatrix<f64>,
 }
 
-impl<'p, 'm> Search<'p, 'm> {
-    pub(crate) fn new(start: &'p Posture<'m>) -> Self {
-        let m = start.mechanism;
+impl<'p> Search<'p> {
+    pub(crate) fn new(start: &'p Posture) -> Self {
+        let m = start.mechanism.clone();
         let length = m.scale().length;
-        let mut count = 6 * (m.platforms.len() - 1);
+        let mut count = 6 * (m.platforms().len() - 1);
         let mut first = Vec::new();
-        for limb in &m.limbs {
+        for limb in m.limbs() {
             first.push(count);
             count += limb.nominal.indices_of(Role::Passive).len() + limb.nominal.actuators().len();
         }
@@ -126,7 +126,7 @@ impl<'p, 'm> Search<'p, 'm> {
 
     /// First unknown of the tool's motion.
     pub(crate) fn tool(&self) -> usize {
-        6 * (self.at.mechanism.tool - 1)
+        6 * (self.at.mechanism.tool() - 1)
     }
 
     fn balanced(&self, twist: &Twist) -> DVector<f64> {
@@ -135,22 +135,22 @@ impl<'p, 'm> Search<'p, 'm> {
 
     /// Motion of the tool since the start.
     fn gone(&self) -> Twist {
-        let tool = self.at.mechanism.tool;
+        let tool = self.at.mechanism.tool();
         pose_residual(&self.at.platforms[tool], &self.start.platforms[tool])
     }
 
     /// Gaps between limbs and platforms, and how they change.
     pub(crate) fn closure(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let m = self.at.mechanism;
-        let moving = m.platforms.len() - 1;
+        let m = self.at.mechanism.clone();
+        let moving = m.platforms().len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { self.length };
-        let mut rows = DMatrix::zeros(6 * m.limbs.len() + self.idle.nrows(), self.count);
+        let mut rows = DMatrix::zeros(6 * m.limbs().len() + self.idle.nrows(), self.count);
         let mut gaps = DVector::zeros(rows.nrows());
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let own = limb_motions(&self.at, i, true, self.length);
             rows.view_mut((6 * i, self.first[i]), own.shape())
                 .copy_from(&own);
-            let a = ends(self.at.mechanism, &self.at.platforms, i).matrix(moving);
+            let a = ends(&self.at.mechanism, &self.at.platforms, i).matrix(moving);
             for (r, c) in (0..6).flat_map(|r| (0..6 * moving).map(move |c| (r, c))) {
                 rows[(6 * i + r, c)] = -a[(r, c)] * unit(r) / unit(c);
             }
@@ -166,7 +166,7 @@ impl<'p, 'm> Search<'p, 'm> {
             let gap = self.balanced(&pose_residual(&held, &tip));
             gaps.rows_mut(6 * i, 6).copy_from(&gap);
         }
-        rows.rows_mut(6 * m.limbs.len(), self.idle.nrows())
+        rows.rows_mut(6 * m.limbs().len(), self.idle.nrows())
             .copy_from(&self.idle);
         (rows, gaps)
     }
@@ -178,7 +178,7 @@ impl<'p, 'm> Search<'p, 'm> {
     /// Change of the joint axes with every joint of the limb, per balanced amount.
     fn changes(&self, limb: usize) -> Vec<DMatrix<f64>> {
         let step = 1e-5 * self.length;
-        let chain = &self.at.mechanism.limbs[limb].nominal;
+        let chain = &self.at.mechanism.limbs()[limb].nominal;
         let n = self.joints(limb).len();
         let mut trial = self.at.clone();
         let mut moved_by = |j: usize, by: f64| {
@@ -248,19 +248,19 @@ impl<'p, 'm> Search<'p, 'm> {
     }
 
     pub(crate) fn go(&mut self, step: &DVector<f64>) {
-        let m = self.at.mechanism;
-        for p in 1..m.platforms.len() {
+        let m = self.at.mechanism.clone();
+        for p in 1..m.platforms().len() {
             let part = step.rows(6 * (p - 1), 6);
             let unit = |i: usize| if i < 3 { 1.0 } else { self.length };
             let twist = Twist(Vector6::from_fn(|i, _| part[i] / unit(i)));
             self.at.platforms[p] = moved(&self.at.platforms[p], &twist);
         }
-        for (i, limb) in m.limbs.iter().enumerate() {
+        for (i, limb) in m.limbs().iter().enumerate() {
             let own = self.joints(i);
             let amounts = &step.as_slice()[own];
             step_joints(&limb.nominal, &mut self.at.limbs[i], amounts, self.length);
         }
-        self.at.target = self.at.platforms[m.tool];
+        self.at.target = self.at.platforms[m.tool()];
     }
 
     /// Newton from the start with a limb's singular value `which` of `rank`; true if it ends at a
@@ -319,13 +319,13 @@ pub(crate) fn solve(
     shortest_and_free(rows, wanted, 1e-9)
 }
 
-impl Posture<'_> {
+impl Posture {
     /// For every limb the nearest posture at most `within_m` away (balanced) where it loses a motion
     /// that its joints have in general.
     pub(crate) fn lost_motions(&self, within_m: f64) -> Vec<LostMotion> {
         let mut search = Search::new(self);
         let length = search.length;
-        let motions = |search: &Search<'_, '_>| {
+        let motions = |search: &Search<'_>| {
             let (closure, gaps) = search.closure();
             let free = solve(&closure, &DVector::zeros(gaps.len()))?.1;
             let moves = free.rows(search.tool(), 6).into_owned();
@@ -346,7 +346,7 @@ impl Posture<'_> {
             (free, moves) = others;
         }
         let mut found = Vec::new();
-        for limb in 0..self.mechanism.limbs.len() {
+        for limb in 0..self.mechanism.limbs().len() {
             let (Some(here), rank) = (search.axes(limb), self.general_rank(limb, 0.05)) else {
                 continue;
             };
@@ -423,7 +423,7 @@ impl Posture<'_> {
     /// A limb with its joints moved a little, irregularly; the same amounts every time.
     fn beside(&self, limb: usize, by: f64, round: usize) -> Self {
         let length = self.mechanism.scale().length;
-        let chain = &self.mechanism.limbs[limb].nominal;
+        let chain = &self.mechanism.limbs()[limb].nominal;
         let n = chain.indices_of(Role::Passive).len() + chain.actuators().len();
         let amounts: Vec<f64> = (0..n)
             .map(|j| by * length * (((round * 7 + j + 1) as f64 * 0.618_034).fract() - 0.5))

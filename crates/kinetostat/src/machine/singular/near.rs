@@ -91,8 +91,8 @@ fn mainly(motion: &Twist) -> Twist {
 }
 
 /// Postures beside one, along motions of its joints: of machines whose tool cannot move straight on.
-struct Beside<'p, 'm> {
-    start: Search<'p, 'm>,
+struct Beside<'p> {
+    start: Search<'p>,
     /// Free motions of all joints and platforms, and what they do to the tool, balanced.
     free: DMatrix<f64>,
     moves: SingularValues,
@@ -101,8 +101,8 @@ struct Beside<'p, 'm> {
 /// Steps until all limbs close again.
 const CLOSING_STEPS: usize = 30;
 
-impl<'p, 'm> Beside<'p, 'm> {
-    fn of(posture: &'p Posture<'m>) -> Option<Self> {
+impl<'p> Beside<'p> {
+    fn of(posture: &'p Posture) -> Option<Self> {
         let start = Search::new(posture);
         let (closure, gaps) = start.closure();
         let (_, free) = solve(&closure, &DVector::zeros(gaps.len()))?;
@@ -112,7 +112,7 @@ impl<'p, 'm> Beside<'p, 'm> {
     }
 
     /// Where the tool has gone along a twist, but for what it turned besides; `None` where it went elsewhere.
-    fn at(&self, twist: &Vector6<f64>) -> Option<Posture<'m>> {
+    fn at(&self, twist: &Vector6<f64>) -> Option<Posture> {
         let mut search = self.start.again();
         let length = search.length;
         let balanced =
@@ -143,7 +143,7 @@ struct Measure {
     motions: Vec<Vector6<f64>>,
 }
 
-impl Posture<'_> {
+impl Posture {
     /// Singular postures at most `within_m` (m; rotations at the natural length) away, the nearest
     /// first; per limb the nearest that is found from its smallest singular values. Only ways that
     /// the nominal machine can go are looked at.
@@ -159,7 +159,7 @@ impl Posture<'_> {
             let here = far <= 1e-10 * length;
             NearSingularity {
                 kind: SingularityKind::Lost,
-                limb: Some(self.mechanism.limbs[lost.limb].name.clone()),
+                limb: Some(self.mechanism.limbs()[lost.limb].name.clone()),
                 share: if here { 0.0 } else { lost.share },
                 way: Twist(if here {
                     Vector6::zeros()
@@ -267,9 +267,9 @@ impl Posture<'_> {
 
     /// The machine with its actuators locked.
     fn locked(&self) -> Measure {
-        let m = self.mechanism;
+        let m = self.mechanism.clone();
         let length = m.scale().length;
-        let tool = 6 * (m.tool - 1);
+        let tool = 6 * (m.tool() - 1);
         let rows = Constraints::new(self, false).rows;
         Measure::of(rows.transpose(), |v| {
             Vector6::from_fn(|i, _| v[tool + i] / if i < 3 { 1.0 } else { length })

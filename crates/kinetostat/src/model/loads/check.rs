@@ -2,10 +2,10 @@
 
 use nalgebra::DVector;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
-use crate::model::limits::sensible;
+use crate::model::limits::check_number;
 use crate::model::loads::load::Load;
 use crate::number::short;
 use crate::spatial::{MotionKind, Pose, Wrench};
@@ -38,8 +38,8 @@ pub fn check_tangents(
     load: &Load,
 ) -> Result<TangentCheck> {
     chain.check(coordinates, commands)?;
-    let place = format!("chain '{}'", chain.name());
-    crate::model::limits::sensible_pose(&place, "the pose of the base", base)?;
+    let place = Place::chain(chain.name());
+    crate::model::limits::check_pose(&place, "the pose of the base", base)?;
     let kinematics = Kinematics::new(chain, base, coordinates, commands, false);
     fits(chain, &kinematics, load)?;
     let length = chain.scale().length;
@@ -111,13 +111,13 @@ pub fn check_tangents(
 
 /// Refuses loads that do not fit a chain: nodes it lacks, numbers that are not finite.
 pub(crate) fn fits(chain: &Chain, kinematics: &Kinematics, load: &Load) -> Result<()> {
-    let place = || format!("chain '{}'", chain.name());
+    let place = || Place::chain(chain.name());
     let (values, nodes) = match load {
         Load::Dead { node, wrench } => (wrench.0.as_slice().to_vec(), vec![*node]),
         Load::Gravity(g) => (g.as_slice().to_vec(), Vec::new()),
         Load::Custom(load) => (Vec::new(), load.nodes()),
     };
-    let number = |value: &f64| sensible(&place(), || "a load".into(), *value);
+    let number = |value: &f64| check_number(&place(), || "a load".into(), *value);
     values.iter().try_for_each(number)?;
     if let Some(node) = nodes.into_iter().find(|&n| n > chain.tip()) {
         return Err(Error::model(
@@ -169,7 +169,7 @@ pub(crate) fn check_load(
         let check = check_tangents(chain, base, coordinates, commands, load)?;
         if check.largest > TANGENT_TOLERANCE {
             return Err(Error::model(
-                format!("chain '{}'", chain.name()),
+                Place::chain(chain.name()),
                 format!(
                     "the tangent of a load is not the derivative of its wrench: on node '{}' they differ by {} (share of the load) when '{}' moves ({load:?})",
                     chain.nodes()[check.node],

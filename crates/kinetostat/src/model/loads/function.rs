@@ -19,7 +19,7 @@ type Energy = Arc<dyn Fn(&[Pose]) -> f64 + Send + Sync>;
 /// differentiated by fourth-order central differences over motions of the nodes.
 ///
 /// ```
-/// use kinetostat::{FunctionLoad, Load, Wrench};
+/// use kinetostat::{Load, Wrench, model::FunctionLoad};
 /// use nalgebra::Vector3;
 ///
 /// // A current that drags node 2 towards -x, the more the higher it stands.

@@ -11,7 +11,7 @@ pub trait NodeLoad: Send + Sync + std::fmt::Debug {
     fn wrenches(&self, kinematics: &Kinematics, out: &mut Vec<(usize, Wrench)>);
 
     /// Appends the derivatives of those wrenches by the motion of nodes. Debug builds compare them
-    /// with differences before a chain is solved (see [`check_tangents`](crate::check_tangents)).
+    /// with differences before a chain is solved (see [`check_tangents`](crate::model::check_tangents)).
     fn tangents(&self, kinematics: &Kinematics, out: &mut Vec<NodeTangent>);
 
     /// Potential energy (J) at these poses: what the load loses when it does work. `None` where

@@ -34,7 +34,7 @@ use crate::linalg::derivatives::{Forward, Number, Real};
 use crate::model::springs::curved::{CurvedLaw, Six, times};
 use crate::model::springs::rotation::{angles, rotation_vector, torque_on_turns};
 
-/// Energy of a beam segment that shortens as it bends; see [`crate::LinkConvention::Bowing`].
+/// Energy of a beam segment that shortens as it bends; see [`crate::model::LinkConvention::Bowing`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BowingLaw {
     /// Stiffness at the far end with the root clamped, 6 x 6 (N/m, N/rad, N m/m, N m/rad).

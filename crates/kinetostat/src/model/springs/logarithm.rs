@@ -29,8 +29,8 @@ use crate::model::springs::curved::CurvedLaw;
 use crate::model::springs::rotation::{angles, rotation_vector, torque_on_turns};
 use crate::model::uniform::to_middle;
 
-/// Energy in exponential coordinates; see [`crate::LinkConvention::Exponential`] and
-/// [`crate::LinkConvention::ConstantStrain`].
+/// Energy in exponential coordinates; see [`crate::model::LinkConvention::Exponential`] and
+/// [`crate::model::LinkConvention::ConstantStrain`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LogarithmLaw {
     /// 6 x 6 (N/m, N/rad, N m/m, N m/rad) in the exponential coordinates.

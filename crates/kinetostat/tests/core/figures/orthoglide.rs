@@ -3,7 +3,7 @@
 use super::{Figures, Worst};
 use crate::common::{Orthoglide, golden, matrix, number, numbers};
 use crate::orthoglide_reference::{compliance_to_mm, milling, mm, target};
-use kinetostat::{Role, Wrench};
+use kinetostat::{Wrench, model::Role};
 use kinetostat_testing::largest_size;
 
 #[test]

@@ -7,7 +7,9 @@ use crate::energy_equals_work::{balance_of_chain, balance_of_machine};
 use crate::jacobians_are_derivatives::{hessian_error, jacobian_error};
 use crate::orthoglide_reference::milling;
 use crate::stored_stiffness_is_the_derivative_of_the_wrench::loaded_stiffness_error;
-use kinetostat::{EndCondition, Load, Mechanism, Settings, Twist, Wrench, moved, solve_chain};
+use kinetostat::{
+    EndCondition, Load, Mechanism, Settings, Twist, Wrench, solve_chain, spatial::moved,
+};
 use nalgebra::Vector3;
 
 const CHAINS: u64 = 24;

@@ -11,7 +11,7 @@ use crate::links_that_bend::{
     bend, bend_by_shooting, column, critical, elastica, euler_cases, holds, link, rolled_up,
     table_of_conventions,
 };
-use kinetostat::{LinkConvention, SearchSettings};
+use kinetostat::{equilibrium::SearchSettings, model::LinkConvention};
 use std::f64::consts::PI;
 
 #[test]

@@ -7,7 +7,9 @@ use crate::common::{Rng, golden, orthoglide_point};
 use crate::compensation_closes::{heavy_arm, reachable};
 use crate::condensed_equals_flattened::{Apart, apart, cut};
 use crate::orthoglide_reference::milling;
-use kinetostat::{Settings, compensate, compensate_from, pose_residual};
+use kinetostat::{
+    Directions, Settings, compensate, compensation::compensate_from, spatial::pose_residual,
+};
 
 const TEST: &str = "relative (test's tolerance)";
 
@@ -101,7 +103,7 @@ fn compensation_closes() {
     let wrench = milling(&golden("orthoglide_milling.json"));
     let machine = one_degree();
     let [mut orthoglide, mut arm_p, mut arm_r] = [(); 3].map(|()| Worst::new());
-    let position = [true, true, true, false, false, false];
+    let position = Directions::POSITION;
     for index in 0..5 {
         let desired = orthoglide_point(index);
         let c = compensate(&machine, &desired, &wrench, position, &Settings::default()).unwrap();
@@ -116,7 +118,7 @@ fn compensation_closes() {
         let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
         let wrench = rng.wrench(2000.0, 300.0);
         let start = posture.rest_state();
-        let c = compensate_from(&posture, &desired, &wrench, [true; 6], start).unwrap();
+        let c = compensate_from(&posture, &desired, &wrench, Directions::ALL, start).unwrap();
         let again = c.posture.deflected_by(&wrench).unwrap();
         let miss = pose_residual(&again.tool, &desired);
         arm_p.add(miss.linear().norm());

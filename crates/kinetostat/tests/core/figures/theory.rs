@@ -7,7 +7,7 @@ use crate::frames_that_snap::{
     williams_toggle,
 };
 use crate::report_iteration::{quadratic, spatial_runs, steps_to, table};
-use kinetostat::IterationOutcome;
+use kinetostat::reference::IterationOutcome;
 
 #[test]
 fn the_report_s_own_iteration() {

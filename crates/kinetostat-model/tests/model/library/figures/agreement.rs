@@ -1,6 +1,6 @@
 //! Stiffness of every machine at home and at two other places: the crate's against the oracle's.
 
-use kinetostat::{DirectionKind, Pose, Posture, Twist, moved};
+use kinetostat::{DirectionKind, Pose, Posture, Twist, spatial::moved};
 use kinetostat_model::Model;
 use kinetostat_testing::{LargestEntry, Worst, largest};
 use nalgebra::{DMatrix, DVector, Vector3, vector};
@@ -21,7 +21,7 @@ struct Apart {
 }
 
 /// Home and two other places: in the stated workspace, and turned where the machine turns.
-fn places<'m>(model: &'m Model) -> Vec<Posture<'m>> {
+fn places<'m>(model: &'m Model) -> Vec<Posture> {
     let mechanism = &model.mechanism;
     let home_pose = mechanism.platforms()[mechanism.tool()].home;
     let home = mechanism
@@ -64,7 +64,7 @@ fn outside(columns: &[DVector<f64>], space: &DMatrix<f64>) -> f64 {
     }
 }
 
-fn compare(model: &Model, posture: &Posture<'_>) -> Apart {
+fn compare(model: &Model, posture: &Posture) -> Apart {
     let machine = machine::structure(model, posture);
     let oracle = machine.structure.condense(machine.tool);
     let found = posture.stiffness().expect("a stiffness");

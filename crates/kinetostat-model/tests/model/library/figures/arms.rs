@@ -1,6 +1,6 @@
 //! Arms and hybrids: geometry against URDFs and closed forms, inverse kinematics there and back.
 
-use kinetostat::{Error, Kinematics, Pose, Posture, Twist, moved};
+use kinetostat::{Error, Pose, Posture, Twist, model::Kinematics, spatial::moved};
 use kinetostat_testing::{LargestEntry, Worst, largest};
 use nalgebra::{Translation3, UnitQuaternion, Vector3, vector};
 use serde_json::json;
@@ -169,7 +169,7 @@ fn commands_of_hybrids_come_back() {
         let mechanism = &model.mechanism;
         let home = mechanism.platforms()[mechanism.tool()].home;
         let free = mechanism.posture(&home).expect("home").mobility().ncols();
-        let mut last: Option<Posture<'_>> = None;
+        let mut last: Option<Posture> = None;
         let mut random = Random(8);
         for _ in 0..50 {
             let asked = moved(

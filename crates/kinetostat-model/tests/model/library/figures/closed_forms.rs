@@ -3,7 +3,7 @@
 //!
 //! `K = sum U (U^T C U)^-1 U^T`, U the wrenches, C the compliance of the leg with its joints locked.
 
-use kinetostat::{Pose, Twist, moved};
+use kinetostat::{Pose, Twist, spatial::moved};
 use kinetostat_model::Model;
 use kinetostat_testing::{LargestEntry, Worst};
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6, vector};

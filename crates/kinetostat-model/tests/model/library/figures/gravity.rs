@@ -3,7 +3,11 @@
 //! The hand's side knows lengths, masses and the spring from the drawing, and nothing of the crate:
 //! sums of weight times lever arm and spring force times lever arm in the vertical plane of the arm.
 
-use kinetostat::{Kinematics, LimbPosture, Mechanism, Pose, Role, Wrench};
+use kinetostat::{
+    Mechanism, Pose, Wrench,
+    machine::LimbPosture,
+    model::{Kinematics, Role},
+};
 use kinetostat_model::Model;
 use kinetostat_model::schema::LoadTable;
 use kinetostat_testing::{Worst, largest};

@@ -1,6 +1,6 @@
 //! Home postures and workspaces of the library's robots.
 
-use kinetostat::{DirectionKind, Pose, Twist, moved};
+use kinetostat::{DirectionKind, Pose, Twist, spatial::moved};
 use kinetostat_model::{PresetKind, preset_names};
 use kinetostat_testing::Worst;
 use nalgebra::Vector3;
