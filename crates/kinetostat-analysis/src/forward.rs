@@ -1,7 +1,7 @@
 //! Forward kinematics without loads, for searches that ask thousands of times.
 
 use kinetostat::{
-    Mechanism, Pose,
+    Mechanism, Pose, PostureRequest,
     model::{Role, unloaded_tip},
 };
 
@@ -35,7 +35,10 @@ impl<'m> ForwardKinematics<'m> {
     pub fn tool(&self, commands: &[f64]) -> Option<Pose> {
         let m = self.mechanism;
         if !self.plain_product {
-            return m.posture_at(commands).ok().map(|p| *p.target());
+            return m
+                .posture(PostureRequest::commands(commands))
+                .ok()
+                .map(|p| *p.target());
         }
         let limb = &m.limbs()[0];
         let base = &m.platforms()[limb.from].home;

@@ -1,7 +1,7 @@
 //! How near a load brings a machine to instability: its limbs with their ends held, its links, and
 //! the whole while nothing holds its tool. All shares are 0 unloaded and 1 where stability is lost.
 
-use kinetostat::{MechanismEquilibrium, Posture, machine::LimbPosture};
+use kinetostat::{MechanismEquilibrium, Posture, PostureRequest, machine::LimbPosture};
 use nalgebra::{DMatrix, Matrix6};
 
 /// From this share on, a load is near buckling.
@@ -150,7 +150,7 @@ fn condensed(posture: &Posture, loaded: &MechanismEquilibrium) -> Option<f64> {
     });
     let bent = posture
         .mechanism()
-        .posture_from_joints(&loaded.tool, joints.collect())
+        .posture(PostureRequest::joints(&loaded.tool, joints.collect()))
         .ok()?;
     let elastic = bent.stiffness().ok()?;
     // Rotations as motions at the natural length.

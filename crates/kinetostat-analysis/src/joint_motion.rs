@@ -1,6 +1,6 @@
 //! What one actuator does to the tool.
 
-use kinetostat::{Mechanism, Pose, Twist, spatial::pose_residual};
+use kinetostat::{Mechanism, Pose, PostureRequest, Twist, spatial::pose_residual};
 use nalgebra::Vector3;
 
 /// Motion of the tool per m or rad of one actuator, the others held; base axes. None where it cannot move by itself.
@@ -10,7 +10,9 @@ pub fn actuator_twist(m: &Mechanism, commands: &[f64], index: usize) -> Option<T
     let at = |by: f64| {
         let mut moved = commands.to_vec();
         moved[index] += by;
-        m.posture_at(&moved).ok().map(|p| *p.target())
+        m.posture(PostureRequest::commands(&moved))
+            .ok()
+            .map(|p| *p.target())
     };
     let twist = pose_residual(&at(step)?, &at(-step)?);
     Some(Twist(twist.0 / (2.0 * step)))

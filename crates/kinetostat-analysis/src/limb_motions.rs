@@ -1,7 +1,7 @@
 //! What the joints of one limb can do while the tool stays, and what one limb holds.
 
 use kinetostat::{
-    Mechanism, Posture,
+    Mechanism, Posture, PostureRequest,
     model::{Kinematics, Role},
 };
 use nalgebra::DMatrix;
@@ -57,7 +57,10 @@ pub fn directions_held_by_limb(posture: &Posture, limb: usize) -> Option<usize> 
     }
     let single = builder.limb(m.limbs()[limb].clone()).build().ok()?;
     let own = single
-        .posture_from_joints(posture.target(), vec![posture.limbs()[limb].clone()])
+        .posture(PostureRequest::joints(
+            posture.target(),
+            vec![posture.limbs()[limb].clone()],
+        ))
         .ok()?;
     Some(6 - own.mobility().ncols())
 }

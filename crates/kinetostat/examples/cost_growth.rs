@@ -14,8 +14,8 @@
 use std::time::Instant;
 
 use kinetostat::{
-    Chain, CurveSettings, Mechanism, Parameter, Pose, Settings, Twist, Wrench, follow, solve_chain,
-    spatial::moved, unloaded_stiffness,
+    Chain, CurveSettings, Mechanism, Parameter, Pose, PostureRequest, Settings, Twist, Wrench,
+    follow, solve_chain, spatial::moved, unloaded_stiffness,
 };
 use kinetostat_testing::{Worst, largest};
 use nalgebra::{Vector3, vector};
@@ -280,7 +280,7 @@ fn many_platforms() -> kinetostat::Result<()> {
             let times = [
                 shorter(|| posture.stiffness()),
                 shorter(|| posture.deflected_by(&wrench)),
-                shorter(|| machine.posture_near(&target, &posture)),
+                shorter(|| machine.posture(PostureRequest::pose(&target).near(&posture))),
             ];
             let [stiffness, equilibrium, search] = times.map(|t| 1e3 * t);
             let (count, limbs) = (machine.platforms().len() - 1, machine.limbs().len());

@@ -110,6 +110,7 @@ pub use equilibrium::critical::critical_load_factor;
 pub use error::{Error, Place, Result};
 pub use machine::equilibrium::MechanismEquilibrium;
 pub use machine::posture::Posture;
+pub use machine::request::PostureRequest;
 pub use machine::stiffness::UnloadedStiffness;
 pub use model::beam::BeamSection;
 pub use model::builder::{ActuatorSpec, ChainBuilder};

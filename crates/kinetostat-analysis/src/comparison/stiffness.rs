@@ -1,7 +1,7 @@
 //! Stiffnesses of two machines at the same posture.
 
 use kinetostat::{
-    Mechanism, UnloadedStiffness,
+    Mechanism, PostureRequest, UnloadedStiffness,
     spatial::{shift_matrix, turn_matrix},
 };
 use nalgebra::Matrix6;
@@ -26,8 +26,10 @@ pub(crate) fn stiffness(
     mapping: &Mapping,
     commands: &[f64],
 ) -> Option<StiffnessComparison> {
-    let one = m.posture_at(commands).ok()?;
-    let other = n.posture_at(&mapping.joints(commands)).ok()?;
+    let one = m.posture(PostureRequest::commands(commands)).ok()?;
+    let other = n
+        .posture(PostureRequest::commands(&mapping.joints(commands)))
+        .ok()?;
     let compliance =
         |k: UnloadedStiffness| (k.rank() == 6).then(|| k.cartesian.compliance()).flatten();
     let a = compliance(one.stiffness().ok()?)?;

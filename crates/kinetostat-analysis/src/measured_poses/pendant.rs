@@ -1,6 +1,6 @@
 //! What a pendant shows, and where the model's tool is then.
 
-use kinetostat::{MotionKind, Pose};
+use kinetostat::{MotionKind, Pose, PostureRequest};
 use kinetostat_model::Model;
 
 use crate::forward::ForwardKinematics;
@@ -89,7 +89,11 @@ impl<'m> Pendant<'m> {
     /// The number of values is another one, or the machine cannot stand there.
     pub fn pose(&self, shown: &[f64]) -> Result<Pose, PendantPoseError> {
         let commands = self.commands(shown).ok_or(PendantPoseError::JointCount)?;
-        Ok(*self.model.mechanism.posture_at(&commands)?.target())
+        Ok(*self
+            .model
+            .mechanism
+            .posture(PostureRequest::commands(&commands))?
+            .target())
     }
 
     /// As [`Self::pose`], as fast as it can be.

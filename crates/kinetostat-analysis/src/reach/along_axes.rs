@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use kinetostat::{Pose, Posture};
+use kinetostat::{Pose, Posture, PostureRequest};
 use kinetostat_machining::natural_length;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
@@ -104,8 +104,8 @@ fn at(
     target.translation.vector += shift;
     let (m, place) = (from.mechanism(), &target.translation.vector);
     let posture = match follows {
-        true => m.posture_following_straight(place, &home.rotation, from),
-        false => m.posture_near(&target, from),
+        true => m.posture(PostureRequest::position(place, &home.rotation).straight_from(from)),
+        false => m.posture(PostureRequest::pose(&target).near(from)),
     };
     let posture = posture.map_err(|_| ReachEnd::Limbs)?;
     match posture.limit_violations().first() {

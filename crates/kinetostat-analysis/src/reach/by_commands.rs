@@ -1,7 +1,7 @@
 //! Where the tool of a machine with loops gets while it turns as it must: a search over the commands
 //! of the actuators, by forward kinematics.
 
-use kinetostat::{Mechanism, MotionKind};
+use kinetostat::{Mechanism, MotionKind, PostureRequest};
 use nalgebra::Vector3;
 
 use crate::reach::error::ReachError;
@@ -31,7 +31,7 @@ pub fn reach_by_commands(m: &Mechanism) -> Result<CommandReach, ReachError> {
         .flat_map(|l| l.nominal.home_commands())
         .collect();
     let tool = |commands: &[f64]| {
-        let posture = m.posture_at(commands).ok()?;
+        let posture = m.posture(PostureRequest::commands(commands)).ok()?;
         Some(posture.target().translation.vector)
     };
     let Some(start) = tool(&home) else {

@@ -1,7 +1,7 @@
 //! Along a line: deviations alone, load alone, both together, and the sum of both alone
 //! [R 6.5.2, figures 6.6 and 6.7].
 
-use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, Wrench};
+use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_analysis::assembled::AssembledMachine;
 use kinetostat_machining::number::counted;
 use kinetostat_machining::{Warning, WarningCode};
@@ -71,9 +71,11 @@ fn at(
     let (position, rotation) = (&target.translation.vector, &target.rotation);
     match (follows, near) {
         (false, None) => mechanism.posture(target),
-        (false, Some(near)) => mechanism.posture_near(target, near),
-        (true, None) => mechanism.posture_following(position, rotation),
-        (true, Some(near)) => mechanism.posture_following_near(position, rotation, near),
+        (false, Some(near)) => mechanism.posture(PostureRequest::pose(target).near(near)),
+        (true, None) => mechanism.posture(PostureRequest::position(position, rotation)),
+        (true, Some(near)) => {
+            mechanism.posture(PostureRequest::position(position, rotation).near(near))
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 //! A machine of several limbs or platforms, commanded for a place.
 
-use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, machine::NearSingularity};
+use kinetostat::{
+    Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, machine::NearSingularity,
+};
 use kinetostat_analysis::movable::MovableDirections;
 use kinetostat_analysis::outline::chain_outline;
 use kinetostat_machining::{Warning, WarningCode};
@@ -42,8 +44,8 @@ impl CommandedMachine {
     pub(crate) fn posture(&self) -> Answer<Posture> {
         let m = &self.mechanism;
         Ok(match (&self.joints, &self.followed) {
-            (Some(joints), _) => m.posture_at(joints)?,
-            (None, Some(f)) => m.posture_from_joints(&self.target, f.limbs.clone())?,
+            (Some(joints), _) => m.posture(PostureRequest::commands(joints))?,
+            (None, Some(f)) => m.posture(PostureRequest::joints(&self.target, f.limbs.clone()))?,
             (None, None) => m.posture(&self.target)?,
         })
     }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinetostat::{Mechanism, Pose, Posture, Wrench};
+use kinetostat::{Mechanism, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_machining::{
     NearSingular, Warning, large_load, near_singular, odd_tool_length, straight_tool,
 };
@@ -84,7 +84,9 @@ pub(crate) fn place_query_of(
     let rotation = wanted.flatten().unwrap_or(home.rotation);
     let target = match (&place.at, &joints) {
         (None, None) => Pose::from_parts(home.translation, rotation),
-        (None, Some(joints)) => *mechanism.posture_at(joints)?.target(),
+        (None, Some(joints)) => *mechanism
+            .posture(PostureRequest::commands(joints))?
+            .target(),
         (Some(at), _) => {
             let position = vector("--at", at)? * 1e-3;
             if position.norm() > 1e4 {
@@ -169,8 +171,10 @@ impl PlaceQuery {
     /// Another machine of the same nominal geometry, commanded for the place.
     pub(crate) fn standing_in(&self, mechanism: &Mechanism) -> kinetostat::Result<Posture> {
         match (&self.joints, &self.followed) {
-            (Some(joints), _) => mechanism.posture_at(joints),
-            (None, Some(f)) => mechanism.posture_from_joints(&self.target, f.limbs.clone()),
+            (Some(joints), _) => mechanism.posture(PostureRequest::commands(joints)),
+            (None, Some(f)) => {
+                mechanism.posture(PostureRequest::joints(&self.target, f.limbs.clone()))
+            }
             (None, None) => mechanism.posture(&self.target),
         }
     }

@@ -1,6 +1,6 @@
 //! The pose that a machine can take where the digits of a place, or its orientation, keep it from it.
 
-use kinetostat::{Mechanism, Pose, machine::LimbPosture};
+use kinetostat::{Mechanism, Pose, PostureRequest, machine::LimbPosture};
 use kinetostat_machining::number::{apart, mean_length};
 use kinetostat_machining::{Warning, WarningCode, natural_length};
 
@@ -24,7 +24,10 @@ pub(crate) fn followed(
     warnings: &mut Vec<Warning>,
 ) -> Answer<(Pose, Option<Followed>)> {
     let rotation = &target.rotation;
-    let posture = match m.posture_following(&target.translation.vector, rotation) {
+    let posture = match m.posture(PostureRequest::position(
+        &target.translation.vector,
+        rotation,
+    )) {
         Err(kinetostat::Error::Unreachable {
             distance_m,
             nearest,
@@ -35,7 +38,10 @@ pub(crate) fn followed(
                 mean_length(1e3 * distance_m),
                 pose_in_words(&nearest)
             )));
-            m.posture_following(&nearest.translation.vector, rotation)?
+            m.posture(PostureRequest::position(
+                &nearest.translation.vector,
+                rotation,
+            ))?
         }
         answer => answer?,
     };

@@ -2,7 +2,7 @@
 //! IRB 8700: the lower arm is pushed by a linear actuator, the upper arm is led by a bar from a crank
 //! beside the shoulder, and the crank carries a counterweight. Lengths and masses are made up.
 
-use kinetostat::{MechanismEquilibrium, MotionKind, Wrench, machine::LimbPosture};
+use kinetostat::{MechanismEquilibrium, MotionKind, PostureRequest, Wrench, machine::LimbPosture};
 use kinetostat_import::{Imported, JointStiffness, LoopFile, UrdfOptions, import_urdf};
 use kinetostat_model::schema::{Section, Tube};
 use kinetostat_testing::largest_size;
@@ -163,7 +163,7 @@ fn at_home(imported: &Imported, wrench: &Wrench) -> MechanismEquilibrium {
         })
         .collect();
     let posture = m
-        .posture_from_joints(&m.platforms()[m.tool()].home, limbs)
+        .posture(PostureRequest::joints(&m.platforms()[m.tool()].home, limbs))
         .unwrap();
     posture.deflected_by(wrench).unwrap()
 }

@@ -1,6 +1,6 @@
 //! What is done with the orientation of a pose that is asked for.
 
-use kinetostat::{Error, Mechanism, Pose, Posture, Wrench};
+use kinetostat::{Error, Mechanism, Pose, Posture, PostureRequest, Wrench};
 
 use crate::load::law::ProgramLoad;
 use crate::placement::Placement;
@@ -32,9 +32,11 @@ impl Orientation {
         let (position, rotation) = (&pose.translation.vector, &pose.rotation);
         match (self.follows, near) {
             (false, None) => mechanism.posture(pose),
-            (false, Some(near)) => mechanism.posture_near(pose, near),
-            (true, None) => mechanism.posture_following(position, rotation),
-            (true, Some(near)) => mechanism.posture_following_near(position, rotation, near),
+            (false, Some(near)) => mechanism.posture(PostureRequest::pose(pose).near(near)),
+            (true, None) => mechanism.posture(PostureRequest::position(position, rotation)),
+            (true, Some(near)) => {
+                mechanism.posture(PostureRequest::position(position, rotation).near(near))
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! Programs and maps on machines that turn their tool as they move, against closed forms.
 
-use kinetostat::{Mechanism, Pose, Wrench};
+use kinetostat::{Mechanism, Pose, PostureRequest, Wrench};
 use kinetostat_machining::{
     Bounds, CuttingLoad, Grid, LoadAxes, MapPlace, MapTask, PlaceState, Placement, ProgramLoad,
     Question, Run, RunError, Task, Unwatched, analyse, compensate_program, map, straight_tool,
@@ -151,7 +151,7 @@ fn a_tool_load_turns_with_the_tool() {
     for point in run.points.iter().step_by(7) {
         let place = home.translation.vector + Vector3::from(point.position_mm) * 1e-3;
         let posture = head
-            .posture_following(&place, &home.rotation)
+            .posture(PostureRequest::position(&place, &home.rotation))
             .expect("reachable");
         let force = vector![400.0, -300.0, -500.0];
         let moved = |axes: &UnitQuaternion<f64>| {
@@ -209,7 +209,7 @@ fn a_map_of_positions_turns_the_same_way() {
             assert!((place.tool_turn_deg - own).abs() < 1e-7, "{place:?} {own}");
             // The figures are those of the machine standing there.
             let posture = head
-                .posture_following(&at, &home.rotation)
+                .posture(PostureRequest::position(&at, &home.rotation))
                 .expect("reachable");
             let stiffness = match &load {
                 None => posture

@@ -2,7 +2,7 @@
 //! convention of choice. Its parallelograms close as loops of the graph.
 
 use kinetostat::{
-    Chain, Limb, LinkSpec, Mechanism, MotionKind, Platform, Pose, Posture,
+    Chain, Limb, LinkSpec, Mechanism, MotionKind, Platform, Pose, Posture, PostureRequest,
     machine::LimbPosture,
     model::{LinkConvention, Role},
 };
@@ -114,7 +114,7 @@ impl Barred {
     pub(super) fn posture(&self) -> Result<Posture, Cause> {
         Ok(self
             .mechanism
-            .posture_from_joints(&self.target, self.joints.clone())?)
+            .posture(PostureRequest::joints(&self.target, self.joints.clone()))?)
     }
 }
 

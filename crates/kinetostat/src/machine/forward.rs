@@ -58,7 +58,7 @@ impl Mechanism {
     /// # Errors
     /// A list of the wrong length or a number that is not finite; [`Error::NoClosure`] where the
     /// loops do not close all the way from home to these commands.
-    pub fn posture_at(&self, commands: &[f64]) -> Result<Posture> {
+    pub(crate) fn posture_at_commands(&self, commands: &[f64]) -> Result<Posture> {
         let place = || Place::mechanism(self.name());
         if commands.len() != self.actuator_count() {
             return Err(Error::Size {

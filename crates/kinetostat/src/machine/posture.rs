@@ -28,26 +28,8 @@ pub struct Posture {
 }
 
 impl Mechanism {
-    /// Commands the actuators for a target of the tool (base from tool), from nominal geometry with
-    /// springs at rest. Platforms between base and tool find their places with the joints. Where
-    /// actuators are redundant, see [`Posture::redundancy`].
-    ///
-    /// # Errors
-    /// [`Error::Unreachable`] with the nearest pose, naming the limb; for a graph of several moving
-    /// platforms the nearest pose is the last one reached on the straight way from home.
-    pub fn posture(&self, target: &Pose) -> Result<Posture> {
-        self.posture_from(target, None)
-    }
-
-    /// As [`Self::posture`], searching near the joints of another posture.
-    ///
-    /// # Errors
-    /// As [`Self::posture`].
-    pub fn posture_near(&self, target: &Pose, near: &Posture) -> Result<Posture> {
-        self.posture_from(target, Some(near))
-    }
-
-    fn posture_from(&self, target: &Pose, near: Option<&Posture>) -> Result<Posture> {
+    /// Commands the actuators for a target of the tool, from home or near the joints of another posture.
+    pub(crate) fn posture_at_pose(&self, target: &Pose, near: Option<&Posture>) -> Result<Posture> {
         let place = Place::mechanism(self.name());
         crate::model::limits::check_pose(&place, "the target pose", target)?;
         let mut platforms: Vec<Pose> = self.platforms().iter().map(|p| p.home).collect();
@@ -87,7 +69,11 @@ impl Mechanism {
     ///
     /// # Errors
     /// Lists of the wrong length.
-    pub fn posture_from_joints(&self, target: &Pose, limbs: Vec<LimbPosture>) -> Result<Posture> {
+    pub(crate) fn posture_from_joints(
+        &self,
+        target: &Pose,
+        limbs: Vec<LimbPosture>,
+    ) -> Result<Posture> {
         if limbs.len() != self.limbs().len() {
             return Err(Error::Size {
                 place: Place::mechanism(self.name()),

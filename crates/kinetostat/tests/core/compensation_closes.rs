@@ -3,8 +3,8 @@
 use crate::common::{Orthoglide, Rng, arm, assert_equilibrium, orthoglide_point};
 use crate::oracle::Flat;
 use kinetostat::{
-    Directions, Mechanism, Pose, Settings, Wrench, compensate, compensation::compensate_from,
-    machine::LimbPosture, spatial::pose_residual,
+    Directions, Mechanism, Pose, PostureRequest, Settings, Wrench, compensate,
+    compensation::compensate_from, machine::LimbPosture, spatial::pose_residual,
 };
 use kinetostat_testing::LargestEntry;
 use nalgebra::{Vector3, vector};
@@ -44,7 +44,9 @@ fn an_arm_corrects_all_six_directions_under_weight_and_force() {
     let mut rng = Rng(21);
     for pose in 0..8 {
         let (desired, joints) = reachable(&machine, &mut rng);
-        let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
+        let posture = machine
+            .posture(PostureRequest::joints(&desired, vec![joints]))
+            .unwrap();
         assert_eq!(posture.correctable(), Directions::ALL, "pose {pose}");
         let wrench = rng.wrench(2000.0, 300.0);
         let before = posture.deflected_by(&wrench).unwrap();
@@ -101,7 +103,9 @@ fn an_arm_may_correct_positions_only() {
     let mut rng = Rng(22);
     for _ in 0..4 {
         let (desired, joints) = reachable(&machine, &mut rng);
-        let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
+        let posture = machine
+            .posture(PostureRequest::joints(&desired, vec![joints]))
+            .unwrap();
         let wrench = rng.wrench(2000.0, 300.0);
         let c =
             compensate_from(&posture, &desired, &wrench, POSITION, posture.rest_state()).unwrap();
@@ -123,7 +127,9 @@ fn single_rotations_can_be_corrected_with_the_others_left() {
     let mut rng = Rng(23);
     for pose in 0..4 {
         let (desired, joints) = reachable(&machine, &mut rng);
-        let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
+        let posture = machine
+            .posture(PostureRequest::joints(&desired, vec![joints]))
+            .unwrap();
         let wrench = rng.wrench(4000.0, 900.0);
         for k in 3..6 {
             let directions = POSITION.with(k);
@@ -166,7 +172,9 @@ fn neighbouring_answers_are_a_start_and_change_nothing() {
     for k in 1..=20 {
         let p: Vector3<f64> = goal * (f64::from(k) / 20.0);
         let desired = Pose::translation(p.x, p.y, p.z);
-        let posture = machine.posture_near(&desired, &near.posture).unwrap();
+        let posture = machine
+            .posture(PostureRequest::pose(&desired).near(&near.posture))
+            .unwrap();
         let c = compensate_from(
             &posture,
             &desired,
@@ -250,7 +258,9 @@ fn the_rates_of_the_commands_are_exact() {
     let mut rng = Rng(41);
     for _ in 0..4 {
         let (desired, joints) = reachable(&machine, &mut rng);
-        let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
+        let posture = machine
+            .posture(PostureRequest::joints(&desired, vec![joints]))
+            .unwrap();
         let c = compensate_from(
             &posture,
             &desired,

@@ -7,7 +7,7 @@ use crate::common::{
 };
 use crate::oracle::Flat;
 use kinetostat::{
-    Chain, Directions, Limb, Mechanism, Platform, Pose, Posture, Twist, Wrench,
+    Chain, Directions, Limb, Mechanism, Platform, Pose, Posture, PostureRequest, Twist, Wrench,
     machine::LimbPosture,
     spatial::{moved, pose_residual},
 };
@@ -115,7 +115,9 @@ fn a_heavy_arm_under_gravity_and_two_kilonewton() {
             &joints.coordinates,
             &joints.commands,
         );
-        let posture = machine.posture_from_joints(&target, vec![joints]).unwrap();
+        let posture = machine
+            .posture(PostureRequest::joints(&target, vec![joints]))
+            .unwrap();
         compare(
             &format!("pose {pose}"),
             &posture,
@@ -296,8 +298,8 @@ proptest! {
         let mut rng = Rng(seed);
         let mass = if rng.below(2) == 0 { 0.0 } else { 12.0 };
         let c = cut(&mut rng, 0, mass);
-        let whole = c.whole.posture_from_joints(&c.target, c.whole_posture.clone()).unwrap();
-        let parts = c.parts.posture_from_joints(&c.target, c.part_posture.clone()).unwrap();
+        let whole = c.whole.posture(PostureRequest::joints(&c.target, c.whole_posture.clone())).unwrap();
+        let parts = c.parts.posture(PostureRequest::joints(&c.target, c.part_posture.clone())).unwrap();
         let wrench = rng.wrench(100.0, 12.0);
         let a = whole.deflected_by(&wrench).unwrap();
         let b = parts.deflected_by(&wrench).unwrap();
@@ -320,7 +322,7 @@ proptest! {
         let machine = Mechanism::serial(r.chain.clone(), Pose::identity(), rng.axis() * 9.81).unwrap();
         let joints = LimbPosture { commands: r.commands.clone(), coordinates: r.posture.clone() };
         let target = kinetostat::model::unloaded_tip(&r.chain, &Pose::identity(), &r.posture, &r.commands);
-        let posture = machine.posture_from_joints(&target, vec![joints]).unwrap();
+        let posture = machine.posture(PostureRequest::joints(&target, vec![joints])).unwrap();
         compare("random", &posture, &rng.wrench(100.0, 10.0));
     }
 
@@ -328,8 +330,8 @@ proptest! {
     fn a_prescribed_pose_of_the_tool_leaves_other_platforms_free(seed in any::<u64>()) {
         let mut rng = Rng(seed);
         let c = cut(&mut rng, 1, 5.0);
-        let whole = c.whole.posture_from_joints(&c.target, c.whole_posture.clone()).unwrap();
-        let parts = c.parts.posture_from_joints(&c.target, c.part_posture.clone()).unwrap();
+        let whole = c.whole.posture(PostureRequest::joints(&c.target, c.whole_posture.clone())).unwrap();
+        let parts = c.parts.posture(PostureRequest::joints(&c.target, c.part_posture.clone())).unwrap();
         let pose = moved(&c.target, &Twist::new(rng.vector(0.003), rng.vector(0.01)));
         let a = whole.wrench_at(&pose).unwrap();
         assert_equilibrium(&whole, &a);
@@ -348,11 +350,11 @@ fn the_unloaded_stiffness_of_several_platforms_is_condensed_or_refused() {
     let c = cut(&mut rng, 0, 0.0);
     let whole = c
         .whole
-        .posture_from_joints(&c.target, c.whole_posture.clone())
+        .posture(PostureRequest::joints(&c.target, c.whole_posture.clone()))
         .unwrap();
     let parts = c
         .parts
-        .posture_from_joints(&c.target, c.part_posture.clone())
+        .posture(PostureRequest::joints(&c.target, c.part_posture.clone()))
         .unwrap();
     let expected = whole.stiffness().unwrap().cartesian.matrix;
     if let Ok(k) = parts.stiffness() {
@@ -366,7 +368,7 @@ fn compensation_of_several_platforms_closes_or_is_refused() {
     let c = cut(&mut rng, 0, 0.0);
     let parts = c
         .parts
-        .posture_from_joints(&c.target, c.part_posture.clone())
+        .posture(PostureRequest::joints(&c.target, c.part_posture.clone()))
         .unwrap();
     let wrench = rng.wrench(50.0, 5.0);
     let position = Directions::POSITION;
@@ -422,12 +424,16 @@ fn another_tool_point_keeps_limbs_that_start_at_the_tool() {
             })
             .to_vec()
     };
-    let posture = machine.posture_from_joints(&home, joints()).unwrap();
+    let posture = machine
+        .posture(PostureRequest::joints(&home, joints()))
+        .unwrap();
     compare("hanging", &posture, &Wrench::zero());
     let e = posture.deflected_by(&Wrench::zero()).unwrap();
     let tip = Pose::translation(0.0, 0.0, 0.2);
     let other = machine.with_tool(&tip);
-    let there = other.posture_from_joints(&(home * tip), joints()).unwrap();
+    let there = other
+        .posture(PostureRequest::joints(&(home * tip), joints()))
+        .unwrap();
     let o = there.deflected_by(&Wrench::zero()).unwrap();
     let miss = pose_residual(&(e.tool * tip), &o.tool);
     assert!(miss.0.norm() < 1e-10, "{miss:?}");

@@ -5,7 +5,7 @@ use crate::oracle::{Flat, Frames, balanced_solve, springs};
 use crate::platforms::{anchors, lattice, leg};
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, DirectionKind, Directions, Limb, Mechanism, MotionKind,
-    Platform, Pose, Posture, Settings, Twist, Wrench, compensate,
+    Platform, Pose, Posture, PostureRequest, Settings, Twist, Wrench, compensate,
     model::unloaded_tip,
     spatial::{moved, pose_residual},
 };
@@ -211,7 +211,9 @@ fn hybrids_are_commanded_anywhere() {
                 .posture(&target)
                 .unwrap_or_else(|e| panic!("{k}: {e}"));
             assert_closes(&posture);
-            near = machine.posture_near(&target, &near).unwrap();
+            near = machine
+                .posture(PostureRequest::pose(&target).near(&near))
+                .unwrap();
             assert_closes(&near);
         }
     }

@@ -6,7 +6,7 @@ use crate::common::{Rng, balanced_error, block_error, cases};
 use kinetostat::{
     ActuatorSpec, Anchor, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Error,
     LengthLaw, Limb, LinkSpec, Load, Mechanism, MechanismEquilibrium, MotionKind, Platform, Pose,
-    Posture, Settings, Twist, Wrench,
+    Posture, PostureRequest, Settings, Twist, Wrench,
     chain::{is_conservative, load_energy},
     machine::LimbPosture,
     model::FunctionLoad,
@@ -131,7 +131,7 @@ fn at_home(machine: &Mechanism) -> Posture {
     });
     let tool = machine.platforms()[machine.tool()].home;
     machine
-        .posture_from_joints(&tool, joints.collect())
+        .posture(PostureRequest::joints(&tool, joints.collect()))
         .unwrap()
 }
 

@@ -1,7 +1,7 @@
 //! How far a posture is from one where a limb loses a motion, against closed forms.
 
 use kinetostat::{
-    ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture,
+    ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture, PostureRequest,
     machine::{NearSingularity, SingularityKind},
 };
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3, vector};
@@ -275,7 +275,9 @@ fn a_stretched_arm_is_singular_here_and_a_bent_one_is_not() {
     let parts = [Drive(R, z), bar(1.0), Drive(R, z), bar(1.0), Free(z)];
     let frame = somewhere([0.4, 0.2, -0.3]);
     let straight = arm(&frame, &parts, &[0.3, 0.0, 0.1]);
-    let posture = straight.posture_at(&[0.3, 0.0]).unwrap();
+    let posture = straight
+        .posture(PostureRequest::commands(&[0.3, 0.0]))
+        .unwrap();
     let found = nearest(&posture, 0.1);
     assert_eq!((found.distance_m, found.share), (0.0, 0.0));
     let out = (posture.target().translation.vector - frame.translation.vector).normalize();

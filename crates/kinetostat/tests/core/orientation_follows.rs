@@ -2,7 +2,8 @@
 
 use kinetostat::{
     ActuatorSpec, Chain, ChainBuilder, Directions, Error, Mechanism, MotionKind, Platform, Pose,
-    Settings, Wrench, compensate, compensation::compensate_following, machine::SingularityKind,
+    PostureRequest, Settings, Wrench, compensate, compensation::compensate_following,
+    machine::SingularityKind,
 };
 use kinetostat_testing::{LargestEntry, least};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3, vector};
@@ -139,7 +140,7 @@ proptest! {
             joint * Pose::from_parts(offset.into(), UnitQuaternion::identity())
         };
         let pose = at(start);
-        let posture = machine.posture_following(&pose.translation.vector, &home(&machine).rotation);
+        let posture = machine.posture(PostureRequest::position(&pose.translation.vector, &home(&machine).rotation));
         let posture = posture.unwrap();
         prop_assert!((posture.target().translation.vector - pose.translation.vector).norm() < 1e-10);
         let length = machine.size();
@@ -181,7 +182,7 @@ proptest! {
             joint * Pose::from_parts(offset.into(), UnitQuaternion::identity())
         };
         let wanted = home(&machine).rotation;
-        let posture = machine.posture_following(&expected.translation.vector, &wanted).unwrap();
+        let posture = machine.posture(PostureRequest::position(&expected.translation.vector, &wanted)).unwrap();
         prop_assert!(posture.target().rotation.angle_to(&expected.rotation) < 1e-9);
         prop_assert_eq!(posture.target().translation, expected.translation);
         let full = std::f64::consts::TAU;
@@ -191,14 +192,14 @@ proptest! {
             prop_assert!((off - full * (off / full).round()).abs() < 1e-9, "{own} {closed}");
         }
         // It is a posture like any other.
-        let same = machine.posture_near(posture.target(), &posture).unwrap();
+        let same = machine.posture(PostureRequest::pose(posture.target()).near(&posture)).unwrap();
         for (a, b) in same.commands().iter().zip(posture.commands()) {
             prop_assert!((a - b).abs() < 1e-9);
         }
         // Beside its plane there is nothing, and the nearest place lies in the plane.
         let out = frame.rotation * Vector3::z() * 0.01;
         let beside = expected.translation.vector + out;
-        match machine.posture_following(&beside, &wanted) {
+        match machine.posture(PostureRequest::position(&beside, &wanted)) {
             Err(Error::Unreachable { distance_m, nearest, .. }) => {
                 prop_assert!((distance_m - 0.01).abs() < 1e-9, "{distance_m}");
                 prop_assert!((nearest.translation.vector - expected.translation.vector).norm() < 1e-9);
@@ -221,13 +222,13 @@ proptest! {
         let angle = angles(-PIVOT, 1.0, (x, 0.5)).1;
         let arm = Rotation3::from_axis_angle(&Vector3::z_axis(), angle) * Vector3::from(offset);
         let position = inside + frame.rotation * arm;
-        let near = machine.posture_following(&position, &wanted).unwrap();
+        let near = machine.posture(PostureRequest::position(&position, &wanted)).unwrap();
         let wrench = Wrench::new(Vector3::from(force), vector![3.0, -4.0, 5.0]);
         let start = near.rest_state();
         let c = compensate_following(&near, &position, &wanted, &wrench, start).unwrap();
         // The general engine, asked anew for the modified target.
         let again = machine
-            .posture_following(&c.posture.target().translation.vector, &wanted)
+            .posture(PostureRequest::position(&c.posture.target().translation.vector, &wanted))
             .unwrap()
             .deflected_by(&wrench)
             .unwrap();
@@ -267,7 +268,7 @@ proptest! {
         let own = Pose::rotation(z * bearing) * Pose::translation(0.5 + reach, offset, 0.1 + height);
         let expected = frame * own;
         let wanted = home(&machine).rotation;
-        let found = machine.posture_following(&expected.translation.vector, &wanted).unwrap();
+        let found = machine.posture(PostureRequest::position(&expected.translation.vector, &wanted)).unwrap();
         prop_assert!(found.target().rotation.angle_to(&expected.rotation) < 1e-9);
         for (own, closed) in found.commands().iter().zip([bearing, height, reach]) {
             prop_assert!((own - closed).abs() < 1e-9, "{own} {closed}");
@@ -278,7 +279,7 @@ proptest! {
             let b = bearing * f64::from(k) / 40.0;
             let own = Pose::rotation(z * b) * Pose::translation(0.5 + reach, offset, 0.1 + height);
             let place = (frame * own).translation.vector;
-            let next = machine.posture_following_near(&place, &wanted, &near).unwrap();
+            let next = machine.posture(PostureRequest::position(&place, &wanted).near(&near)).unwrap();
             prop_assert!((next.commands()[0] - b).abs() < 1e-9);
             near = next;
         }
@@ -305,7 +306,7 @@ proptest! {
         let machine = builder.limb(limb("arm", 0, tool, Pose::identity(), chain)).build().unwrap();
         prop_assert!(!machine.turns_as_it_moves());
         let wanted = UnitQuaternion::new(Vector3::from(tilt));
-        let found = machine.posture_following(&Vector3::from(place), &wanted).unwrap();
+        let found = machine.posture(PostureRequest::position(&Vector3::from(place), &wanted)).unwrap();
         let twist = 2.0 * wanted.k.atan2(wanted.w);
         let off = found.commands()[3] - twist;
         prop_assert!(off.abs() < 1e-7, "{off}");
@@ -359,7 +360,7 @@ proptest! {
         let head = aside + vector![0.0, 0.0, height];
         let tip = head + turn * vector![0.0, 0.0, -tool];
         let wanted = home(&machine).rotation;
-        let found = machine.posture_following(&tip, &wanted).unwrap();
+        let found = machine.posture(PostureRequest::position(&tip, &wanted)).unwrap();
         let off = found.target().rotation.angle_to(&turn);
         prop_assert!(off < 1e-9, "{off}");
         prop_assert_eq!(found.target().translation.vector, tip);
@@ -374,7 +375,7 @@ proptest! {
         for k in 1..=20 {
             let share = f64::from(k) / 20.0;
             let place = home(&machine).translation.vector.lerp(&tip, share);
-            near = machine.posture_following_near(&place, &wanted, &near).unwrap();
+            near = machine.posture(PostureRequest::position(&place, &wanted).near(&near)).unwrap();
         }
         let off = near.target().rotation.angle_to(&turn);
         prop_assert!(off < 1e-9, "{off}");
@@ -425,6 +426,8 @@ fn numbers_that_are_none_are_refused() {
     let machine = five_bar(&Pose::identity(), Vector3::zeros());
     let wanted = UnitQuaternion::identity();
     let place = vector![0.0, f64::NAN, 0.0];
-    let error = machine.posture_following(&place, &wanted).unwrap_err();
+    let error = machine
+        .posture(PostureRequest::position(&place, &wanted))
+        .unwrap_err();
     assert!(matches!(error, Error::NotFinite { .. }), "{error}");
 }

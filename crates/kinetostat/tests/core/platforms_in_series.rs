@@ -4,7 +4,7 @@
 use crate::common::Rng;
 use crate::graphs::{legs, limb};
 use kinetostat::{
-    ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture, Twist,
+    ActuatorSpec, Chain, Mechanism, MotionKind, Platform, Pose, Posture, PostureRequest, Twist,
     machine::SingularityKind, spatial::moved,
 };
 use kinetostat_testing::least as least_of;
@@ -139,7 +139,7 @@ fn crossed(machine: &Mechanism, stages: &[Stage], far: f64) -> bool {
     let before = lines(stages, &here);
     let side = |way: &Vector6<f64>| {
         let there = moved(here.target(), &Twist(way * far));
-        let Ok(there) = machine.posture_near(&there, &here) else {
+        let Ok(there) = machine.posture(PostureRequest::pose(&there).near(&here)) else {
             return true;
         };
         let after = lines(stages, &there);
@@ -215,7 +215,9 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
                 assert!(found.followed, "{}", found.in_words());
                 // There the legs of that stage meet.
                 let target = moved(posture.target(), &Twist(found.way.0 * found.distance_m));
-                let there = machine.posture_near(&target, &posture).unwrap();
+                let there = machine
+                    .posture(PostureRequest::pose(&target).near(&posture))
+                    .unwrap();
                 let least = |p: &Posture| {
                     let sizes = lines(&stages, p).into_iter().map(f64::abs);
                     least_of(sizes)

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use kinetostat::{
-    ActuatorSpec, Chain, Limb, Mechanism, MotionKind, Platform, Pose, Twist,
+    ActuatorSpec, Chain, Limb, Mechanism, MotionKind, Platform, Pose, PostureRequest, Twist,
     machine::{LimbPosture, inverse_kinematics},
     model::unloaded_tip,
     spatial::{moved, pose_residual},
@@ -245,7 +245,9 @@ fn forward_kinematics_undoes_inverse_kinematics() {
     let machine = hexapod(Rod::Screw(0.04));
     for tool in places() {
         let posture = machine.posture(&tool).unwrap();
-        let back = machine.posture_at(&posture.commands()).unwrap();
+        let back = machine
+            .posture(PostureRequest::commands(&posture.commands()))
+            .unwrap();
         let gap = pose_residual(&tool, back.target()).0.norm();
         assert!(gap < 1e-12, "{gap:e}");
         for (a, b) in back.limbs().iter().zip(posture.limbs()) {
@@ -258,7 +260,9 @@ fn forward_kinematics_undoes_inverse_kinematics() {
     for i in 0..5 {
         let tool = orthoglide_point(i);
         let posture = machine.posture(&tool).unwrap();
-        let back = machine.posture_at(&posture.commands()).unwrap();
+        let back = machine
+            .posture(PostureRequest::commands(&posture.commands()))
+            .unwrap();
         let gap = pose_residual(&tool, back.target()).0.norm();
         assert!(gap < 1e-12, "{gap:e}");
     }
@@ -269,10 +273,20 @@ fn commands_that_tear_the_machine_are_refused_with_the_gap() {
     let machine = hexapod(Rod::Plain);
     let mut commands = machine.posture(&places()[0]).unwrap().commands();
     commands[2] += 1.0;
-    let error = machine.posture_at(&commands).unwrap_err();
+    let error = machine
+        .posture(PostureRequest::commands(&commands))
+        .unwrap_err();
     assert!(error.is_unanswered());
     assert!(error.to_string().contains("do not close"), "{error}");
-    assert!(machine.posture_at(&commands[1..]).is_err());
+    assert!(
+        machine
+            .posture(PostureRequest::commands(&commands[1..]))
+            .is_err()
+    );
     commands[2] = f64::NAN;
-    assert!(machine.posture_at(&commands).is_err());
+    assert!(
+        machine
+            .posture(PostureRequest::commands(&commands))
+            .is_err()
+    );
 }

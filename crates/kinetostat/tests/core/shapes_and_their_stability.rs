@@ -8,7 +8,7 @@ use crate::common::{
 use crate::oracle::{self, Frames};
 use kinetostat::{
     BeamSection, Chain, ChainProblem, DirectionKind, EndCondition, Equilibrium, Load, MotionKind,
-    Pose, Prescribed, Settings, Twist, Wrench, solve_chain, spatial::moved,
+    Pose, PostureRequest, Prescribed, Settings, Twist, Wrench, solve_chain, spatial::moved,
 };
 use kinetostat::{Limb, Mechanism, Platform, chain::ShapeVerdict, machine::LimbPosture};
 use kinetostat_testing::LargestEntry;
@@ -553,7 +553,10 @@ fn a_middle_platform_that_buckles_makes_the_machine_unstable() {
             })
             .collect();
         let posture = machine
-            .posture_from_joints(&Pose::translation(2.0, 0.0, 0.0), joints)
+            .posture(PostureRequest::joints(
+                &Pose::translation(2.0, 0.0, 0.0),
+                joints,
+            ))
             .unwrap();
         let e = posture.deflected_by(&Wrench::zero()).unwrap();
         crate::common::assert_equilibrium(&posture, &e);

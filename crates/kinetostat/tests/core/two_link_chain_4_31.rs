@@ -4,7 +4,7 @@
 use crate::common::{assert_chain_equilibrium, close, golden, number};
 use kinetostat::{
     Chain, ChainProblem, DirectionKind, EndCondition, Load, Mechanism, MotionKind, Pose,
-    Prescribed, Wrench, machine::LimbPosture, solve_chain,
+    PostureRequest, Prescribed, Wrench, machine::LimbPosture, solve_chain,
 };
 use nalgebra::{Matrix2, Vector3, vector};
 use serde_json::Value;
@@ -172,7 +172,9 @@ fn a_pulled_two_link_chain_is_as_stiff_as_its_closed_form_until_it_is_straight_t
             commands: vec![],
             coordinates: vec![half + turn, -rest, half - turn],
         };
-        let posture = machine.posture_from_joints(&home, vec![joints]).unwrap();
+        let posture = machine
+            .posture(PostureRequest::joints(&home, vec![joints]))
+            .unwrap();
         let unloaded = posture.deflected_by(&Wrench::zero()).unwrap().state;
         for step in 0..=20 {
             let force = 10_f64.powf(0.25 * f64::from(step));

@@ -3,8 +3,8 @@
 use crate::common::{Orthoglide, arm, orthoglide_point, planar_column};
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Error, Limb, Load,
-    Mechanism, MotionKind, Platform, Pose, Settings, Twist, Wrench, machine::LimbPosture,
-    model::SpringLaw, solve_chain, unloaded_stiffness,
+    Mechanism, MotionKind, Platform, Pose, PostureRequest, Settings, Twist, Wrench,
+    machine::LimbPosture, model::SpringLaw, solve_chain, unloaded_stiffness,
 };
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, vector};
 
@@ -261,7 +261,7 @@ fn names_sizes_and_numbers_are_checked() {
     let error = posture.linear_assembly(&[Twist::zero()]).unwrap_err();
     says(&error, &["limb errors needs 3", "1 were given"]);
     let error = machine
-        .posture_from_joints(&Pose::identity(), vec![])
+        .posture(PostureRequest::joints(&Pose::identity(), vec![]))
         .unwrap_err();
     says(&error, &["limb postures needs 3", "0 were given"]);
     let bad = LimbPosture {
@@ -269,7 +269,10 @@ fn names_sizes_and_numbers_are_checked() {
         coordinates: vec![0.0; 2],
     };
     let error = machine
-        .posture_from_joints(&Pose::identity(), vec![bad.clone(), bad.clone(), bad])
+        .posture(PostureRequest::joints(
+            &Pose::identity(),
+            vec![bad.clone(), bad.clone(), bad],
+        ))
         .unwrap_err();
     says(&error, &["coordinates needs 15", "2 were given"]);
 }
@@ -314,7 +317,9 @@ fn a_wrench_along_a_free_direction_is_named() {
         commands: vec![],
         coordinates: machine.limbs()[0].nominal.home_coordinates(),
     };
-    let posture = machine.posture_from_joints(&home, vec![joints]).unwrap();
+    let posture = machine
+        .posture(PostureRequest::joints(&home, vec![joints]))
+        .unwrap();
     assert_eq!(posture.stiffness().unwrap().rank(), 5);
     // Along the leaf it holds.
     let e = posture

@@ -1,7 +1,7 @@
 //! Frames and directions in words: where base and tool are and how their axes point, where the machine
 //! stands with all joints at zero, and which way it moves for a positive joint.
 
-use kinetostat::{Mechanism, Pose, Twist};
+use kinetostat::{Mechanism, Pose, PostureRequest, Twist};
 use kinetostat_analysis::joint_motion::{actuator_twist, point_on_axis};
 use kinetostat_model::Model;
 use nalgebra::Vector3;
@@ -116,7 +116,7 @@ pub(crate) fn frames(model: &Model) -> Frames {
     let m = &model.mechanism;
     let tool = &m.platforms()[m.tool()];
     let count = m.actuator_count();
-    let zero = m.posture_at(&vec![0.0; count]);
+    let zero = m.posture(PostureRequest::commands(&vec![0.0; count]));
     let commands = joints::home(m);
     let (zero_pose, zero_problem) = match &zero {
         Ok(posture) => (Some(*posture.target()), None),

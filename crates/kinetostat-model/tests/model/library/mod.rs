@@ -6,7 +6,7 @@ mod machine;
 mod msa;
 mod urdf;
 
-use kinetostat::{Pose, Posture, Wrench, model::Role, spatial::pose_residual};
+use kinetostat::{Pose, Posture, PostureRequest, Wrench, model::Role, spatial::pose_residual};
 use kinetostat_model::Model;
 use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -56,7 +56,7 @@ pub fn preset(name: &str) -> Model {
 /// as it can, and inverse kinematics has to find these commands again.
 pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture) -> Posture {
     let mechanism = &model.mechanism;
-    if let Ok(posture) = mechanism.posture_near(target, start) {
+    if let Ok(posture) = mechanism.posture(PostureRequest::pose(target).near(start)) {
         return posture;
     }
     let count = start.commands().len();
@@ -76,7 +76,9 @@ pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture) -> Pos
         for (command, change) in commands.zip(change.iter()) {
             *command += change;
         }
-        let posture = light.mechanism.posture_from_joints(start.target(), limbs);
+        let posture = light
+            .mechanism
+            .posture(PostureRequest::joints(start.target(), limbs));
         let rest = posture.expect("joints").deflected_by(&Wrench::zero());
         let rest = rest.unwrap_or_else(|e| panic!("{}: {e}", model.name()));
         let limbs = light.mechanism.limbs().iter().zip(&rest.limbs);
@@ -123,7 +125,7 @@ pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture) -> Pos
         }
     }
     let at = stand(&change).0;
-    let posture = mechanism.posture_near(&at, start);
+    let posture = mechanism.posture(PostureRequest::pose(&at).near(start));
     let posture = posture.unwrap_or_else(|e| panic!("{}: {e}", model.name()));
     // Redundant drives may share the way otherwise.
     if posture.redundancy() == 0 {

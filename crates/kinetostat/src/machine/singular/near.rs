@@ -188,7 +188,7 @@ impl Posture {
         let step = 1e-4 * length;
         let straight = |twist: &Vector6<f64>| -> Option<Measure> {
             let target: Pose = moved(&self.target, &Twist(*twist));
-            let there = self.mechanism.posture_near(&target, self).ok()?;
+            let there = self.mechanism.posture_at_pose(&target, Some(self)).ok()?;
             Some(there.locked())
         };
         // A tool that turns as it moves leaves the straight way on both sides.

@@ -8,7 +8,8 @@ use crate::compensation_closes::{heavy_arm, reachable};
 use crate::condensed_equals_flattened::{Apart, apart, cut};
 use crate::orthoglide_reference::milling;
 use kinetostat::{
-    Directions, Settings, compensate, compensation::compensate_from, spatial::pose_residual,
+    Directions, PostureRequest, Settings, compensate, compensation::compensate_from,
+    spatial::pose_residual,
 };
 
 const TEST: &str = "relative (test's tolerance)";
@@ -72,7 +73,9 @@ fn condensed_minus_flattened() {
     let parts = seeds().take(12).map(|seed| {
         let mut rng = Rng(seed);
         let c = cut(&mut rng, 0, 5.0);
-        let posture = c.parts.posture_from_joints(&c.target, c.part_posture);
+        let posture = c
+            .parts
+            .posture(PostureRequest::joints(&c.target, c.part_posture));
         apart("parts", &posture.unwrap(), &rng.wrench(100.0, 12.0))
     });
     let mut f = Figures::new();
@@ -115,7 +118,9 @@ fn compensation_closes() {
     let mut rng = Rng(0xf1_6000);
     for _ in 0..8 {
         let (desired, joints) = reachable(&machine, &mut rng);
-        let posture = machine.posture_from_joints(&desired, vec![joints]).unwrap();
+        let posture = machine
+            .posture(PostureRequest::joints(&desired, vec![joints]))
+            .unwrap();
         let wrench = rng.wrench(2000.0, 300.0);
         let start = posture.rest_state();
         let c = compensate_from(&posture, &desired, &wrench, Directions::ALL, start).unwrap();

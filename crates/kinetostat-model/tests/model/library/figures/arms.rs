@@ -1,6 +1,6 @@
 //! Arms and hybrids: geometry against URDFs and closed forms, inverse kinematics there and back.
 
-use kinetostat::{Error, Pose, Posture, Twist, model::Kinematics, spatial::moved};
+use kinetostat::{Error, Pose, Posture, PostureRequest, Twist, model::Kinematics, spatial::moved};
 use kinetostat_testing::{LargestEntry, Worst, largest};
 use nalgebra::{Translation3, UnitQuaternion, Vector3, vector};
 use serde_json::json;
@@ -178,7 +178,9 @@ fn commands_of_hybrids_come_back() {
             );
             // A machine of fewer than six degrees of freedom takes the nearest place.
             let posture = match mechanism.posture(&asked) {
-                Err(Error::Unreachable { nearest, .. }) if free == 5 => mechanism.posture(&nearest),
+                Err(Error::Unreachable { nearest, .. }) if free == 5 => {
+                    mechanism.posture(&*nearest)
+                }
                 other => other,
             }
             .unwrap_or_else(|e| panic!("{name} at {asked}: {e}"));
@@ -186,7 +188,7 @@ fn commands_of_hybrids_come_back() {
             gap.add(machine::structure(&model, &posture).gap);
             if let Some(last) = &last {
                 let again = mechanism
-                    .posture_near(posture.target(), last)
+                    .posture(PostureRequest::pose(posture.target()).near(last))
                     .unwrap_or_else(|e| panic!("{name} again: {e}"));
                 for (a, b) in again.commands().iter().zip(posture.commands()) {
                     twice.add((a - b).abs());

@@ -4,7 +4,7 @@
 //! sums of weight times lever arm and spring force times lever arm in the vertical plane of the arm.
 
 use kinetostat::{
-    Mechanism, Pose, Wrench,
+    Mechanism, Pose, PostureRequest, Wrench,
     machine::LimbPosture,
     model::{Kinematics, Role},
 };
@@ -173,7 +173,7 @@ fn found(mechanism: &Mechanism, commands: &[f64]) -> Vec<f64> {
         coordinates: rest,
     };
     let posture = mechanism
-        .posture_from_joints(&target, vec![joints])
+        .posture(PostureRequest::joints(&target, vec![joints]))
         .expect("a posture");
     let held = posture.deflected_by(&Wrench::zero()).expect("at rest");
     held.actuator_forces().iter().map(|t| t / SMALL).collect()
@@ -303,7 +303,7 @@ fn torques_of_the_parallelogram_arm_are_those_of_the_hand() {
                     }
                 });
                 let posture = mechanism
-                    .posture_from_joints(&target, joints.collect())
+                    .posture(PostureRequest::joints(&target, joints.collect()))
                     .expect("a posture");
                 let held = posture.deflected_by(&Wrench::zero()).expect("at rest");
                 let torques: Vec<f64> = held.actuator_forces().iter().map(|t| t / SMALL).collect();
@@ -407,7 +407,7 @@ fn forces_of_the_linear_actuator_are_those_of_the_hand() {
                 }
             });
             let posture = mechanism
-                .posture_from_joints(&target, joints.collect())
+                .posture(PostureRequest::joints(&target, joints.collect()))
                 .expect("a posture");
             let held = posture.deflected_by(&Wrench::zero()).expect("at rest");
             let found = held.actuator_forces();

@@ -1,0 +1,194 @@
+//! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
+//! finding (singular, unstable, redundant) is a field of a result.
+
+mod messages;
+mod place;
+
+use crate::number;
+use crate::spatial::{MotionKind, Pose, Twist, Wrench};
+use messages::{joint_values, nearest_found, not_converged};
+pub(crate) use place::SHAPE_CRITERION;
+pub use place::{Part, Place, Whole};
+
+/// Result of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Every variant says where, what was expected and what was found.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A list has the wrong length.
+    #[error("{place}: {what} needs {expected} values, {found} were given")]
+    Size {
+        /// Chain, limb or function.
+        place: Place,
+        /// Which list.
+        what: &'static str,
+        /// Needed length.
+        expected: usize,
+        /// Length found.
+        found: usize,
+    },
+    /// A name is unknown.
+    #[error("{place}: there is no {what} named '{name}' (there are: {known})")]
+    UnknownName {
+        /// Chain or mechanism.
+        place: Place,
+        /// Kind of thing: node, limb, platform.
+        what: &'static str,
+        /// Name asked for.
+        name: String,
+        /// Names that exist, comma separated.
+        known: String,
+    },
+    /// A description does not make a chain or mechanism.
+    #[error("{place}: {reason}")]
+    Model {
+        /// Chain, joint or spring.
+        place: Place,
+        /// What is wrong and what was expected.
+        reason: String,
+    },
+    /// A number is not finite.
+    #[error("{place}: {what} is {value}, a finite number is needed")]
+    NotFinite {
+        /// Where.
+        place: Place,
+        /// Which quantity.
+        what: String,
+        /// Value found.
+        value: f64,
+    },
+    /// An iteration did not converge; carries its last state so that it can be looked at.
+    #[error("{}", not_converged(place, *iterations, [*residual_position_m, *residual_torque], *load_factor, limit.as_deref()))]
+    NotConverged {
+        /// Chain or mechanism.
+        place: Place,
+        /// Iterations spent.
+        iterations: usize,
+        /// Closure left over, m.
+        residual_position_m: f64,
+        /// Equilibrium residual, relative to the loads.
+        residual_torque: f64,
+        /// Largest share of the load for which an equilibrium was found.
+        load_factor: f64,
+        /// Last iterate of all coordinates.
+        last: Vec<f64>,
+        /// The limit point of the load at which the branch from rest ends, if there is one.
+        limit: Option<Box<LoadLimit>>,
+    },
+    /// The actuators cannot bring the end there.
+    #[error("{place}: the target cannot be reached; {}", nearest_found(*distance_m, *angle_rad, nearest))]
+    Unreachable {
+        /// Limb or mechanism.
+        place: Place,
+        /// Distance of the nearest pose found, m.
+        distance_m: f64,
+        /// Its angle, rad.
+        angle_rad: f64,
+        /// Nearest pose found, base axes: of the limb's tip, or of the tool for a mechanism.
+        nearest: Box<Pose>,
+    },
+    /// Loops that do not close with the commands that were given.
+    #[error(
+        "{place}: its loops do not close with these commands: from home they close up to {:.1} % of the way, then {} are missing",
+        100.0 * share, number::apart(gap_m * 1e3, gap_rad.to_degrees())
+    )]
+    NoClosure {
+        /// Mechanism.
+        place: Place,
+        /// Share of the way from home's commands on which the loops close, 0 to 1.
+        share: f64,
+        /// Largest gap of a limb just behind it, m.
+        gap_m: f64,
+        /// Its angle, rad.
+        gap_rad: f64,
+    },
+    /// A command lies outside the limits of its actuator.
+    #[error("actuator '{actuator}': the command {} is outside its limits {}",
+        joint_values(*kind, [*command]), joint_values(*kind, [*low, *high]))]
+    OutsideLimits {
+        /// Name of the actuator.
+        actuator: String,
+        /// Slide or rotation.
+        kind: MotionKind,
+        /// Command needed, m or rad.
+        command: f64,
+        /// Lower limit.
+        low: f64,
+        /// Upper limit.
+        high: f64,
+    },
+    /// The platform is free to move under this wrench: no position is an equilibrium.
+    #[error(
+        "{place}: the wrench pushes in a free direction, so the platform has no equilibrium ({reason})"
+    )]
+    FreeDirection {
+        /// Mechanism.
+        place: Place,
+        /// Which direction.
+        reason: String,
+        /// The wrench.
+        wrench: Box<Wrench>,
+    },
+}
+
+impl Error {
+    pub(crate) fn model(place: impl Into<Place>, reason: impl Into<String>) -> Self {
+        Self::Model {
+            place: place.into(),
+            reason: reason.into(),
+        }
+    }
+
+    /// The same failure, told to be beyond a limit point of the load.
+    pub(crate) fn at_limit(mut self, found: LoadLimit) -> Self {
+        if let Self::NotConverged {
+            load_factor, limit, ..
+        } = &mut self
+        {
+            *load_factor = found.share;
+            *limit = Some(Box::new(found));
+        }
+        self
+    }
+
+    /// Where it went wrong; `None` for an actuator's limits, which name the actuator.
+    #[must_use]
+    pub fn place(&self) -> Option<&Place> {
+        match self {
+            Self::Size { place, .. }
+            | Self::UnknownName { place, .. }
+            | Self::Model { place, .. }
+            | Self::NotFinite { place, .. }
+            | Self::NotConverged { place, .. }
+            | Self::Unreachable { place, .. }
+            | Self::NoClosure { place, .. }
+            | Self::FreeDirection { place, .. } => Some(place),
+            Self::OutsideLimits { .. } => None,
+        }
+    }
+
+    /// The variants that mean "could not be answered" rather than "wrong input".
+    #[must_use]
+    pub fn is_unanswered(&self) -> bool {
+        matches!(
+            self,
+            Self::NotConverged { .. }
+                | Self::Unreachable { .. }
+                | Self::NoClosure { .. }
+                | Self::OutsideLimits { .. }
+                | Self::FreeDirection { .. }
+        )
+    }
+}
+
+/// A limit point on the way from rest to a load: the branch that starts at rest carries no more,
+/// and a dead load beyond it makes the machine snap to another equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadLimit {
+    /// Share of the load that is carried, 0 to 1.
+    pub share: f64,
+    /// Displacement of the tool there, from the nominal target (m, rad).
+    pub displacement: Twist,
+}

@@ -1,0 +1,135 @@
+//! Where something went wrong, as types that a program can match.
+
+use std::fmt;
+
+/// What is described or solved, by its name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Whole {
+    /// A mechanism.
+    Mechanism(String),
+    /// A chain by itself.
+    Chain(String),
+    /// A chain as a limb.
+    Limb(String),
+    /// The section of a beam.
+    Section,
+    /// A rule that takes out the spring of a passive joint.
+    PassiveJointRule,
+}
+
+/// A part of it, by its name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Part {
+    /// A platform of a mechanism.
+    Platform(String),
+    /// A limb of a mechanism.
+    Limb(String),
+    /// A joint or another coordinate of a chain.
+    Coordinate(String),
+    /// A spring of a chain.
+    Spring(String),
+    /// An actuator of a chain.
+    Actuator(String),
+    /// A link of a chain.
+    Link(String),
+}
+
+/// Where something went wrong: in what, in which part, and during which task.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Place {
+    /// Mechanism, chain or limb.
+    pub whole: Whole,
+    /// Part of it, if one is at fault.
+    pub part: Option<Part>,
+    /// The task, if it is not just an equilibrium or a description: `compensation on `.
+    task: &'static str,
+    /// What is particular about it, after its name.
+    detail: String,
+}
+
+impl Place {
+    pub(crate) fn of(whole: Whole) -> Self {
+        Self {
+            whole,
+            part: None,
+            task: "",
+            detail: String::new(),
+        }
+    }
+
+    /// A mechanism.
+    #[must_use]
+    pub fn mechanism(name: impl Into<String>) -> Self {
+        Self::of(Whole::Mechanism(name.into()))
+    }
+
+    /// A chain.
+    #[must_use]
+    pub fn chain(name: impl Into<String>) -> Self {
+        Self::of(Whole::Chain(name.into()))
+    }
+
+    /// A chain as a limb.
+    #[must_use]
+    pub fn limb(name: impl Into<String>) -> Self {
+        Self::of(Whole::Limb(name.into()))
+    }
+
+    /// A part of the same thing.
+    #[must_use]
+    pub fn part(&self, part: Part) -> Self {
+        Self {
+            part: Some(part),
+            ..self.clone()
+        }
+    }
+
+    /// The same place during a task.
+    pub(crate) fn during(self, task: &'static str) -> Self {
+        Self { task, ..self }
+    }
+
+    /// The same place with something particular about it.
+    pub(crate) fn with_detail(self, detail: String) -> Self {
+        Self { detail, ..self }
+    }
+}
+
+impl From<&Place> for Place {
+    fn from(place: &Place) -> Self {
+        place.clone()
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (task, detail) = (self.task, &self.detail);
+        match &self.whole {
+            // The task says of what kind of thing it is.
+            Whole::Chain(name) if task == SHAPE_CRITERION => write!(f, "{task}'{name}'{detail}")?,
+            Whole::Mechanism(name) => write!(f, "{task}mechanism '{name}'{detail}")?,
+            Whole::Chain(name) => write!(f, "{task}chain '{name}'{detail}")?,
+            Whole::Limb(name) => write!(f, "{task}limb '{name}'{detail}")?,
+            Whole::Section => f.write_str("section")?,
+            Whole::PassiveJointRule => f.write_str("passive joint rule")?,
+        }
+        let Some(part) = &self.part else {
+            return Ok(());
+        };
+        let (kind, name) = match part {
+            Part::Platform(name) => ("platform", name),
+            Part::Limb(name) => ("limb", name),
+            Part::Coordinate(name) => ("coordinate", name),
+            Part::Spring(name) => ("spring", name),
+            Part::Actuator(name) => ("actuator", name),
+            Part::Link(name) => ("link", name),
+        };
+        write!(f, ": {kind} '{name}'")
+    }
+}
+
+/// The task of the shape criterion of a chain.
+pub(crate) const SHAPE_CRITERION: &str = "shape criterion of ";

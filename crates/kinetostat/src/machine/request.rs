@@ -1,0 +1,146 @@
+//! What is asked of a machine's joints: a pose of the tool, a position, commands, or joints that are known; and from
+//! where they are looked for.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::error::Result;
+use crate::machine::inverse::limb::LimbPosture;
+use crate::machine::posture::Posture;
+use crate::model::mechanism::Mechanism;
+use crate::spatial::Pose;
+
+#[derive(Clone, Debug)]
+enum Query<'a> {
+    Pose(Pose),
+    Position(Vector3<f64>, UnitQuaternion<f64>),
+    Commands(&'a [f64]),
+    Joints(Pose, Vec<LimbPosture>),
+}
+
+/// From where joints are looked for.
+#[derive(Clone, Copy, Debug)]
+enum Start<'a> {
+    Home,
+    Near(&'a Posture),
+    StraightFrom(&'a Posture),
+}
+
+/// Which posture of a machine is meant, for [`Mechanism::posture`]. A pose alone (`&Pose`) is one, too.
+///
+/// ```
+/// use kinetostat::{ActuatorSpec, Chain, Mechanism, MotionKind, Pose, PostureRequest};
+/// use nalgebra::{Vector3, vector};
+///
+/// let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// let chain = Chain::builder("arm")
+///     .actuator("shoulder", hinge(2e5))
+///     .translation(vector![0.6, 0.0, 0.0])
+///     .actuator("elbow", hinge(1e5))
+///     .translation(vector![0.5, 0.0, 0.0])
+///     .build()?;
+/// let home = Pose::translation(1.1, 0.0, 0.0);
+/// let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+///
+/// let bent = arm.posture(PostureRequest::commands(&[0.3, 0.9]))?;
+/// // An arm of two joints turns its tool as it moves: a position is asked for, the orientation follows.
+/// let position = bent.target().translation.vector + vector![0.01, 0.0, 0.0];
+/// let request = PostureRequest::position(&position, &home.rotation).near(&bent);
+/// let beside = arm.posture(request)?;
+/// assert!((beside.target().translation.vector - position).norm() < 1e-12);
+/// assert!((beside.commands()[1] - 0.9).abs() < 0.1, "the elbow stays on its side");
+/// # Ok::<(), kinetostat::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct PostureRequest<'a> {
+    query: Query<'a>,
+    from: Start<'a>,
+}
+
+impl<'a> PostureRequest<'a> {
+    fn of(query: Query<'a>) -> Self {
+        Self {
+            query,
+            from: Start::Home,
+        }
+    }
+
+    /// The tool (base from tool) is at a pose on the nominal machine with springs at rest. Platforms between base and
+    /// tool find their places with the joints. Where actuators are redundant, see [`Posture::redundancy`].
+    #[must_use]
+    pub fn pose(target: &Pose) -> Self {
+        Self::of(Query::Pose(*target))
+    }
+
+    /// The tool's reference point is at a position (m, base axes), with the orientation whose rotation from `wanted`
+    /// (base from tool) is least, `wanted` itself where the machine can have it: for machines that turn their tool
+    /// as they move ([`Mechanism::turns_as_it_moves`]).
+    #[must_use]
+    pub fn position(position: &Vector3<f64>, wanted: &UnitQuaternion<f64>) -> Self {
+        Self::of(Query::Position(*position, *wanted))
+    }
+
+    /// The actuators have these commands (m or rad, in the order of [`Mechanism::actuator_names`]): nominal geometry,
+    /// springs at their home, passive joints and platforms where the loops lead them from home.
+    #[must_use]
+    pub fn commands(commands: &'a [f64]) -> Self {
+        Self::of(Query::Commands(commands))
+    }
+
+    /// Commands and passive coordinates of every limb are known, with the tool nominally at `target`. Platforms
+    /// between base and tool are put where the limbs lead, along the fewest of them.
+    #[must_use]
+    pub fn joints(target: &Pose, limbs: Vec<LimbPosture>) -> Self {
+        Self::of(Query::Joints(*target, limbs))
+    }
+
+    /// Looks near the joints of another posture, that of a neighbour on a path, so that the branch of the inverse
+    /// kinematics does not change. Says nothing where joints are given.
+    #[must_use]
+    pub fn near(mut self, posture: &'a Posture) -> Self {
+        self.from = Start::Near(posture);
+        self
+    }
+
+    /// As [`Self::near`], for a position along the straight line from the other posture and no other: where many
+    /// positions are tried that cannot be taken, a search around each would be dear.
+    #[must_use]
+    pub fn straight_from(mut self, posture: &'a Posture) -> Self {
+        self.from = Start::StraightFrom(posture);
+        self
+    }
+}
+
+impl From<&Pose> for PostureRequest<'_> {
+    fn from(target: &Pose) -> Self {
+        Self::pose(target)
+    }
+}
+
+impl Mechanism {
+    /// Commands the actuators for a target of the tool (`&Pose`, base from tool) or another [`PostureRequest`].
+    ///
+    /// # Errors
+    /// [`Error::Unreachable`](crate::Error::Unreachable) with the nearest pose, naming the limb; for a graph of
+    /// several moving platforms the nearest pose is the last one reached on the straight line from home.
+    /// [`Error::NoClosure`](crate::Error::NoClosure) where loops do not close all the way from home to given
+    /// commands. [`Error::Size`](crate::Error::Size) and [`Error::NotFinite`](crate::Error::NotFinite) for numbers
+    /// that are no request.
+    pub fn posture<'a>(&self, request: impl Into<PostureRequest<'a>>) -> Result<Posture> {
+        let PostureRequest { query, from } = request.into();
+        let near = match from {
+            Start::Home => None,
+            Start::Near(posture) | Start::StraightFrom(posture) => Some(posture),
+        };
+        match (query, from) {
+            (Query::Pose(target), _) => self.posture_at_pose(&target, near),
+            (Query::Position(position, wanted), Start::StraightFrom(start)) => {
+                self.posture_following_straight(&position, &wanted, start)
+            }
+            (Query::Position(position, wanted), _) => {
+                self.posture_following(&position, &wanted, near)
+            }
+            (Query::Commands(commands), _) => self.posture_at_commands(commands),
+            (Query::Joints(target, limbs), _) => self.posture_from_joints(&target, limbs),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Sets of the six directions of a body.
+
+use std::fmt;
+use std::ops::Index;
+
+use serde::{Deserialize, Serialize};
+
+/// Names of the directions, in order: motions along the axes, rotations about them.
+const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// A set of the six directions `x y z rx ry rz`, in base axes unless it says otherwise: those that are corrected,
+/// held or prescribed.
+///
+/// ```
+/// use kinetostat::Directions;
+///
+/// let directions = Directions::POSITION;
+/// assert!(directions.contains(2) && !directions.contains(3));
+/// assert_eq!(directions.to_string(), "x y z");
+/// assert_eq!(Directions::from([true, true, true, false, false, false]), directions);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Directions([bool; 6]);
+
+impl Directions {
+    /// None of them.
+    pub const NONE: Self = Self([false; 6]);
+    /// All six: a pose.
+    pub const ALL: Self = Self([true; 6]);
+    /// Along the three axes: a position.
+    pub const POSITION: Self = Self([true, true, true, false, false, false]);
+    /// About the three axes: an orientation.
+    pub const ORIENTATION: Self = Self([false, false, false, true, true, true]);
+
+    /// Whether a direction (0 to 5) belongs to the set.
+    #[must_use]
+    pub fn contains(self, direction: usize) -> bool {
+        self.0[direction]
+    }
+
+    /// The same set with a direction (0 to 5) added.
+    #[must_use]
+    pub fn with(mut self, direction: usize) -> Self {
+        self.0[direction] = true;
+        self
+    }
+
+    /// The directions of the set, 0 to 5, in order.
+    pub fn iter(self) -> impl Iterator<Item = usize> {
+        (0..6).filter(move |&k| self.0[k])
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(self) -> usize {
+        self.iter().count()
+    }
+
+    /// There is none.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self == Self::NONE
+    }
+
+    /// Whether each direction belongs to the set.
+    #[must_use]
+    pub fn as_array(self) -> [bool; 6] {
+        self.0
+    }
+}
+
+impl From<[bool; 6]> for Directions {
+    fn from(set: [bool; 6]) -> Self {
+        Self(set)
+    }
+}
+
+impl Index<usize> for Directions {
+    type Output = bool;
+    fn index(&self, direction: usize) -> &bool {
+        &self.0[direction]
+    }
+}
+
+impl fmt::Display for Directions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = self.iter().map(|k| NAMES[k]).collect();
+        f.write_str(if names.is_empty() { "none" } else { "" })?;
+        f.write_str(&names.join(" "))
+    }
+}

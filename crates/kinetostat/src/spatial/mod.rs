@@ -1,0 +1,276 @@
+//! Poses, twists, wrenches and 6 x 6 stiffness matrices at a stated point, in stated axes.
+//!
+//! Conventions, everywhere in this crate: SI units (m, rad, N, N m); linear part first; axes of
+//! the base unless a name says otherwise; rotations live on SO(3) and are compared by their
+//! rotation vector, never by Euler angles. A [`Wrench`] is what the environment applies to the
+//! body, so that `wrench = stiffness * twist` for a small motion.
+
+use nalgebra::{Isometry3, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
+
+mod directions;
+mod operators;
+
+pub use directions::Directions;
+
+/// Position (m) and orientation of one frame in another; `base_from_tip` maps tip coordinates to
+/// base coordinates.
+pub type Pose = Isometry3<f64>;
+
+/// Cross-product matrix: `hat(a) * b = a x b`.
+#[must_use]
+pub fn hat(a: &Vector3<f64>) -> Matrix3<f64> {
+    a.cross_matrix()
+}
+
+/// Small motion of a body, `[dp; dpsi]`: linear part (m) of the reference point and spatial
+/// rotation vector (rad), both in base axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Twist(pub Vector6<f64>);
+
+/// Load on a body, `[f; m]`: force (N) and moment (N m) about the reference point, both in base
+/// axes, applied by the environment to the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Wrench(pub Vector6<f64>);
+
+macro_rules! six_vector {
+    ($name:ident, $linear:ident, $angular:ident) => {
+        impl $name {
+            /// From the linear and the angular part.
+            #[must_use]
+            pub fn new($linear: Vector3<f64>, $angular: Vector3<f64>) -> Self {
+                let mut vector = Vector6::zeros();
+                vector.fixed_rows_mut::<3>(0).copy_from(&$linear);
+                vector.fixed_rows_mut::<3>(3).copy_from(&$angular);
+                Self(vector)
+            }
+
+            /// All components zero.
+            #[must_use]
+            pub fn zero() -> Self {
+                Self(Vector6::zeros())
+            }
+
+            /// First three components.
+            #[must_use]
+            pub fn $linear(&self) -> Vector3<f64> {
+                self.0.fixed_rows::<3>(0).into_owned()
+            }
+
+            /// Last three components.
+            #[must_use]
+            pub fn $angular(&self) -> Vector3<f64> {
+                self.0.fixed_rows::<3>(3).into_owned()
+            }
+
+            /// The same quantity expressed in axes turned by `rotation` (`new = rotation * old`).
+            #[must_use]
+            pub fn rotated(&self, rotation: &Rotation3<f64>) -> Self {
+                Self::new(rotation * self.$linear(), rotation * self.$angular())
+            }
+        }
+    };
+}
+six_vector!(Twist, linear, angular);
+six_vector!(Wrench, force, moment);
+
+impl Twist {
+    /// Motion of the point that lies at `arm` (m) from the present reference point.
+    #[must_use]
+    pub fn shifted(&self, arm: &Vector3<f64>) -> Self {
+        Self::new(self.linear() + self.angular().cross(arm), self.angular())
+    }
+
+    /// Work (J) done by a wrench at the same reference point.
+    #[must_use]
+    pub fn dot(&self, wrench: &Wrench) -> f64 {
+        self.0.dot(&wrench.0)
+    }
+}
+
+impl Wrench {
+    /// The same load about the point that lies at `arm` (m) from the present reference point.
+    #[must_use]
+    pub fn shifted(&self, arm: &Vector3<f64>) -> Self {
+        Self::new(self.force(), self.moment() - arm.cross(&self.force()))
+    }
+}
+
+/// `T = [I, -hat(arm); 0, I]`, 6 x 6: twist of the reference point -> twist of the point at `arm`.
+/// Its transpose takes a wrench at that point back to the reference point.
+#[must_use]
+pub fn shift_matrix(arm: &Vector3<f64>) -> Matrix6<f64> {
+    let mut shift = Matrix6::identity();
+    shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-hat(arm)));
+    shift
+}
+
+/// `blkdiag(rotation, rotation)`, 6 x 6.
+#[must_use]
+pub fn turn_matrix(rotation: &Rotation3<f64>) -> Matrix6<f64> {
+    let mut turn = Matrix6::zeros();
+    turn.fixed_view_mut::<3, 3>(0, 0)
+        .copy_from(rotation.matrix());
+    turn.fixed_view_mut::<3, 3>(3, 3)
+        .copy_from(rotation.matrix());
+    turn
+}
+
+/// `blkdiag(0, block)`, 6 x 6: a matrix that acts on rotations only.
+#[must_use]
+pub(crate) fn rotational(block: &Matrix3<f64>) -> Matrix6<f64> {
+    let mut matrix = Matrix6::zeros();
+    matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(block);
+    matrix
+}
+
+/// Motion that takes `actual` to `target`: `[p* - p; log(R* R^T)]`, base axes, at the frame's
+/// origin. The linearised closure `J dx = pose_residual` is exact to first order; Euler angles
+/// are never subtracted.
+#[must_use]
+pub fn pose_residual(target: &Pose, actual: &Pose) -> Twist {
+    Twist::new(
+        target.translation.vector - actual.translation.vector,
+        (target.rotation * actual.rotation.inverse()).scaled_axis(),
+    )
+}
+
+/// `pose` moved by a twist at its own origin: translated by the linear part, turned by the
+/// exponential of the angular part (base axes).
+#[must_use]
+pub fn moved(pose: &Pose, twist: &Twist) -> Pose {
+    Pose::from_parts(
+        (pose.translation.vector + twist.linear()).into(),
+        UnitQuaternion::from_scaled_axis(twist.angular()) * pose.rotation,
+    )
+}
+
+/// Stiffness of a platform or a chain's end: 6 x 6, `wrench = matrix * twist`, blocks N/m, N/rad,
+/// N m/m, N m/rad, base axes, at the stated point.
+///
+/// Under a load with a moment `m` it is not symmetric: `K - K^T = blkdiag(0, -hat(m))` exactly,
+/// unless dead moments act on inner nodes or loads are not conservative.
+/// [`Self::symmetric`] is the Hessian of the stored energy in exponential coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CartesianStiffness {
+    /// The matrix as it is (N/m, N/rad, N m/m, N m/rad).
+    pub matrix: Matrix6<f64>,
+}
+
+impl CartesianStiffness {
+    /// The symmetric part: Hessian of the stored energy in exponential coordinates about the
+    /// present pose.
+    #[must_use]
+    pub fn symmetric(&self) -> Matrix6<f64> {
+        0.5 * (self.matrix + self.matrix.transpose())
+    }
+
+    /// Stiffness of the same body at the reference point from which this matrix's point lies at
+    /// `arm`, while `wrench` acts there: `T^T K T + blkdiag(0, hat(f) hat(arm))`. The second term
+    /// survives whenever a force acts (missing in [R 5.28], see the errata).
+    #[must_use]
+    pub fn shifted(&self, arm: &Vector3<f64>, wrench: &Wrench) -> Self {
+        let shift = shift_matrix(arm);
+        let geometric = rotational(&(hat(&wrench.force()) * hat(arm)));
+        Self {
+            matrix: shift.transpose() * self.matrix * shift + geometric,
+        }
+    }
+
+    /// The same stiffness in axes turned by `rotation`.
+    #[must_use]
+    pub fn rotated(&self, rotation: &Rotation3<f64>) -> Self {
+        let turn = turn_matrix(rotation);
+        Self {
+            matrix: turn * self.matrix * turn.transpose(),
+        }
+    }
+
+    /// `K^-1`, or `None` where the matrix is singular (free directions exist).
+    #[must_use]
+    pub fn compliance(&self) -> Option<Matrix6<f64>> {
+        let inverse = self.matrix.try_inverse()?;
+        inverse.iter().all(|x| x.is_finite()).then_some(inverse)
+    }
+}
+
+/// The pose at a share of the screw motion that leads from one pose to another.
+pub(crate) fn on_screw(from: &Pose, to: &Pose, share: f64) -> Pose {
+    let relative = from.inverse() * to;
+    let turn = relative.rotation.scaled_axis();
+    // The place reached on a screw of rotation `w` and speed `u` in the moving frame is `V(w) u`.
+    let reach = |w: &Vector3<f64>| {
+        let (angle, hat) = (w.norm(), hat(w));
+        let (first, second) = if angle < 1e-4 {
+            (
+                0.5 - angle * angle / 24.0,
+                1.0 / 6.0 - angle * angle / 120.0,
+            )
+        } else {
+            let square = angle * angle;
+            (
+                (1.0 - angle.cos()) / square,
+                (angle - angle.sin()) / (square * angle),
+            )
+        };
+        Matrix3::identity() + hat * first + hat * hat * second
+    };
+    let place = relative.translation.vector;
+    let speed = reach(&turn)
+        .try_inverse()
+        .map_or(place, |inverse| inverse * place);
+    let part = turn * share;
+    let there = reach(&part) * (speed * share);
+    from * Pose::from_parts(there.into(), UnitQuaternion::from_scaled_axis(part))
+}
+
+/// Translation along, or rotation about, an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionKind {
+    /// Translation, m.
+    Prismatic,
+    /// Rotation, rad.
+    Revolute,
+}
+
+/// `d log(E exp(hat(w)))/dw` at `w = 0`, for `log E = e`.
+pub(crate) fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
+    let angle = e.norm();
+    let second = if angle < 1e-4 {
+        1.0 / 12.0
+    } else {
+        1.0 / (angle * angle) - 1.0 / (2.0 * angle * (0.5 * angle).tan())
+    };
+    Matrix3::identity() + 0.5 * hat(e) + second * hat(e) * hat(e)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::vector;
+
+    #[test]
+    fn work_does_not_depend_on_the_reference_point() {
+        let twist = Twist::new(vector![0.1, -0.2, 0.3], vector![0.4, 0.5, -0.6]);
+        let wrench = Wrench::new(vector![10.0, -3.0, 2.0], vector![1.0, 7.0, -4.0]);
+        let arm = vector![0.3, 0.9, -0.2];
+        let there = twist.shifted(&arm).dot(&wrench.shifted(&arm));
+        assert!((there - twist.dot(&wrench)).abs() < 1e-12);
+        assert!((shift_matrix(&arm) * twist.0 - twist.shifted(&arm).0).norm() < 1e-15);
+        assert!(
+            (shift_matrix(&arm).transpose() * wrench.shifted(&arm).0 - wrench.0).norm() < 1e-12
+        );
+    }
+
+    #[test]
+    fn residual_undoes_a_motion_for_tiny_and_large_angles() {
+        let pose = Pose::new(vector![0.2, -1.0, 3.0], vector![0.3, 2.0, -1.0]);
+        for size in [1e-9, 1e-3, 1.0, 3.1] {
+            let axis = vector![0.36, -0.48, 0.8] * size;
+            let twist = Twist::new(vector![0.1, 0.2, 0.3] * size, axis);
+            let back = pose_residual(&moved(&pose, &twist), &pose);
+            assert!((back.0 - twist.0).norm() < 1e-12 * size.max(1e-3), "{size}");
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Sums and multiples of twists and of wrenches. Both are about one point in one set of axes; only those
+//! that share them may be added.
+
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+use super::{Twist, Wrench};
+
+macro_rules! linear_space {
+    ($name:ident) => {
+        impl Add for $name {
+            type Output = Self;
+            fn add(self, other: Self) -> Self {
+                Self(self.0 + other.0)
+            }
+        }
+
+        impl AddAssign for $name {
+            fn add_assign(&mut self, other: Self) {
+                self.0 += other.0;
+            }
+        }
+
+        impl Sub for $name {
+            type Output = Self;
+            fn sub(self, other: Self) -> Self {
+                Self(self.0 - other.0)
+            }
+        }
+
+        impl SubAssign for $name {
+            fn sub_assign(&mut self, other: Self) {
+                self.0 -= other.0;
+            }
+        }
+
+        impl Neg for $name {
+            type Output = Self;
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+
+        impl Mul<f64> for $name {
+            type Output = Self;
+            fn mul(self, factor: f64) -> Self {
+                Self(self.0 * factor)
+            }
+        }
+
+        impl Mul<$name> for f64 {
+            type Output = $name;
+            fn mul(self, vector: $name) -> $name {
+                vector * self
+            }
+        }
+
+        impl Sum for $name {
+            fn sum<I: Iterator<Item = Self>>(iter: I) -> Self {
+                iter.fold(Self::zero(), Add::add)
+            }
+        }
+    };
+}
+
+linear_space!(Twist);
+linear_space!(Wrench);
+
+impl Mul<Twist> for super::CartesianStiffness {
+    type Output = Wrench;
+    /// The wrench that a small motion meets.
+    fn mul(self, twist: Twist) -> Wrench {
+        Wrench(self.matrix * twist.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix6, vector};
+
+    use super::*;
+    use crate::spatial::CartesianStiffness;
+
+    #[test]
+    fn sums_and_multiples_are_those_of_the_components() {
+        let one = Wrench(vector![1.0, -2.0, 3.0, 0.5, 0.0, -7.0]);
+        let other = Wrench(vector![0.25, 4.0, -1.0, 2.0, 8.0, 1.0]);
+        let mut grown = one;
+        grown += other;
+        assert_eq!(grown, one + other);
+        grown -= other;
+        assert_eq!(grown, one);
+        assert_eq!(-(one - other), other - one);
+        assert_eq!(2.0 * one, one + one);
+        assert_eq!(one * 0.5 + one * 0.5, one);
+        assert_eq!(
+            [one, other, one].into_iter().sum::<Wrench>(),
+            one + one + other
+        );
+    }
+
+    #[test]
+    fn a_stiffness_takes_a_motion_to_a_wrench() {
+        let matrix = Matrix6::from_fn(|i, j| (1 + i + 2 * j) as f64);
+        let twist = Twist(vector![1.0, 0.0, 0.0, 0.0, 0.0, -1.0]);
+        let wrench = CartesianStiffness { matrix } * twist;
+        assert_eq!(wrench.0, matrix.column(0) - matrix.column(5));
+    }
+}
