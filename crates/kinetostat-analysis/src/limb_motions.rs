@@ -14,7 +14,7 @@ pub fn redundant_actuators(posture: &Posture, limb: usize) -> Vec<usize> {
     let limb = &m.limbs()[index];
     let (chain, joints) = (&limb.nominal, &posture.limbs()[index]);
     let base = &posture.platforms()[limb.from];
-    let k = Kinematics::new(chain, base, &joints.coordinates, &joints.commands, false);
+    let k = Kinematics::new(chain, base, &joints.coordinates, &joints.commands);
     let all = k.jacobian(chain.tip());
     let n = chain.coordinate_count();
     let length = chain.scale().length;

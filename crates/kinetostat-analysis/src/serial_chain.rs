@@ -117,7 +117,7 @@ impl SerialChain {
                     x + size * unit * (0.4 + 0.6 * ((i + k) as f64 * 0.618_034).fract())
                 })
                 .collect();
-            let kinematics = Kinematics::new(&self.chain, &self.base, &x, &self.commands, false);
+            let kinematics = Kinematics::new(&self.chain, &self.base, &x, &self.commands);
             let jacobian = kinematics.jacobian(self.chain.tip());
             for j in 0..n {
                 for i in 0..6 {

@@ -85,7 +85,7 @@ pub fn weight(chain: &Chain, g: f64) -> kinetostat::Result<Load> {
 #[must_use]
 pub fn shape_criterion(chain: &Chain, coordinates: &[f64], force: f64) -> Vec<f64> {
     const ORDER: [usize; 3] = [1, 2, 0];
-    let kinematics = Kinematics::new(chain, &Pose::identity(), coordinates, &[], false);
+    let kinematics = Kinematics::new(chain, &Pose::identity(), coordinates, &[]);
     let pushed = Wrench::new(vector![force, 0.0, 0.0], Vector3::zeros());
     let (all, load) = (
         kinematics.jacobian(chain.tip()),

@@ -54,7 +54,7 @@ fn computed(imported: &Imported, commands: &[f64]) -> (Matrix4<f64>, Vec<f64>) {
         }
     }
     let base = mechanism.platforms()[0].home;
-    let k = Kinematics::new(chain, &base, &coordinates, &commands, false);
+    let k = Kinematics::new(chain, &base, &coordinates, &commands);
     let tip = k.tip_pose() * limb.platform_from_tip.inverse();
     let n = chain.coordinate_count();
     let mut torques = vec![0.0; commands.len()];
@@ -116,7 +116,7 @@ pub fn side_branches(urdf: &str, imported: &Imported, count: usize) -> (usize, f
             .collect();
         let coordinates = chain.home_coordinates();
         let base = kinetostat::Pose::identity();
-        let k = Kinematics::new(chain, &base, &coordinates, &commands, false);
+        let k = Kinematics::new(chain, &base, &coordinates, &commands);
         for &n in &nodes {
             let wanted = oracle.pose(&imported.base, &chain.nodes()[n], &values);
             worst.add((k.node_pose(n).to_homogeneous() - wanted).largest_entry());

@@ -22,7 +22,7 @@ struct Blocks {
 }
 
 fn blocks(chain: &Chain, x: &[f64]) -> Result<Blocks, Error> {
-    let k = Kinematics::new(chain, &Pose::identity(), x, &[], false);
+    let k = Kinematics::new(chain, &Pose::identity(), x, &[]);
     let (middle, end) = (chain.node("middle")?, chain.tip());
     let force = |f: [f64; 2]| Wrench::new(vector![f[0], f[1], 0.0], Vector3::zeros());
     Ok(Blocks {

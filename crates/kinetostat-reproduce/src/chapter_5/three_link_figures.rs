@@ -117,7 +117,7 @@ pub(crate) fn fig_5_5() -> Result<Contents, Cause> {
 
 /// The links of a chain at a posture, as a line.
 pub(crate) fn outline(chain: &Chain, angles: &[f64], joints: &[&str]) -> Vec<(f64, f64)> {
-    let k = Kinematics::new(chain, &Pose::identity(), angles, &[], false);
+    let k = Kinematics::new(chain, &Pose::identity(), angles, &[]);
     let mut points = vec![(0.0, 0.0)];
     for name in joints {
         if let Ok(node) = chain.node(name) {

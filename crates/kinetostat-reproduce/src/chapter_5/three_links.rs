@@ -379,7 +379,7 @@ pub(crate) fn eq_5_34() -> Result<Contents, Cause> {
 /// `J^T J` of a three-link chain at angles, order (th1, th2, q), l = 1.
 fn gram(q: f64, t1: f64, t2: f64) -> Result<Matrix3<f64>, Cause> {
     let chain = linked("three links", &[0.0, 0.0]).build()?;
-    let k = Kinematics::new(&chain, &Pose::identity(), &[q, t1, t2], &[], false);
+    let k = Kinematics::new(&chain, &Pose::identity(), &[q, t1, t2], &[]);
     let j = k.jacobian(chain.tip());
     let order = [1, 2, 0];
     let column = |i: usize| j.fixed_view::<2, 1>(0, order[i]).into_owned();

@@ -96,7 +96,7 @@ fn an_elastica_is_found_together() {
         // Residual of K theta = J^T F, from the general engine's Jacobian.
         let chain = &machine.limbs()[0].actual;
         let own: Vec<f64> = one.coordinates.row(0).collect();
-        let at = Kinematics::new(chain, &Pose::identity(), &own, &[], false);
+        let at = Kinematics::new(chain, &Pose::identity(), &own, &[]);
         let torque = at.jacobian(chain.tip()).transpose() * load.0;
         let k = segment(1.0 / segments as f64);
         let mut lacks = torque.clone();

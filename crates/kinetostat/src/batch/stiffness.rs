@@ -145,7 +145,7 @@ impl Batch {
             &posture.limbs()[0],
         );
         let (x, commands) = (&own.coordinates, &own.commands);
-        let at = Kinematics::new(&limb.nominal, base, x, commands, false);
+        let at = Kinematics::new(&limb.nominal, base, x, commands);
         let mut j = at.jacobian(limb.nominal.tip());
         let tip = at.tip_pose();
         let tool = tip * limb.platform_from_tip.inverse();

@@ -41,7 +41,7 @@ pub fn is_conservative(problem: &ChainProblem<'_>) -> bool {
 pub fn load_energy(problem: &ChainProblem<'_>, coordinates: &[f64]) -> Result<Option<f64>> {
     let (chain, commands) = (problem.chain, &problem.commands);
     chain.check(coordinates, commands)?;
-    let kinematics = Kinematics::new(chain, &problem.base, coordinates, commands, false);
+    let kinematics = Kinematics::new(chain, &problem.base, coordinates, commands);
     let dead = |node: usize, wrench: &Wrench| {
         let forces = -wrench.force().dot(&kinematics.node_position(node));
         if wrench.moment() == Vector3::zeros() {

@@ -33,7 +33,7 @@ pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
         }
     }
     let (x, commands) = (&problem.posture, &problem.commands);
-    let kinematics = Kinematics::new(chain, base, x, commands, false);
+    let kinematics = Kinematics::new(chain, base, x, commands);
     problem
         .loads
         .iter()

@@ -47,7 +47,7 @@ impl System {
         commands: &[f64],
         base_moves: bool,
     ) -> Self {
-        let kinematics = Kinematics::new(chain, base, posture, commands, base_moves);
+        let kinematics = Kinematics::of_limb(chain, base, posture, commands, base_moves);
         let (n, all) = (chain.coordinate_count(), kinematics.velocity_count());
         Self {
             jacobian: kinematics.jacobian(chain.tip()),
@@ -84,7 +84,7 @@ impl System {
         else {
             return Self::new(chain, base, posture, commands, false);
         };
-        let kinematics = Kinematics::new(chain, base, posture, commands, false);
+        let kinematics = Kinematics::new(chain, base, posture, commands);
         let (n, all) = (chain.coordinate_count(), kinematics.velocity_count());
         Self {
             jacobian: kinematics.jacobian(chain.tip()),

@@ -164,7 +164,7 @@ fn grow_load(
     let mut x = nudged(problem.chain, &problem.posture, aside(longest));
     let mut wrench = Wrench::zero();
     let start =
-        Kinematics::new(problem.chain, &problem.base, &x, &problem.commands, false).tip_pose();
+        Kinematics::new(problem.chain, &problem.base, &x, &problem.commands).tip_pose();
     attempt.way = if on_screw {
         Way::Screw(start)
     } else {

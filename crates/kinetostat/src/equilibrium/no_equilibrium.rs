@@ -47,7 +47,7 @@ fn held_outside(problem: &ChainProblem<'_>) -> Option<Error> {
             x + k as f64 * unit * (0.2 + 0.6 * ((i + k) as f64 * 0.618_034).fract())
         };
         let x: Vec<f64> = problem.posture.iter().enumerate().map(moved).collect();
-        let here = Kinematics::new(chain, &problem.base, &x, &problem.commands, false);
+        let here = Kinematics::new(chain, &problem.base, &x, &problem.commands);
         let jacobian = here.jacobian(chain.tip());
         for j in 0..n {
             let column = DVector::from_fn(6, |i, _| jacobian[(i, j)] * unit(i));

@@ -74,7 +74,7 @@ pub(crate) fn limb_motions(
     let (l, joints) = (&posture.mechanism.limbs()[limb], &posture.limbs[limb]);
     let chain = &l.nominal;
     let base = &posture.platforms[l.from];
-    let kinematics = Kinematics::new(chain, base, &joints.coordinates, &joints.commands, false);
+    let kinematics = Kinematics::new(chain, base, &joints.coordinates, &joints.commands);
     let all = kinematics.jacobian(chain.tip());
     let n = chain.coordinate_count();
     let mut columns: Vec<(usize, MotionKind)> = chain

@@ -47,9 +47,25 @@ pub struct Kinematics {
 }
 
 impl Kinematics {
-    /// At the given base pose, coordinates (m, rad) and commands (m, rad).
+    /// At the given base pose, coordinates (m, rad) and commands (m, rad); the base does not move.
     #[must_use]
-    pub fn new(
+    pub fn new(chain: &Chain, base: &Pose, coordinates: &[f64], commands: &[f64]) -> Self {
+        Self::of_limb(chain, base, coordinates, commands, false)
+    }
+
+    /// As [`Self::new`], with six generalised velocities more: those of a base that moves.
+    #[must_use]
+    pub fn with_moving_base(
+        chain: &Chain,
+        base: &Pose,
+        coordinates: &[f64],
+        commands: &[f64],
+    ) -> Self {
+        Self::of_limb(chain, base, coordinates, commands, true)
+    }
+
+    /// One of the two.
+    pub(crate) fn of_limb(
         chain: &Chain,
         base: &Pose,
         coordinates: &[f64],
@@ -332,5 +348,5 @@ pub struct NodeTangent {
 /// coordinates and commands.
 #[must_use]
 pub fn unloaded_tip(chain: &Chain, base: &Pose, coordinates: &[f64], commands: &[f64]) -> Pose {
-    Kinematics::new(chain, base, coordinates, commands, false).tip_pose()
+    Kinematics::new(chain, base, coordinates, commands).tip_pose()
 }

@@ -176,7 +176,7 @@ impl MechanismBuilder {
             let base = &m.platforms[limb.from].home;
             check_load(
                 chain,
-                &Kinematics::new(chain, base, &x, &commands, false),
+                &Kinematics::new(chain, base, &x, &commands),
                 base,
                 &x,
                 &commands,

@@ -438,12 +438,6 @@ fn a_link_has_one_description_of_its_orientation() {
 /// Where the end of an unloaded chain is.
 fn chain_end(chain: &Chain) -> kinetostat::Pose {
     let home = chain.home_coordinates();
-    let k = kinetostat::model::Kinematics::new(
-        chain,
-        &kinetostat::Pose::identity(),
-        &home,
-        &chain.home_commands(),
-        false,
-    );
+    let k = kinetostat::model::Kinematics::new(chain, &kinetostat::Pose::identity(), &home, &chain.home_commands());
     k.node_pose(chain.tip())
 }

@@ -93,7 +93,7 @@ pub struct Compared {
 fn compare(r: &RandomChain, problem: &ChainProblem<'_>, e: &Equilibrium) -> Compared {
     let chain = problem.chain;
     let n = chain.coordinate_count();
-    let at = |x: &[f64]| Kinematics::new(chain, &r.base, x, &r.commands, false);
+    let at = |x: &[f64]| Kinematics::new(chain, &r.base, x, &r.commands);
     let here = at(&e.coordinates);
     let t = euler(&here.tip_pose());
     let b = rates(&t);

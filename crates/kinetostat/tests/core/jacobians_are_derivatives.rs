@@ -22,7 +22,7 @@ pub fn jacobian_error(seed: u64) -> (f64, String) {
     let r = random_chain(&mut rng, &recipe);
     let (n, c) = (r.chain.coordinate_count(), r.commands.len());
     let x: Vec<f64> = r.posture.iter().map(|v| v + 0.3 * rng.signed()).collect();
-    let kinematics = Kinematics::new(&r.chain, &r.base, &x, &r.commands, true);
+    let kinematics = Kinematics::with_moving_base(&r.chain, &r.base, &x, &r.commands);
     assert_eq!(kinematics.velocity_count(), n + c + 6);
     let at = |index: usize, s: f64| {
         let (mut x, mut commands, mut base) = (x.clone(), r.commands.clone(), r.base);
@@ -35,7 +35,7 @@ pub fn jacobian_error(seed: u64) -> (f64, String) {
             t[index - n - c] = s;
             base = moved(&base, &Twist(t));
         }
-        Kinematics::new(&r.chain, &base, &x, &commands, true)
+        Kinematics::with_moving_base(&r.chain, &base, &x, &commands)
     };
     let h = 2e-3;
     let mut worst = (0.0, String::new());
@@ -97,7 +97,7 @@ pub fn hessian_error(seed: u64) -> f64 {
         .map(|node| (node, rng.wrench(300.0, 40.0)))
         .collect();
     let n = r.chain.coordinate_count();
-    let at = |x: &[f64]| Kinematics::new(&r.chain, &r.base, x, &r.commands, false);
+    let at = |x: &[f64]| Kinematics::new(&r.chain, &r.base, x, &r.commands);
     let torques = |j: usize, s: f64| {
         let mut x = x.clone();
         x[j] += s;

@@ -44,20 +44,14 @@ fn commands_move_the_followers_too() {
     let base = Pose::identity();
     let (turn, slide) = (0.4, 0.25);
     let rigid = chain(None);
-    let k = Kinematics::new(&rigid, &base, &[], &[turn, slide], false);
+    let k = Kinematics::new(&rigid, &base, &[], &[turn, slide]);
     let gap = |pose: &Pose| {
         (pose.to_homogeneous() - by_hand(turn, slide).to_homogeneous()).largest_entry()
     };
     assert!(gap(&k.tip_pose()) < 1e-14);
     // Command and deflection add up, whatever their shares.
     let elastic = chain(Some(1e5));
-    let k = Kinematics::new(
-        &elastic,
-        &base,
-        &[0.3, -0.05],
-        &[turn - 0.3, slide + 0.05],
-        false,
-    );
+    let k = Kinematics::new(&elastic, &base, &[0.3, -0.05], &[turn - 0.3, slide + 0.05]);
     assert!(gap(&k.tip_pose()) < 1e-14);
     // The Jacobian against differences of the product by hand.
     let jacobian = k.jacobian(elastic.tip());
@@ -76,7 +70,7 @@ fn commands_move_the_followers_too() {
 fn a_drive_carries_the_loads_of_its_followers() {
     let chain = chain(None);
     let base = Pose::identity();
-    let k = Kinematics::new(&chain, &base, &[], &[0.4, 0.25], false);
+    let k = Kinematics::new(&chain, &base, &[], &[0.4, 0.25]);
     let wrench = Wrench::new(vector![30.0, -20.0, 50.0], vector![0.0, 0.0, 0.0]);
     let torques = k.jacobian(chain.tip()).transpose() * wrench.0;
     // Virtual work by hand.

@@ -110,7 +110,7 @@ fn bowl(node: usize) -> FunctionLoad {
 
 /// Work of a load along a small change of coordinates, by its wrenches at the middle.
 fn torque(r: &RandomChain, load: &Load, x: &[f64]) -> Vec<f64> {
-    let kinematics = Kinematics::new(&r.chain, &r.base, x, &r.commands, false);
+    let kinematics = Kinematics::new(&r.chain, &r.base, x, &r.commands);
     let mut list = Vec::new();
     match load {
         Load::Dead { node, wrench } => list.push((*node, *wrench)),

@@ -319,13 +319,7 @@ pub fn spatial_runs() -> Vec<SpatialRun> {
 fn spatial_run(problem: &ChainProblem<'_>, exact: &Equilibrium) -> SpatialRun {
     let chain = problem.chain;
     let n = chain.coordinate_count();
-    let kinematics = Kinematics::new(
-        chain,
-        &problem.base,
-        &exact.coordinates,
-        &problem.commands,
-        false,
-    );
+    let kinematics = Kinematics::new(chain, &problem.base, &exact.coordinates, &problem.commands);
     let h = kinematics.hessian(&[(chain.tip(), exact.wrench)]);
     let j = kinematics.jacobian(chain.tip());
     let w = |i: usize| j.fixed_view::<3, 1>(3, i).into_owned();

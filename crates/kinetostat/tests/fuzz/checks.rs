@@ -222,7 +222,7 @@ fn rounding(block: &SpringBlock, x: &[f64], posture: &[f64], length: f64) -> Vec
 /// Wrenches of all loads at the given state.
 fn wrenches(problem: &ChainProblem<'_>, x: &[f64]) -> Vec<(usize, Wrench)> {
     let chain = problem.chain;
-    let kinematics = Kinematics::new(chain, &problem.base, x, &problem.commands, false);
+    let kinematics = Kinematics::new(chain, &problem.base, x, &problem.commands);
     let mut list = Vec::new();
     for load in &problem.loads {
         match load {

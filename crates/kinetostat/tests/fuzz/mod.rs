@@ -343,7 +343,7 @@ pub fn notices(seed: u64) -> Option<bool> {
     e.coordinates[moved] += 1e-4 * unit;
     // Poses of the moved chain, so that the conditions have to see it.
     let x = &e.coordinates;
-    let k = kinetostat::model::Kinematics::new(&chain, &problem.base, x, &problem.commands, false);
+    let k = kinetostat::model::Kinematics::new(&chain, &problem.base, x, &problem.commands);
     e.nodes = (0..chain.nodes().len()).map(|i| k.node_pose(i)).collect();
     e.tip = k.tip_pose();
     let broken = catch_unwind(AssertUnwindSafe(|| checks::equilibrium(&problem, &e, 1e-7)));

@@ -265,7 +265,7 @@ impl<'m> GraphSearch<'m> {
                 let chain = &limb.nominal;
                 let base = &at.platforms[limb.from];
                 let (x, commands) = (&joints.coordinates, &joints.commands);
-                let kinematics = Kinematics::new(chain, base, x, commands, limb.from != 0);
+                let kinematics = Kinematics::of_limb(chain, base, x, commands, limb.from != 0);
                 let all = kinematics.jacobian(chain.tip());
                 let (n, r) = (chain.coordinate_count(), commands.len());
                 let own = chain.scale().length;

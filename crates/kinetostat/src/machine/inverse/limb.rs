@@ -87,7 +87,7 @@ pub fn inverse_kinematics(
 #[must_use]
 pub(crate) fn command_rates(chain: &Chain, base: &Pose, posture: &LimbPosture) -> DMatrix<f64> {
     let search = Search::new(chain, base, &Pose::identity());
-    let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands, false);
+    let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands);
     let jacobian = search.jacobian(&kinematics);
     // Least squares by the normal equations where the joints are certainly independent.
     let inverse = (jacobian.transpose() * &jacobian)
@@ -109,7 +109,7 @@ pub(crate) fn command_rates(chain: &Chain, base: &Pose, posture: &LimbPosture) -
 /// cannot make, 6 x 6, in balanced units (rotations times the natural length).
 pub(crate) fn blocked_motions(chain: &Chain, base: &Pose, posture: &LimbPosture) -> DMatrix<f64> {
     let search = Search::new(chain, base, &Pose::identity());
-    let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands, false);
+    let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands);
     let jacobian = search.jacobian(&kinematics);
     let (inverse, _) = pseudo_inverse(&jacobian);
     DMatrix::identity(6, 6) - jacobian * inverse
@@ -165,7 +165,7 @@ impl<'a> Search<'a> {
     /// Levenberg-Marquardt from `at`; `Err` holds the remaining distance and pose.
     fn run(&mut self, mut at: LimbPosture) -> std::result::Result<LimbPosture, (f64, Pose)> {
         let mut kinematics =
-            Kinematics::new(self.chain, self.base, &at.coordinates, &at.commands, false);
+            Kinematics::new(self.chain, self.base, &at.coordinates, &at.commands);
         let mut miss = self.miss(&kinematics);
         let mut damping = 0.0_f64;
         let goal = 1e-13 * self.length;
@@ -237,13 +237,7 @@ impl<'a> Search<'a> {
     /// Follows the straight way from home to the target in small steps.
     fn walk(&mut self, home: &LimbPosture) -> std::result::Result<LimbPosture, (f64, Pose)> {
         let goal = self.target;
-        let start = Kinematics::new(
-            self.chain,
-            self.base,
-            &home.coordinates,
-            &home.commands,
-            false,
-        )
+        let start = Kinematics::new(self.chain, self.base, &home.coordinates, &home.commands)
         .tip_pose();
         let way = pose_residual(&goal, &start);
         let mut at = home.clone();

@@ -40,7 +40,7 @@ pub fn check_tangents(
     chain.check(coordinates, commands)?;
     let place = Place::chain(chain.name());
     crate::model::limits::check_pose(&place, "the pose of the base", base)?;
-    let kinematics = Kinematics::new(chain, base, coordinates, commands, false);
+    let kinematics = Kinematics::new(chain, base, coordinates, commands);
     fits(chain, &kinematics, load)?;
     let length = chain.scale().length;
     let nodes = chain.nodes().len();
@@ -85,7 +85,7 @@ pub fn check_tangents(
         let at = |share: f64| {
             let mut near = coordinates.to_vec();
             near[i] += share * step * unit;
-            stacked(&Kinematics::new(chain, base, &near, commands, false))
+            stacked(&Kinematics::new(chain, base, &near, commands))
         };
         let differences: DVector<f64> =
             (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step);

@@ -20,7 +20,7 @@ fn forward(mechanism: &kinetostat::Mechanism, commands: &[f64]) -> Pose {
     };
     let rest = limb.nominal.home_coordinates();
     let base = Pose::identity();
-    let k = Kinematics::new(&limb.nominal, &base, &rest, commands, false);
+    let k = Kinematics::new(&limb.nominal, &base, &rest, commands);
     k.tip_pose() * limb.platform_from_tip.inverse()
 }
 

@@ -166,7 +166,7 @@ fn unbent(name: &str) -> Mechanism {
 fn found(mechanism: &Mechanism, commands: &[f64]) -> Vec<f64> {
     let limb = &mechanism.limbs()[0];
     let rest = limb.nominal.home_coordinates();
-    let k = Kinematics::new(&limb.nominal, &Pose::identity(), &rest, commands, false);
+    let k = Kinematics::new(&limb.nominal, &Pose::identity(), &rest, commands);
     let target = k.tip_pose() * limb.platform_from_tip.inverse();
     let joints = LimbPosture {
         commands: commands.to_vec(),
