@@ -52,7 +52,12 @@ pub fn is_degenerate(
     }
     let anywhere = sizes(chain.movable().basis);
     let rank = anywhere.iter().filter(|s| **s > 1e-6 * anywhere[0]).count();
-    let kinematics = Kinematics::new(problem.chain, &problem.base, &e.coordinates, &problem.commands);
+    let kinematics = Kinematics::new(
+        problem.chain,
+        &problem.base,
+        &e.coordinates,
+        &problem.commands,
+    );
     let mut here = kinematics.jacobian(problem.chain.tip());
     for mut column in here.column_iter_mut() {
         column.rows_mut(0, 3).unscale_mut(length);

@@ -70,11 +70,7 @@ struct Row {
 fn measure(chain: &Chain, asked: long::Asked) -> kinetostat::Result<Row> {
     let exact = Settings::default();
     // Stopped earlier, with the same end: the difference is iterations and nothing else.
-    let rough = Settings {
-        closure: 1e-3,
-        torque: 1e-2,
-        ..exact
-    };
+    let rough = exact.with_closure(1e-3).with_torque(1e-2);
     let problem = long::problem(chain, asked);
     let iterations = solve_chain(&problem, &exact)?.residual.iterations;
     let fewer = solve_chain(&problem, &rough)?.residual.iterations;

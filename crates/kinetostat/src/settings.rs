@@ -6,8 +6,27 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
 
+/// `settings.with_field(value)`: the same settings with one of them changed, because settings to come must not break
+/// programs that write them down.
+macro_rules! setters {
+    ($type:ident { $($setter:ident: $field:ident: $kind:ty,)+ }) => {
+        impl $type {
+            $(
+                #[doc = concat!("The same settings with another [`", stringify!($field), "`](Self::", stringify!($field), ").")]
+                #[must_use]
+                pub fn $setter(mut self, $field: $kind) -> Self {
+                    self.$field = $field;
+                    self
+                }
+            )+
+        }
+    };
+}
+pub(crate) use setters;
+
 /// Tolerances and limits; the defaults suit every machine in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Settings {
     /// Largest closure left over, as a share of the chain's natural length. Default 1e-12.
     pub closure: f64,
@@ -20,6 +39,14 @@ pub struct Settings {
     /// Smallest load step before a failure is reported (1e-9 at least). Default 1/1024.
     pub smallest_load_step: f64,
 }
+
+crate::settings::setters!(Settings {
+    with_closure: closure: f64,
+    with_torque: torque: f64,
+    with_iterations: iterations: usize,
+    with_picard_steps: picard_steps: usize,
+    with_smallest_load_step: smallest_load_step: f64,
+});
 
 impl Default for Settings {
     fn default() -> Self {

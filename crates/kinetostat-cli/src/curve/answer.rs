@@ -227,6 +227,7 @@ pub(crate) fn kind_name(kind: SpecialKind) -> &'static str {
         SpecialKind::Transcritical => "transcritical",
         SpecialKind::StabilityChange => "crossing",
         SpecialKind::Multiple { .. } => "multiple",
+        _ => "special",
     }
 }
 

@@ -198,7 +198,7 @@ impl Names<'_> {
                 BranchEnd::Points => "as many points as allowed",
                 BranchEnd::Lost => "no further point was found",
                 BranchEnd::Stalled => "ever shorter steps made no progress",
-                BranchEnd::Closed | BranchEnd::Found => continue,
+                _ => continue,
             };
             if let Some(p) = p.filter(|p| k > 0 || !is_start(p)) {
                 let words = format!("end of branch {}: {words}", k + 1);
@@ -245,6 +245,7 @@ fn special_in_words(s: &Special) -> String {
             "stability changes here without a limit: another branch crosses".to_owned()
         }
         SpecialKind::Multiple { modes } => format!("{modes} modes become critical together"),
+        _ => "special point".to_owned(),
     };
     format!("{text}{tail}")
 }

@@ -24,14 +24,15 @@ pub(crate) fn solve(
     stage.is("looking for singular postures nearby");
     let warnings = machine.near_singular(&posture, 0.0)?;
     stage.is("searching for equilibria");
-    let settings = SpreadSettings {
-        starts: q.settings.starts,
+    let settings = SpreadSettings::default()
+        .with_starts(q.settings.starts)
         // A start of a machine costs more than one of a chain.
-        fruitless: match q.settings.fruitless == SearchSettings::default().fruitless {
-            true => SpreadSettings::default().fruitless,
-            false => q.settings.fruitless,
-        },
-    };
+        .with_fruitless(
+            match q.settings.fruitless == SearchSettings::default().fruitless {
+                true => SpreadSettings::default().fruitless,
+                false => q.settings.fruitless,
+            },
+        );
     let all = posture.equilibria(&q.end, &settings)?;
     let equilibria = all
         .found

@@ -53,12 +53,10 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
         ))),
     };
     let default = SearchSettings::default();
-    let settings = SearchSettings {
-        starts: count("--starts", args.starts, default.starts)?,
-        fruitless: count("--fruitless", args.fruitless, default.fruitless)?,
-        most: MOST_KNOWN,
-        ..default
-    };
+    let settings = default
+        .with_starts(count("--starts", args.starts, default.starts)?)
+        .with_fruitless(count("--fruitless", args.fruitless, default.fruitless)?)
+        .with_most(MOST_KNOWN);
     let along = [shift, acting.force()]
         .into_iter()
         .find(|v| v.norm() > 0.0)

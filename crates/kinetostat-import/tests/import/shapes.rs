@@ -118,7 +118,12 @@ fn a_follower_before_its_source_leads() {
     let oracle = crate::oracle::Oracle::new(&text);
     let values = [("two", 0.5), ("three", 0.2)].into();
     let wanted = oracle.pose("a", "e", &values);
-    let k = kinetostat::model::Kinematics::new(chain, &kinetostat::Pose::identity(), &chain.home_coordinates(), &[-0.7, 0.2]);
+    let k = kinetostat::model::Kinematics::new(
+        chain,
+        &kinetostat::Pose::identity(),
+        &chain.home_coordinates(),
+        &[-0.7, 0.2],
+    );
     let gap = (k.tip_pose().to_homogeneous() - wanted).largest_entry();
     assert!(gap < 1e-12, "{gap}");
 }

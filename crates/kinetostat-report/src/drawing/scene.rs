@@ -112,7 +112,12 @@ impl Scene {
             return;
         }
         let own = &mechanism.limbs()[limb];
-        let kinematics = Kinematics::new(placed.chain(own), &placed.platforms[own.from], &placed.coordinates[limb], &placed.commands[limb]);
+        let kinematics = Kinematics::new(
+            placed.chain(own),
+            &placed.platforms[own.from],
+            &placed.coordinates[limb],
+            &placed.commands[limb],
+        );
         for load in mechanism.loads(limb) {
             if let Load::Custom(load) = load
                 && let Some([from, to]) = load.line(&kinematics)

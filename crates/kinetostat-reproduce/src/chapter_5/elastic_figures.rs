@@ -213,10 +213,7 @@ fn flat(items: &mut Vec<Item>) -> Result<(), Cause> {
 /// Where the stiffness of the upper shape at dx = 0 vanishes.
 fn critical(chain: &Chain, items: &mut Vec<Item>) -> Result<(), Cause> {
     // The stiffness is steep here: converged beyond the default.
-    let settings = Settings {
-        torque: 1e-13,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_torque(1e-13);
     let at = |g: f64| -> Result<Equilibrium, Cause> {
         Ok(solve_chain(&problem(chain, g, 0.0)?, &settings)?)
     };

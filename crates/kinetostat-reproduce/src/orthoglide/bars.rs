@@ -52,7 +52,7 @@ impl Barred {
                 |name: String, from, to, chain: Chain, commands: Vec<f64>, set: &[(&str, f64)]| {
                     let coordinates = coordinates_with(&chain, set);
                     limbs.push((
-                        limb_of(name, from, to, chain),
+                        Limb::between(name, from, to, chain),
                         LimbPosture {
                             commands,
                             coordinates,
@@ -91,7 +91,7 @@ impl Barred {
         for (name, far, leg, q3) in heads {
             let chain = head(Chain::builder(format!("head {name}")), leg).build()?;
             limbs.push((
-                limb_of(format!("head {name}"), far, tool, chain),
+                Limb::between(format!("head {name}"), far, tool, chain),
                 LimbPosture {
                     commands: Vec::new(),
                     coordinates: vec![q3],
@@ -115,18 +115,6 @@ impl Barred {
         Ok(self
             .mechanism
             .posture(PostureRequest::joints(&self.target, self.joints.clone()))?)
-    }
-}
-
-/// A limb as it is drawn, whose tip is the platform's own frame.
-fn limb_of(name: String, from: usize, to: usize, chain: Chain) -> Limb {
-    Limb {
-        name,
-        from,
-        to,
-        platform_from_tip: Pose::identity(),
-        nominal: chain.clone(),
-        actual: chain,
     }
 }
 

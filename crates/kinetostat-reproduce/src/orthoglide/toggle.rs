@@ -155,10 +155,7 @@ pub(super) fn report_rate(machine: &Mechanism, at: f64, moved: f64) -> Result<f6
     let place = Vector3::repeat(at) + diagonal() * (moved * 1e-3);
     let problem = first_leg(&posture, place)?;
     // The rate belongs to the equilibrium: no step of the iteration is needed for it.
-    let settings = IterationSettings {
-        steps: 1,
-        ..IterationSettings::default()
-    };
+    let settings = IterationSettings::default().with_steps(1);
     let run = report_iteration(&problem, None, &settings)?;
     run.rate_at_start
         .ok_or_else(|| Cause::Missing("the rate of the report's iteration".to_owned()))

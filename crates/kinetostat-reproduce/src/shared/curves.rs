@@ -176,6 +176,7 @@ pub(crate) fn word(kind: SpecialKind) -> &'static str {
         SpecialKind::Transcritical => "transcritical",
         SpecialKind::StabilityChange => "change of stability",
         SpecialKind::Multiple { .. } => "multiple bifurcation",
+        _ => "special point",
     }
 }
 

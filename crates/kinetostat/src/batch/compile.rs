@@ -117,7 +117,12 @@ fn redundant_passive_joints(chain: &Chain) -> Vec<usize> {
             Role::Spring => *x,
         })
         .collect();
-    let at = Kinematics::new(chain, &Pose::identity(), &coordinates, &chain.home_commands());
+    let at = Kinematics::new(
+        chain,
+        &Pose::identity(),
+        &coordinates,
+        &chain.home_commands(),
+    );
     let jacobian = at.jacobian(chain.tip());
     let length = chain.scale().length;
     let mut basis: Vec<nalgebra::DVector<f64>> = Vec::new();

@@ -18,6 +18,7 @@ use crate::spatial::{Directions, Pose, Wrench};
 
 /// Loaded equilibrium of many postures.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct BatchEquilibrium {
     /// Pose of the tool, 12 numbers: rotation matrix (base from tool) row by row, position (m).
     pub tool: Table,
@@ -40,6 +41,7 @@ pub struct BatchEquilibrium {
 
 /// Whether an equilibrium holds, and how well.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Verdict {
     /// Every limb keeps its shape and the platform its place, as [`MechanismEquilibrium::stable`].
     pub stable: bool,
@@ -53,6 +55,7 @@ pub struct Verdict {
 
 /// Commanded poses of many postures, with the equilibria that they lead to.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct BatchTargets {
     /// Pose for which the machine is commanded, base from tool; numbers that are none where
     /// `equilibrium.status` says [`Status::Unsolved`].

@@ -13,6 +13,7 @@ use crate::spatial::Pose;
 
 /// Unloaded stiffness of many postures.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct BatchStiffness {
     /// Cartesian stiffness of the tool at its origin, base axes, 36 numbers row by row (N/m, N/rad,
     /// N m/m, N m/rad), as in [`crate::UnloadedStiffness`].

@@ -260,7 +260,12 @@ fn a_serial_arm_has_its_tangent() {
         assert!(same(&all.stiffness, &alone.stiffness.matrix) < 1e-12);
         let unloaded = posture.stiffness().expect("a stiffness");
         assert!(same(&free.stiffness, &unloaded.cartesian.matrix) < 1e-12);
-        let at = crate::model::Kinematics::new(&machine.limbs()[0].nominal, &Pose::identity(), &[0.0; 21], &commands[3 * i..3 * i + 3]);
+        let at = crate::model::Kinematics::new(
+            &machine.limbs()[0].nominal,
+            &Pose::identity(),
+            &[0.0; 21],
+            &commands[3 * i..3 * i + 3],
+        );
         let jacobian = at.jacobian(machine.limbs()[0].nominal.tip());
         for (k, x) in free.jacobian.row(i).enumerate() {
             assert!((x - jacobian[(k / 21, k % 21)]).abs() < 1e-14);

@@ -39,6 +39,7 @@ pub(crate) fn stiffness_against_force(
 /// `twist = springs * wrench + any combination of free`, for wrenches that do no work on the free
 /// directions. Base axes, at the tip.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CartesianCompliance {
     /// 6 x 6 (m/N, rad/N, rad/(N m)). Unloaded: `J_theta K_theta^-1 J_theta^T`. Zero along rigid
     /// directions.

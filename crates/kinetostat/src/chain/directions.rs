@@ -42,6 +42,7 @@ pub struct Share {
 
 /// A principal direction of the (symmetric part of the) stiffness.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Direction {
     /// Free, finite, negative or rigid.
     pub kind: DirectionKind,

@@ -27,6 +27,7 @@ use crate::spatial::{Pose, Wrench};
 
 /// A chain in equilibrium.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Equilibrium {
     /// Coordinates, m or rad, in the chain's order.
     pub coordinates: Vec<f64>,

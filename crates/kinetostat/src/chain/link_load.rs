@@ -8,6 +8,7 @@ use crate::model::chain::Chain;
 
 /// How a link is loaded along its axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct LinkLoad {
     /// Name of the link.
     pub link: String,

@@ -28,6 +28,7 @@ impl Balance {
 
 /// How well the conditions of equilibrium hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Residual {
     /// Closure of the end pose where it is prescribed, m (rotations at the natural length).
     pub closure_m: f64,

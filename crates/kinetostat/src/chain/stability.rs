@@ -27,6 +27,7 @@ use crate::model::chain::Chain;
 
 /// Whether a chain keeps its shape while its end is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ShapeStability {
     /// No neighbouring shape of the held chain has less energy; for loads without a potential: it does
     /// not go away (divergence), but see [`may_flutter`](Self::may_flutter).
@@ -51,6 +52,7 @@ pub struct ShapeStability {
 /// What a shape is, in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum ShapeVerdict {
     /// It holds: every neighbouring shape has more energy.
     Stable,

@@ -26,6 +26,7 @@ use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 
 /// Stiffness of a chain at its tip.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ChainStiffness {
     /// `K_C`, base axes, at the tip. Rigid directions contribute nothing to it: see `directions`.
     pub cartesian: CartesianStiffness,

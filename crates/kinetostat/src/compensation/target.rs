@@ -20,6 +20,7 @@ use crate::spatial::{Directions, Pose, Twist, Wrench, pose_residual};
 
 /// A compensated target.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Compensation {
     /// Posture commanded for the modified target `t0F`.
     pub posture: Posture,

@@ -24,6 +24,7 @@ use crate::continuation::settings::CurveSettings;
 /// Why a branch ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum BranchEnd {
     /// The parameter or its conjugate reached a limit.
     Range,
@@ -71,6 +72,7 @@ impl CurveStability for ShapeStability {
 
 /// An equilibrium on a curve.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct CurvePoint<E: CurveEquilibrium = Equilibrium> {
     /// Displacement (m, rad) or load factor.
     pub parameter: f64,
@@ -123,6 +125,7 @@ impl<E: CurveEquilibrium> CurvePoint<E> {
 /// What is special about a point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum SpecialKind {
     /// Limit point of the load: under a dead load the chain jumps (snap-through).
     LoadLimit,
@@ -155,6 +158,7 @@ impl SpecialKind {
 
 /// A limit point or a bifurcation point.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Special<E: CurveEquilibrium = Equilibrium> {
     /// Which kind.
     pub kind: SpecialKind,
@@ -178,6 +182,7 @@ pub struct Special<E: CurveEquilibrium = Equilibrium> {
 
 /// A smooth path of equilibria.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Branch<E: CurveEquilibrium = Equilibrium> {
     /// In order along the path.
     pub points: Vec<CurvePoint<E>>,
@@ -189,6 +194,7 @@ pub struct Branch<E: CurveEquilibrium = Equilibrium> {
 
 /// A curve of equilibria and the branches connected to it.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Curves<'a> {
     /// The problem at parameter 0.
     pub problem: ChainProblem<'a>,
@@ -206,6 +212,7 @@ pub struct Curves<'a> {
 
 /// A jump from a limit point.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Jump<E: CurveEquilibrium = Equilibrium> {
     /// The limit point: index into [`Curves::specials`].
     pub from: usize,

@@ -14,6 +14,7 @@ use crate::spatial::{Pose, Twist, Wrench, moved, pose_residual};
 
 /// One point of a curve.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct HeldPoint {
     /// Along the direction from the nominal target, in units of the direction.
     pub along: f64,
@@ -29,6 +30,7 @@ pub struct HeldPoint {
 
 /// A curve of holding wrenches.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct HeldCurve {
     /// Points in their order.
     pub points: Vec<HeldPoint>,

@@ -13,6 +13,7 @@ use crate::machine::posture::Posture;
 
 /// An equilibrium on a machine's path.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct PathPoint {
     /// Displacement from the nominal target (m, rad) or load factor.
     pub parameter: f64,
@@ -47,6 +48,7 @@ pub enum PathSpecialKind {
 
 /// A special point of a machine's path.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct PathSpecial {
     /// What happens.
     pub kind: PathSpecialKind,
@@ -59,6 +61,7 @@ pub struct PathSpecial {
 
 /// Where a machine goes from a limit point.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct PathJump {
     /// The limit point: index into [`MachinePath::specials`].
     pub from: usize,
@@ -71,6 +74,7 @@ pub struct PathJump {
 
 /// A path of equilibria of a machine.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct MachinePath {
     /// Points in their order, from the low end of the parameter at the start.
     pub points: Vec<PathPoint>,

@@ -10,6 +10,7 @@ use crate::settings::{Settings, wrong};
 
 /// How far and how finely curves are followed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CurveSettings {
     /// The parameter stays between these values (m, rad or a factor).
     pub range: (f64, f64),
@@ -103,3 +104,15 @@ impl CurveSettings {
         self.solver.check(place)
     }
 }
+
+crate::settings::setters!(CurveSettings {
+    with_range: range: (f64, f64),
+    with_conjugate_range: conjugate_range: (f64, f64),
+    with_largest_angle: largest_angle: f64,
+    with_largest_turn: largest_turn: f64,
+    with_largest_change: largest_change: Option<f64>,
+    with_smallest_step: smallest_step: f64,
+    with_points: points: usize,
+    with_branches: branches: usize,
+    with_solver: solver: Settings,
+});

@@ -35,6 +35,7 @@ pub(crate) fn condensed_modes(e: &MechanismEquilibrium) -> usize {
 
 /// Whether a machine stays where it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MachineStability {
     /// Every shape and every platform stays where it is.
     pub stable: bool,

@@ -22,6 +22,7 @@ use crate::settings::Settings;
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct SearchSettings {
     /// The search stops after this many evenly spread starts in a row that found nothing new (four
     /// times as many while some equilibrium was hit only once). Default 400.
@@ -35,6 +36,14 @@ pub struct SearchSettings {
     /// Tolerances of each equilibrium; `iterations` bounds each start.
     pub solver: Settings,
 }
+
+crate::settings::setters!(SearchSettings {
+    with_fruitless: fruitless: usize,
+    with_starts: starts: usize,
+    with_most: most: usize,
+    with_sweep: sweep: bool,
+    with_solver: solver: Settings,
+});
 
 impl Default for SearchSettings {
     fn default() -> Self {
@@ -50,6 +59,7 @@ impl Default for SearchSettings {
 
 /// One equilibrium among all.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct FoundEquilibrium {
     /// Coordinates (rotations of passive joints within the bounds), wrench, stiffness, shape.
     pub equilibrium: Equilibrium,
@@ -72,6 +82,7 @@ pub struct FoundEquilibrium {
 /// All equilibria found, by rising potential energy (where a load has none: by the springs'
 /// energy), and how sure it is that there are no more.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Equilibria {
     /// By rising potential energy.
     pub found: Vec<FoundEquilibrium>,

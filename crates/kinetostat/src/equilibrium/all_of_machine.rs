@@ -11,12 +11,18 @@ use crate::machine::posture::Posture;
 
 /// How long to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct SpreadSettings {
     /// Starts at most. Default 1000.
     pub starts: usize,
     /// The search ends after this many in a row that found nothing new. Default 100.
     pub fruitless: usize,
 }
+
+crate::settings::setters!(SpreadSettings {
+    with_starts: starts: usize,
+    with_fruitless: fruitless: usize,
+});
 
 impl Default for SpreadSettings {
     fn default() -> Self {
@@ -29,6 +35,7 @@ impl Default for SpreadSettings {
 
 /// One of them.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct MachineFound {
     /// The equilibrium.
     pub equilibrium: MechanismEquilibrium,
@@ -49,6 +56,7 @@ pub struct MachineFound {
 
 /// What a search found. It is no proof that there are no others.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct MachineEquilibria {
     /// By rising energy.
     pub found: Vec<MachineFound>,

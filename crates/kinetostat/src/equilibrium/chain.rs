@@ -163,8 +163,7 @@ fn grow_load(
     let problem = attempt.problem;
     let mut x = nudged(problem.chain, &problem.posture, aside(longest));
     let mut wrench = Wrench::zero();
-    let start =
-        Kinematics::new(problem.chain, &problem.base, &x, &problem.commands).tip_pose();
+    let start = Kinematics::new(problem.chain, &problem.base, &x, &problem.commands).tip_pose();
     attempt.way = if on_screw {
         Way::Screw(start)
     } else {

@@ -30,6 +30,7 @@ use crate::spatial::Wrench;
 
 /// Where stability is lost.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct CriticalPoint {
     /// Load factor.
     pub factor: f64,
@@ -44,6 +45,7 @@ pub struct CriticalPoint {
 
 /// Critical load factor of a pattern.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct CriticalLoad {
     /// Linear prediction: `1/mu` of the stresses of the first load step in the unloaded posture;
     /// `None` if that load never destabilises it.

@@ -14,6 +14,7 @@ use crate::linalg::singular_values::SingularValues;
 /// What must stay stable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Judged {
     /// The shape, with the whole end held where the load has brought it.
     Shape,

@@ -124,6 +124,7 @@ pub(crate) fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// Number of positive, negative and zero eigenvalues.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct Inertia {
     /// Positive eigenvalues.
     pub positive: usize,

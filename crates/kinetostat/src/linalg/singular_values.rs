@@ -28,6 +28,7 @@ const SWEEPS: usize = 40;
 /// Values are right to a few units of rounding of the largest one, vectors are orthonormal to
 /// rounding whatever the values are. A matrix with a number that is not finite has values of NaN.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SingularValues {
     /// Falling, in the unit of the matrix.
     pub values: Vec<f64>,

@@ -11,6 +11,7 @@ use crate::spatial::{Twist, Wrench, pose_residual};
 
 /// First-order assembly of limbs with errors, without a load or under one [R 6.15-6.20].
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct LinearAssembly {
     /// Motion of the tool from its nominal target.
     pub shift: Twist,

@@ -19,6 +19,7 @@ const ZERO: f64 = 1e-9;
 /// Wrenches that the limbs carry with no load, because there are more of them than the platforms
 /// need: every error of manufacture along them strains the machine.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Overconstraint {
     /// Degree: number of independent self-stresses.
     pub degree: usize,
@@ -28,6 +29,7 @@ pub struct Overconstraint {
 
 /// One set of wrenches in balance with itself.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct SelfStress {
     /// Limb (its index) and wrench on its tip, about it, base axes; the largest has size 1 N, moments
     /// counted by the natural length. Limbs with less than 1e-9 of it are left out.

@@ -29,6 +29,7 @@ use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 
 /// Whether the platform stays where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct PlatformStability {
     /// Every motion of the free platform costs energy, or (see `free`) none; for loads without a potential: it does
     /// not go away (divergence), but see `may_flutter`.
@@ -45,6 +46,7 @@ pub struct PlatformStability {
 
 /// What one limb does in an equilibrium.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct LimbEquilibrium {
     /// Name of the limb.
     pub name: String,
@@ -82,6 +84,7 @@ impl LimbEquilibrium {
 
 /// A mechanism in equilibrium.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct MechanismEquilibrium {
     /// Pose of the tool platform.
     pub tool: Pose,

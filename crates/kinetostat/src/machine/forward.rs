@@ -184,7 +184,8 @@ impl Mechanism {
                 let joints = &at.limbs[i];
                 let (from, to) = (&at.platforms[limb.from], &at.platforms[limb.to]);
                 let target = to * limb.platform_from_tip;
-                let kinematics = Kinematics::new(&limb.nominal, from, &joints.coordinates, &joints.commands);
+                let kinematics =
+                    Kinematics::new(&limb.nominal, from, &joints.coordinates, &joints.commands);
                 let tip = kinematics.tip_pose();
                 let c = pose_residual(&target, &tip);
                 gap = (gap.0.max(c.linear().norm()), gap.1.max(c.angular().norm()));

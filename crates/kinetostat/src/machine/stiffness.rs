@@ -56,6 +56,7 @@ impl Posture {
 
 /// Unloaded stiffness of a mechanism and its limbs.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct UnloadedStiffness {
     /// `K_C` of the platform at the tool's origin, base axes.
     pub cartesian: CartesianStiffness,

@@ -48,6 +48,7 @@ impl Platform {
 
 /// A chain between two platforms. Its base frame is the frame of `from`; its tip is fixed to `to`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Limb {
     /// Name, unique.
     pub name: String,

@@ -2,6 +2,7 @@
 
 /// Why a form has no answer here.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Inapplicable {
     /// `J_theta k J_theta^T` is singular: the springs alone do not move the end in all six
     /// directions [R remark 1]. Carries how many they move.

@@ -42,6 +42,7 @@ impl std::fmt::Display for Inapplicable {
 
 /// A loaded stiffness by [R 4.28-4.30], base axes, at the tip.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LoadedClosedForm {
     /// `K_C` [R 4.28].
     pub cartesian: Matrix6<f64>,
@@ -53,6 +54,7 @@ pub struct LoadedClosedForm {
 
 /// A stiffness by recursion over passive joints.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Recursion {
     /// `K_C` with the joints of the order freed.
     pub matrix: Matrix6<f64>,

@@ -14,6 +14,7 @@ const FREE: f64 = 1e-12;
 
 /// A stiffness after a passive joint was added.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Elimination<const N: usize> {
     /// What is left; the same as before if the joint was free already.
     pub matrix: SMatrix<f64, N, N>,

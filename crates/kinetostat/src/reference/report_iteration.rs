@@ -30,6 +30,7 @@ use crate::spatial::{MotionKind, Wrench};
 
 /// When an iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct IterationSettings {
     /// Settled when no coordinate changes by more in one step, rad (slides: as a share of the
     /// chain's natural length). Default 1e-10.
@@ -52,6 +53,11 @@ impl IterationSettings {
     }
 }
 
+crate::settings::setters!(IterationSettings {
+    with_tolerance: tolerance: f64,
+    with_steps: steps: usize,
+});
+
 impl Default for IterationSettings {
     fn default() -> Self {
         Self {
@@ -73,6 +79,7 @@ pub struct ChainState {
 /// How an iteration ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum IterationOutcome {
     /// On the equilibrium that exact Newton finds from the same start.
     Settled,

@@ -20,6 +20,7 @@ use crate::spatial::MotionKind;
 
 /// `S_c` with the basis it is written in.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ShapeCriterion {
     /// `S_c`, k x k, J: symmetric, negative definite if the shape holds.
     pub matrix: DMatrix<f64>,

@@ -365,10 +365,7 @@ fn a_pressed_column_has_all_its_shapes_under_a_dead_force() {
 fn wrong_bounds_are_refused_and_nothing_found_is_an_answer() {
     let chain = z_chain();
     let problem = held(&chain, 2.5);
-    let settings = SearchSettings {
-        fruitless: 20,
-        ..SearchSettings::default()
-    };
+    let settings = SearchSettings::default().with_fruitless(20);
     let mut bounds = Bounds::of(&chain);
     bounds.low.pop();
     assert!(equilibria(&problem, &bounds, &settings).is_err());
@@ -415,10 +412,7 @@ fn a_link_has_one_description_of_its_orientation() {
     let mut end = EndCondition::pose(chain_end(&chain));
     end.pose.translation.vector += vector![0.0, 4e-3, -3e-3];
     let problem = ChainProblem::new(&chain, end);
-    let settings = SearchSettings {
-        fruitless: 150,
-        ..SearchSettings::default()
-    };
+    let settings = SearchSettings::default().with_fruitless(150);
     let all = equilibria(&problem, &bounds, &settings).unwrap();
     assert!(!all.found.is_empty());
     // The same places of all nodes and the same wrench are one equilibrium.
@@ -438,6 +432,11 @@ fn a_link_has_one_description_of_its_orientation() {
 /// Where the end of an unloaded chain is.
 fn chain_end(chain: &Chain) -> kinetostat::Pose {
     let home = chain.home_coordinates();
-    let k = kinetostat::model::Kinematics::new(chain, &kinetostat::Pose::identity(), &home, &chain.home_commands());
+    let k = kinetostat::model::Kinematics::new(
+        chain,
+        &kinetostat::Pose::identity(),
+        &home,
+        &chain.home_commands(),
+    );
     k.node_pose(chain.tip())
 }

@@ -9,10 +9,7 @@ use nalgebra::Rotation3;
 use proptest::prelude::*;
 
 fn tight() -> Settings {
-    Settings {
-        torque: 1e-12,
-        ..Settings::default()
-    }
+    Settings::default().with_torque(1e-12)
 }
 
 proptest! {

@@ -64,10 +64,7 @@ pub fn balance_of_chain(seed: u64) -> Option<Balance> {
         let mut problem = r.problem(EndCondition::pose(moved(&start, &Twist(way.0 * s))));
         problem.loads.clone_from(&loads);
         problem.posture.clone_from(&near.borrow());
-        let settings = Settings {
-            torque: 1e-12,
-            ..Settings::default()
-        };
+        let settings = Settings::default().with_torque(1e-12);
         let e = solve_chain(&problem, &settings)?;
         assert_chain_equilibrium(&problem, &e);
         near.borrow_mut().clone_from(&e.coordinates);

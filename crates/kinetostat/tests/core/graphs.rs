@@ -71,14 +71,7 @@ pub fn flat_stiffness(posture: &Posture) -> Matrix6<f64> {
 }
 
 pub fn limb(name: &str, from: usize, to: usize, tip: Pose, chain: Chain) -> Limb {
-    Limb {
-        name: name.into(),
-        from,
-        to,
-        platform_from_tip: tip,
-        nominal: chain.clone(),
-        actual: chain,
-    }
+    Limb::between(name, from, to, chain).fixed_at(tip)
 }
 
 /// An arm of six driven joints with elastic links, its tip at the end of the last link.

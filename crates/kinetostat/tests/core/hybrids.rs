@@ -32,7 +32,7 @@ fn with(machine: &Mechanism, error: f64, limbs: Vec<Limb>, loads: Vec<PlatformLo
     for own in machine.limbs().iter().cloned().chain(limbs) {
         let miss = rng.pose(error, error);
         let actual = misplaced(&own.actual, &miss);
-        builder = builder.limb(Limb { actual, ..own });
+        builder = builder.limb(own.with_actual(actual));
     }
     for load in loads {
         builder = builder.platform_load(load);
@@ -133,11 +133,7 @@ pub fn hybrids_apart(machine: &Mechanism) -> [f64; 3] {
     let mut rng = Rng(14);
     let home = machine.platforms()[machine.tool()].home;
     // Tighter than usual, and ten times tighter than what is compared.
-    let tight = Settings {
-        closure: 1e-14,
-        torque: 1e-13,
-        ..Settings::default()
-    };
+    let tight = Settings::default().with_closure(1e-14).with_torque(1e-13);
     let posture = machine.posture(&home).unwrap().with_settings(tight);
     let wrench = rng.wrench(300.0, 30.0);
     let e = posture.deflected_by(&wrench).unwrap();

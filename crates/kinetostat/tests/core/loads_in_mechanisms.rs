@@ -104,14 +104,7 @@ fn every_kind(seed: u64, a: usize, b: usize, all: bool) -> Vec<Load> {
 }
 
 fn limb(name: &str, from: usize, to: usize, tip: Pose, chain: &Chain) -> Limb {
-    Limb {
-        name: name.into(),
-        from,
-        to,
-        platform_from_tip: tip,
-        nominal: chain.clone(),
-        actual: chain.clone(),
-    }
+    Limb::between(name, from, to, chain.clone()).fixed_at(tip)
 }
 
 fn home(chain: &Chain, base: &Pose) -> Pose {
@@ -146,10 +139,7 @@ fn same(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
 
 /// The chain with the same loads as a machine's limbs, and what the machine says.
 fn compare(label: &str, machine: &Mechanism, chain: &Chain, loads: &[Load], wrench: &Wrench) {
-    let tight = Settings {
-        torque: 1e-13,
-        ..Settings::default()
-    };
+    let tight = Settings::default().with_torque(1e-13);
     let posture = at_home(machine).with_settings(tight);
     let e = posture
         .deflected_by(wrench)

@@ -342,10 +342,7 @@ fn the_rate_observed_falls_towards_zero_for_newton() {
         newton.residual
     );
     // The report's own steps settle at a rate; it is max |mu| of the shape with its end free.
-    let settings = Settings {
-        picard_steps: usize::MAX,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_picard_steps(usize::MAX);
     let report = solve_chain(&problem, &settings).unwrap();
     let rate = report.residual.rate.unwrap();
     assert!(
@@ -372,11 +369,9 @@ fn absurd_questions_to_long_chains_end_in_words() {
         if case % 2 == 0 {
             end.prescribed[case] = Prescribed::Pose;
         }
-        let settings = Settings {
-            iterations: 15,
-            smallest_load_step: 0.1,
-            ..Settings::default()
-        };
+        let settings = Settings::default()
+            .with_iterations(15)
+            .with_smallest_load_step(0.1);
         match solve_chain(&r.problem(end), &settings) {
             Ok(e) => {
                 answered += 1;

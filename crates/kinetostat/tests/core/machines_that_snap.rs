@@ -458,10 +458,7 @@ fn all_equilibria_of_a_truss_whose_tool_turns_with_a_bar_are_found() {
 /// A column with platforms on its way: straight, and bent to either side, beyond its critical load only.
 #[test]
 fn all_shapes_of_a_column_of_several_limbs_are_found() {
-    let settings = SpreadSettings {
-        fruitless: 10,
-        ..SpreadSettings::default()
-    };
+    let settings = SpreadSettings::default().with_fruitless(10);
     for (pieces, sides, loads) in [
         (2_u32, [0, 1], &[(2.2, 1), (2.7, 3), (4.0, 3)][..]),
         (3, [0, 2], &[(3.2, 3)]),

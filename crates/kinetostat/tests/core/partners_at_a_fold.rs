@@ -42,10 +42,7 @@ fn both_partners_are_kept_down_to_one_part_in_a_hundred_million() {
         end.pose = Pose::translation(span, rise, 0.0);
         end.prescribed[0] = Prescribed::Pose;
         let problem = ChainProblem::new(&chain, end);
-        let settings = SearchSettings {
-            fruitless: 60,
-            ..SearchSettings::default()
-        };
+        let settings = SearchSettings::default().with_fruitless(60);
         let mut bounds = Bounds::of(&chain);
         (bounds.low[0], bounds.high[0]) = (-1.5, 1.5);
         let all = equilibria(&problem, &bounds, &settings).unwrap();

@@ -131,10 +131,7 @@ pub fn table() -> Vec<Measured> {
             let (mut report, mut newton) = (Vec::new(), Vec::new());
             for _ in 0..5 {
                 let start = off(&mut rng, &exact, 0.02);
-                let settings = IterationSettings {
-                    tolerance: 1e-12,
-                    ..IterationSettings::default()
-                };
+                let settings = IterationSettings::default().with_tolerance(1e-12);
                 report.push(report_iteration(&problem, Some(start.clone()), &settings).unwrap());
                 newton.push(newton_iteration(&problem, Some(start), &settings).unwrap());
             }
@@ -261,10 +258,7 @@ fn from_the_exact_solution_a_step_stays_there() {
             coordinates: m.exact.coordinates.clone(),
             wrench: kinetostat::Wrench::zero(),
         };
-        let settings = IterationSettings {
-            steps: 1,
-            ..IterationSettings::default()
-        };
+        let settings = IterationSettings::default().with_steps(1);
         let one = report_iteration(&problem, Some(exact), &settings).unwrap();
         let moved = error(&one.path[1], &m.exact);
         assert!(moved < 1e-12, "{}: {moved:e}", m.row.name);

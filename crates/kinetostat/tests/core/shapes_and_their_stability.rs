@@ -156,11 +156,9 @@ fn what_is_neutral_is_taken_out_beside_what_the_load_holds() {
     ] {
         let end = EndCondition::wrench(Wrench::new(force, Vector3::zeros()));
         let problem = ChainProblem::new(chain, end);
-        let search = kinetostat::equilibrium::SearchSettings {
-            fruitless: 30,
-            starts: 60,
-            ..Default::default()
-        };
+        let search = kinetostat::equilibrium::SearchSettings::default()
+            .with_fruitless(30)
+            .with_starts(60);
         let bounds = kinetostat::equilibrium::Bounds::of(chain);
         let all = kinetostat::equilibria(&problem, &bounds, &search).unwrap();
         let lowest = &all.found[0];

@@ -17,11 +17,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use proptest::prelude::*;
 
 fn tight() -> Settings {
-    Settings {
-        torque: 1e-13,
-        closure: 1e-14,
-        ..Settings::default()
-    }
+    Settings::default().with_torque(1e-13).with_closure(1e-14)
 }
 
 /// Fourth-order differences of the wrench over re-solved poses.
@@ -143,7 +139,8 @@ proptest! {
                 let mut next = problem.clone();
                 next.end = EndCondition::wrench(w);
                 next.posture.clone_from(&e.coordinates);
-                let found = solve_chain(&next, &Settings { torque: 1e-13, ..Settings::default() }).unwrap();
+                let found = solve_chain(&next, &Settings::default()
+.with_torque(1e-13)).unwrap();
                 kinetostat::spatial::pose_residual(&found.tip, &e.tip).0
             };
             k.set_column(column, &((8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * unit[column])));

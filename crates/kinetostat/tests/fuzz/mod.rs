@@ -229,10 +229,7 @@ fn case(seed: u64, largest: usize, stage: &std::cell::Cell<&'static str>) -> Out
 
     if random.once_in(4) {
         stage.set("report_iteration and newton_iteration");
-        let settings = IterationSettings {
-            steps: 30,
-            ..IterationSettings::default()
-        };
+        let settings = IterationSettings::default().with_steps(30);
         for iteration in [
             report_iteration(&problem, None, &settings),
             newton_iteration(&problem, None, &settings),
@@ -256,16 +253,12 @@ fn case(seed: u64, largest: usize, stage: &std::cell::Cell<&'static str>) -> Out
 
     if n <= 16 && random.once_in(4) {
         stage.set("equilibria");
-        let settings = SearchSettings {
-            fruitless: 4,
-            starts: 12,
-            most: 4,
-            sweep: random.once_in(3),
-            solver: Settings {
-                iterations: 25,
-                ..Settings::default()
-            },
-        };
+        let settings = SearchSettings::default()
+            .with_fruitless(4)
+            .with_starts(12)
+            .with_most(4)
+            .with_sweep(random.once_in(3))
+            .with_solver(Settings::default().with_iterations(25));
         match equilibria(&problem, &Bounds::of(&chain), &settings) {
             Ok(all) => {
                 for found in &all.found {
@@ -377,14 +370,7 @@ fn huge(random: &mut Random, problem: &ChainProblem<'_>) {
         Err(e) => checks::explained(&e, "chain 'random'", true),
     }
     for iteration in [report_iteration, newton_iteration] {
-        match iteration(
-            &problem,
-            None,
-            &IterationSettings {
-                steps: 10,
-                ..IterationSettings::default()
-            },
-        ) {
+        match iteration(&problem, None, &IterationSettings::default().with_steps(10)) {
             Ok(i) => i
                 .equilibrium
                 .iter()
@@ -398,13 +384,12 @@ fn huge(random: &mut Random, problem: &ChainProblem<'_>) {
 /// Settings that nobody would choose: an answer or an error that explains itself, never a panic.
 fn odd_settings(random: &mut Random, problem: &ChainProblem<'_>) {
     let odd = |random: &mut Random| [0.0, -1.0, f64::NAN, f64::INFINITY, 1e300][random.below(5)];
-    let solver = Settings {
-        closure: odd(random),
-        torque: odd(random),
-        iterations: random.below(3),
-        picard_steps: random.below(4),
-        smallest_load_step: [0.3, odd(random)][random.below(2)],
-    };
+    let solver = Settings::default()
+        .with_closure(odd(random))
+        .with_torque(odd(random))
+        .with_iterations(random.below(3))
+        .with_picard_steps(random.below(4))
+        .with_smallest_load_step([0.3, odd(random)][random.below(2)]);
     let start = match solve_chain(problem, &solver) {
         Ok(e) => Some(e),
         Err(e) => {
@@ -412,10 +397,9 @@ fn odd_settings(random: &mut Random, problem: &ChainProblem<'_>) {
             None
         }
     };
-    let settings = IterationSettings {
-        tolerance: odd(random),
-        steps: random.below(3),
-    };
+    let settings = IterationSettings::default()
+        .with_tolerance(odd(random))
+        .with_steps(random.below(3));
     for iteration in [
         report_iteration(problem, None, &settings),
         newton_iteration(problem, None, &settings),
@@ -432,13 +416,12 @@ fn odd_settings(random: &mut Random, problem: &ChainProblem<'_>) {
         2 => bounds.low.iter_mut().for_each(|x| *x = f64::NAN),
         _ => {}
     }
-    let search = SearchSettings {
-        fruitless: random.below(2),
-        starts: random.below(3),
-        most: random.below(3),
-        sweep: random.once_in(2),
-        solver,
-    };
+    let search = SearchSettings::default()
+        .with_fruitless(random.below(2))
+        .with_starts(random.below(3))
+        .with_most(random.below(3))
+        .with_sweep(random.once_in(2))
+        .with_solver(solver);
     if problem.chain.coordinate_count() <= 12
         && let Err(e) = equilibria(problem, &bounds, &search)
     {

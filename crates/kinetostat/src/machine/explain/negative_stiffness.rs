@@ -15,6 +15,7 @@ use crate::spatial::{MotionKind, Wrench};
 /// A spring coordinate whose own stiffness the loads on its limb outdo while all other coordinates of
 /// the limb stand still and what follows in the limb rides along.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct OvercomeSpring {
     /// Limb, its index.
     pub limb: usize,

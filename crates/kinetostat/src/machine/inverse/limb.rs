@@ -164,8 +164,7 @@ impl<'a> Search<'a> {
 
     /// Levenberg-Marquardt from `at`; `Err` holds the remaining distance and pose.
     fn run(&mut self, mut at: LimbPosture) -> std::result::Result<LimbPosture, (f64, Pose)> {
-        let mut kinematics =
-            Kinematics::new(self.chain, self.base, &at.coordinates, &at.commands);
+        let mut kinematics = Kinematics::new(self.chain, self.base, &at.coordinates, &at.commands);
         let mut miss = self.miss(&kinematics);
         let mut damping = 0.0_f64;
         let goal = 1e-13 * self.length;
@@ -237,8 +236,8 @@ impl<'a> Search<'a> {
     /// Follows the straight way from home to the target in small steps.
     fn walk(&mut self, home: &LimbPosture) -> std::result::Result<LimbPosture, (f64, Pose)> {
         let goal = self.target;
-        let start = Kinematics::new(self.chain, self.base, &home.coordinates, &home.commands)
-        .tip_pose();
+        let start =
+            Kinematics::new(self.chain, self.base, &home.coordinates, &home.commands).tip_pose();
         let way = pose_residual(&goal, &start);
         let mut at = home.clone();
         let steps = 16;

@@ -18,6 +18,7 @@ use crate::spatial::{Pose, Twist, moved, pose_residual};
 
 /// What happens at a singular posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SingularityKind {
     /// A motion that neither actuators nor limbs hold.
     Gained,
@@ -27,6 +28,7 @@ pub enum SingularityKind {
 
 /// A singular posture near a posture.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct NearSingularity {
     /// Gained or lost.
     pub kind: SingularityKind,

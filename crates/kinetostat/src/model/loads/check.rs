@@ -15,6 +15,7 @@ const TANGENT_TOLERANCE: f64 = 1e-5;
 
 /// How a load's tangent compares with differences of its wrenches.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct TangentCheck {
     /// Largest difference as a share of the largest change or wrench; moments are divided by the
     /// chain's natural length, changes are per radian or per natural length of slide.
