@@ -82,6 +82,8 @@
 //! reference      the report's own forms and iterations, for those who check, teach or simplify
 //! ```
 
+pub use nalgebra;
+
 pub mod batch;
 pub mod chain;
 pub mod compensation;

@@ -1,6 +1,6 @@
 //! One chain at one state, and Newton's iteration for it: a limb by itself, or a serial robot.
 //!
-//! Takes a [`ChainProblem`](crate::ChainProblem) (commands, loads, what is prescribed at the end), gives the tangent
+//! Takes a [`ChainProblem`] (commands, loads, what is prescribed at the end), gives the tangent
 //! stiffness at the end, the principal directions with the joints and springs that take part in them, and whether the
 //! shape is stable. Long chains are solved by sweeps along them (`sweep`), short ones by dense matrices: two algorithms
 //! of one linear system, held together by one suite of tests (`sweep::tests`).

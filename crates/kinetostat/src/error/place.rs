@@ -38,12 +38,12 @@ pub enum Part {
 
 /// Where something went wrong: in what, in which part, and during which task.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Place {
-    /// Mechanism, chain or limb.
-    pub whole: Whole,
-    /// Part of it, if one is at fault.
-    pub part: Option<Part>,
+pub struct Place(Box<Parts>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Parts {
+    whole: Whole,
+    part: Option<Part>,
     /// The task, if it is not just an equilibrium or a description: `compensation on `.
     task: &'static str,
     /// What is particular about it, after its name.
@@ -52,12 +52,24 @@ pub struct Place {
 
 impl Place {
     pub(crate) fn of(whole: Whole) -> Self {
-        Self {
+        Self(Box::new(Parts {
             whole,
             part: None,
             task: "",
             detail: String::new(),
-        }
+        }))
+    }
+
+    /// Mechanism, chain or limb.
+    #[must_use]
+    pub fn whole(&self) -> &Whole {
+        &self.0.whole
+    }
+
+    /// Part of it, if one is at fault.
+    #[must_use]
+    pub fn part(&self) -> Option<&Part> {
+        self.0.part.as_ref()
     }
 
     /// A mechanism.
@@ -80,21 +92,22 @@ impl Place {
 
     /// A part of the same thing.
     #[must_use]
-    pub fn part(&self, part: Part) -> Self {
-        Self {
-            part: Some(part),
-            ..self.clone()
-        }
+    pub fn with_part(&self, part: Part) -> Self {
+        let mut place = self.clone();
+        place.0.part = Some(part);
+        place
     }
 
     /// The same place during a task.
-    pub(crate) fn during(self, task: &'static str) -> Self {
-        Self { task, ..self }
+    pub(crate) fn during(mut self, task: &'static str) -> Self {
+        self.0.task = task;
+        self
     }
 
     /// The same place with something particular about it.
-    pub(crate) fn with_detail(self, detail: String) -> Self {
-        Self { detail, ..self }
+    pub(crate) fn with_detail(mut self, detail: String) -> Self {
+        self.0.detail = detail;
+        self
     }
 }
 
@@ -106,17 +119,22 @@ impl From<&Place> for Place {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (task, detail) = (self.task, &self.detail);
-        match &self.whole {
+        let Parts {
+            whole,
+            part,
+            task,
+            detail,
+        } = &*self.0;
+        match whole {
             // The task says of what kind of thing it is.
-            Whole::Chain(name) if task == SHAPE_CRITERION => write!(f, "{task}'{name}'{detail}")?,
+            Whole::Chain(name) if *task == SHAPE_CRITERION => write!(f, "{task}'{name}'{detail}")?,
             Whole::Mechanism(name) => write!(f, "{task}mechanism '{name}'{detail}")?,
             Whole::Chain(name) => write!(f, "{task}chain '{name}'{detail}")?,
             Whole::Limb(name) => write!(f, "{task}limb '{name}'{detail}")?,
             Whole::Section => f.write_str("section")?,
             Whole::PassiveJointRule => f.write_str("passive joint rule")?,
         }
-        let Some(part) = &self.part else {
+        let Some(part) = part else {
             return Ok(());
         };
         let (kind, name) = match part {

@@ -81,7 +81,7 @@ impl Mechanism {
         for (limb, own) in self.limbs().iter().zip(&wanted) {
             limb.nominal.check(&limb.nominal.home_coordinates(), own)?;
         }
-        if let [limb] = &self.limbs()[..]
+        if let [limb] = self.limbs()
             && limb.nominal.indices_of(Role::Passive).is_empty()
         {
             return self.open(limb.nominal.home_coordinates(), wanted[0].to_vec());

@@ -44,7 +44,7 @@ pub(crate) fn check_state(mechanism: &Mechanism, state: &MechanismState) -> Resu
         let (expected, found) = (limb.nominal.coordinate_count(), own.len());
         if expected != found {
             return Err(Error::Size {
-                place: place.part(Part::Limb(limb.name.clone())),
+                place: place.with_part(Part::Limb(limb.name.clone())),
                 what: "the state to start from, its coordinates",
                 expected,
                 found,

@@ -123,7 +123,7 @@ impl MechanismBuilder {
                     limb.name, limb.from, limb.to
                 ));
             }
-            let of_limb = place.part(Part::Limb(limb.name.clone()));
+            let of_limb = place.with_part(Part::Limb(limb.name.clone()));
             let tip = &limb.platform_from_tip;
             check_pose(&of_limb, "the pose of its tip on the platform", tip)?;
             if limb.to == 0 {

@@ -8,7 +8,7 @@ use crate::model::mechanism::{MechanismParts, Platform};
 
 /// Refuses a platform without a sensible home, mass or inertia.
 pub(crate) fn check_platform(place: &Place, platform: &Platform) -> Result<()> {
-    let place = place.part(Part::Platform(platform.name.clone()));
+    let place = place.with_part(Part::Platform(platform.name.clone()));
     check_pose(&place, "the home pose", &platform.home)?;
     check_numbers(&place, "the mass", [&platform.mass])?;
     check_numbers(&place, "the centre of mass", &platform.centre_of_mass)?;

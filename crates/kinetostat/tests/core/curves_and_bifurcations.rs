@@ -289,7 +289,7 @@ fn assert_point(c: &Curves<'_>, p: &CurvePoint) {
             problem.end.pose.translation.vector += t.linear() * p.parameter;
         }
         Parameter::Load(pattern) => {
-            problem.end.wrench = problem.end.wrench + pattern.end * p.parameter;
+            problem.end.wrench += pattern.end * p.parameter;
             for load in &pattern.loads {
                 let Load::Dead { node, wrench } = load else {
                     panic!("dead loads only")

@@ -3,11 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use kinetostat::{
-    equilibrium::{Equilibria, Judged},
-    spatial::pose_residual,
-    *,
-};
+use kinetostat::{spatial::pose_residual, *};
 use nalgebra::{Vector3, vector};
 
 use crate::fuzz_short::fuzz::rod::slender;

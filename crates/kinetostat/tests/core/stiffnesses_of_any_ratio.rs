@@ -4,7 +4,7 @@
 //! three), so `M diag(d) M^T` of whole numbers is a matrix of whole numbers, held exactly up to 2^53, whose
 //! eigenvalues are exactly `9 d`.
 
-use kinetostat::{chain::uneven_springs_in_words, reference::Elimination, *};
+use kinetostat::{chain::uneven_springs_in_words, *};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 

@@ -54,7 +54,7 @@ pub fn preset(name: &str) -> Model {
 /// The posture at a target or, where the machine cannot take it (a planar machine, a tripod that shifts
 /// by the way), at a place near it: commands are changed until the unloaded machine stands as near
 /// as it can, and inverse kinematics has to find these commands again.
-pub fn posture_near<'m>(model: &'m Model, target: &Pose, start: &Posture) -> Posture {
+pub fn posture_near(model: &Model, target: &Pose, start: &Posture) -> Posture {
     let mechanism = &model.mechanism;
     if let Ok(posture) = mechanism.posture(PostureRequest::pose(target).near(start)) {
         return posture;

@@ -230,7 +230,7 @@ impl<'m> PlatformSolver<'m> {
             load.wrenches(&self.state.platforms, &mut others);
         }
         for (platform, wrench) in others {
-            lack[platform] = lack[platform] + wrench * self.share;
+            lack[platform] += wrench * self.share;
         }
         let root = self.stiffness.sqrt();
         let unit = [
@@ -269,11 +269,11 @@ impl<'m> PlatformSolver<'m> {
             torque = torque.max(b.torque);
             loads = loads.max(b.loads);
             exceeding = exceeding.max(b.exceeding());
-            lack[limb.to] = lack[limb.to] + Wrench(-(shift_matrix(&arm).transpose() * f.0));
+            lack[limb.to] += Wrench(-(shift_matrix(&arm).transpose() * f.0));
             if limb.from != 0 {
                 let n = x.len() + limb.actual.actuators().len();
                 let reaction = Vector6::from_fn(|k, _| linear.system.torque[n + k]);
-                lack[limb.from] = lack[limb.from] + Wrench(reaction);
+                lack[limb.from] += Wrench(reaction);
             }
             forces = forces.max(size(f));
         }

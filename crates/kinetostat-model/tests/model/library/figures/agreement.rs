@@ -21,7 +21,7 @@ struct Apart {
 }
 
 /// Home and two other places: in the stated workspace, and turned where the machine turns.
-fn places<'m>(model: &'m Model) -> Vec<Posture> {
+fn places(model: &Model) -> Vec<Posture> {
     let mechanism = &model.mechanism;
     let home_pose = mechanism.platforms()[mechanism.tool()].home;
     let home = mechanism
