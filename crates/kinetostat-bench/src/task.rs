@@ -162,7 +162,7 @@ impl Task {
     /// Why the postures of this machine are solved one by one, if they are.
     #[must_use]
     pub fn scalar_reason(&self) -> Option<String> {
-        self.batch.engine().reason().map(str::to_owned)
+        self.batch.engine().reason().map(ToString::to_string)
     }
 
     fn loaded(&self) -> bool {

@@ -12,32 +12,40 @@ Exit codes:
   3    compensated and written, but the tolerance is missed; the line is said
   130  stopped with Ctrl-C; nothing was written";
 
+/// What is wrong with the number of an option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum NumberFault {
+    #[error("a finite number is needed")]
+    NotFinite,
+    #[error(
+        "a number is needed, with a decimal point and not a comma, and a space before the next"
+    )]
+    Comma,
+    #[error("a number is needed, as in 12.5; the unit is in the option's name")]
+    NoNumber,
+    #[error("a whole number is needed, as in 2")]
+    NotWhole,
+    #[error("a whole number from 3 to 8 is needed")]
+    NotSmall,
+}
+
 /// A finite number with a decimal point.
-pub(crate) fn number(text: &str) -> Result<f64, String> {
+pub(crate) fn number(text: &str) -> Result<f64, NumberFault> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err("a finite number is needed".to_owned()),
-        Err(_) if text.contains(',') => Err(
-            "a number is needed, with a decimal point and not a comma, and a space before the next"
-                .to_owned(),
-        ),
-        Err(_) => {
-            Err("a number is needed, as in 12.5; the unit is in the option's name".to_owned())
-        }
+        Ok(_) => Err(NumberFault::NotFinite),
+        Err(_) if text.contains(',') => Err(NumberFault::Comma),
+        Err(_) => Err(NumberFault::NoNumber),
     }
 }
 
 /// A whole number.
-pub(crate) fn whole(text: &str) -> Result<usize, String> {
-    text.trim()
-        .parse()
-        .map_err(|_| "a whole number is needed, as in 2".to_owned())
+pub(crate) fn whole(text: &str) -> Result<usize, NumberFault> {
+    text.trim().parse().map_err(|_| NumberFault::NotWhole)
 }
 
-pub(crate) fn small(text: &str) -> Result<u8, String> {
-    text.trim()
-        .parse()
-        .map_err(|_| "a whole number from 3 to 8 is needed".to_owned())
+pub(crate) fn small(text: &str) -> Result<u8, NumberFault> {
+    text.trim().parse().map_err(|_| NumberFault::NotSmall)
 }
 
 pub(crate) fn finite(name: &str, values: &[f64]) -> Answer<()> {

@@ -2,7 +2,7 @@
 
 use kinetostat::{
     ChainProblem, CurveSettings, Parameter, critical_load_factor,
-    equilibrium::{CriticalLoad, Judged},
+    equilibrium::{CriticalLoad, StabilityOf},
 };
 use kinetostat_analysis::serial_chain::SerialChain;
 
@@ -25,8 +25,8 @@ pub(crate) fn critical_loads(
     }
     let mut list = Vec::new();
     for (judged, name) in [
-        (Judged::Shape, "shape"),
-        (Judged::ShapeAndEnd, "shape_and_tool"),
+        (StabilityOf::Shape, "shape"),
+        (StabilityOf::ShapeAndEnd, "shape_and_tool"),
     ] {
         let found = critical_load_factor(problem, pattern, judged, settings)?;
         list.push(critical_answer(chain, name, found));

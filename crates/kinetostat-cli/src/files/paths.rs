@@ -40,18 +40,26 @@ pub(crate) fn same_place(one: &Path, other: &Path) -> bool {
     }
 }
 
+/// Why a job file may not write to a place.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum Outside {
+    #[error(
+        "a job file writes only into its own directory and below: use a relative path without '..'; an option on the command line may name any place"
+    )]
+    Written,
+    #[error("a link leads out of the job's directory to '{}'", .0.display())]
+    Link(PathBuf),
+}
+
 /// An output named by a job file: below the job's own directory and nowhere else.
-pub(crate) fn inside(root: &Path, written: &str) -> Result<PathBuf, String> {
+pub(crate) fn inside(root: &Path, written: &str) -> Result<PathBuf, Outside> {
     let path = Path::new(written);
     let plain = path
         .components()
         .all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
     // A drive letter or a backslash means a place elsewhere on another system.
     if !plain || written.contains('\\') || written.contains(':') || written.trim().is_empty() {
-        return Err(
-            "a job file writes only into its own directory and below: use a relative path without '..'; an option on the command line may name any place"
-                .into(),
-        );
+        return Err(Outside::Written);
     }
     let target = root.join(path);
     let (Ok(root), Ok(parent)) = (fs::canonicalize(root), fs::canonicalize(parent_of(&target)))
@@ -60,10 +68,7 @@ pub(crate) fn inside(root: &Path, written: &str) -> Result<PathBuf, String> {
         return Ok(target);
     };
     if !parent.starts_with(&root) {
-        return Err(format!(
-            "a link leads out of the job's directory to '{}'",
-            parent.display()
-        ));
+        return Err(Outside::Link(parent));
     }
     Ok(target)
 }

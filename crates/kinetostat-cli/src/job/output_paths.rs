@@ -62,7 +62,7 @@ pub(crate) fn output_paths(
                         "the output '{}' is outside the job's directory",
                         written.get_ref()
                     ),
-                    &help,
+                    &help.to_string(),
                 )
             })
     };

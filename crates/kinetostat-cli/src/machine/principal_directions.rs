@@ -18,7 +18,8 @@ pub(crate) struct Principal {
     /// The motion and what lets it happen: `turns about z by arm: q`.
     pub(crate) in_words: String,
     /// Joints and springs that move with it, the most first.
-    pub(crate) behind: Vec<Participation>,
+    #[serde(rename = "behind")]
+    pub(crate) participation: Vec<Participation>,
 }
 
 /// A joint or spring that moves while the tool moves in a direction.
@@ -57,8 +58,8 @@ pub(crate) fn principal(d: &Direction) -> Principal {
         translation_share: d.twist.linear().into(),
         rotation_deg_per_mm: turn.into(),
         in_words: motion_in_words(d),
-        behind: d
-            .behind
+        participation: d
+            .participation
             .iter()
             .map(|s| {
                 let (factor, unit) = match s.kind {
@@ -81,10 +82,10 @@ pub(crate) fn principal(d: &Direction) -> Principal {
 pub(crate) fn motion_in_words(d: &Direction) -> String {
     const NAMES: usize = 3;
     let mut short = d.clone();
-    short.behind.truncate(NAMES);
+    short.participation.truncate(NAMES);
     let text = short.in_words();
     let motion = text.split_once(": ").map_or(text.as_str(), |(_, m)| m);
-    match d.behind.len().saturating_sub(NAMES) {
+    match d.participation.len().saturating_sub(NAMES) {
         0 => motion.to_owned(),
         more => format!("{motion} and {more} more"),
     }

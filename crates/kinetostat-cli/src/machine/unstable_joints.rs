@@ -1,6 +1,8 @@
 //! Which joint runs away, and which load pushes it: for `check` and `deflect`.
 
-use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, Posture, machine::OvercomeSpring};
+use kinetostat::{
+    Mechanism, MechanismEquilibrium, MotionKind, Posture, machine::NegativeNetStiffness,
+};
 use kinetostat_model::Model;
 use serde::Serialize;
 
@@ -45,7 +47,7 @@ pub(crate) fn unstable_joints(
         return Vec::new();
     }
     // The equilibrium is one of this posture.
-    let found = posture.overcome_springs(at).unwrap_or_default();
+    let found = posture.negative_net_stiffnesses(at).unwrap_or_default();
     let mechanism = posture.mechanism();
     found
         .iter()
@@ -53,7 +55,11 @@ pub(crate) fn unstable_joints(
         .collect()
 }
 
-fn written(m: &Mechanism, spring: &OvercomeSpring, load_names: &[Vec<String>]) -> UnstableJoint {
+fn written(
+    m: &Mechanism,
+    spring: &NegativeNetStiffness,
+    load_names: &[Vec<String>],
+) -> UnstableJoint {
     let names = load_names.get(spring.limb).map_or(&[][..], Vec::as_slice);
     let shares = names.iter().cloned().zip(spring.by_load.iter().copied());
     let weights = std::iter::once(("weight".to_owned(), spring.by_gravity));

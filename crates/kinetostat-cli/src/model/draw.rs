@@ -174,7 +174,7 @@ fn motion(posture: &Posture, rank: usize) -> Answer<(Moved, String)> {
     };
     let mut direction = (*direction).clone();
     let (from, to) = small_motion(posture, &stiffness, &direction.twist)?;
-    direction.behind = behind(posture, &from, &to);
+    direction.participation = participation(posture, &from, &to);
     let kind = match direction.kind {
         DirectionKind::Free => "free direction: the tool".to_owned(),
         _ => format!(
@@ -198,7 +198,7 @@ fn motion(posture: &Posture, rank: usize) -> Answer<(Moved, String)> {
 
 /// Joints and springs that move between two states, `limb: name`, the most first; what moves less
 /// than 0.1 % of all is left out.
-fn behind(posture: &Posture, from: &Placed, to: &Placed) -> Vec<Share> {
+fn participation(posture: &Posture, from: &Placed, to: &Placed) -> Vec<Share> {
     let mut list = Vec::new();
     for (i, limb) in posture.mechanism().limbs().iter().enumerate() {
         let length = limb.nominal.scale().length;
@@ -253,7 +253,7 @@ fn small_motion(
     to.platforms[mechanism.tool()] = there;
     for (i, limb) in mechanism.limbs().iter().enumerate() {
         let arm = posture.target().rotation * limb.platform_from_tip.translation.vector;
-        let shares = stiffness.limbs[i].behind(&limb.nominal, &small.shifted(&arm));
+        let shares = stiffness.limbs[i].participation(&limb.nominal, &small.shifted(&arm));
         for (x, share) in to.coordinates[i].iter_mut().zip(shares) {
             *x += share.motion;
         }

@@ -151,13 +151,21 @@ fn read(flag: &str, given: &[String], names: &[Named], start: Vec<f64>) -> Answe
         }
         seen.push(index);
         let (_, kind, usual) = names[index];
-        values[index] = quantity(value.trim(), kind, usual).map_err(refuse)?;
+        values[index] =
+            quantity(value.trim(), kind, usual).map_err(|fault| refuse(fault.to_string()))?;
     }
     Ok(values)
 }
 
+/// A text is no length or angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a finite number is needed, in {} or {} where a unit is written", units[0], units[1])]
+pub(crate) struct NoQuantity {
+    units: [&'static str; 2],
+}
+
 /// `10`, `10deg`, `0.2 rad`, `1250mm`: m or rad. `usual` is the size of the unit without a word.
-pub(crate) fn quantity(text: &str, kind: MotionKind, usual: f64) -> Result<f64, String> {
+pub(crate) fn quantity(text: &str, kind: MotionKind, usual: f64) -> Result<f64, NoQuantity> {
     let degree = std::f64::consts::PI / 180.0;
     let words = match kind {
         MotionKind::Prismatic => [("mm", 1e-3), ("m", 1.0)],
@@ -169,9 +177,8 @@ pub(crate) fn quantity(text: &str, kind: MotionKind, usual: f64) -> Result<f64, 
     });
     match number.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value * size),
-        _ => Err(format!(
-            "a finite number is needed, in {} or {} where a unit is written",
-            words[0].0, words[1].0
-        )),
+        _ => Err(NoQuantity {
+            units: words.map(|(unit, _)| unit),
+        }),
     }
 }

@@ -72,17 +72,26 @@ pub(crate) fn option(flag: &str, text: &str) -> Answer<UnitQuaternion<f64>> {
         .ok_or_else(|| {
             refuse("numbers with a decimal point, separated by commas, are needed".into())
         })?;
-    of(name, &numbers).map_err(refuse)
+    of(name, &numbers).map_err(|fault| refuse(fault.to_string()))
+}
+
+/// Numbers are no orientation.
+#[derive(Clone, Debug, thiserror::Error)]
+pub(crate) enum NoOrientation {
+    #[error("{needed} numbers are needed, {given} are given")]
+    Count { needed: usize, given: usize },
+    #[error("{message}; {help}")]
+    Wrong { message: String, help: String },
 }
 
 /// The orientation that these numbers mean by a convention of [`CONVENTIONS`].
-pub(crate) fn of(name: &str, numbers: &[f64]) -> Result<UnitQuaternion<f64>, String> {
+pub(crate) fn of(name: &str, numbers: &[f64]) -> Result<UnitQuaternion<f64>, NoOrientation> {
     let needed = if name.starts_with("quaternion") { 4 } else { 3 };
     if numbers.len() != needed {
-        return Err(format!(
-            "{needed} numbers are needed, {} are given",
-            numbers.len()
-        ));
+        return Err(NoOrientation::Count {
+            needed,
+            given: numbers.len(),
+        });
     }
     let mut p = Placement::default();
     if let [a, b, c, d] = numbers[..] {
@@ -105,7 +114,10 @@ pub(crate) fn of(name: &str, numbers: &[f64]) -> Result<UnitQuaternion<f64>, Str
     }
     p.pose()
         .map(|pose| pose.rotation)
-        .map_err(|(message, help)| format!("{message}; {help}"))
+        .map_err(|(message, help)| NoOrientation::Wrong {
+            message: message.to_string(),
+            help: help.to_string(),
+        })
 }
 
 /// An orientation in words: the rotation vector in degrees.

@@ -81,12 +81,12 @@ pub(crate) struct LimbShare {
 /// Directions with the joints and springs behind them, the stiff ones too.
 pub(crate) fn with_causes(
     directions: &[Direction],
-    behind: impl Fn(&Direction) -> Vec<kinetostat::chain::Share>,
+    participation: impl Fn(&Direction) -> Vec<kinetostat::chain::Share>,
 ) -> Vec<Direction> {
     let mut list = directions.to_vec();
     for direction in &mut list {
         if direction.kind != DirectionKind::Rigid {
-            direction.behind = behind(direction);
+            direction.participation = participation(direction);
         }
     }
     list

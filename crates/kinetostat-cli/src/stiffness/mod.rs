@@ -31,8 +31,8 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
     let answer = if loaded {
         let e = posture.deflected_by(&query.wrench)?;
         let limbs: Vec<&ChainStiffness> = e.limbs.iter().map(|l| &l.stiffness).collect();
-        let behind = |d: &Direction| e.behind(&query.mechanism, &d.twist);
-        let directions = with_causes(&e.directions, behind);
+        let participation = |d: &Direction| e.participation(&query.mechanism, &d.twist);
+        let directions = with_causes(&e.directions, participation);
         answer(
             &query,
             &posture,
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
     } else {
         let k = posture.stiffness()?;
         let limbs: Vec<&ChainStiffness> = k.limbs.iter().collect();
-        let directions = with_causes(&k.directions, |d| k.behind(&posture, &d.twist));
+        let directions = with_causes(&k.directions, |d| k.participation(&posture, &d.twist));
         let mut answer = answer(
             &query,
             &posture,

@@ -86,7 +86,10 @@ fn every_preset_gives_the_same_alone_and_together() {
             preset.name,
             of(&found.status),
             of(&loaded.status),
-            batch.engine().reason().unwrap_or_default()
+            batch
+                .engine()
+                .reason()
+                .map_or_else(String::new, ToString::to_string)
         );
         assert!(worst < 1e-11, "{}: {worst:e}", preset.name);
         assert!(worst_loaded < 3e-12, "{}: {worst_loaded:e}", preset.name);

@@ -3,7 +3,7 @@
 
 use kinetostat::{
     ChainProblem, CurveSettings, EndCondition, Pose, Prescribed, Wrench, continuation::LoadPattern,
-    critical_load_factor, equilibrium::Judged,
+    critical_load_factor, equilibrium::StabilityOf,
 };
 use kinetostat_links::{Shape, Shear, cantilever, in_n_mm};
 use kinetostat_model::Model;
@@ -181,7 +181,7 @@ chain = "column"
             loads: Vec::new(),
         };
         let settings = CurveSettings::within(0.0, 1.0);
-        let found = critical_load_factor(&problem, &pattern, Judged::Shape, &settings)
+        let found = critical_load_factor(&problem, &pattern, StabilityOf::Shape, &settings)
             .unwrap_or_else(|e| panic!("{e}"));
         let load = found.linear.expect("a critical load");
         errors.push(load / wanted - 1.0);

@@ -4,7 +4,7 @@ use kinetostat::{
     Chain, CurveSettings, EndCondition, MotionKind, Pose, Prescribed, Settings, Wrench,
     continuation::{Curves, LoadPattern, SpecialKind},
     critical_load_factor,
-    equilibrium::Judged,
+    equilibrium::StabilityOf,
     follow,
     model::Kinematics,
     solve_chain,
@@ -366,7 +366,7 @@ fn column(n: usize) -> Result<f64, Cause> {
         loads: Vec::new(),
     };
     let settings = CurveSettings::within(0.0, 5.0);
-    let critical = critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings)?;
+    let critical = critical_load_factor(&problem, &pattern, StabilityOf::ShapeAndEnd, &settings)?;
     let exact = critical
         .exact
         .ok_or_else(|| Cause::Missing(format!("the critical load of {n} links")))?;

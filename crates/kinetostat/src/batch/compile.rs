@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 use super::plan::{
     Amount, Drive, Held, Joint, Law, Plan, Polar, Rows, Screw, Search, Sphere, Spring, Step,
 };
+use super::status::NoKernel;
 use crate::model::chain::{Chain, Element, Motion, Role};
 use crate::model::kinematics::Kinematics;
 use crate::model::springs::block::{SpringBlock, SpringLaw};
@@ -13,12 +14,9 @@ use crate::model::springs::curved::CurvedLaw;
 use crate::model::springs::law::{if_curved, if_single};
 use crate::spatial::{MotionKind, Pose};
 
-/// Why a machine is solved posture by posture instead.
-pub(super) type Refusal = String;
-
 impl Plan {
     /// `end` is the pose of the platform in the frame of the limb's tip.
-    pub fn new(chain: &Chain, end: &Pose) -> Result<Self, Refusal> {
+    pub fn new(chain: &Chain, end: &Pose) -> Result<Self, NoKernel> {
         let redundant = redundant_passive_joints(chain);
         let passive: Vec<usize> = chain
             .indices_of(Role::Passive)
@@ -26,10 +24,7 @@ impl Plan {
             .filter(|i| !redundant.contains(i))
             .collect();
         if passive.len() > 6 {
-            return Err(format!(
-                "'{}' has more than six passive joints",
-                chain.name()
-            ));
+            return Err(NoKernel::PassiveJoints(chain.name().to_owned()));
         }
         let mut writer = Writer {
             chain,
@@ -217,7 +212,7 @@ impl Writer<'_> {
         self.pending = (Matrix3::identity(), Vector3::zeros());
     }
 
-    fn chain(&mut self) -> Result<(), Refusal> {
+    fn chain(&mut self) -> Result<(), NoKernel> {
         let chain = self.chain;
         let mut elements = chain.elements().iter();
         while let Some(element) = elements.next() {
@@ -260,8 +255,8 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn joint(&mut self, motion: &Motion, block: Option<&SpringBlock>) -> Result<(), Refusal> {
-        let name = self.chain.name();
+    fn joint(&mut self, motion: &Motion, block: Option<&SpringBlock>) -> Result<(), NoKernel> {
+        let refusal = |spring: &str, what| Err(self.no_kernel(spring, what));
         let mut amount = Amount {
             fixed: 0.0,
             command: motion.command.map(|d| (d.index, d.ratio)),
@@ -274,22 +269,22 @@ impl Writer<'_> {
                 (Role::Spring, Some(block)) => {
                     law = if_single!(&block.law, _own => Some(Box::new(block.law.clone())), else None);
                     if law.is_none() && !matches!(block.law, SpringLaw::Linear(_)) {
-                        return Err(format!("'{name}': the law of '{}'", block.name));
+                        return refusal(&block.name, "has a law that no kernel knows");
                     }
                     let k = block.stiffness_at(&self.chain.home_coordinates());
                     let drives = self.chain.elements().iter().filter(|e| {
                         matches!(e, Element::Motion(m) if m.coordinate.is_some_and(|d| d.index == index))
                     });
                     if drives.count() > 1 || ratio != 1.0 {
-                        return Err(format!("'{name}': '{}' moves several joints", own.name));
+                        return refusal(&own.name, "moves several joints");
                     }
                     if own.home != 0.0 || block.rest[0] != 0.0 {
-                        return Err(format!("'{name}': '{}' is preloaded", own.name));
+                        return refusal(&own.name, "is preloaded");
                     }
                     held = Held::Spring(1.0 / k[(0, 0)]);
                 }
                 (Role::Spring, None) => {
-                    return Err(format!("'{name}': '{}' has no law", own.name));
+                    return refusal(&own.name, "has no law");
                 }
                 (Role::Passive, _) => {
                     if let Some(slot) = self.passive.iter().position(|i| *i == index) {
@@ -332,8 +327,16 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn spring(&self, block: &SpringBlock, motions: &[Motion]) -> Result<Spring, Refusal> {
-        let refusal = |why: &str| Err(format!("'{}': '{}' {why}", self.chain.name(), block.name));
+    fn no_kernel(&self, spring: &str, what: &'static str) -> NoKernel {
+        NoKernel::Spring {
+            limb: self.chain.name().to_owned(),
+            spring: spring.to_owned(),
+            what,
+        }
+    }
+
+    fn spring(&self, block: &SpringBlock, motions: &[Motion]) -> Result<Spring, NoKernel> {
+        let refusal = |what| Err(self.no_kernel(&block.name, what));
         let law = match &block.law {
             SpringLaw::Linear(_) => Law::Constant,
             SpringLaw::Parallelogram(law) => {

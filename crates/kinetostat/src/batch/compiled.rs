@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::group::Places;
 use super::plan::Plan;
 use super::run::Work;
-use super::status::{Engine, Status};
+use super::status::{Engine, NoKernel, Status};
 use super::table::BLOCK;
 use crate::error::{Error, Place, Result};
 use crate::machine::inverse::limb::LimbPosture;
@@ -22,8 +22,8 @@ pub(super) const BLOCKS: usize = 32;
 pub struct Batch {
     pub(super) mechanism: Mechanism,
     /// Of every limb as drawn (unloaded) and as it is (loaded), or why there are none.
-    pub(super) nominal: std::result::Result<Vec<Plan>, String>,
-    pub(super) actual: std::result::Result<Vec<Plan>, String>,
+    pub(super) nominal: std::result::Result<Vec<Plan>, NoKernel>,
+    pub(super) actual: std::result::Result<Vec<Plan>, NoKernel>,
 }
 
 impl Batch {
@@ -111,14 +111,14 @@ pub(super) fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usiz
 }
 
 /// Nothing but weight acts on limbs and platforms, or what else.
-fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), String> {
+fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), NoKernel> {
     for (i, limb) in mechanism.limbs().iter().enumerate() {
         if !mechanism.loads(i).is_empty() {
-            return Err(format!("'{}' bears loads of its own", limb.name));
+            return Err(NoKernel::LoadedLimb(limb.name.clone()));
         }
     }
     if !mechanism.platform_loads().is_empty() {
-        return Err("a platform bears loads of its own".into());
+        return Err(NoKernel::LoadedPlatform);
     }
     Ok(())
 }
@@ -127,16 +127,16 @@ fn unburdened(mechanism: &Mechanism) -> std::result::Result<(), String> {
 fn compiled(
     mechanism: &Mechanism,
     chain: impl Fn(&Limb) -> &Chain,
-) -> std::result::Result<Vec<Plan>, String> {
+) -> std::result::Result<Vec<Plan>, NoKernel> {
     if mechanism.platforms().len() != 2 {
-        return Err("it has platforms between base and tool".into());
+        return Err(NoKernel::PlatformsBetween);
     }
     let tool = mechanism.tool();
     let limbs = mechanism.limbs().iter();
     limbs
         .map(|limb| {
             if limb.from != 0 || limb.to != tool {
-                return Err(format!("'{}' does not lead from base to tool", limb.name));
+                return Err(NoKernel::OtherPlatforms(limb.name.clone()));
             }
             Plan::new(chain(limb), &limb.platform_from_tip.inverse())
         })

@@ -54,6 +54,6 @@ pub use compiled::Batch;
 pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};
 pub use models::over_machines;
 pub use path::AlongPath;
-pub use status::{Engine, Status};
+pub use status::{Engine, NoKernel, Status};
 pub use stiffness::BatchStiffness;
 pub use table::Table;

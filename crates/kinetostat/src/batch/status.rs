@@ -33,6 +33,37 @@ impl Status {
     }
 }
 
+/// What about a machine no vectorised kernel knows.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoKernel {
+    /// A limb bears loads of its own.
+    #[error("'{0}' bears loads of its own")]
+    LoadedLimb(String),
+    /// A platform bears loads of its own.
+    #[error("a platform bears loads of its own")]
+    LoadedPlatform,
+    /// There are platforms between base and tool.
+    #[error("it has platforms between base and tool")]
+    PlatformsBetween,
+    /// A limb does not lead from base to tool.
+    #[error("'{0}' does not lead from base to tool")]
+    OtherPlatforms(String),
+    /// A limb has more than six passive joints.
+    #[error("'{0}' has more than six passive joints")]
+    PassiveJoints(String),
+    /// A spring is not like those that kernels know.
+    #[error("'{limb}': '{spring}' {what}")]
+    Spring {
+        /// The limb.
+        limb: String,
+        /// The spring.
+        spring: String,
+        /// What it is or does.
+        what: &'static str,
+    },
+}
+
 /// Which engine a machine's postures are solved by.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -43,13 +74,13 @@ pub enum Engine {
     /// The general engine, one posture at a time.
     Scalar {
         /// What about the machine no kernel knows.
-        reason: String,
+        reason: NoKernel,
     },
 }
 
 impl Engine {
     /// Of a machine compiled into `plans`, or why it was not.
-    pub(super) fn of<T>(plans: &std::result::Result<T, String>) -> Self {
+    pub(super) fn of<T>(plans: &std::result::Result<T, NoKernel>) -> Self {
         match plans {
             Ok(_) => Self::Vectorised,
             Err(reason) => Self::Scalar {
@@ -60,7 +91,7 @@ impl Engine {
 
     /// Why not the vectorised kernels, if it is not them.
     #[must_use]
-    pub fn reason(&self) -> Option<&str> {
+    pub fn reason(&self) -> Option<&NoKernel> {
         match self {
             Self::Vectorised => None,
             Self::Scalar { reason } => Some(reason),

@@ -279,7 +279,7 @@ fn a_jacobian_alone_is_the_one_together() {
     let mut batch = Batch::new(&machine);
     let commands: Vec<f64> = (0..30).map(irregular).collect();
     let together = batch.stiffness_at_joints(&commands, true).expect("sizes");
-    batch.nominal = Err("asked for alone".into());
+    batch.nominal = Err(NoKernel::LoadedPlatform);
     let mut alone = BatchStiffness::default();
     // Room for more postures than the second call has.
     let more: Vec<f64> = (0..300).map(irregular).collect();

@@ -52,9 +52,9 @@ pub struct Direction {
     pub twist: Twist,
     /// For free and negative directions: joints and springs that move, the most first; those below
     /// 0.1 % are left out. Empty where limbs hang on platforms in between.
-    /// [`crate::ChainStiffness::behind`] tells it of any motion.
-    #[serde(default)]
-    pub behind: Vec<Share>,
+    /// [`crate::ChainStiffness::participation`] tells it of any motion.
+    #[serde(default, rename = "behind")]
+    pub participation: Vec<Share>,
 }
 
 impl Direction {
@@ -62,7 +62,7 @@ impl Direction {
     #[must_use]
     pub fn in_words(&self) -> String {
         let motion = motion_in_words(&self.twist);
-        let names: Vec<&str> = self.behind.iter().map(|s| s.name.as_str()).collect();
+        let names: Vec<&str> = self.participation.iter().map(|s| s.name.as_str()).collect();
         let by = if names.is_empty() {
             String::new()
         } else {
@@ -195,7 +195,7 @@ pub(crate) fn direction(
         kind,
         stiffness_n_per_m,
         twist: scaled_twist(scale, &Vector6::from_fn(|i, _| motion[i])),
-        behind: Vec::new(),
+        participation: Vec::new(),
     }
 }
 

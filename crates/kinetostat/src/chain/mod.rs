@@ -40,5 +40,5 @@ pub use link_load::{LinkLoad, link_loads};
 pub use potential::{is_conservative, load_energy};
 pub use problem::{ChainProblem, EndCondition, Prescribed};
 pub use residual::Residual;
-pub use stability::{ShapeStability, ShapeVerdict};
+pub use stability::{ShapeStability, ShapeState};
 pub use stiffness::{ChainStiffness, unloaded_stiffness};

@@ -53,7 +53,7 @@ pub struct ShapeStability {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum ShapeVerdict {
+pub enum ShapeState {
     /// It holds: every neighbouring shape has more energy.
     Stable,
     /// A neighbouring shape has less energy.
@@ -78,11 +78,11 @@ impl ShapeStability {
 
     /// Stable, unstable, or singular.
     #[must_use]
-    pub fn verdict(&self) -> ShapeVerdict {
+    pub fn verdict(&self) -> ShapeState {
         match self.share_to_buckling {
-            Some(mu) if (mu - 1.0).abs() <= AT_CRITICAL => ShapeVerdict::Singular,
-            _ if self.stable => ShapeVerdict::Stable,
-            _ => ShapeVerdict::Unstable,
+            Some(mu) if (mu - 1.0).abs() <= AT_CRITICAL => ShapeState::Singular,
+            _ if self.stable => ShapeState::Stable,
+            _ => ShapeState::Unstable,
         }
     }
 
@@ -91,23 +91,23 @@ impl ShapeStability {
     pub fn in_words(&self) -> String {
         let mu = self.share_to_buckling.unwrap_or(0.0);
         match self.verdict() {
-            ShapeVerdict::Singular => "stands at its critical load (mu 1)".into(),
-            ShapeVerdict::Unstable if mu.is_finite() => {
+            ShapeState::Singular => "stands at its critical load (mu 1)".into(),
+            ShapeState::Unstable if mu.is_finite() => {
                 format!("does not keep its shape (mu {mu:.4}; it does below 1)")
             }
-            ShapeVerdict::Unstable => {
+            ShapeState::Unstable => {
                 "does not keep its shape: the load pushes passive joints that nothing holds".into()
             }
-            ShapeVerdict::Stable if self.share_to_buckling.is_none() => {
+            ShapeState::Stable if self.share_to_buckling.is_none() => {
                 "keeps its shape: it has no inner freedom".into()
             }
-            ShapeVerdict::Stable if mu <= 0.0 => {
+            ShapeState::Stable if mu <= 0.0 => {
                 format!("keeps its shape; the load only stiffens it (mu {mu:.4})")
             }
-            ShapeVerdict::Stable if self.may_flutter() => format!(
+            ShapeState::Stable if self.may_flutter() => format!(
                 "does not go away, but may swing with growing amplitude (flutter), which depends on its masses (mu {mu:.4} of the tangent's symmetric part)"
             ),
-            ShapeVerdict::Stable => format!(
+            ShapeState::Stable => format!(
                 "keeps its shape, {:.3} % of the way to buckling (mu {mu:.4})",
                 100.0 * mu
             ),

@@ -61,7 +61,7 @@ impl ChainStiffness {
     /// What moves when the end of `chain` (the one that this is the stiffness of) moves by a small
     /// twist (m, rad): passive joints and springs in the chain's order, nothing left out.
     #[must_use]
-    pub fn behind(&self, chain: &Chain, twist: &Twist) -> Vec<Share> {
+    pub fn participation(&self, chain: &Chain, twist: &Twist) -> Vec<Share> {
         self.behind_named(chain, "", twist)
     }
 
@@ -268,7 +268,7 @@ fn described(
             direction.kind,
             DirectionKind::Free | DirectionKind::Negative
         ) {
-            direction.behind = largest(stiffness.behind(chain, &direction.twist));
+            direction.participation = largest(stiffness.participation(chain, &direction.twist));
         }
     }
     stiffness.directions = directions;

@@ -23,7 +23,7 @@ use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracer::Tracer;
 use crate::equilibrium::chain::solve_chain;
 use crate::equilibrium::critical_tangent::{
-    Judged, Tangent, diverges, largest_one, largest_real, linear_prediction,
+    StabilityOf, Tangent, diverges, largest_one, largest_real, linear_prediction,
 };
 use crate::error::{Place, Result};
 use crate::spatial::Wrench;
@@ -94,7 +94,7 @@ impl CriticalLoad {
 pub fn critical_load_factor(
     problem: &ChainProblem<'_>,
     pattern: &LoadPattern,
-    judged: Judged,
+    of: StabilityOf,
     settings: &CurveSettings,
 ) -> Result<CriticalLoad> {
     settings.check(&Place::chain(problem.chain.name()))?;
@@ -106,7 +106,7 @@ pub fn critical_load_factor(
     whole.loads.extend(pattern.loads.iter().cloned());
     whole.end.wrench = Wrench(whole.end.wrench.0 + pattern.end.0);
     let conservative = is_conservative(problem) && is_conservative(&whole);
-    let (linear, linear_mode) = linear_prediction(&mut system, &z, judged, conservative);
+    let (linear, linear_mode) = linear_prediction(&mut system, &z, of, conservative);
     let mut settings = settings.clone();
     settings.branches = 1;
     settings.range.0 = settings.range.0.min(-1e-9);
@@ -116,7 +116,7 @@ pub fn critical_load_factor(
     let mut load = GrowingLoad {
         problem,
         parameter: &parameter,
-        judged,
+        of,
         settings: &settings,
         conservative,
         diverged_before: false,
@@ -166,7 +166,7 @@ pub fn critical_load_factor(
 struct GrowingLoad<'p, 'a> {
     problem: &'p ChainProblem<'a>,
     parameter: &'p Parameter,
-    judged: Judged,
+    of: StabilityOf,
     settings: &'p CurveSettings,
     conservative: bool,
     /// A motion goes away at factor 0 already.
@@ -182,14 +182,14 @@ impl GrowingLoad<'_, '_> {
     fn diverges_at_start(&self) -> Result<bool> {
         let mut there = self.there.borrow_mut();
         there.start(&self.start.coordinates, &self.start.wrench, 0.0)?;
-        let (springs, loads) = Tangent::at(&mut there, &self.z, &self.z, self.judged).at_start();
+        let (springs, loads) = Tangent::at(&mut there, &self.z, &self.z, self.of).at_start();
         Ok(largest_real(&springs, &loads).is_some_and(|mu| mu >= 1.0))
     }
 
     fn stability(&self, p: &CurvePoint) -> ShapeStability {
-        match self.judged {
-            Judged::Shape => p.equilibrium.stability.clone(),
-            Judged::ShapeAndEnd => p.dead.clone(),
+        match self.of {
+            StabilityOf::Shape => p.equilibrium.stability.clone(),
+            StabilityOf::ShapeAndEnd => p.dead.clone(),
         }
     }
 
@@ -202,7 +202,7 @@ impl GrowingLoad<'_, '_> {
     fn unstable(&self, p: &CurvePoint) -> bool {
         let diverged = || {
             let mut there = self.there.borrow_mut();
-            diverges(&Tangent::at(&mut there, &p.z, &self.z, self.judged))
+            diverges(&Tangent::at(&mut there, &p.z, &self.z, self.of))
         };
         !self.stability(p).stable && (self.conservative || self.diverged_before || diverged())
     }
@@ -227,7 +227,7 @@ impl GrowingLoad<'_, '_> {
             return self.stability(p).mode;
         }
         let mut there = self.there.borrow_mut();
-        let tangent = Tangent::at(&mut there, &p.z, &self.z, self.judged);
+        let tangent = Tangent::at(&mut there, &p.z, &self.z, self.of);
         let mut motion = DVector::zeros(there.count() + 1);
         let first = there.reactions();
         if let Some(v) = tangent.mode() {
@@ -252,7 +252,7 @@ impl GrowingLoad<'_, '_> {
             });
         }
         let special = curves.specials.iter().find(|s| {
-            self.judged == Judged::ShapeAndEnd
+            self.of == StabilityOf::ShapeAndEnd
                 && s.kind != SpecialKind::DisplacementLimit
                 && between(&points[first - 1], &s.point, &points[first])
         });

@@ -15,7 +15,7 @@ use crate::linalg::singular_values::SingularValues;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum Judged {
+pub enum StabilityOf {
     /// The shape, with the whole end held where the load has brought it.
     Shape,
     /// The shape and the end, under the conditions as prescribed.
@@ -40,7 +40,7 @@ impl Tangent {
         system: &mut ChainSystem<'_, '_>,
         z: &DVector<f64>,
         start: &DVector<f64>,
-        judged: Judged,
+        of: StabilityOf,
     ) -> Self {
         let (r, n) = (system.reactions(), system.coordinates_count());
         let last = system.count();
@@ -51,9 +51,9 @@ impl Tangent {
         system.linearised_densely(&before);
         let staying = system.load_hessian();
         let (_, _, matrix) = system.linearised_densely(z);
-        let rows = match judged {
-            Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
-            Judged::Shape => {
+        let rows = match of {
+            StabilityOf::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
+            StabilityOf::Shape => {
                 crate::chain::passive::balanced_jacobian(&system.equations, &system.scaling)
             }
         };
@@ -135,16 +135,16 @@ pub(crate) fn largest_real(springs: &DMatrix<f64>, loads: &DMatrix<f64>) -> Opti
 pub(crate) fn linear_prediction(
     system: &mut ChainSystem<'_, '_>,
     z: &DVector<f64>,
-    judged: Judged,
+    of: StabilityOf,
     conservative: bool,
 ) -> (Option<f64>, Vec<f64>) {
     let (r, m) = (system.reactions(), system.count());
     let n = system.coordinates_count();
     let (_, _, matrix) = system.linearised_densely(z);
     let at_rest = system.curvature();
-    let rows = match judged {
-        Judged::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
-        Judged::Shape => balanced_jacobian(&system.equations, &system.scaling),
+    let rows = match of {
+        StabilityOf::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
+        StabilityOf::Shape => balanced_jacobian(&system.equations, &system.scaling),
     };
     // Reactions per unit factor; the posture stays.
     let ones = vec![1.0; m];

@@ -24,4 +24,4 @@ pub use all_of_machine::{MachineEquilibria, MachineFound, SpreadSettings};
 pub use bounds::Bounds;
 pub use chain::solve_chain;
 pub use critical::{CriticalLoad, CriticalPoint, critical_load_factor};
-pub use critical_tangent::Judged;
+pub use critical_tangent::StabilityOf;

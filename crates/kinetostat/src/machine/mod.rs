@@ -31,7 +31,7 @@ pub(crate) mod turned_loads;
 pub use assembly::LinearAssembly;
 pub use constraints::{Overconstraint, SelfStress};
 pub use equilibrium::{LimbEquilibrium, MechanismEquilibrium, PlatformStability};
-pub use explain::negative_stiffness::OvercomeSpring;
+pub use explain::negative_stiffness::NegativeNetStiffness;
 pub use inverse::limb::{LimbPosture, inverse_kinematics};
 pub use posture::Posture;
 pub use request::PostureRequest;

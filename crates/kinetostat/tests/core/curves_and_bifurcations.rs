@@ -10,7 +10,7 @@ use kinetostat::{
     Parameter, Pose, Prescribed, Settings, Twist, Wrench,
     continuation::{BranchEnd, CurvePoint, Curves, LoadPattern, Special, SpecialKind},
     critical_load_factor,
-    equilibrium::Judged,
+    equilibrium::StabilityOf,
     follow, solve_chain,
     spatial::moved,
 };
@@ -628,7 +628,7 @@ fn the_loaded_middle_snaps_through_at_its_load_limit() {
         );
         assert!(from * to < 0.0, "snaps through the flat shape");
     }
-    let r = critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings).unwrap();
+    let r = critical_load_factor(&problem, &pattern, StabilityOf::ShapeAndEnd, &settings).unwrap();
     let exact = r.exact.unwrap();
     close("critical", exact.factor, up.point.parameter, 1e-10);
     assert_eq!(exact.kind, Some(SpecialKind::LoadLimit));

@@ -7,7 +7,7 @@ use kinetostat::{
     Pose, Prescribed, Wrench,
     continuation::{LoadPattern, SpecialKind},
     critical_load_factor,
-    equilibrium::Judged,
+    equilibrium::StabilityOf,
     follow,
 };
 use kinetostat_testing::{largest, largest_size};
@@ -56,7 +56,7 @@ fn straight_columns_fork_at_two_one_minus_cosine() {
             end: press(),
             loads: vec![],
         };
-        for judged in [Judged::Shape, Judged::ShapeAndEnd] {
+        for judged in [StabilityOf::Shape, StabilityOf::ShapeAndEnd] {
             let label = format!("{n} links, {judged:?}");
             let limit = CurveSettings::within(0.0, f64::INFINITY);
             let critical = critical_load_factor(&problem, &pattern, judged, &limit).unwrap();
@@ -89,7 +89,7 @@ fn a_pulled_column_never_buckles() {
         loads: vec![],
     };
     let limit = CurveSettings::within(0.0, 50.0);
-    let c = critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &limit).unwrap();
+    let c = critical_load_factor(&problem, &pattern, StabilityOf::ShapeAndEnd, &limit).unwrap();
     assert!(c.linear.is_none() && c.exact.is_none());
     close("reached", c.reached, 50.0, 1e-9);
 }
@@ -128,7 +128,7 @@ fn a_column_in_space_has_two_modes_at_once() {
     let r = critical_load_factor(
         &problem,
         &pattern,
-        Judged::ShapeAndEnd,
+        StabilityOf::ShapeAndEnd,
         &CurveSettings::within(0.0, 9.0),
     );
     close("critical", r.unwrap().exact.unwrap().factor, 1.0, 1e-8);
@@ -181,7 +181,7 @@ fn euler_columns_have_their_critical_loads() {
                 end: press() * force,
                 loads: vec![],
             };
-            critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings).unwrap()
+            critical_load_factor(&problem, &pattern, StabilityOf::ShapeAndEnd, &settings).unwrap()
         };
         let pressed = critical(1.0);
         let exact = pressed.exact.unwrap();

@@ -8,7 +8,7 @@ use kinetostat::{
     compensation::compensate_from,
     continuation::LoadPattern,
     critical_load_factor,
-    equilibrium::Judged,
+    equilibrium::StabilityOf,
     follow,
     machine::MechanismState,
     reference::{IterationSettings, newton_iteration, report_iteration},
@@ -67,7 +67,7 @@ fn critical(change: impl Fn(&mut CurveSettings, &mut LoadPattern)) -> Result<Vec
     let (mut settings, mut pattern) = (CurveSettings::within(0.0, 30.0), pattern());
     settings.points = 40;
     change(&mut settings, &mut pattern);
-    let judged = Judged::ShapeAndEnd;
+    let judged = StabilityOf::ShapeAndEnd;
     let found = critical_load_factor(&problem(&chain), &pattern, judged, &settings)?;
     Ok([found.reached].into_iter().chain(found.linear).collect())
 }

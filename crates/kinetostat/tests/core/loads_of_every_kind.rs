@@ -566,16 +566,16 @@ fn a_machine_names_the_joints_of_its_limbs() {
         free[0].in_words(),
         "free: moves along y by left: slide, right: slide"
     );
-    let behind = k.behind(&posture, &free[0].twist);
-    assert_eq!(behind, free[0].behind);
-    let names: Vec<&str> = behind.iter().map(|s| s.name.as_str()).collect();
+    let participation = k.participation(&posture, &free[0].twist);
+    assert_eq!(participation, free[0].participation);
+    let names: Vec<&str> = participation.iter().map(|s| s.name.as_str()).collect();
     assert_eq!(names, ["left: slide", "right: slide"]);
-    close("share", behind[0].share, 0.5, 1e-9);
-    close("motion", behind[1].motion.abs(), 1.0, 1e-9);
+    close("share", participation[0].share, 0.5, 1e-9);
+    close("motion", participation[1].motion.abs(), 1.0, 1e-9);
     let pushed = Wrench::new(vector![100.0, 0.0, 0.0], Vector3::zeros());
     let e = posture.deflected_by(&pushed).unwrap();
-    assert!(e.directions.iter().any(|d| !d.behind.is_empty()));
-    let behind = e.behind(&machine, &Twist::new(Vector3::x(), Vector3::zeros()));
-    let names: Vec<&str> = behind.iter().map(|s| s.name.as_str()).collect();
+    assert!(e.directions.iter().any(|d| !d.participation.is_empty()));
+    let participation = e.participation(&machine, &Twist::new(Vector3::x(), Vector3::zeros()));
+    let names: Vec<&str> = participation.iter().map(|s| s.name.as_str()).collect();
     assert_eq!(names, ["left: rod.x", "right: rod.x"]);
 }

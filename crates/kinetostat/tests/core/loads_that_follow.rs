@@ -6,7 +6,7 @@ use kinetostat::{
     Platform, Pose, Settings, Wrench,
     continuation::LoadPattern,
     critical_load_factor, equilibria,
-    equilibrium::{Bounds, Judged, SearchSettings, SpreadSettings},
+    equilibrium::{Bounds, SearchSettings, SpreadSettings, StabilityOf},
     follow, solve_chain,
 };
 use nalgebra::{Matrix2, Vector2, Vector3, vector};
@@ -39,7 +39,7 @@ fn zieglers_column_does_not_diverge() {
     };
     let problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
     let found =
-        critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings(4.0)).unwrap();
+        critical_load_factor(&problem, &pattern, StabilityOf::ShapeAndEnd, &settings(4.0)).unwrap();
     // K - P G = [[2 - P, P - 1], [-1, 1]] with determinant 1, whatever P is.
     assert!(found.exact.is_none(), "{:?}", found.exact.map(|e| e.factor));
     assert!(found.linear.is_none(), "{:?}", found.linear);
@@ -75,8 +75,13 @@ fn partly_following_columns_diverge_by_the_determinant() {
         // (1 - f) P^2 - 3 (1 - f) P + 1 = 0: real for (1 - f) >= 4 / 9.
         let d = 1.0 - follows;
         let asked = (3.0 * d - (9.0 * d * d - 4.0 * d).sqrt()) / (2.0 * d);
-        let found =
-            critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings(most)).unwrap();
+        let found = critical_load_factor(
+            &problem,
+            &pattern,
+            StabilityOf::ShapeAndEnd,
+            &settings(most),
+        )
+        .unwrap();
         assert_eq!(found.conservative, follows == 0.0);
         assert_eq!(found.caution().is_none(), follows == 0.0);
         let exact = found.exact.expect("divergence").factor;
@@ -104,7 +109,8 @@ fn a_dead_load_beside_a_follower_diverges_by_the_determinant() {
         let follower = Load::follower(chain.tip(), Wrench(press.0 * stays));
         problem.loads.push(follower);
         let found =
-            critical_load_factor(&problem, &pattern, Judged::ShapeAndEnd, &settings(3.0)).unwrap();
+            critical_load_factor(&problem, &pattern, StabilityOf::ShapeAndEnd, &settings(3.0))
+                .unwrap();
         // Absolute angles: [[2 - F - p, F - 1], [-1, 1 - p]] has the determinant p^2 - (3 - F) p + 1.
         let half: f64 = 0.5 * (3.0 - stays);
         let asked = (half >= 1.0).then(|| half - (half * half - 1.0).sqrt());

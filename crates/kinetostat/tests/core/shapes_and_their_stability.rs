@@ -10,7 +10,7 @@ use kinetostat::{
     BeamSection, Chain, ChainProblem, DirectionKind, EndCondition, Equilibrium, Load, MotionKind,
     Pose, PostureRequest, Prescribed, Settings, Twist, Wrench, solve_chain, spatial::moved,
 };
-use kinetostat::{Limb, Mechanism, Platform, chain::ShapeVerdict, machine::LimbPosture};
+use kinetostat::{Limb, Mechanism, Platform, chain::ShapeState, machine::LimbPosture};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 use proptest::prelude::*;
@@ -197,10 +197,10 @@ fn a_verdict_in_words_for_every_shape() {
             .stability
     };
     for (p, verdict, word) in [
-        (0.25, ShapeVerdict::Stable, "25.000 %"),
-        (-0.5, ShapeVerdict::Stable, "stiffens"),
-        (1.0, ShapeVerdict::Singular, "critical"),
-        (2.0, ShapeVerdict::Unstable, "does not keep"),
+        (0.25, ShapeState::Stable, "25.000 %"),
+        (-0.5, ShapeState::Stable, "stiffens"),
+        (1.0, ShapeState::Singular, "critical"),
+        (2.0, ShapeState::Unstable, "does not keep"),
     ] {
         let s = at(p);
         assert_eq!(s.verdict(), verdict, "{p}: {s:?}");

@@ -184,14 +184,14 @@ fn directions_name_the_joints_behind_them() {
     assert_eq!(free[0].in_words(), "free: moves along y by q2");
     assert_eq!(free[1].in_words(), "free: turns about z by q3");
     for (direction, joint) in free.iter().zip(["q2", "q3"]) {
-        let [share] = &direction.behind[..] else {
+        let [share] = &direction.participation[..] else {
             panic!("{direction:?}")
         };
         assert_eq!((share.name.as_str(), share.role), (joint, Role::Passive));
         close("share", share.share, 1.0, 1e-12);
     }
     // What a push along x moves: the rod's own spring.
-    let all = k.behind(&chain, &Twist::new(Vector3::x(), Vector3::zeros()));
+    let all = k.participation(&chain, &Twist::new(Vector3::x(), Vector3::zeros()));
     assert_eq!(all.len(), 8);
     close("rod", all[0].motion, 1.0, 1e-12);
     assert!(all[1..].iter().all(|s| s.motion.abs() < 1e-12), "{all:?}");
@@ -209,13 +209,13 @@ fn directions_name_the_joints_behind_them() {
         .directions
         .iter()
         .filter(|d| d.kind == DirectionKind::Free && d.twist.angular().x.abs() > 1e-9)
-        .flat_map(|d| d.behind.iter().map(|s| s.name.as_str()))
+        .flat_map(|d| d.participation.iter().map(|s| s.name.as_str()))
         .collect();
     assert_eq!(spin, ["lower.x", "upper.x"]);
     let lower = k
         .directions
         .iter()
-        .find(|d| d.behind.iter().any(|s| s.name == "lower.z"));
+        .find(|d| d.participation.iter().any(|s| s.name == "lower.z"));
     let words = lower.unwrap().in_words();
     assert!(
         words.starts_with("free: turns about z on an axis [-0.8000, 0.0000, 0.0000] m"),

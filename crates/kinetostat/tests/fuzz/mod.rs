@@ -16,7 +16,7 @@ use kinetostat::{
     ChainProblem, CurveSettings, Parameter, Prescribed, Settings, Wrench,
     continuation::LoadPattern,
     critical_load_factor, equilibria,
-    equilibrium::{Bounds, Judged, SearchSettings},
+    equilibrium::{Bounds, SearchSettings, StabilityOf},
     follow,
     reference::{
         ChainBlocks, IterationOutcome, IterationSettings, newton_iteration, report_iteration,
@@ -447,7 +447,7 @@ fn odd_settings(random: &mut Random, problem: &ChainProblem<'_>) {
 fn critical(random: &mut Random, problem: &ChainProblem<'_>, pattern: &LoadPattern) {
     let mut settings = CurveSettings::within(0.0, 10.0);
     settings.points = 5;
-    let judged = [Judged::Shape, Judged::ShapeAndEnd][random.below(2)];
+    let judged = [StabilityOf::Shape, StabilityOf::ShapeAndEnd][random.below(2)];
     match critical_load_factor(problem, pattern, judged, &settings) {
         Ok(c) => {
             assert!(

@@ -71,7 +71,10 @@ pub(crate) fn findings(model: &Model, source: String, force: Option<Vector3<f64>
             ),
             other => other.to_string(),
         })
-        .and_then(|p| at_home(m, p, force, &mut limbs, &load_names(model)));
+        .and_then(|p| {
+            let answer = at_home(m, p, force, &mut limbs, &load_names(model));
+            answer.map_err(|error| error.to_string())
+        });
     let (home, assumptions, home_problem) = match solved {
         Ok((home, assumptions)) => (Some(home), Some(assumptions), None),
         Err(reason) => (None, None, Some(reason)),

@@ -59,8 +59,8 @@ pub(crate) fn at_home(
     force: Option<Vector3<f64>>,
     limbs: &mut [LimbFinding],
     load_names: &[Vec<String>],
-) -> Result<(HomeFinding, AssumptionsFinding), String> {
-    let stiffness = posture.stiffness().map_err(|e| e.to_string())?;
+) -> kinetostat::Result<(HomeFinding, AssumptionsFinding)> {
+    let stiffness = posture.stiffness()?;
     for (i, found) in limbs.iter_mut().enumerate() {
         let k = &stiffness.limbs[i];
         found
@@ -71,9 +71,7 @@ pub(crate) fn at_home(
     }
     let mobility = posture.mobility().ncols();
     let correctable = posture.correctable();
-    let rest = posture
-        .deflected_by(&Wrench::zero())
-        .map_err(|e| e.to_string())?;
+    let rest = posture.deflected_by(&Wrench::zero())?;
     let over = posture.overconstraint();
     let mut assumptions = assumptions(posture, &rest, force);
     assumptions

@@ -7,8 +7,8 @@ use kinetostat_analysis::measured_poses::MeasuredPose;
 use nalgebra::Vector3;
 
 use crate::check::poses::pose_row::{MOST, PoseRow};
-use crate::place::joints::{Named, quantity};
-use crate::place::orientation::{self, CONVENTIONS};
+use crate::place::joints::{Named, NoQuantity, quantity};
+use crate::place::orientation::{self, CONVENTIONS, NoOrientation};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::spelling::nearest;
 
@@ -188,36 +188,58 @@ fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
     Ok(())
 }
 
+/// What is wrong with a row of the file.
+#[derive(Debug, thiserror::Error)]
+enum RowFault {
+    #[error("'{text}' in the column '{column}': a finite number with a decimal point is needed")]
+    NoNumber { text: String, column: String },
+    #[error("'{text}' in the column '{column}': {fault}")]
+    NoQuantity {
+        text: String,
+        column: String,
+        fault: NoQuantity,
+    },
+    #[error(transparent)]
+    NoOrientation(#[from] NoOrientation),
+}
+
 fn cells(
     record: &csv::StringRecord,
     columns: &[Column],
     header: &csv::StringRecord,
     names: &[Named],
     number: usize,
-) -> Result<PoseRow, String> {
+) -> Result<PoseRow, RowFault> {
     let mut joints = vec![0.0; names.len()];
     let mut position = Vector3::zeros();
     let mut turn: Option<(&str, Vec<f64>)> = None;
     let mut name = number.to_string();
     for ((cell, column), head) in record.iter().zip(columns).zip(header) {
         let read = |text: &str| {
-            text.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| {
-                format!("'{text}' in the column '{head}': a finite number with a decimal point is needed")
-            })
+            text.parse::<f64>()
+                .ok()
+                .filter(|x| x.is_finite())
+                .ok_or_else(|| RowFault::NoNumber {
+                    text: text.to_owned(),
+                    column: head.to_owned(),
+                })
         };
         match column {
             Column::Name => name = cell.to_owned(),
             Column::Joint(i) => {
                 let (_, kind, usual) = names[*i];
-                joints[*i] = quantity(cell, kind, usual)
-                    .map_err(|reason| format!("'{cell}' in the column '{head}': {reason}"))?;
+                joints[*i] = quantity(cell, kind, usual).map_err(|fault| RowFault::NoQuantity {
+                    text: cell.to_owned(),
+                    column: head.to_owned(),
+                    fault,
+                })?;
             }
             Column::Position(i, size) => position[*i] = read(cell)? * size,
             Column::Orientation(convention) => {
                 let numbers = cell
                     .split_whitespace()
                     .map(read)
-                    .collect::<Result<_, _>>()?;
+                    .collect::<Result<_, RowFault>>()?;
                 turn = Some((convention, numbers));
             }
             Column::Part(convention, k) => {

@@ -16,7 +16,7 @@ use crate::spatial::{MotionKind, Wrench};
 /// the limb stand still and what follows in the limb rides along.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct OvercomeSpring {
+pub struct NegativeNetStiffness {
     /// Limb, its index.
     pub limb: usize,
     /// Coordinate, as in [`crate::Chain::coordinates`].
@@ -41,7 +41,10 @@ impl Posture {
     ///
     /// # Errors
     /// An equilibrium of another machine.
-    pub fn overcome_springs(&self, at: &MechanismEquilibrium) -> Result<Vec<OvercomeSpring>> {
+    pub fn negative_net_stiffnesses(
+        &self,
+        at: &MechanismEquilibrium,
+    ) -> Result<Vec<NegativeNetStiffness>> {
         let m = self.mechanism.clone();
         let mut found = Vec::new();
         for (index, (limb, here)) in m.limbs().iter().zip(&at.limbs).enumerate() {
@@ -76,7 +79,7 @@ impl Posture {
                     continue;
                 }
                 let coordinate = &chain.coordinates()[i];
-                found.push(OvercomeSpring {
+                found.push(NegativeNetStiffness {
                     limb: index,
                     coordinate: coordinate.name.clone(),
                     kind: coordinate.kind,
@@ -87,7 +90,7 @@ impl Posture {
                 });
             }
         }
-        let excess = |s: &OvercomeSpring| s.spring / s.by_all.abs();
+        let excess = |s: &NegativeNetStiffness| s.spring / s.by_all.abs();
         found.sort_by(|a, b| excess(a).total_cmp(&excess(b)));
         Ok(found)
     }

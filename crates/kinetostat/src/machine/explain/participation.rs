@@ -13,7 +13,7 @@ impl UnloadedStiffness {
     /// stiffness of) moves by a small twist (m, rad; base axes, at the tool's origin), named
     /// `limb: joint`, the most first. Only limbs that run from the base to the tool are asked.
     #[must_use]
-    pub fn behind(&self, posture: &Posture, twist: &Twist) -> Vec<Share> {
+    pub fn participation(&self, posture: &Posture, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter();
         limbs_behind(posture.mechanism(), posture.target(), limbs, twist)
     }
@@ -22,7 +22,8 @@ impl UnloadedStiffness {
     pub(crate) fn named(mut self, posture: &Posture) -> Self {
         for i in 0..self.directions.len() {
             if loose(&self.directions[i]) {
-                self.directions[i].behind = self.behind(posture, &self.directions[i].twist);
+                self.directions[i].participation =
+                    self.participation(posture, &self.directions[i].twist);
             }
         }
         self
@@ -38,9 +39,9 @@ fn loose(direction: &Direction) -> bool {
 }
 
 impl MechanismEquilibrium {
-    /// As [`UnloadedStiffness::behind`], under load.
+    /// As [`UnloadedStiffness::participation`], under load.
     #[must_use]
-    pub fn behind(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
+    pub fn participation(&self, mechanism: &Mechanism, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter().map(|limb| &limb.stiffness);
         limbs_behind(mechanism, &self.tool, limbs, twist)
     }
@@ -49,7 +50,8 @@ impl MechanismEquilibrium {
     pub(crate) fn named(mut self, mechanism: &Mechanism) -> Self {
         for i in 0..self.directions.len() {
             if loose(&self.directions[i]) {
-                self.directions[i].behind = self.behind(mechanism, &self.directions[i].twist);
+                self.directions[i].participation =
+                    self.participation(mechanism, &self.directions[i].twist);
             }
         }
         self

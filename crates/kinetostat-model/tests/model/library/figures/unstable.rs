@@ -35,7 +35,7 @@ fn a_compensator_that_beats_its_joint_is_named() {
         .deflected_by(&Wrench::zero())
         .expect("an equilibrium");
     assert!(!rest.stable() && !rest.platform.stable);
-    let found = posture.overcome_springs(&rest).expect("springs");
+    let found = posture.negative_net_stiffnesses(&rest).expect("springs");
     let worst = &found[0];
     assert_eq!((worst.limb, worst.coordinate.as_str()), (0, "A2"));
     assert!(worst.spring == 2.0e4 && worst.by_all < -2.0e4, "{worst:?}");
@@ -68,6 +68,11 @@ fn a_compensator_that_beats_its_joint_is_named() {
         let posture = m.posture(&m.platforms()[1].home).expect("home");
         let rest = posture.deflected_by(&Wrench::zero()).expect("at rest");
         assert!(rest.stable());
-        assert!(posture.overcome_springs(&rest).expect("none").is_empty());
+        assert!(
+            posture
+                .negative_net_stiffnesses(&rest)
+                .expect("none")
+                .is_empty()
+        );
     }
 }
