@@ -1,6 +1,6 @@
 //! Sentences of the errors that need more than their fields.
 
-use super::LoadLimit;
+use super::load_limit::LoadLimit;
 use super::place::Place;
 use crate::number;
 use crate::spatial::{MotionKind, Pose};

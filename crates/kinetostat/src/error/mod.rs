@@ -1,11 +1,12 @@
 //! What can go wrong. `Err` means a wrong input, or an iteration that did not converge; a physical
 //! finding (singular, unstable, redundant) is a field of a result.
 
+mod load_limit;
 mod messages;
 mod place;
 
-use crate::number;
-use crate::spatial::{MotionKind, Pose, Twist, Wrench};
+use crate::spatial::{MotionKind, Pose, Wrench};
+pub use load_limit::LoadLimit;
 use messages::{joint_values, nearest_found, not_converged};
 pub(crate) use place::SHAPE_CRITERION;
 pub use place::{Part, Place, Whole};
@@ -92,7 +93,7 @@ pub enum Error {
     /// Loops that do not close with the commands that were given.
     #[error(
         "{place}: its loops do not close with these commands: from home they close up to {:.1} % of the way, then {} are missing",
-        100.0 * share, number::apart(gap_m * 1e3, gap_rad.to_degrees())
+        100.0 * share, crate::number::apart(gap_m * 1e3, gap_rad.to_degrees())
     )]
     NoClosure {
         /// Mechanism.
@@ -181,15 +182,4 @@ impl Error {
                 | Self::FreeDirection { .. }
         )
     }
-}
-
-/// A limit point on the way from rest to a load: the branch that starts at rest carries no more,
-/// and a dead load beyond it makes the machine snap to another equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct LoadLimit {
-    /// Share of the load that is carried, 0 to 1.
-    pub share: f64,
-    /// Displacement of the tool there, from the nominal target (m, rad).
-    pub displacement: Twist,
 }
