@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
-use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Status, Table};
+use kinetostat::batch::{Batch, BatchEquilibrium, BatchStiffness, Details, Status, Table};
 use kinetostat::{Mechanism, Pose, Wrench};
 use kinetostat_model::Model;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3, Vector6};
@@ -171,22 +171,28 @@ impl Task {
 
     fn ask(&self, from: usize, to: usize, out: &mut Results) -> Result<()> {
         let jacobian = self.work == Work::StiffnessAndJacobian;
-        let tangent = self.work == Work::EquilibriumAndStiffness;
+        let details = match self.work {
+            Work::EquilibriumAndStiffness => Details::Stiffness,
+            _ => Details::Rest,
+        };
         let (batch, unloaded, loaded) = (&self.batch, &mut out.unloaded, &mut out.loaded);
         match &self.places {
             Places::Joints(commands) => {
                 let own = &commands[from * self.actuators..to * self.actuators];
                 if self.loaded() {
                     let wrenches = &self.wrenches[from..to];
-                    batch.equilibrium_at_joints_into(own, wrenches, tangent, loaded)?;
+                    batch.equilibrium_at_joints_into(own, wrenches, details, loaded)?;
                 } else {
-                    batch.stiffness_at_joints_into(own, jacobian, unloaded)?;
+                    match jacobian {
+                        true => batch.stiffness_and_jacobian_into(own, unloaded)?,
+                        false => batch.stiffness_at_joints_into(own, unloaded)?,
+                    }
                 }
             }
             Places::Poses(poses) => {
                 let own = &poses[from..to];
                 if self.loaded() {
-                    batch.equilibrium_into(own, &self.wrenches[from..to], tangent, loaded)?;
+                    batch.equilibrium_into(own, &self.wrenches[from..to], details, loaded)?;
                 } else {
                     batch.stiffness_into(own, unloaded);
                 }

@@ -264,7 +264,7 @@ fn legs_that_brace_each_other_are_found_together() {
             .collect();
         let batch = Batch::new(&machine);
         let found = batch
-            .equilibrium(&poses, &wrenches, false)
+            .equilibrium(&poses, &wrenches, kinetostat::batch::Details::Rest)
             .expect("as many wrenches as poses");
         let together = found.status.iter().filter(|f| **f == Status::Vectorised);
         assert_eq!(together.count(), count, "{name}");

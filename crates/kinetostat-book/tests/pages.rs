@@ -281,6 +281,69 @@ fn slug(heading: &str) -> String {
     kept.collect()
 }
 
+/// Names of a cell of the page of functions, with the type that they belong to: `Posture::path(..)` is
+/// `(Some("Posture"), "path")`.
+fn functions_of(cell: &str) -> Vec<(Option<&str>, &str)> {
+    let names = quoted(cell).into_iter();
+    let called = names.map(|name| name.split('(').next().unwrap_or(name));
+    called
+        .map(|name| match name.rsplit_once("::") {
+            Some((of, function)) => (of.rsplit("::").next(), function),
+            None => (None, name),
+        })
+        .collect()
+}
+
+/// The documentation above a definition: the lines of `///` before it, attributes passed over.
+fn documentation<'t>(text: &'t str, definition: &str) -> Option<Vec<&'t str>> {
+    let lines: Vec<&str> = text.lines().collect();
+    let at = lines.iter().position(|line| {
+        let rest = line.trim_start().strip_prefix(definition);
+        rest.is_some_and(|r| !r.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    })?;
+    let above = lines[..at].iter().rev().map(|line| line.trim_start());
+    Some(
+        above
+            .take_while(|l| l.starts_with("///") || l.starts_with("#["))
+            .collect(),
+    )
+}
+
+#[test]
+fn every_function_of_the_page_of_functions_exists_and_has_an_example() {
+    let core = root().join("crates/kinetostat/src");
+    let sources: Vec<String> = files(&core, "rs").iter().map(|path| read(path)).collect();
+    let page = read(&root().join("book/src/functions.md"));
+    let rows = page.lines().filter(|line| line.starts_with('|'));
+    let mut looked_at = 0;
+    for row in rows.filter(|row| !row.starts_with("| question") && !row.starts_with("|--")) {
+        let cell = row.split('|').nth(2).expect("a column of functions");
+        for (of, name) in functions_of(cell) {
+            let with_example = |definition: &str, within: Option<&str>| {
+                let own = sources.iter().filter(|text| {
+                    within.is_none_or(|of| {
+                        text.contains(&format!("impl {of} "))
+                            || text.contains(&format!("impl<'a> {of}<'a> "))
+                    })
+                });
+                let mut found = own.filter_map(|text| documentation(text, definition));
+                found.any(|doc| doc.iter().any(|line| line.contains("```")))
+            };
+            let function = with_example(&format!("pub fn {name}"), of);
+            let types = [Some(name), of].into_iter().flatten();
+            let by_type = types
+                .clone()
+                .any(|of| with_example(&format!("pub struct {of}"), None));
+            assert!(
+                function || by_type,
+                "{row}\n'{name}' does not exist, or has no example"
+            );
+            looked_at += 1;
+        }
+    }
+    assert!(looked_at > 20, "{looked_at} functions were looked at");
+}
+
 #[test]
 fn every_anchor_exists() {
     let (mut seen, mut wrong) = (0, Vec::new());

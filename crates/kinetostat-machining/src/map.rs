@@ -253,7 +253,9 @@ fn loaded(
     out: &mut [MapPlace],
 ) {
     let wrenches = vec![*wrench; poses.len()];
-    let found = batch.judged_equilibrium(poses, &wrenches).ok();
+    let found = batch
+        .equilibrium(poses, &wrenches, kinetostat::batch::Details::Stability)
+        .ok();
     for (i, place) in out.iter_mut().enumerate() {
         let taken = found
             .as_ref()

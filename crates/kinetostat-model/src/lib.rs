@@ -85,3 +85,8 @@ pub use plausibility::link_matrix::doubts_of_link_matrix;
 pub use plausibility::numbers::odd_angles;
 pub use presets::{Preset, PresetKind, preset_names, preset_text};
 pub use problem::{ModelError, Problem, Severity, shortened};
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

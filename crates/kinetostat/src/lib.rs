@@ -127,3 +127,8 @@ pub use model::mechanism::{Limb, Mechanism, Platform};
 pub use model::mechanism_builder::MechanismBuilder;
 pub use settings::Settings;
 pub use spatial::{CartesianStiffness, Directions, MotionKind, Pose, Twist, Wrench};
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -46,7 +46,7 @@ fn unloaded(batch: &Batch, poses: &[Pose]) -> Bits {
 
 fn loaded(batch: &Batch, poses: &[Pose], wrenches: &[Wrench]) -> Bits {
     let all = batch
-        .equilibrium(poses, wrenches, true)
+        .equilibrium(poses, wrenches, kinetostat::batch::Details::Stiffness)
         .expect("as many wrenches as poses");
     let row = |i| {
         let numbers = all.tool.row(i).chain(all.coordinates.row(i));

@@ -108,7 +108,9 @@ fn every_preset_has_the_same_tangent_alone_and_together() {
         let mechanism = &model.mechanism;
         let batch = Batch::new(mechanism);
         let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
-        let all = batch.equilibrium(&poses, &wrenches, true).expect("sizes");
+        let all = batch
+            .equilibrium(&poses, &wrenches, kinetostat::batch::Details::Stiffness)
+            .expect("sizes");
         let mut worst = Worst::new();
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);
@@ -140,7 +142,9 @@ fn every_preset_is_judged_the_same_alone_and_together() {
         let mechanism = &model.mechanism;
         let batch = Batch::new(mechanism);
         let (poses, wrenches) = (poses(mechanism, count), wrenches(count));
-        let all = batch.judged_equilibrium(&poses, &wrenches).expect("sizes");
+        let all = batch
+            .equilibrium(&poses, &wrenches, kinetostat::batch::Details::Stability)
+            .expect("sizes");
         let mut worst = <[Worst; 4]>::default();
         for i in 0..count {
             let posture = mechanism.posture(&poses[i]);

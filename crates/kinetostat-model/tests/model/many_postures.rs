@@ -46,7 +46,7 @@ fn every_preset_gives_the_same_alone_and_together() {
         let wrenches = wrenches(count);
         let found = batch.stiffness(&poses);
         let loaded = batch
-            .equilibrium(&poses, &wrenches, false)
+            .equilibrium(&poses, &wrenches, kinetostat::batch::Details::Rest)
             .expect("as many wrenches as poses");
         let (mut worst, mut worst_loaded) = (Worst::new(), Worst::new());
         for i in 0..count {

@@ -18,6 +18,28 @@ use crate::model::mechanism::{Limb, Mechanism};
 pub(super) const BLOCKS: usize = 32;
 
 /// A machine compiled for many postures.
+///
+/// ```
+/// use kinetostat::batch::{Batch, Details};
+/// use kinetostat::nalgebra::{Vector3, vector};
+/// use kinetostat::{ActuatorSpec, BeamSection, Chain, Mechanism, MotionKind, Pose, Wrench};
+///
+/// let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+/// let gantry = Chain::builder("gantry")
+///     .actuator("x", slide(Vector3::x()))
+///     .actuator("y", slide(Vector3::y()))
+///     .link("column", &BeamSection::tube(2.1e11, 8.1e10, 0.2, 0.17), 0.4)
+///     .build()?;
+/// let gantry = Mechanism::serial(gantry, Pose::translation(0.4, 0.0, 0.0), Vector3::zeros())?;
+/// let batch = Batch::new(&gantry);
+///
+/// let poses: Vec<Pose> = (0..100).map(|i| Pose::translation(0.4 + 1e-3 * f64::from(i), 0.1, 0.0)).collect();
+/// let wrenches = vec![Wrench::new(vector![0.0, 0.0, 500.0], Vector3::zeros()); poses.len()]; // N
+/// let found = batch.equilibrium(&poses, &wrenches, Details::Stiffness)?;
+/// assert!(found.status.iter().all(|status| status.is_solved()));
+/// assert!(found.tool_pose(99).translation.z > 0.0, "the force bends the column");
+/// # Ok::<(), kinetostat::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Batch {
     pub(super) mechanism: Mechanism,

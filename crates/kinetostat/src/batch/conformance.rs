@@ -7,6 +7,7 @@
 use nalgebra::{Matrix6, Vector3};
 use pulp::Arch;
 
+use super::equilibria::Details;
 use super::run::CHOSEN;
 use super::{Batch, Status};
 use crate::chain::sweep::stages::Path;
@@ -127,8 +128,11 @@ impl Engine for Kernels {
     fn answer(&self, case: &Case) -> Option<Answer> {
         let batch = Batch::new(&case.machine);
         CHOSEN.set(Some(self.0));
-        let found =
-            batch.equilibrium_at_joints(&case.commands, std::slice::from_ref(&case.wrench), true);
+        let found = batch.equilibrium_at_joints(
+            &case.commands,
+            std::slice::from_ref(&case.wrench),
+            Details::Stiffness,
+        );
         CHOSEN.set(None);
         let found = found.ok()?;
         (found.status == [Status::Vectorised]).then(|| Answer {
@@ -368,7 +372,7 @@ fn singular_machines_get_the_general_answer() {
         let general = General.answer(&case).expect(&case.name);
         let batch = Batch::new(&case.machine);
         let found = batch
-            .equilibrium_at_joints(&case.commands, &[case.wrench], true)
+            .equilibrium_at_joints(&case.commands, &[case.wrench], Details::Stiffness)
             .expect("sizes");
         assert_ne!(found.status[0], Status::Unsolved, "{}", case.name);
         let tool: Vec<f64> = found.tool.row(0).collect();
@@ -429,7 +433,7 @@ fn every_law_holds_a_platform_as_in_the_general_engine() {
             .map(|i| Wrench::new(vector(60 + i) * 300.0, vector(80 + i) * 20.0))
             .collect();
         let found = Batch::new(&machine)
-            .judged_equilibrium(&poses, &wrenches)
+            .equilibrium(&poses, &wrenches, Details::Stability)
             .expect("sizes");
         for i in 0..count {
             let place = format!("law {law}, posture {i}");

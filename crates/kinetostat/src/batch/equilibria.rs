@@ -31,7 +31,7 @@ pub struct BatchEquilibrium {
     pub actuator_forces: Table,
     /// Tangent stiffness of the tool, 36 numbers as in [`super::BatchStiffness`]. Empty unless wanted.
     pub stiffness: Table,
-    /// See [`Self::verdict`]. Empty unless wanted: [`Batch::judged_equilibrium`].
+    /// See [`Self::verdict`]. Empty unless wanted: [`Details::Stability`].
     pub verdicts: Table,
     /// What became of each.
     pub status: Vec<Status>,
@@ -64,12 +64,16 @@ pub struct BatchTargets {
     pub equilibrium: BatchEquilibrium,
 }
 
-/// How much is wanted of an equilibrium.
+/// How much is wanted of the equilibria of many postures; each includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Query {
+#[non_exhaustive]
+pub enum Details {
+    /// Where the tool goes, coordinates, wrenches and commands.
     Rest,
-    Tangent,
-    Verdict,
+    /// The tangent stiffness at the tool, too.
+    Stiffness,
+    /// Whether it is stable, too, see [`BatchEquilibrium::verdict`].
+    Stability,
 }
 
 /// The answer of the general engine for one posture.
@@ -94,17 +98,17 @@ impl BatchEquilibrium {
     }
 
     /// Room for so many postures; old numbers stay until they are written over.
-    fn reset(&mut self, batch: &Batch, query: Query, count: usize) {
+    fn reset(&mut self, batch: &Batch, query: Details, count: usize) {
         let limbs = batch.mechanism.limbs();
         let coordinates = limbs.iter().map(|l| l.actual.coordinate_count()).sum();
         let commands = limbs.iter().map(|l| l.actual.actuators().len()).sum();
-        let stiffness = if query >= Query::Tangent { 36 } else { 0 };
+        let stiffness = if query >= Details::Stiffness { 36 } else { 0 };
         self.tool.reset(12, count);
         self.coordinates.reset(coordinates, count);
         self.commands.reset(commands, count);
         self.actuator_forces.reset(commands, count);
         self.stiffness.reset(stiffness, count);
-        let verdict = if query == Query::Verdict { 3 } else { 0 };
+        let verdict = if query == Details::Stability { 3 } else { 0 };
         self.verdicts.reset(verdict, count);
         self.engine = batch.engine();
         self.status.clear();
@@ -224,8 +228,7 @@ fn forces(posture: &Posture, state: &MechanismState) -> Vec<f64> {
 
 impl Batch {
     /// Equilibrium of the machine as it is, its tool commanded to `poses` and loaded by `wrenches`
-    /// (one of each per posture; base axes, about the tool's origin), with the tangent stiffness if
-    /// asked for.
+    /// (one of each per posture; base axes, about the tool's origin).
     ///
     /// # Errors
     /// [`Error::Size`] if there are not as many wrenches as poses.
@@ -233,10 +236,10 @@ impl Batch {
         &self,
         poses: &[Pose],
         wrenches: &[Wrench],
-        tangent: bool,
+        details: Details,
     ) -> Result<BatchEquilibrium> {
         let mut out = BatchEquilibrium::default();
-        self.equilibrium_into(poses, wrenches, tangent, &mut out)?;
+        self.equilibrium_into(poses, wrenches, details, &mut out)?;
         Ok(out)
     }
 
@@ -248,10 +251,10 @@ impl Batch {
         &self,
         poses: &[Pose],
         wrenches: &[Wrench],
-        tangent: bool,
+        details: Details,
         out: &mut BatchEquilibrium,
     ) -> Result<()> {
-        self.loaded(&Places::Poses(poses), wrenches, query(tangent), out)
+        self.loaded(&Places::Poses(poses), wrenches, details, out)
     }
 
     /// The same for a serial machine with its actuators commanded to `commands`.
@@ -262,10 +265,10 @@ impl Batch {
         &self,
         commands: &[f64],
         wrenches: &[Wrench],
-        tangent: bool,
+        details: Details,
     ) -> Result<BatchEquilibrium> {
         let mut out = BatchEquilibrium::default();
-        self.equilibrium_at_joints_into(commands, wrenches, tangent, &mut out)?;
+        self.equilibrium_at_joints_into(commands, wrenches, details, &mut out)?;
         Ok(out)
     }
 
@@ -277,25 +280,10 @@ impl Batch {
         &self,
         commands: &[f64],
         wrenches: &[Wrench],
-        tangent: bool,
+        details: Details,
         out: &mut BatchEquilibrium,
     ) -> Result<()> {
-        self.loaded(&self.joints(commands)?, wrenches, query(tangent), out)
-    }
-
-    /// As [`Self::equilibrium`] with tangent stiffness and verdicts: what [`Posture::deflected_by`]
-    /// tells of stability.
-    ///
-    /// # Errors
-    /// As [`Self::equilibrium`].
-    pub fn judged_equilibrium(
-        &self,
-        poses: &[Pose],
-        wrenches: &[Wrench],
-    ) -> Result<BatchEquilibrium> {
-        let mut out = BatchEquilibrium::default();
-        self.loaded(&Places::Poses(poses), wrenches, Query::Verdict, &mut out)?;
-        Ok(out)
+        self.loaded(&self.joints(commands)?, wrenches, details, out)
     }
 
     /// Compensation [R 7.7-7.13]: the poses to command so that the tool is at `poses` under
@@ -313,7 +301,7 @@ impl Batch {
         let places = Places::Poses(poses);
         self.as_many(&places, wrenches)?;
         let mut equilibrium = BatchEquilibrium::default();
-        equilibrium.reset(self, Query::Rest, poses.len());
+        equilibrium.reset(self, Details::Rest, poses.len());
         let mut table = Table::default();
         table.reset(12, poses.len());
         // Rotations about some axes only do not add up: what they lead to depends on the way there.
@@ -433,19 +421,19 @@ impl Batch {
         &self,
         places: &Places<'_>,
         wrenches: &[Wrench],
-        query: Query,
+        query: Details,
         out: &mut BatchEquilibrium,
     ) -> Result<()> {
         self.as_many(places, wrenches)?;
         out.reset(self, query, places.len());
-        if query != Query::Verdict || self.judges() {
+        if query != Details::Stability || self.judges() {
             let mut none = Table::default();
             none.reset(0, places.len());
             self.vectorised(places, wrenches, None, out, &mut none);
         }
         let scalar = |i: usize| {
             let posture = self.posture(places, i)?;
-            if query == Query::Rest {
+            if query == Details::Rest {
                 let state = posture.rest_under(&wrenches[i], posture.rest_state())?;
                 return Ok(Scalar::resting(&posture, &state));
             }
@@ -466,8 +454,4 @@ fn pose(table: &Table, i: usize) -> Pose {
     // Rounding of a rotation matrix, not a search for the nearest rotation.
     let rotation = nalgebra::Rotation3::from_matrix_unchecked(rotation);
     Pose::from_parts(place.into(), rotation.into())
-}
-
-fn query(tangent: bool) -> Query {
-    if tangent { Query::Tangent } else { Query::Rest }
 }

@@ -51,7 +51,7 @@ mod verdict;
 mod wrenches;
 
 pub use compiled::Batch;
-pub use equilibria::{BatchEquilibrium, BatchTargets, Verdict};
+pub use equilibria::{BatchEquilibrium, BatchTargets, Details, Verdict};
 pub use models::over_machines;
 pub use path::AlongPath;
 pub use status::{Engine, NoKernel, Status};

@@ -27,7 +27,7 @@ use crate::model::mechanism::Mechanism;
 ///     Mechanism::serial(chain, Pose::translation(0.5, 0.0, 0.2), Vector3::zeros())
 /// };
 /// let across = over_machines(100, arm, |_, batch| {
-///     Ok(batch.stiffness_at_joints(&[0.0], false)?.stiffness.get(0, 7))
+///     Ok(batch.stiffness_at_joints(&[0.0])?.stiffness.get(0, 7))
 /// });
 /// let first = across[0].as_ref().unwrap();
 /// assert!(across.iter().all(|k| k.as_ref().unwrap() <= first));

@@ -88,7 +88,9 @@ fn an_elastica_is_found_together() {
         let batch = Batch::new(&machine);
         let home = machine.platforms()[1].home;
         let load = force(0.0, 10.0, 0.0);
-        let one = batch.equilibrium(&[home], &[load], false).expect("sizes");
+        let one = batch
+            .equilibrium(&[home], &[load], Details::Rest)
+            .expect("sizes");
         assert_eq!(one.status[0], Status::Vectorised);
         let tip = [one.tool.get(0, 9), one.tool.get(0, 10)];
         let exact = elastica(10.0);
@@ -117,9 +119,11 @@ fn an_elastica_is_found_together() {
             .map(|p| force(0.0, p, 0.3 * p))
             .into();
         let places = vec![home; loads.len()];
-        let all = batch.equilibrium(&places, &loads, false).expect("sizes");
+        let all = batch
+            .equilibrium(&places, &loads, Details::Rest)
+            .expect("sizes");
         for i in 0..loads.len() {
-            let own = batch.equilibrium(&places[..1], &loads[i..=i], false);
+            let own = batch.equilibrium(&places[..1], &loads[i..=i], Details::Rest);
             let own = own.expect("sizes");
             assert_eq!(own.status[0], all.status[i]);
             assert!(own.tool.row(0).eq(all.tool.row(i)), "load {i}");
@@ -179,7 +183,7 @@ fn heavily_loaded_arms_are_found_together() {
         .map(|i| Wrench::new(30.0 * vector(5 * i), 6.0 * vector(7 * i)))
         .collect();
     let all = batch
-        .equilibrium_at_joints(&commands, &wrenches, false)
+        .equilibrium_at_joints(&commands, &wrenches, Details::Rest)
         .expect("sizes");
     let (mut together, mut far) = (0, 0);
     for i in 0..count {
@@ -218,7 +222,9 @@ fn a_column_beyond_its_buckling_load_is_as_alone() {
     let home = machine.platforms()[1].home;
     // Euler: 2.47.
     let loads = [-2.0, -2.6, -4.0, -8.0].map(|p| force(p, 0.02, 0.01));
-    let found = batch.equilibrium(&[home; 4], &loads, false).expect("sizes");
+    let found = batch
+        .equilibrium(&[home; 4], &loads, Details::Rest)
+        .expect("sizes");
     assert_eq!(found.status[0], Status::Vectorised);
     let posture = machine.posture(&home).expect("home");
     for i in 0..4 {

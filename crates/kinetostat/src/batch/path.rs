@@ -11,6 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::compiled::Batch;
 use super::equilibria::BatchEquilibrium;
+use super::equilibria::Details;
 use super::status::{Engine, Status};
 use crate::model::chain::Role;
 use crate::model::mechanism::Mechanism;
@@ -40,9 +41,10 @@ impl AlongPath {
         let batch = (batch.engine() == Engine::Vectorised).then_some(batch);
         // One posture at home tells whether kernels judge stability.
         let home = mechanism.platforms()[mechanism.tool()].home;
-        let judged = batch
-            .as_ref()
-            .and_then(|b| b.judged_equilibrium(&[home], &[Wrench::zero()]).ok());
+        let judged = batch.as_ref().and_then(|b| {
+            b.equilibrium(&[home], &[Wrench::zero()], Details::Stability)
+                .ok()
+        });
         Self {
             mechanism: mechanism.clone(),
             judges: judged.is_some_and(|j| j.status == [Status::Vectorised]),
@@ -87,7 +89,10 @@ impl AlongPath {
     /// Where the tool goes when commanded to `poses` under `wrenches`.
     #[must_use]
     pub fn rest(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
-        let found = self.batch.as_ref()?.equilibrium(poses, wrenches, false);
+        let found = self
+            .batch
+            .as_ref()?
+            .equilibrium(poses, wrenches, Details::Rest);
         found.ok().filter(|found| self.continued(poses, found))
     }
 
@@ -95,7 +100,7 @@ impl AlongPath {
     #[must_use]
     pub fn judged(&self, poses: &[Pose], wrenches: &[Wrench]) -> Option<BatchEquilibrium> {
         let batch = self.batch.as_ref().filter(|_| self.judges)?;
-        let found = batch.judged_equilibrium(poses, wrenches);
+        let found = batch.equilibrium(poses, wrenches, Details::Stability);
         found.ok().filter(|found| self.continued(poses, found))
     }
 

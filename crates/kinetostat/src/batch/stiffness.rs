@@ -55,15 +55,15 @@ impl Batch {
         self.unloaded(&Places::Poses(poses), false, out);
     }
 
-    /// Stiffness, and Jacobian if asked for, of a serial machine with its actuators commanded to
-    /// `commands` (m or rad, one after the other for each posture).
+    /// Stiffness of a serial machine with its actuators commanded to `commands` (m or rad, one after the other for each
+    /// posture).
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) if the numbers are no whole postures, [`Error::Model`](crate::Error::Model) for a machine of
     /// several limbs or with passive joints.
-    pub fn stiffness_at_joints(&self, commands: &[f64], jacobian: bool) -> Result<BatchStiffness> {
+    pub fn stiffness_at_joints(&self, commands: &[f64]) -> Result<BatchStiffness> {
         let mut out = BatchStiffness::default();
-        self.stiffness_at_joints_into(commands, jacobian, &mut out)?;
+        self.stiffness_at_joints_into(commands, &mut out)?;
         Ok(out)
     }
 
@@ -74,10 +74,32 @@ impl Batch {
     pub fn stiffness_at_joints_into(
         &self,
         commands: &[f64],
-        jacobian: bool,
         out: &mut BatchStiffness,
     ) -> Result<()> {
-        self.unloaded(&self.joints(commands)?, jacobian, out);
+        self.unloaded(&self.joints(commands)?, false, out);
+        Ok(())
+    }
+
+    /// As [`Self::stiffness_at_joints`], with the Jacobian of the tool by the coordinates.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness_at_joints`].
+    pub fn stiffness_and_jacobian(&self, commands: &[f64]) -> Result<BatchStiffness> {
+        let mut out = BatchStiffness::default();
+        self.stiffness_and_jacobian_into(commands, &mut out)?;
+        Ok(out)
+    }
+
+    /// The same into a result that is written over.
+    ///
+    /// # Errors
+    /// As [`Self::stiffness_at_joints`].
+    pub fn stiffness_and_jacobian_into(
+        &self,
+        commands: &[f64],
+        out: &mut BatchStiffness,
+    ) -> Result<()> {
+        self.unloaded(&self.joints(commands)?, true, out);
         Ok(())
     }
 

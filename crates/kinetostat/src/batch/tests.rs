@@ -95,12 +95,12 @@ fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize)
     let (poses, wrenches) = (poses(count), wrenches(count));
     let (free, bent) = match joints {
         Some(commands) => (
-            batch.stiffness_at_joints(commands, true),
-            batch.equilibrium_at_joints(commands, &wrenches, true),
+            batch.stiffness_and_jacobian(commands),
+            batch.equilibrium_at_joints(commands, &wrenches, Details::Stiffness),
         ),
         None => (
             Ok(batch.stiffness(&poses)),
-            batch.judged_equilibrium(&poses, &wrenches),
+            batch.equilibrium(&poses, &wrenches, Details::Stability),
         ),
     };
     let (free, bent) = (free.expect("sizes"), bent.expect("sizes"));
@@ -153,10 +153,14 @@ fn neighbours_do_not_matter() {
     let (mut poses, mut wrenches) = (poses(count), wrenches(count));
     // One out of reach.
     poses[17] = Pose::translation(3.0, 0.0, 0.0);
-    let forward = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+    let forward = batch
+        .equilibrium(&poses, &wrenches, Details::Rest)
+        .expect("sizes");
     poses.reverse();
     wrenches.reverse();
-    let backward = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+    let backward = batch
+        .equilibrium(&poses, &wrenches, Details::Rest)
+        .expect("sizes");
     for i in 0..count {
         let mirror = count - 1 - i;
         assert_eq!(forward.status[i], backward.status[mirror]);
@@ -182,7 +186,9 @@ fn together_is_as_alone() {
     let batch = Batch::new(&machine);
     let count = 24;
     let (poses, wrenches) = (poses(count), wrenches(count));
-    let all = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+    let all = batch
+        .equilibrium(&poses, &wrenches, Details::Rest)
+        .expect("sizes");
     for i in 0..count {
         let alone = machine.posture(&poses[i]).expect("reachable");
         let alone = alone.deflected_by(&wrenches[i]).expect("an equilibrium");
@@ -242,9 +248,9 @@ fn a_serial_arm_has_its_tangent() {
     let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
     let wrenches = wrenches(count);
     let all = batch
-        .equilibrium_at_joints(&commands, &wrenches, true)
+        .equilibrium_at_joints(&commands, &wrenches, Details::Stiffness)
         .expect("sizes");
-    let free = batch.stiffness_at_joints(&commands, true).expect("sizes");
+    let free = batch.stiffness_and_jacobian(&commands).expect("sizes");
     for i in 0..count {
         assert_eq!(all.status[i], Status::Vectorised);
         let joints = Places::Joints {
@@ -278,16 +284,16 @@ fn a_jacobian_alone_is_the_one_together() {
     let machine = arm();
     let mut batch = Batch::new(&machine);
     let commands: Vec<f64> = (0..30).map(irregular).collect();
-    let together = batch.stiffness_at_joints(&commands, true).expect("sizes");
+    let together = batch.stiffness_and_jacobian(&commands).expect("sizes");
     batch.nominal = Err(NoKernel::LoadedPlatform);
     let mut alone = BatchStiffness::default();
     // Room for more postures than the second call has.
     let more: Vec<f64> = (0..300).map(irregular).collect();
     batch
-        .stiffness_at_joints_into(&more, true, &mut alone)
+        .stiffness_and_jacobian_into(&more, &mut alone)
         .expect("sizes");
     batch
-        .stiffness_at_joints_into(&commands, true, &mut alone)
+        .stiffness_and_jacobian_into(&commands, &mut alone)
         .expect("sizes");
     assert_eq!(alone.status, vec![Status::Scalar; alone.status.len()]);
     assert_eq!(alone.jacobian.len(), together.jacobian.len());
@@ -323,7 +329,7 @@ fn machines_do_not_matter_to_each_other() {
     };
     let ask = |_: usize, batch: &Batch| {
         let commands: Vec<f64> = (0..5).map(irregular).collect();
-        let found = batch.stiffness_at_joints(&commands, false)?;
+        let found = batch.stiffness_at_joints(&commands)?;
         Ok(found.stiffness.row(3).collect::<Vec<_>>())
     };
     let many = over_machines(count, machine, ask);
@@ -422,11 +428,11 @@ fn a_heavy_tool_at_given_joints_does_not_remember_its_neighbours() {
     let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
     let wrenches = wrenches(count);
     let all = batch
-        .equilibrium_at_joints(&commands, &wrenches, false)
+        .equilibrium_at_joints(&commands, &wrenches, Details::Rest)
         .expect("sizes");
     for i in 0..count {
         let one = batch
-            .equilibrium_at_joints(&commands[3 * i..3 * i + 3], &wrenches[i..=i], false)
+            .equilibrium_at_joints(&commands[3 * i..3 * i + 3], &wrenches[i..=i], Details::Rest)
             .expect("sizes");
         assert_eq!(all.status[i], Status::Vectorised);
         assert!(all.tool.row(i).eq(one.tool.row(0)));
@@ -450,7 +456,9 @@ fn what_is_no_number_is_not_found() {
         let mut wrenches = wrenches(9);
         wrenches[2].0[1] = f64::NAN;
         wrenches[5].0[4] = 1e160;
-        let found = batch.equilibrium(&poses, &wrenches, false).expect("sizes");
+        let found = batch
+            .equilibrium(&poses, &wrenches, Details::Rest)
+            .expect("sizes");
         assert_ne!(found.status[2], Status::Vectorised);
         assert_ne!(found.status[5], Status::Vectorised);
     }

@@ -86,6 +86,22 @@ impl ChainStiffness {
 ///
 /// # Errors
 /// Lists of the wrong length or with numbers that are not finite.
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("column") // two bars of 0.5 m on springs of 100 N m/rad
+/// #     .actuator("foot", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .actuator("middle", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .build()?;
+/// let (x, commands) = (chain.home_coordinates(), chain.home_commands());
+/// let stiffness = unloaded_stiffness(&chain, &Pose::identity(), &x, &commands)?;
+/// assert_eq!(stiffness.rank, 6, "two soft directions, four rigid ones");
+/// # Ok::<(), Error>(())
+/// ```
 pub fn unloaded_stiffness(
     chain: &Chain,
     base: &Pose,

@@ -25,6 +25,29 @@ const CORRECTIONS: usize = 40;
 ///
 /// # Errors
 /// As [`PostureRequest::position`](crate::machine::PostureRequest::position) and [`Posture::deflected_by`].
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("arm")
+/// #     .actuator("shoulder", hinge(2e5))
+/// #     .link("upper arm", &tube, 0.6)
+/// #     .actuator("elbow", hinge(1e5))
+/// #     .link("forearm", &tube, 0.5)
+/// #     .build()?;
+/// # let home = Pose::translation(1.1, 0.0, 0.0);
+/// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// let wanted = home.rotation;
+/// let position = vector![0.8, 0.4, 0.0];
+/// let near = arm.posture(PostureRequest::position(&position, &wanted))?;
+/// let cutting = Wrench::new(vector![60.0, -40.0, 0.0], Vector3::zeros()); // N
+/// let start = near.rest_state();
+/// let answer = compensation::compensate_following(&near, &position, &wanted, &cutting, start)?;
+/// assert!(answer.left_over.linear().norm() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
 pub fn compensate_following(
     near: &Posture,
     position: &Vector3<f64>,

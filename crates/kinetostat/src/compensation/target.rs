@@ -39,6 +39,30 @@ pub struct Compensation {
 ///
 /// # Errors
 /// As [`Mechanism::posture`] and [`Posture::deflected_by`].
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("arm")
+/// #     .actuator("shoulder", hinge(2e5))
+/// #     .link("upper arm", &tube, 0.6)
+/// #     .actuator("elbow", hinge(1e5))
+/// #     .link("forearm", &tube, 0.5)
+/// #     .build()?;
+/// # let home = Pose::translation(1.1, 0.0, 0.0);
+/// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// let target = Pose::new(vector![0.8, 0.4, 0.0], vector![0.0, 0.0, 1.2]);
+/// let position = target.translation.vector;
+/// let reached = arm.posture(PostureRequest::position(&position, &target.rotation))?;
+/// let cutting = Wrench::new(vector![60.0, -40.0, 0.0], Vector3::zeros()); // N
+/// let settings = Settings::default();
+/// let plane = Directions::NONE.with(0).with(1);
+/// let answer = compensate(&arm, reached.target(), &cutting, plane, &settings)?;
+/// assert!(answer.left_over.linear().norm() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
 pub fn compensate(
     mechanism: &Mechanism,
     desired: &Pose,

@@ -19,6 +19,25 @@ use crate::model::limits::check_number;
 /// # Errors
 /// Wrong numbers or directions, a parameter that changes nothing, or a start that is no
 /// equilibrium.
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("column") // two bars of 0.5 m on springs of 100 N m/rad
+/// #     .actuator("foot", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .actuator("middle", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .build()?;
+/// let push = Wrench::new(vector![-1.0, 0.0, 0.0], Vector3::zeros()); // N
+/// let problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+/// let start = solve_chain(&problem, &Settings::default())?;
+/// let parameter = Parameter::end_wrench(push);
+/// let curves = follow(&problem, &parameter, &start, 0.0, &CurveSettings::within(0.0, 120.0))?;
+/// assert!(curves.specials.iter().any(|special| special.kind.is_bifurcation()));
+/// # Ok::<(), Error>(())
+/// ```
 pub fn follow<'a>(
     problem: &ChainProblem<'a>,
     parameter: &Parameter,

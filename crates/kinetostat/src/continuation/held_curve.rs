@@ -96,6 +96,26 @@ impl Posture {
     ///
     /// # Errors
     /// Those of the first point; a curve that ends later says so in [`HeldCurve::ended`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let sideways = Twist::new(vector![0.0, 1.0, 0.0], Vector3::zeros());
+    /// let curve = arm.posture(&home)?.held_along(&sideways, &[0.0, 1e-3, 2e-3], None)?;
+    /// let forces: Vec<f64> = curve.points.iter().map(|point| point.equilibrium.wrench.force().y).collect();
+    /// assert!(forces[0].abs() < 1e-6 && forces[2] > forces[1]);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn held_along(
         &self,
         direction: &Twist,

@@ -95,6 +95,27 @@ impl Posture {
     ///
     /// # Errors
     /// Those of [`Self::curves`].
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let push = Wrench::new(vector![-1000.0, 0.0, 0.0], Vector3::zeros());
+    /// let parameter = Parameter::end_wrench(push);
+    /// let free = EndCondition::wrench(Wrench::zero());
+    /// let path = arm.posture(&home)?.path(&parameter, &free, &CurveSettings::within(0.0, 10.0))?;
+    /// assert!(path.points.len() > 1);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn path(
         &self,
         parameter: &Parameter,

@@ -15,6 +15,17 @@ pub struct LoadPattern {
     pub loads: Vec<Load>,
 }
 
+impl LoadPattern {
+    /// A wrench on the end, and nothing on the nodes.
+    #[must_use]
+    pub fn on_end(wrench: Wrench) -> Self {
+        Self {
+            end: wrench,
+            loads: Vec::new(),
+        }
+    }
+}
+
 /// What grows along a curve of equilibria.
 #[derive(Clone, Debug)]
 pub enum Parameter {
@@ -40,9 +51,6 @@ impl Parameter {
     /// A wrench on the end, base axes.
     #[must_use]
     pub fn end_wrench(wrench: Wrench) -> Self {
-        Self::Load(LoadPattern {
-            end: wrench,
-            loads: Vec::new(),
-        })
+        Self::Load(LoadPattern::on_end(wrench))
     }
 }

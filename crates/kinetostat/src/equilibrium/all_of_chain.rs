@@ -109,6 +109,25 @@ pub struct Equilibria {
 ///
 /// # Errors
 /// Wrong input. That nothing was found is a result.
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("column") // two bars of 0.5 m on springs of 100 N m/rad
+/// #     .actuator("foot", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .actuator("middle", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .build()?;
+/// let push = Wrench::new(vector![-150.0, 0.0, 0.0], Vector3::zeros()); // N: beyond the critical load
+/// let problem = ChainProblem::new(&chain, EndCondition::wrench(push));
+/// let settings = equilibrium::SearchSettings::default();
+/// let all = equilibria(&problem, &equilibrium::Bounds::of(&chain), &settings)?;
+/// let stable = all.found.iter().filter(|found| found.stable).count();
+/// assert!(stable >= 2, "it buckles to one side or the other");
+/// # Ok::<(), Error>(())
+/// ```
 pub fn equilibria(
     problem: &ChainProblem<'_>,
     bounds: &Bounds,

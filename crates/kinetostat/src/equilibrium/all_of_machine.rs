@@ -89,6 +89,26 @@ impl Posture {
     ///
     /// # Errors
     /// Not-a-numbers in the condition. That nothing was found is a result.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let free = EndCondition::wrench(Wrench::zero());
+    /// let settings = equilibrium::SpreadSettings::default().with_starts(4);
+    /// let all = arm.posture(&home)?.equilibria(&free, &settings)?;
+    /// assert_eq!(all.found.len(), 1);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn equilibria(
         &self,
         end: &EndCondition,

@@ -19,6 +19,24 @@ use crate::spatial::{Wrench, pose_residual};
 /// # Errors
 /// [`Error::Size`], [`Error::NotFinite`] for wrong input; [`Error::NotConverged`] with the last
 /// iterate where no equilibrium was found.
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("column") // two bars of 0.5 m on springs of 100 N m/rad
+/// #     .actuator("foot", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .actuator("middle", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .build()?;
+/// let push = Wrench::new(vector![-50.0, 1.0, 0.0], Vector3::zeros()); // N
+/// let problem = ChainProblem::new(&chain, EndCondition::wrench(push));
+/// let equilibrium = solve_chain(&problem, &Settings::default())?;
+/// assert!(equilibrium.stability.stable);
+/// assert!(equilibrium.tip.translation.vector.y > 0.0);
+/// # Ok::<(), Error>(())
+/// ```
 pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Equilibrium> {
     solve_along(problem, settings, None).map(|(equilibrium, _)| equilibrium)
 }

@@ -91,6 +91,28 @@ impl CriticalLoad {
 /// # Errors
 /// Wrong input, or no equilibrium at factor 0. A chain that is unstable at factor 0 has the
 /// critical factor 0.
+///
+/// ```
+/// # use kinetostat::nalgebra::{Vector3, vector};
+/// # use kinetostat::*;
+/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+/// # let chain = Chain::builder("column") // two bars of 0.5 m on springs of 100 N m/rad
+/// #     .actuator("foot", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .actuator("middle", hinge(100.0))
+/// #     .translation(vector![0.5, 0.0, 0.0])
+/// #     .build()?;
+/// let push = Wrench::new(vector![-1.0, 0.0, 0.0], Vector3::zeros()); // N
+/// let problem = ChainProblem::new(&chain, EndCondition::wrench(Wrench::zero()));
+/// let pattern = continuation::LoadPattern::on_end(push);
+/// let settings = CurveSettings::within(0.0, 1e4);
+/// let of = equilibrium::StabilityOf::ShapeAndEnd;
+/// let critical = critical_load_factor(&problem, &pattern, of, &settings)?;
+/// // Two equal bars on equal springs buckle at k / a (3 - sqrt 5) / 2.
+/// let known = 100.0 / 0.5 * (3.0 - 5.0_f64.sqrt()) / 2.0;
+/// assert!((critical.linear.unwrap() / known - 1.0).abs() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
 pub fn critical_load_factor(
     problem: &ChainProblem<'_>,
     pattern: &LoadPattern,

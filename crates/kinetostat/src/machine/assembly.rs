@@ -58,6 +58,26 @@ impl Posture {
     ///
     /// # Errors
     /// Wrong sizes only.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let posture = arm.posture(&home)?;
+    /// let error = Twist::new(vector![0.0, 1e-3, 0.0], Vector3::zeros()); // m, at the limb's tip
+    /// let assembled = posture.linear_assembly(&[error])?;
+    /// assert!((assembled.shift - error).0.norm() < 1e-12, "a single limb takes the tool along");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn linear_assembly(&self, errors: &[Twist]) -> Result<LinearAssembly> {
         self.linear_assembly_under(errors, &Wrench::zero())
     }

@@ -129,6 +129,23 @@ impl Constraints {
 impl Posture {
     /// Over-constraint of the nominal machine at this posture, actuators locked: how many
     /// self-stresses, and in which directions the limbs fight.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// assert_eq!(arm.posture(&home)?.overconstraint().degree, 0, "a single limb fights nothing");
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn overconstraint(&self) -> Overconstraint {
         let constraints = Constraints::new(self, false);

@@ -374,6 +374,26 @@ impl Posture {
     ///
     /// # Errors
     /// [`Error::NotConverged`], for instance for a pose that the limbs cannot follow.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let posture = arm.posture(&home)?;
+    /// let aside = spatial::moved(&home, &Twist::new(vector![0.0, 1e-3, 0.0], Vector3::zeros()));
+    /// let held = posture.wrench_at(&aside)?;
+    /// assert!(held.wrench.force().y > 0.0, "it takes a force to hold it there");
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn wrench_at(&self, pose: &Pose) -> Result<MechanismEquilibrium> {
         self.finite("the pose", pose.to_homogeneous().iter())?;
         let mut state = self.rest_state();

@@ -125,6 +125,25 @@ impl Mechanism {
     /// [`Error::NoClosure`](crate::Error::NoClosure) where loops do not close all the way from home to given
     /// commands. [`Error::Size`](crate::Error::Size) and [`Error::NotFinite`](crate::Error::NotFinite) for numbers
     /// that are no request.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let posture = arm.posture(&home)?;
+    /// assert!(posture.commands().iter().all(|command| command.abs() < 1e-12));
+    /// assert!(matches!(arm.posture(&Pose::translation(2.0, 0.0, 0.0)), Err(Error::Unreachable { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn posture<'a>(&self, request: impl Into<PostureRequest<'a>>) -> Result<Posture> {
         let PostureRequest { query, from } = request.into();
         let near = match from {

@@ -18,6 +18,26 @@ impl Posture {
     ///
     /// # Errors
     /// Wrong sizes only; a singular stiffness is a result.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let stiffness = arm.posture(&home)?.stiffness()?;
+    /// assert_eq!(stiffness.rank(), 6);
+    /// let softest = &stiffness.directions[0];
+    /// assert_eq!(softest.kind, DirectionKind::Finite);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn stiffness(&self) -> Result<UnloadedStiffness> {
         let m = self.mechanism.clone();
         let network = Network::new(self)?;

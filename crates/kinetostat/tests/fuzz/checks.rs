@@ -41,8 +41,8 @@ fn directions(list: &[Direction]) {
         assert_eq!(d.stiffness_n_per_m == f64::INFINITY, rigid, "{d:?}");
         assert!(rigid || d.stiffness_n_per_m.is_finite(), "{d:?}");
         all_finite("twist", d.twist.0.iter());
-        all_finite("motion", d.behind.iter().map(|s| &s.motion));
-        all_finite("share", d.behind.iter().map(|s| &s.share));
+        all_finite("motion", d.participation.iter().map(|s| &s.motion));
+        all_finite("share", d.participation.iter().map(|s| &s.share));
         assert!(!d.in_words().contains("NaN"), "{}", d.in_words());
     }
 }

@@ -26,7 +26,11 @@ pub fn stream() -> Result<()> {
             .chunks(6)
             .map(|row| Wrench(Vector6::from_column_slice(row)))
             .collect();
-        let answer = batch.equilibrium_at_joints(&joints, &wrenches, true)?;
+        let answer = batch.equilibrium_at_joints(
+            &joints,
+            &wrenches,
+            kinetostat::batch::Details::Stiffness,
+        )?;
         for i in 0..answer.tool.len() {
             sum += answer.tool.get(i, 9);
         }

@@ -12,6 +12,26 @@ impl UnloadedStiffness {
     /// Joints and springs that move when the tool of the posture (the one that this is the
     /// stiffness of) moves by a small twist (m, rad; base axes, at the tool's origin), named
     /// `limb: joint`, the most first. Only limbs that run from the base to the tool are asked.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let posture = arm.posture(&home)?;
+    /// let aside = Twist::new(vector![0.0, 1.0, 0.0], Vector3::zeros());
+    /// let shares = posture.stiffness()?.participation(&posture, &aside);
+    /// assert!(shares.iter().any(|share| share.name.contains("shoulder")));
+    /// # Ok::<(), Error>(())
+    /// ```
     #[must_use]
     pub fn participation(&self, posture: &Posture, twist: &Twist) -> Vec<Share> {
         let limbs = self.limbs.iter();

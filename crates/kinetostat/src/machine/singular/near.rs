@@ -152,6 +152,25 @@ impl Posture {
     ///
     /// # Errors
     /// None but those of the inverse kinematics where the posture itself does not close.
+    ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// // Stretched out, the arm cannot move along itself.
+    /// let near = arm.posture(&home)?.near_singularities(0.1)?;
+    /// assert!(near.iter().any(|found| found.kind == machine::SingularityKind::Lost));
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn near_singularities(&self, within_m: f64) -> Result<Vec<NearSingularity>> {
         let length = self.mechanism.scale().length;
         let mut list: Vec<NearSingularity> = self.motion_gained(within_m).into_iter().collect();
