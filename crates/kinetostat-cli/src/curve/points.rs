@@ -13,6 +13,9 @@ use crate::curve::point::point_answer;
 use crate::curve::query::CurveQuery;
 use crate::end_condition::subject::Subject;
 
+/// Points of a branch that are nearer to each other, in natural units, are one.
+const SAME_POINT: f64 = 1e-9;
+
 /// Curves as they are shown.
 pub(crate) struct View<'v, S: Subject> {
     pub(crate) subject: &'v S,
@@ -122,7 +125,8 @@ impl<S: Subject> Names<'_, S> {
         let mode_in_words = self.view.subject.motion_in_words(&s.mode);
         if let Some(added) = self.list.last_mut() {
             added.branches = s.branches.iter().map(|b| b + 1).collect();
-            added.mode.clone_from(&s.mode);
+            // Without the sign of zeros.
+            added.mode = s.mode.iter().map(|x| x + 0.0).collect();
             added.mode_in_words = mode_in_words;
             added.limits = s.ends_stability();
         }
@@ -149,13 +153,15 @@ impl<S: Subject> Names<'_, S> {
     /// Both ends of a branch, but for those that are the curve's start, which has a name already.
     fn ends(&mut self, k: usize) {
         let branch = &self.view.curves.branches[k];
-        let last = branch.points.len().saturating_sub(1);
-        for (i, end) in [0, last].into_iter().zip(branch.ends) {
-            let turned_back = matches!(end, BranchEnd::Closed | BranchEnd::Found);
-            if turned_back || (k == 0 && i == branch.start) {
+        let start = branch.points.get(branch.start).filter(|_| k == 0);
+        let is_start =
+            |p: &CurvePoint<S::Equilibrium>| start.is_some_and(|o| p.apart(o) < SAME_POINT);
+        let ends = [branch.points.first(), branch.points.last()];
+        for (p, end) in ends.into_iter().zip(branch.ends) {
+            if matches!(end, BranchEnd::Closed | BranchEnd::Found) {
                 continue;
             }
-            if let Some(p) = branch.points.get(i) {
+            if let Some(p) = p.filter(|p| !is_start(p)) {
                 let words = format!("end of branch {}: {}", k + 1, end.in_words());
                 self.add("end", words, k, p);
             }

@@ -239,7 +239,7 @@ fn load_pattern(
     let mut loads = Vec::new();
     for text in &args.grow {
         match chain {
-            Some(chain) => loads.push(node_force(&chain.chain, "--grow", text)?),
+            Some(chain) => loads.push(node_force(&chain.chain, "--grow", "", text)?),
             None => return Err(no_growing_nodes("--grow")),
         }
     }

@@ -47,12 +47,12 @@ impl Subject for SerialChain {
     }
 }
 
-/// A dead force at a node of a chain, written `NODE=FX,FY,FZ`.
-pub(crate) fn node_force(chain: &Chain, option: &str, text: &str) -> Answer<Load> {
-    let refuse = |reason: String| Failure::input(format!("{option} '{text}': {reason}"));
+/// A dead force at a node of a chain, written `NODE=FX,FY,FZ`; `before`: what stands in the option before the node.
+pub(crate) fn node_force(chain: &Chain, option: &str, before: &str, text: &str) -> Answer<Load> {
+    let refuse = |reason: String| Failure::input(format!("{option} '{before}{text}': {reason}"));
     let Some((name, values)) = text.split_once('=') else {
         return Err(refuse(format!(
-            "write a node of the chain and three forces in N, as in {option} {}=0,0,-100",
+            "write a node of the chain and three forces in N, as in {option} {before}{}=0,0,-100",
             chain.nodes().first().map_or("tip", String::as_str)
         )));
     };

@@ -38,7 +38,7 @@ pub(crate) fn no_growing_nodes(option: &str) -> Failure {
 /// Adds the forces on nodes that act all the time.
 pub(crate) fn with_loads(mut chain: SerialChain, args: &EndArgs) -> Answer<SerialChain> {
     for text in &args.load {
-        let load = node_force(&chain.chain, "--load", text)?;
+        let load = node_force(&chain.chain, "--load", "", text)?;
         chain.loads.push(load);
     }
     Ok(chain)

@@ -66,8 +66,8 @@ fn with_node_force(mechanism: &Mechanism, text: &str) -> Answer<Mechanism> {
             names.join(", ")
         )));
     };
-    let option = format!("--load {}:", limb.name);
-    let load = node_force(&limb.actual, &option, own)?;
+    let before = format!("{}:", limb.name);
+    let load = node_force(&limb.actual, "--load", &before, own)?;
     Ok(mechanism.with_load(&limb.name, load)?)
 }
 
