@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use kinetostat::{
     Pose,
-    continuation::{CurvePoint, Curves},
+    continuation::{Branch, CurveEquilibrium, CurvePoint, Special},
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -27,26 +27,27 @@ impl ContinuousRotation {
         }
     }
 
-    /// Of all branches. `value`: the parameter at the start, where the tool is at `start`.
+    /// Of all branches, the first of which starts the curve.
     #[must_use]
-    pub fn of(curves: &Curves<'_>, start: &Pose, value: f64) -> Self {
+    pub fn of<E: CurveEquilibrium>(branches: &[Branch<E>], specials: &[Special<E>]) -> Self {
+        let Some(start) = branches.first().and_then(|own| own.points.get(own.start)) else {
+            return Self::none();
+        };
+        let place: &Pose = start.equilibrium.tool();
         let mut turns = Self {
-            start: start.rotation,
+            start: place.rotation,
             branches: Vec::new(),
         };
-        for branch in &curves.branches {
+        for branch in branches {
             let points = &branch.points;
             // Where its number of turns is known: where it leaves another branch, or nearest to the
             // start.
-            let crossing = branch.origin.and_then(|s| curves.specials.get(s));
+            let crossing = branch.origin.and_then(|s| specials.get(s));
             let (anchor, known) = match crossing {
-                Some(s) => (
-                    nearest(points, |p| apart(p, &s.point)),
-                    turns.whole(curves, &s.point),
-                ),
+                Some(s) => (branch.start, turns.whole(branches, &s.point)),
                 None => (
                     nearest(points, |p| {
-                        (p.parameter - value).abs() + turns.within(p).norm()
+                        (p.parameter - start.parameter).abs() + turns.within(p).norm()
                     }),
                     Vector3::zeros(),
                 ),
@@ -67,17 +68,21 @@ impl ContinuousRotation {
     }
 
     /// Within half a turn.
-    fn within(&self, p: &CurvePoint) -> Vector3<f64> {
-        (p.equilibrium.tip.rotation * self.start.inverse()).scaled_axis()
+    fn within<E: CurveEquilibrium>(&self, p: &CurvePoint<E>) -> Vector3<f64> {
+        (p.equilibrium.tool().rotation * self.start.inverse()).scaled_axis()
     }
 
     /// The continuous rotation vector of any equilibrium, as at the nearest point of a branch.
-    fn whole(&self, curves: &Curves<'_>, p: &CurvePoint) -> Vector3<f64> {
+    fn whole<E: CurveEquilibrium>(
+        &self,
+        branches: &[Branch<E>],
+        p: &CurvePoint<E>,
+    ) -> Vector3<f64> {
         let here = self.within(p);
         let mut best = (f64::INFINITY, here);
-        for (branch, list) in curves.branches.iter().zip(&self.branches) {
+        for (branch, list) in branches.iter().zip(&self.branches) {
             for (other, turn) in branch.points.iter().zip(list) {
-                let d = apart(other, p);
+                let d = other.apart(p);
                 if d < best.0 {
                     best = (d, *turn);
                 }
@@ -89,9 +94,14 @@ impl ContinuousRotation {
     /// What the continuous rotation vector of point `i` of branch `k` has more than the one within
     /// half a turn; zero where no rotation is shown.
     #[must_use]
-    pub fn of_point(&self, curves: &Curves<'_>, k: usize, i: usize) -> Vector3<f64> {
+    pub fn of_point<E: CurveEquilibrium>(
+        &self,
+        branches: &[Branch<E>],
+        k: usize,
+        i: usize,
+    ) -> Vector3<f64> {
         let whole = self.branches.get(k).and_then(|list| list.get(i));
-        let point = curves.branches.get(k).and_then(|b| b.points.get(i));
+        let point = branches.get(k).and_then(|b| b.points.get(i));
         match (whole, point) {
             (Some(whole), Some(point)) => whole - self.within(point),
             _ => Vector3::zeros(),
@@ -100,11 +110,15 @@ impl ContinuousRotation {
 
     /// The same for any equilibrium.
     #[must_use]
-    pub fn at(&self, curves: &Curves<'_>, p: &CurvePoint) -> Vector3<f64> {
+    pub fn at<E: CurveEquilibrium>(
+        &self,
+        branches: &[Branch<E>],
+        p: &CurvePoint<E>,
+    ) -> Vector3<f64> {
         if self.branches.is_empty() {
             return Vector3::zeros();
         }
-        self.whole(curves, p) - self.within(p)
+        self.whole(branches, p) - self.within(p)
     }
 }
 
@@ -121,15 +135,12 @@ fn continued(within: Vector3<f64>, before: &Vector3<f64>) -> Vector3<f64> {
     within + axis * (TAU * ((before - within).dot(&axis) / TAU).round())
 }
 
-fn nearest(points: &[CurvePoint], off: impl Fn(&CurvePoint) -> f64) -> usize {
+fn nearest<E: CurveEquilibrium>(
+    points: &[CurvePoint<E>],
+    off: impl Fn(&CurvePoint<E>) -> f64,
+) -> usize {
     let off = points.iter().map(off).enumerate();
     off.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |b| b.0)
-}
-
-/// How far two states are from each other; coordinates in m and rad.
-fn apart(a: &CurvePoint, b: &CurvePoint) -> f64 {
-    let (a, b) = (&a.equilibrium.coordinates, &b.equilibrium.coordinates);
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
 }
 
 #[cfg(test)]

@@ -2,11 +2,7 @@
 
 use kinetostat::{
     Chain, ChainProblem, EndCondition, Load, Mechanism, MotionKind, Parameter, Pose, Posture,
-    Twist,
-    continuation::{CurvePoint, Curves},
-    linalg::SingularValues,
-    model::{Kinematics, Role},
-    spatial::moved,
+    linalg::SingularValues, model::Kinematics,
 };
 use nalgebra::DMatrix;
 
@@ -136,41 +132,6 @@ impl SerialChain {
             length,
         }
     }
-
-    /// Index of the branch that comes nearest to a point.
-    #[must_use]
-    pub fn nearest_branch(&self, curves: &Curves<'_>, p: &CurvePoint) -> usize {
-        let x = &p.equilibrium.coordinates;
-        let coordinates = self.chain.coordinates();
-        let length = self.chain.scale().length;
-        let distance = |other: &CurvePoint| {
-            x.iter()
-                .zip(&other.equilibrium.coordinates)
-                .zip(coordinates)
-                .map(|((a, b), c)| {
-                    let d = a - b;
-                    match (c.kind, c.role) {
-                        (MotionKind::Prismatic, _) => (d / length).powi(2),
-                        (_, Role::Passive) => {
-                            let turn = std::f64::consts::TAU;
-                            (d - turn * (d / turn).round()).powi(2)
-                        }
-                        _ => d * d,
-                    }
-                })
-                .sum::<f64>()
-        };
-        let mut best = (f64::INFINITY, 0);
-        for (k, branch) in curves.branches.iter().enumerate() {
-            for point in &branch.points {
-                let d = distance(point);
-                if d < best.0 {
-                    best = (d, k);
-                }
-            }
-        }
-        best.1
-    }
 }
 
 /// The problem at a value of a curve's parameter: its end moved, or its loads grown. Loads on nodes grow as far as
@@ -182,17 +143,12 @@ pub fn problem_at<'a>(
     value: f64,
 ) -> ChainProblem<'a> {
     let mut there = problem.clone();
-    match parameter {
-        Parameter::Displacement(twist) => {
-            there.end.pose = moved(&problem.end.pose, &Twist(twist.0 * value));
-        }
-        Parameter::Load(pattern) => {
-            there.end.wrench = problem.end.wrench + pattern.end * value;
-            there.loads.extend(pattern.loads.iter().map(|l| match l {
-                Load::Dead { node, wrench } => Load::dead(*node, *wrench * value),
-                other => other.clone(),
-            }));
-        }
+    there.end = parameter.end_at(&problem.end, value);
+    if let Parameter::Load(pattern) = parameter {
+        there.loads.extend(pattern.loads.iter().map(|l| match l {
+            Load::Dead { node, wrench } => Load::dead(*node, *wrench * value),
+            other => other.clone(),
+        }));
     }
     there
 }

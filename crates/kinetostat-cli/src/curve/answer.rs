@@ -24,10 +24,11 @@ pub(crate) struct CurveAnswer {
     pub(crate) tool_held: Holding,
     /// What grows: displacement, rotation or load.
     pub(crate) grows: &'static str,
-    /// Coordinates of the chain, in the order of `coordinates` of every point.
+    /// Coordinates of the chain or of all limbs, in the order of `coordinates` of every point.
     pub(crate) coordinates: Vec<CoordinateName>,
     pub(crate) named_points: Vec<NamedPoint>,
     pub(crate) jumps: Vec<JumpAnswer>,
+    /// Of a chain under a growing load; of a machine the named points say where stability ends.
     pub(crate) critical_loads: Vec<CriticalAnswer>,
     pub(crate) branches: Vec<BranchAnswer>,
     /// True if branches that cross were left out because there were too many.
@@ -156,13 +157,14 @@ pub(crate) struct PointAnswer {
 #[derive(Clone, Serialize)]
 pub(crate) struct NamedPoint {
     pub(crate) name: String,
-    /// start, load_limit, displacement_limit, pitchfork, transcritical, multiple, crossing (of
-    /// machines), landing or end.
+    /// start, load_limit, displacement_limit, pitchfork, transcritical, multiple, crossing (stability
+    /// changes in a limb or platform of a machine while its tool stands still), landing or end.
     pub(crate) kind: &'static str,
     pub(crate) in_words: String,
     /// Numbers of the branches through it, from 1.
     pub(crate) branches: Vec<usize>,
-    /// The critical mode (or the motion along the curve), largest component 1: m, rad.
+    /// The critical mode (or the motion along the curve), largest component 1: m, rad; of the coordinates
+    /// of a chain, of the tool of a machine (x, y, z, rx, ry, rz).
     pub(crate) mode: Vec<f64>,
     pub(crate) mode_in_words: String,
     /// Whether stability ends here: under a dead load, under prescribed motion.

@@ -10,8 +10,7 @@ use crate::place::arguments::PlaceArgs;
 ///
 /// Pushes the tool along a direction and tells which force it takes, or grows a load and tells where
 /// the tool goes: around limit points, with the places where the machine snaps and where it lands.
-/// Of a model with one limb between base and tool it follows every branch that crosses, too; of a
-/// machine of several limbs or platforms the branch of the start.
+/// It follows every branch that crosses, too.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES, after_long_help = CURVE_HELP)]
 pub(crate) struct CurveArgs {
@@ -44,7 +43,8 @@ pub(crate) struct CurveArgs {
     /// Load that grows: moment on the tool about its tip, N m, base axes
     #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, help_heading = "Growing load", value_parser = number, requires = "factor")]
     pub(crate) moment: Option<Vec<f64>>,
-    /// Load that grows: force on a named node of the chain, N, base axes (repeat for more)
+    /// Load that grows: force on a named node of the chain, N, base axes (repeat for more); not of a
+    /// machine of several limbs
     #[arg(long, value_name = "NODE=FX,FY,FZ", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Growing load", requires = "factor")]
     pub(crate) grow: Vec<String>,
     /// from this to that many times the load

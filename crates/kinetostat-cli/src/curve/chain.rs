@@ -1,35 +1,29 @@
 //! The curve of a chain: all branches that cross, and what happens on them.
 
 use kinetostat::{
-    ChainProblem, CurveSettings, Parameter, Settings,
-    continuation::{BranchEnd, Curves},
+    ChainProblem, CurveSettings, Equilibrium, Settings,
+    continuation::Curves,
     equilibria,
     equilibrium::{Bounds, SearchSettings},
-    follow, solve_chain,
+    follow as follow_chain, solve_chain,
 };
 use kinetostat_analysis::degenerate::is_degenerate;
-use kinetostat_analysis::rotation::ContinuousRotation;
 use kinetostat_analysis::serial_chain::{SerialChain, problem_at};
 use kinetostat_machining::{Warning, WarningCode};
 
-use crate::curve::answer::{BranchAnswer, CurveAnswer, Units, grows, reached};
-use crate::curve::chain_points::View;
 use crate::curve::critical::critical_loads;
+use crate::curve::followed::{Followed, Shapes, add_shapes_off_the_curve, settings};
 use crate::curve::query::{CurveQuery, Measure};
-use crate::end_condition::chain::coordinates;
-use crate::place::query::PlaceAnswer;
 use crate::ui::background::Stage;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::numbers::number;
 
-/// Follows the curve of a chain.
-pub(crate) fn solve(
+/// Follows the curve of a chain, and the branches that cross it.
+pub(crate) fn follow(
     chain: &SerialChain,
     q: &CurveQuery,
-    place: PlaceAnswer,
-    names: [String; 3],
     stage: &Stage,
-) -> Answer<CurveAnswer> {
+) -> Answer<Followed<Equilibrium>> {
     let problem = chain.problem(q.holding.end.clone());
     let mut settings = settings(q);
     let value = q.start();
@@ -38,76 +32,29 @@ pub(crate) fn solve(
     let start =
         solve_chain(&there, &Settings::default()).map_err(|error| not_there(q, &there, error))?;
     stage.is("following the curve");
-    let mut curves = follow(&problem, &q.parameter, &start, value, &settings)?;
+    let mut curves = follow_chain(&problem, &q.parameter, &start, value, &settings)?;
     let mut warnings: Vec<Warning> = Vec::new();
     if !q.by_load() && is_locked(&curves) {
         warnings.extend(widen_for_locked(chain, q, value, &mut settings));
-        curves = follow(&problem, &q.parameter, &start, value, &settings)?;
+        curves = follow_chain(&problem, &q.parameter, &start, value, &settings)?;
     }
     if q.all {
-        add_shapes_off_the_curve(chain, q, &problem, &mut curves, stage, &mut warnings)?;
+        let search = |value: f64| shapes_at(chain, q, &problem, value);
+        let add = |shape: &Equilibrium, value| curves.add(shape, value);
+        warnings.extend(add_shapes_off_the_curve(q, stage, search, add)?);
     }
-    let conjugate = match &q.parameter {
-        Parameter::Displacement(twist) => twist.dot(&start.wrench),
-        Parameter::Load(_) => 0.0,
-    };
     stage.is("looking where the jumps land");
     let jumps = curves.jumps()?;
-    let rotation = match q.measure {
-        Measure::Moment(_) if q.by_load() => ContinuousRotation::of(&curves, &start.tip, value),
-        _ => ContinuousRotation::none(),
-    };
-    let view = View {
-        chain,
-        q,
-        curves: &curves,
-        rotation,
-    };
-    let (named, jumps) = view.named((value, conjugate), &jumps);
     stage.is("looking for the critical load");
     let critical = critical_loads(chain, q, &problem, &settings)?;
-    let branches: Vec<BranchAnswer> = view.branches(&named);
-    warnings.extend(of_ends(&branches, q));
-    warnings.extend(of_missing_branches(&curves, q));
-    warnings.dedup();
-    let own = curves.branches.first().map_or(&[][..], |b| &b.points);
-    let [model, model_source, tool] = names;
-    Ok(CurveAnswer {
-        schema: 3,
-        kinetostat_version: env!("CARGO_PKG_VERSION"),
-        model,
-        model_source,
-        tool,
-        place,
-        question: q.words.clone(),
-        tool_held: q.holding.clone(),
-        grows: grows(q),
-        coordinates: coordinates(chain),
-        named_points: named,
-        jumps,
-        critical_loads: critical,
-        branches,
+    Ok(Followed {
+        branches: curves.branches,
+        specials: curves.specials,
         more_branches: curves.more_branches,
-        conservative: start.conservative,
+        jumps,
+        critical,
         warnings,
-        subject: q.holding.subject,
-        units: Units::of(q),
-        requested: (q.shown(q.range.0), q.shown(q.range.1)),
-        reached: reached(own.iter().map(|p| q.shown(p.parameter))),
     })
-}
-
-fn settings(q: &CurveQuery) -> CurveSettings {
-    let mut settings = CurveSettings::within(q.range.0, q.range.1);
-    settings.branches = q.branches;
-    settings.points = q.points;
-    // Fine enough to be drawn.
-    settings.largest_turn = 0.05;
-    settings.largest_change = Some((q.range.1 - q.range.0) / 60.0);
-    if let Some(limits) = q.force_limits {
-        settings.conjugate_range = limits;
-    }
-    settings
 }
 
 /// The load grows at one displacement, the end of the range: rounding must not end the curve, and without limits
@@ -145,94 +92,21 @@ fn widen_for_locked(
     ))
 }
 
-/// Searches for shapes at the start and at both ends of the range, and follows those that no branch holds.
-fn add_shapes_off_the_curve(
+/// All shapes at a value of the parameter, but for those at a limit.
+fn shapes_at(
     chain: &SerialChain,
     q: &CurveQuery,
     problem: &ChainProblem<'_>,
-    curves: &mut Curves<'_>,
-    stage: &Stage,
-    warnings: &mut Vec<Warning>,
-) -> Answer<()> {
-    let mut values = vec![q.start(), q.range.0, q.range.1];
-    values.dedup();
-    for v in values {
-        stage.is("searching for shapes off the curve");
-        let there = problem_at(problem, &q.parameter, v);
-        let bounds = Bounds::of(&chain.chain);
-        let all = equilibria(&there, &bounds, &SearchSettings::default())?;
-        if !all.settled {
-            warnings.push(Warning::new(
-                WarningCode::SearchEnds,
-                format!(
-                    "the search at {} ended before it was complete: there may be more shapes",
-                    q.shown(v)
-                ),
-            ));
-        }
-        for found in &all.found {
-            stage.is("following the curve through another shape");
-            if is_degenerate(chain, &there, found) {
-                continue;
-            }
-            if let Err(error) = curves.add(&found.equilibrium, v) {
-                warnings.push(Warning::new(
-                    WarningCode::CurveEnds,
-                    format!(
-                        "a shape found at {} could not be followed: {error}",
-                        q.shown(v)
-                    ),
-                ));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Why branches end where they were not asked to.
-fn of_ends(branches: &[BranchAnswer], q: &CurveQuery) -> Vec<Warning> {
-    let ends = branches
-        .iter()
-        .flat_map(|b| b.ends.map(|end| (b.number, end)));
-    let said = ends.filter_map(|(number, end)| match end {
-        BranchEnd::Lost => Some(format!(
-            "branch {number} was lost: beyond its end no further point was found"
-        )),
-        BranchEnd::Stalled => Some(format!(
-            "branch {number} was given up: ever shorter steps made no progress at its end"
-        )),
-        BranchEnd::Points => Some(format!(
-            "branch {number} ends after {} points; --points N allows more, --force-limits keeps it shorter",
-            q.points
-        )),
-        _ => None,
-    });
-    said.map(|said| Warning::new(WarningCode::CurveEnds, said))
-        .collect()
-}
-
-/// Branches that cross and were not followed.
-fn of_missing_branches(curves: &Curves<'_>, q: &CurveQuery) -> Vec<Warning> {
-    let lost = curves.specials.iter().filter(|s| s.lost_branch);
-    let lost = lost.map(|special| {
-        Warning::new(
-            WarningCode::CurveEnds,
-            format!(
-                "a branch that crosses at {} could not be followed: its first step did not converge, and its shapes are missing here",
-                q.shown(special.point.parameter)
-            ),
-        )
-    });
-    let more = curves.more_branches.then(|| {
-        Warning::new(
-            WarningCode::MoreBranches,
-            format!(
-                "more than {} branches cross; --branches N follows more",
-                q.branches
-            ),
-        )
-    });
-    lost.chain(more).collect()
+    value: f64,
+) -> Answer<Shapes<Equilibrium>> {
+    let there = problem_at(problem, &q.parameter, value);
+    let bounds = Bounds::of(&chain.chain);
+    let all = equilibria(&there, &bounds, &SearchSettings::default())?;
+    let regular = (all.found.into_iter()).filter(|f| !is_degenerate(chain, &there, f));
+    Ok(Shapes {
+        list: regular.map(|f| f.equilibrium).collect(),
+        settled: all.settled,
+    })
 }
 
 /// Why there is no equilibrium at the start.

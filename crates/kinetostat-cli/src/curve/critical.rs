@@ -8,7 +8,7 @@ use kinetostat_analysis::serial_chain::SerialChain;
 
 use crate::curve::answer::{CriticalAnswer, kind_name};
 use crate::curve::query::CurveQuery;
-use crate::end_condition::chain::mode_in_words;
+use crate::end_condition::subject::Subject;
 use crate::ui::failure::Answer;
 
 pub(crate) fn critical_loads(
@@ -40,18 +40,10 @@ fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -
     CriticalAnswer {
         judged,
         linear_factor: c.linear,
-        linear_mode_in_words: if c.linear_mode.is_empty() {
-            String::new()
-        } else {
-            mode_in_words(chain, &c.linear_mode)
-        },
+        linear_mode_in_words: chain.motion_in_words(&c.linear_mode),
         factor: c.exact.as_ref().map(|e| e.factor),
         kind: c.exact.as_ref().and_then(|e| e.kind).map(kind_name),
-        mode_in_words: if mode.is_empty() {
-            String::new()
-        } else {
-            mode_in_words(chain, &mode)
-        },
+        mode_in_words: chain.motion_in_words(&mode),
         mode,
         followed_to_factor: c.reached,
         conservative: c.conservative,

@@ -5,22 +5,25 @@
 //! critical loads, as text, table and drawing.
 
 mod answer;
+mod answer_of;
 pub(crate) mod arguments;
 mod chain;
-mod chain_points;
 mod critical;
 mod csv;
 mod figures;
+mod followed;
 mod machine;
 mod plot;
+mod point;
+mod points;
 mod query;
-mod state;
 mod text;
 mod verdict;
 
 use kinetostat_analysis::serial_chain::is_serial_chain;
 
 use crate::curve::answer::CurveAnswer;
+use crate::curve::answer_of::answer_of;
 use crate::curve::arguments::CurveArgs;
 use crate::curve::query::curve_query;
 use crate::end_condition::answering::{CommandQuery, Shown, Work, answer_query};
@@ -43,16 +46,15 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = curve_query(&moves_of(&chain), Some(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
-                chain::solve(&chain, &q, place, names, stage)
-                    .map(|a| a.with_stretch_warning(length))
+                let followed = chain::follow(&chain, &q, stage)?;
+                Ok(answer_of(&chain, &q, followed, place, names).with_stretch_warning(length))
             }))
         } else {
-            machine::refuse(args)?;
-            let machine = CommandedMachine::of(query)?;
+            let machine = CommandedMachine::of(query, &args.end)?;
             let q = curve_query(&machine.moves, None, args)?;
             Ok(Box::new(move |place, names, stage| {
-                machine::solve(&machine, &q, place, names, stage)
-                    .map(|a| a.with_stretch_warning(length))
+                let followed = machine::follow(&machine, &q, stage)?;
+                Ok(answer_of(&machine, &q, followed, place, names).with_stretch_warning(length))
             }))
         }
     };

@@ -7,7 +7,7 @@ use nalgebra::{Vector3, Vector6};
 use crate::curve::arguments::CurveArgs;
 use crate::end_condition::chain::node_force;
 use crate::end_condition::holding::{Driven, Holding, axis_in_words, holding};
-use crate::end_condition::loads::{constant, constant_in_words, no_nodes, wrench};
+use crate::end_condition::loads::{constant, constant_in_words, no_growing_nodes, wrench};
 use crate::end_condition::moves::Moves;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
@@ -103,7 +103,7 @@ fn given_triple(v: [f64; 3]) -> String {
     })
 }
 
-/// The question of `curve`. `chain`: for forces on its nodes; a machine has none here.
+/// The question of `curve`. `chain`: for growing forces on its nodes; a machine has none.
 pub(crate) fn curve_query(
     moves: &Moves,
     chain: Option<&SerialChain>,
@@ -239,8 +239,8 @@ fn load_pattern(
     let mut loads = Vec::new();
     for text in &args.grow {
         match chain {
-            Some(chain) => loads.push(node_force(chain, "--grow", text)?),
-            None => return Err(no_nodes("--grow")),
+            Some(chain) => loads.push(node_force(&chain.chain, "--grow", "", text)?),
+            None => return Err(no_growing_nodes("--grow")),
         }
     }
     let (force, moment) = (end.force().norm(), end.moment().norm());

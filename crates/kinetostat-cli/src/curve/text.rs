@@ -176,12 +176,8 @@ fn jumps(a: &CurveAnswer) -> String {
         };
         let text = match jump.to.as_slice() {
             [] => format!(
-                "from {} ({under}): no stable shape was found on the branches followed; {}",
-                jump.from,
-                match a.subject {
-                    "machine" => "a longer way may reach one",
-                    _ => "--all searches for others",
-                }
+                "from {} ({under}): no stable shape was found on the branches followed; --all searches for others",
+                jump.from
             ),
             [one] => format!("from {} ({under}) to {one}", jump.from),
             many => format!(

@@ -30,7 +30,8 @@ pub(crate) struct EndArgs {
     /// Moment that acts on the tool all the time, N m, base axes
     #[arg(long, num_args = 3, value_names = ["MX", "MY", "MZ"], allow_negative_numbers = true, help_heading = "Constant load", value_parser = number)]
     pub(crate) constant_moment: Option<Vec<f64>>,
-    /// Force on a named node of the chain all the time, N, base axes (repeat for more)
+    /// Force on a named node of the chain all the time, N, base axes (repeat for more); of a machine
+    /// of several limbs LIMB:NODE=FX,FY,FZ
     #[arg(long, value_name = "NODE=FX,FY,FZ", action = ArgAction::Append, allow_hyphen_values = true, help_heading = "Constant load")]
     pub(crate) load: Vec<String>,
 }

@@ -9,14 +9,6 @@ use crate::end_condition::chain::node_force;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 
-/// That forces on nodes are for chains.
-pub(crate) fn refuse_nodes(args: &EndArgs) -> Answer<()> {
-    match args.load.is_empty() {
-        true => Ok(()),
-        false => Err(no_nodes("--load")),
-    }
-}
-
 /// The wrench of two options.
 pub(crate) fn wrench(
     force: (&str, Option<&[f64]>),
@@ -36,17 +28,17 @@ pub(crate) fn constant(args: &EndArgs) -> Answer<Wrench> {
     )
 }
 
-/// A force on a node was requested of a machine.
-pub(crate) fn no_nodes(option: &str) -> Failure {
+/// A growing force on a node was requested of a machine.
+pub(crate) fn no_growing_nodes(option: &str) -> Failure {
     Failure::input(format!(
-        "{option} puts a force on a node of a chain, and this model has several limbs; write such a load into the model file, or a force on the tool"
+        "{option} lets a force on a node grow, and this model has several limbs. The curve of a machine has the motions of its tool and the load on its tool as unknowns, and everything else follows from them: only a load on the tool can grow there (--force, --moment). A force on a node that acts all the time is --load LIMB:NODE=FX,FY,FZ"
     ))
 }
 
 /// Adds the forces on nodes that act all the time.
 pub(crate) fn with_loads(mut chain: SerialChain, args: &EndArgs) -> Answer<SerialChain> {
     for text in &args.load {
-        let load = node_force(&chain, "--load", text)?;
+        let load = node_force(&chain.chain, "--load", "", text)?;
         chain.loads.push(load);
     }
     Ok(chain)

@@ -1,58 +1,83 @@
-//! A machine of several limbs or platforms, commanded for a place.
+//! A machine of several limbs or platforms, commanded for a place, with everything that acts on it.
 
-use kinetostat::{
-    Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, machine::NearSingularity,
-};
+use kinetostat::{Mechanism, MechanismEquilibrium, MotionKind, Posture, machine::NearSingularity};
 use kinetostat_analysis::movable::MovableDirections;
 use kinetostat_analysis::outline::chain_outline;
 use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 
+use crate::end_condition::arguments::EndArgs;
+use crate::end_condition::chain::node_force;
 use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_of};
 use crate::end_condition::moves::Moves;
+use crate::end_condition::subject::{Subject, motion_in_words};
 use crate::place::query::PlaceQuery;
-use crate::place::reachable::Followed;
-use crate::ui::failure::Answer;
+use crate::ui::failure::{Answer, Failure};
 
 /// A machine commanded for a place.
 pub(crate) struct CommandedMachine {
-    pub(crate) mechanism: Mechanism,
-    pub(crate) target: Pose,
-    /// Commands, where the place is given by them.
-    pub(crate) joints: Option<Vec<f64>>,
-    pub(crate) followed: Option<Followed>,
+    pub(crate) posture: Posture,
     pub(crate) moves: Moves,
 }
 
 impl CommandedMachine {
-    pub(crate) fn of(query: &PlaceQuery) -> Answer<Self> {
-        let posture = query.posture()?;
+    /// With the forces on nodes of its limbs that act all the time.
+    pub(crate) fn of(query: &PlaceQuery, args: &EndArgs) -> Answer<Self> {
+        let mut posture = query.posture()?;
+        let directions = MovableDirections::of(&posture)?;
+        if !args.load.is_empty() {
+            let mut mechanism = query.mechanism.clone();
+            for text in &args.load {
+                mechanism = with_node_force(&mechanism, text)?;
+            }
+            posture = query.standing_in(&mechanism)?;
+        }
         Ok(Self {
+            posture,
             moves: Moves {
                 subject: "machine",
                 place: query.target,
-                directions: MovableDirections::of(&posture)?,
+                directions,
             },
-            mechanism: query.mechanism.clone(),
-            target: query.target,
-            joints: query.joints.clone(),
-            followed: query.followed.clone(),
         })
     }
 
-    /// Commanded for its place.
-    pub(crate) fn posture(&self) -> Answer<Posture> {
-        let m = &self.mechanism;
-        Ok(match (&self.joints, &self.followed) {
-            (Some(joints), _) => m.posture(PostureRequest::commands(joints))?,
-            (None, Some(f)) => m.posture(PostureRequest::joints(&self.target, f.limbs.clone()))?,
-            (None, None) => m.posture(&self.target)?,
-        })
+    /// Singular postures within a distance (m).
+    pub(crate) fn near_singular(&self, within: f64) -> Answer<Vec<Warning>> {
+        let within = within.max(0.1 * self.moves.directions.length);
+        let list = self.posture.near_singularities(within)?;
+        let reported = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
+        Ok(list.iter().map(reported).collect())
     }
+}
 
-    /// Coordinates of all limbs, one limb after the other.
-    pub(crate) fn coordinates(&self, posture: &Posture) -> Vec<CoordinateName> {
-        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
+/// The machine with one more dead force on a node of a limb, written `LIMB:NODE=FX,FY,FZ`.
+fn with_node_force(mechanism: &Mechanism, text: &str) -> Answer<Mechanism> {
+    let limbs = mechanism.limbs();
+    let named = limbs.iter().find_map(|limb| {
+        let rest = text.trim_start().strip_prefix(limb.name.as_str())?;
+        Some((limb, rest.trim_start().strip_prefix(':')?))
+    });
+    let Some((limb, own)) = named else {
+        let names: Vec<&str> = limbs.iter().map(|limb| limb.name.as_str()).collect();
+        return Err(Failure::input(format!(
+            "--load '{text}': this model has several limbs, so name the limb before its node, as in --load {}:tip=0,0,-100. It has: {}",
+            names.first().copied().unwrap_or_default(),
+            names.join(", ")
+        )));
+    };
+    let before = format!("{}:", limb.name);
+    let load = node_force(&limb.actual, "--load", &before, own)?;
+    Ok(mechanism.with_load(&limb.name, load)?)
+}
+
+impl Subject for CommandedMachine {
+    type Equilibrium = MechanismEquilibrium;
+
+    /// Of all limbs, one limb after the other.
+    fn coordinates(&self) -> Vec<CoordinateName> {
+        let limbs = self.posture.mechanism().limbs().iter();
+        let limbs = limbs.zip(self.posture.limbs());
         limbs
             .flat_map(|(limb, joints)| {
                 coordinates_of(&limb.actual, &joints.commands)
@@ -65,11 +90,10 @@ impl CommandedMachine {
             .collect()
     }
 
-    /// Values of all coordinates, in their units.
-    pub(crate) fn values(&self, posture: &Posture, e: &MechanismEquilibrium) -> Vec<f64> {
-        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
+    fn values(&self, e: &MechanismEquilibrium) -> Vec<f64> {
+        let limbs = self.posture.mechanism().limbs().iter();
+        let limbs = limbs.zip(self.posture.limbs()).zip(&e.limbs);
         limbs
-            .zip(&e.limbs)
             .flat_map(|((limb, joints), own)| {
                 values_of(&limb.actual, &joints.commands, &own.coordinates)
             })
@@ -77,10 +101,10 @@ impl CommandedMachine {
     }
 
     /// Every limb from its start to its end and back, one after the other, m.
-    pub(crate) fn outline(&self, posture: &Posture, e: &MechanismEquilibrium) -> Vec<Vector3<f64>> {
-        let limbs = self.mechanism.limbs().iter().zip(posture.limbs());
+    fn outline(&self, e: &MechanismEquilibrium) -> Vec<Vector3<f64>> {
+        let limbs = self.posture.mechanism().limbs().iter();
+        let limbs = limbs.zip(self.posture.limbs()).zip(&e.limbs);
         limbs
-            .zip(&e.limbs)
             .flat_map(|((limb, joints), own)| {
                 let base = &e.state.platforms[limb.from];
                 let there = chain_outline(&limb.actual, base, &joints.commands, &own.coordinates);
@@ -90,11 +114,12 @@ impl CommandedMachine {
             .collect()
     }
 
-    /// Singular postures within a distance (m).
-    pub(crate) fn near_singular(&self, posture: &Posture, within: f64) -> Answer<Vec<Warning>> {
-        let within = within.max(0.1 * self.moves.directions.length);
-        let list = posture.near_singularities(within)?;
-        let reported = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
-        Ok(list.iter().map(reported).collect())
+    fn motion_in_words(&self, motion: &[f64]) -> String {
+        let axes = ["x", "y", "z"];
+        let slides = axes.map(|axis| (format!("the tool along {axis}"), MotionKind::Prismatic));
+        let turns = axes.map(|axis| (format!("the tool about {axis}"), MotionKind::Revolute));
+        let parts: Vec<_> = slides.into_iter().chain(turns).collect();
+        let length = self.posture.mechanism().natural_length();
+        motion_in_words(&parts, motion, length)
     }
 }

@@ -11,4 +11,5 @@ pub(crate) mod holding;
 pub(crate) mod loads;
 pub(crate) mod machine;
 pub(crate) mod moves;
+pub(crate) mod subject;
 pub(crate) mod table;

@@ -4,10 +4,10 @@
 //! stability and forces, and how complete the list is.
 
 mod answer;
+mod answer_of;
 pub(crate) mod arguments;
-mod chain;
 mod csv;
-mod machine;
+mod found;
 mod plot;
 mod query;
 mod text;
@@ -16,9 +16,10 @@ use kinetostat_analysis::serial_chain::is_serial_chain;
 
 use crate::end_condition::answering::{CommandQuery, Shown, Work, answer_query};
 use crate::end_condition::chain::{moves_of, serial_chain};
-use crate::end_condition::loads::{refuse_nodes, with_loads};
+use crate::end_condition::loads::with_loads;
 use crate::end_condition::machine::CommandedMachine;
 use crate::equilibria::answer::EquilibriaAnswer;
+use crate::equilibria::answer_of::answer_of;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::equilibria::query::equilibria_query;
 use crate::place::query::PlaceQuery;
@@ -36,14 +37,15 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
             let chain = with_loads(serial_chain(query)?, &args.end)?;
             let q = equilibria_query(&moves_of(&chain), args)?;
             Ok(Box::new(move |place, names, stage| {
-                chain::solve(&chain, &q, place, names, stage)
+                let all = found::of_chain(&chain, &q, stage)?;
+                Ok(answer_of(&chain, &q, all, place, names))
             }))
         } else {
-            refuse_nodes(&args.end)?;
-            let machine = CommandedMachine::of(query)?;
+            let machine = CommandedMachine::of(query, &args.end)?;
             let q = equilibria_query(&machine.moves, args)?;
             Ok(Box::new(move |place, names, stage| {
-                machine::solve(&machine, &q, place, names, stage)
+                let all = found::of_machine(&machine, &q, stage)?;
+                Ok(answer_of(&machine, &q, all, place, names))
             }))
         }
     };

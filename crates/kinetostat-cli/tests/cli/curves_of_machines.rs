@@ -13,8 +13,13 @@ const STIFFNESS: f64 = 100.0;
 
 /// Two bars from the sides to a pin in the middle.
 fn truss() -> tempfile::TempDir {
+    truss_of(SPAN, HEIGHT)
+}
+
+/// The same of other sizes, mm.
+fn truss_of(span: f64, height: f64) -> tempfile::TempDir {
     let here = tempfile::tempdir().expect("a directory");
-    let (turn, length) = (SPAN.atan2(HEIGHT).to_degrees(), SPAN.hypot(HEIGHT));
+    let (turn, length) = (span.atan2(height).to_degrees(), span.hypot(height));
     let chain = |name: &str, side: f64| {
         format!(
             r#"
@@ -32,14 +37,14 @@ from = "base"
 to = "pin"
 chain = "{name}"
 "#,
-            x = side * SPAN,
+            x = side * span,
             home = -side * turn,
             back = side * turn,
             k = 1e3 * STIFFNESS,
         )
     };
     let text = format!(
-        "schema = 1\n\n[mechanism]\nname = \"truss\"\n\n[[platform]]\nname = \"pin\"\nhome = {{ position_mm = [0, 0, {HEIGHT:?}] }}\n{}{}",
+        "schema = 1\n\n[mechanism]\nname = \"truss\"\n\n[[platform]]\nname = \"pin\"\nhome = {{ position_mm = [0, 0, {height:?}] }}\n{}{}",
         chain("left", -1.0),
         chain("right", 1.0)
     );
@@ -231,12 +236,22 @@ fn what_is_for_chains_is_refused_for_machines() {
     let pushed = "curve truss.toml --direction 0 0 -1 --displacement-mm 0 10";
     for (line, needles) in [
         (
-            format!("{pushed} --all"),
-            vec!["--all", "several limbs", "equilibria"],
+            "curve truss.toml --grow left:tip=0,0,-1 --factor 0 1".to_owned(),
+            vec![
+                "--grow",
+                "several limbs",
+                "motions of its tool and the load on its tool as unknowns",
+                "--force",
+                "--load LIMB:NODE",
+            ],
         ),
         (
             format!("{pushed} --load foot=0,0,-1"),
-            vec!["--load", "several limbs"],
+            vec!["--load left:tip=0,0,-100", "several limbs", "left, right"],
+        ),
+        (
+            format!("{pushed} --load left:foot=0,0,-1"),
+            vec!["--load 'left:foot=0,0,-1'", "no node 'foot'", "tip"],
         ),
         (
             "curve truss.toml --direction 0 1 0 --displacement-mm 0 10".to_owned(),
@@ -258,4 +273,107 @@ fn what_is_for_chains_is_refused_for_machines() {
             assert!(told.contains(needle), "{line}: {needle}: {told}");
         }
     }
+}
+
+/// Of the steep truss, mm: narrow enough that the pin goes aside before the bars lie flat.
+const NARROW: f64 = 300.0;
+const STEEP: f64 = 1000.0;
+
+/// Way down (mm) at which the steep truss holds its pin in the middle no more, and the force there (N): what the bars
+/// hold across is zero where the cube of their length is their free length times the height squared.
+fn aside() -> (f64, f64) {
+    let free = NARROW.hypot(STEEP);
+    let (mut low, mut high) = (0.7 * STEEP, STEEP);
+    for _ in 0..60 {
+        let z = 0.5 * (low + high);
+        match NARROW.hypot(z).powi(3) < free * z * z {
+            true => low = z,
+            false => high = z,
+        }
+    }
+    let length = NARROW.hypot(low);
+    let force = 2.0 * STIFFNESS * (free - length) * low / length;
+    (STEEP - low, force)
+}
+
+#[test]
+fn a_steep_truss_goes_aside_on_branches_of_its_own() {
+    let here = truss_of(NARROW, STEEP);
+    let (down, force) = aside();
+    let line = "curve truss.toml --direction 0 0 -1 --displacement-mm 0 200 --free others";
+    let answer = json(here.path(), &words(&format!("{line} --branches 3")));
+    let forks = named(&answer, "pitchfork");
+    assert_eq!(forks.len(), 1, "{forks:?}");
+    let fork = forks[0];
+    assert!((number(&fork["displacement_mm"]) - down).abs() < 1e-6);
+    assert!((number(&fork["force_along_n"]) - force).abs() < 1e-6 * force);
+    let mode = fork["mode_in_words"].as_str().expect("words");
+    assert!(mode.contains("the tool along x by"), "{mode}");
+    assert_eq!(answer["more_branches"], false);
+    let branches = answer["branches"].as_array().expect("branches");
+    assert_eq!(branches.len(), 2);
+    assert_eq!(branches[1]["from"], fork["name"]);
+    // To either side alike.
+    let points = branches[1]["points"].as_array().expect("points");
+    let across = |p: &Value| number(&p["position_mm"][0]);
+    let (first, last) = (&points[0], &points[points.len() - 1]);
+    assert!(across(first).abs() > 50.0, "{first}");
+    assert!((across(first) + across(last)).abs() < 1e-6 * STEEP);
+    let said = run(here.path(), &words(line)).answered().out;
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    for needle in [
+        "The machine buckles at 112.313 mm",
+        "pitchfork: the machine buckles to one side or the other",
+    ] {
+        assert!(said.contains(needle), "{needle}: {said}");
+    }
+    // The start's own branch alone: that there are more is told.
+    let own = json(here.path(), &words(&format!("{line} --branches 1")));
+    assert_eq!(own["branches"].as_array().expect("branches").len(), 1);
+    assert_eq!(named(&own, "pitchfork").len(), 1);
+}
+
+#[test]
+fn all_shapes_of_a_machine_off_its_curve_are_followed() {
+    let here = truss();
+    // Up to a third of the limit the shape pushed through is on no branch of the start.
+    let line = "curve truss.toml --force 0 0 -50 --factor 0 1";
+    let own = json(here.path(), &words(line));
+    assert_eq!(own["branches"].as_array().expect("branches").len(), 1);
+    let all = json(here.path(), &words(&format!("{line} --all")));
+    let branches = all["branches"].as_array().expect("branches");
+    let near = |p: &&Value| number(&p["spring_energy_j"]) < 1000.0;
+    let ends: Vec<&Value> = branches
+        .iter()
+        .flat_map(|b| b["points"].as_array().expect("points"))
+        .filter(|p| number(&p["factor"]) == 1.0)
+        .filter(near)
+        .collect();
+    assert_eq!(ends.len(), 3, "{ends:#?}");
+    for p in &ends {
+        let found = number(&p["force_along_n"]);
+        assert!((force(number(&p["displacement_mm"])) - found).abs() < 1e-6);
+    }
+    let holds = ends.iter().filter(|p| p["stable_under_dead_load"] == true);
+    assert_eq!(holds.count(), 2);
+}
+
+#[test]
+fn a_force_on_a_node_of_a_limb_acts_like_one_on_the_pin() {
+    let here = truss();
+    let line = "curve truss.toml --direction 0 0 -1 --displacement-mm 0 50";
+    let answer = json(
+        here.path(),
+        &words(&format!("{line} --load left:tip=0,0,-20")),
+    );
+    assert!(answer["question"].to_string().contains("'left:tip'"));
+    for p in answer["branches"][0]["points"].as_array().expect("points") {
+        let own = force(number(&p["displacement_mm"])) - 20.0;
+        assert!((number(&p["force_along_n"]) - own).abs() < 1e-6, "{p}");
+    }
+    let line = "equilibria truss.toml --force 0 0 -30 --load left:tip=0,0,-20";
+    let all = json(here.path(), &words(line));
+    let first = &all["equilibria"][0];
+    let down = HEIGHT - number(&first["position_mm"][2]);
+    assert!((force(down) - 50.0).abs() < 1e-6, "{down}");
 }

@@ -6,7 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::continuation::curve::{CurveStability, Special, SpecialKind};
+use crate::continuation::curve::{Special, SpecialKind};
+use crate::continuation::curve_equilibrium::CurveStability;
 use crate::continuation::describe::describe;
 use crate::continuation::null_directions::NullDirections;
 use crate::continuation::segment::{Segment, largest_one};

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::curve::{Branch, BranchEnd, CurveEquilibrium, Stop, join};
+use crate::continuation::curve::{Branch, BranchEnd, Stop, join};
+use crate::continuation::curve_equilibrium::CurveEquilibrium;
 use crate::continuation::describe::{describe, tangent};
 use crate::continuation::family::Family;
 use crate::continuation::state_distance::{off_segment, wrapped};

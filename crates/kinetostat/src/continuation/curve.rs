@@ -8,7 +8,6 @@
 //! Shapes that a motion turns into each other at no cost (a round rod that buckles in any direction)
 //! are one family and one branch, followed at rest along that motion ([`CurvePoint::in_family`]).
 
-use std::fmt::Debug;
 use std::sync::Arc;
 
 use nalgebra::DVector;
@@ -16,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::ChainProblem;
-use crate::chain::stability::ShapeStability;
+use crate::continuation::curve_equilibrium::CurveEquilibrium;
 use crate::continuation::family::Family;
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
@@ -40,34 +39,6 @@ pub enum BranchEnd {
     Stalled,
     /// What was looked for has been found.
     Found,
-}
-
-/// What is known of an equilibrium on a curve.
-pub trait CurveEquilibrium: Clone + Debug {
-    /// What is known of its stability.
-    type Stability: CurveStability;
-}
-
-/// Stability of an equilibrium on a curve.
-pub trait CurveStability: Clone + Debug {
-    /// It stays.
-    fn stable(&self) -> bool;
-    /// Number of independent motions in which it goes away.
-    fn unstable_modes(&self) -> usize;
-}
-
-impl CurveEquilibrium for Equilibrium {
-    type Stability = ShapeStability;
-}
-
-impl CurveStability for ShapeStability {
-    fn stable(&self) -> bool {
-        self.stable
-    }
-
-    fn unstable_modes(&self) -> usize {
-        self.unstable_modes
-    }
 }
 
 /// An equilibrium on a curve.
@@ -110,6 +81,12 @@ impl<E: CurveEquilibrium> CurvePoint<E> {
     #[must_use]
     pub fn in_family(&self) -> bool {
         self.family.is_some()
+    }
+
+    /// Distance from another point of the same curve, in the natural units of its unknowns.
+    #[must_use]
+    pub fn apart(&self, other: &Self) -> f64 {
+        (&self.z - &other.z).norm()
     }
 
     /// The parameter's load: the factor, or the force along the displacement.
@@ -186,6 +163,8 @@ pub struct Special<E: CurveEquilibrium = Equilibrium> {
 pub struct Branch<E: CurveEquilibrium = Equilibrium> {
     /// In order along the path.
     pub points: Vec<CurvePoint<E>>,
+    /// Index of the point from which it was followed both ways.
+    pub start: usize,
     /// Bifurcation point (index into [`Curves::specials`]) it was found from; `None`: the start.
     pub origin: Option<usize>,
     /// Why it ends, at the first and at the last point.
@@ -221,6 +200,8 @@ pub struct Jump<E: CurveEquilibrium = Equilibrium> {
     /// Stable equilibria at the same load (displacement), nearest first; empty if no computed
     /// branch holds one.
     pub to: Vec<CurvePoint<E>>,
+    /// Branch of each of them: index into [`Curves::branches`].
+    pub branches: Vec<usize>,
 }
 
 /// Tells that a point is what was looked for.
@@ -236,6 +217,7 @@ pub(crate) fn join<E: CurveEquilibrium>(
     let mut points = backward;
     points.reverse();
     points.pop();
+    let start = points.len();
     for point in &mut points {
         point.tangent *= -1.0;
     }
@@ -249,6 +231,7 @@ pub(crate) fn join<E: CurveEquilibrium>(
     }
     Branch {
         points,
+        start,
         origin,
         ends: [first, last],
     }

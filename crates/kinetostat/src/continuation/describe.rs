@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::continuation::curve::{CurvePoint, CurveStability};
+use crate::continuation::curve::CurvePoint;
+use crate::continuation::curve_equilibrium::CurveStability;
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::system::{Corrected, CurveSystem, Point};
 use crate::continuation::tangent::Tangent;

@@ -5,7 +5,7 @@ use crate::chain::problem::ChainProblem;
 use crate::continuation::branch_switching::Traced;
 use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::curve::{CurvePoint, Curves, Jump, Stop};
-use crate::continuation::jumps::{crossings, jumps};
+use crate::continuation::jumps::{jumps, points_at};
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracer::Tracer;
@@ -89,7 +89,7 @@ impl Curves<'_> {
     /// # Errors
     /// None in practice: the problem was accepted when the curve was followed.
     pub fn at(&self, value: f64) -> Result<Vec<CurvePoint>> {
-        Ok(crossings(&mut self.system()?, &self.branches, value, true))
+        Ok(points_at(&mut self.system()?, &self.branches, value, true))
     }
 
     /// Equilibria at one value of the conjugate (force along the displacement, or displacement
@@ -98,7 +98,7 @@ impl Curves<'_> {
     /// # Errors
     /// None in practice: the problem was accepted when the curve was followed.
     pub fn at_conjugate(&self, value: f64) -> Result<Vec<CurvePoint>> {
-        Ok(crossings(&mut self.system()?, &self.branches, value, false))
+        Ok(points_at(&mut self.system()?, &self.branches, value, false))
     }
 
     /// Where the chain goes from every limit point that a stable part of a branch runs into: stable

@@ -1,19 +1,32 @@
 //! Equilibria on the branches of a curve at one load or one displacement, and where a system jumps from its limit points.
 
-use crate::continuation::curve::{CurveStability, Jump, SpecialKind};
+use crate::continuation::curve::{Jump, SpecialKind};
+use crate::continuation::curve_equilibrium::CurveStability;
 use crate::continuation::describe::{describe, tangent};
 use crate::continuation::state_distance::{distance, wrapped};
 use crate::continuation::system::{BranchOf, CurveSystem, Point, Row, SpecialPoint};
 
 /// Equilibria at one value of the parameter, or (`false`) of its conjugate, on all branches.
-pub(crate) fn crossings<S: CurveSystem>(
+pub(crate) fn points_at<S: CurveSystem>(
     system: &mut S,
     branches: &[BranchOf<S>],
     value: f64,
     parameter: bool,
 ) -> Vec<Point<S>> {
-    let mut found: Vec<Point<S>> = Vec::new();
-    for pair in branches.iter().flat_map(|b| b.points.windows(2)) {
+    let found = crossings(system, branches, value, parameter);
+    found.into_iter().map(|(_, p)| p).collect()
+}
+
+/// Equilibria at one value of the parameter, or (`false`) of its conjugate, with the branch on which each lies.
+fn crossings<S: CurveSystem>(
+    system: &mut S,
+    branches: &[BranchOf<S>],
+    value: f64,
+    parameter: bool,
+) -> Vec<(usize, Point<S>)> {
+    let mut found: Vec<(usize, Point<S>)> = Vec::new();
+    let branches = branches.iter().enumerate();
+    for (k, pair) in branches.flat_map(|(k, b)| b.points.windows(2).map(move |pair| (k, pair))) {
         let of = |p: &Point<S>| (if parameter { p.parameter } else { p.conjugate }) - value;
         let (a, b) = (of(&pair[0]), of(&pair[1]));
         let slack = 1e-12 * (1.0 + value.abs());
@@ -32,12 +45,14 @@ pub(crate) fn crossings<S: CurveSystem>(
             continue;
         };
         let far = (&c.z - &guess).norm() > (&pair[1].z - &pair[0].z).norm();
-        let known = found.iter().any(|p| distance(system, &p.z, &c.z) < 1e-7);
+        let known = found
+            .iter()
+            .any(|(_, p)| distance(system, &p.z, &c.z) < 1e-7);
         if far || known {
             continue;
         }
         if let Some(t) = tangent(system, &c.matrix, &pair[0].tangent) {
-            found.push(describe(system, &c, t.direction));
+            found.push((k, describe(system, &c, t.direction)));
         }
     }
     found
@@ -71,17 +86,19 @@ pub(crate) fn jumps<S: CurveSystem>(
         } else {
             special.point.conjugate
         };
-        let mut to: Vec<(f64, Point<S>)> = crossings(system, branches, value, by_load == is_load)
-            .into_iter()
-            .filter(|p| stable(p))
-            .map(|p| (wrapped(&p.z, &special.point.z, &turns).norm(), p))
-            .filter(|(d, _)| *d > 1e-3)
+        let there = crossings(system, branches, value, by_load == is_load);
+        let mut there: Vec<_> = (there.into_iter())
+            .filter(|(_, p)| stable(p))
+            .map(|(k, p)| (wrapped(&p.z, &special.point.z, &turns).norm(), k, p))
+            .filter(|(d, ..)| *d > 1e-3)
             .collect();
-        to.sort_by(|a, b| a.0.total_cmp(&b.0));
+        there.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (branches, to) = there.into_iter().map(|(_, k, p)| (k, p)).unzip();
         jumps.push(Jump {
             from: index,
             dead_load: by_load,
-            to: to.into_iter().map(|(_, p)| p).collect(),
+            to,
+            branches,
         });
     }
     jumps

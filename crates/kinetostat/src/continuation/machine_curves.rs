@@ -4,7 +4,7 @@
 use crate::chain::problem::EndCondition;
 use crate::continuation::branch_switching::Traced;
 use crate::continuation::curve::{Branch, CurvePoint, Jump, Special};
-use crate::continuation::jumps::{crossings, jumps};
+use crate::continuation::jumps::{jumps, points_at};
 use crate::continuation::machine_system::MachineSystem;
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
@@ -13,6 +13,7 @@ use crate::continuation::tracer::Tracer;
 use crate::error::Result;
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::posture::Posture;
+use crate::machine::state::check_state;
 
 /// A curve of equilibria of a machine and the branches connected to it.
 #[derive(Clone, Debug)]
@@ -23,8 +24,6 @@ pub struct MachineCurves<'p> {
     pub specials: Vec<Special<MechanismEquilibrium>>,
     /// True if connected branches were left out because there were too many.
     pub more_branches: bool,
-    /// Index of the start among the points of the first branch.
-    pub start: usize,
     posture: &'p Posture,
     parameter: Parameter,
     end: EndCondition,
@@ -43,6 +42,27 @@ impl Posture {
     /// ([`crate::continuation::SpecialKind::StabilityChange`]), but the branch that leaves there is not followed. Of the settings
     /// `largest_turn` and those of the solver do not count.
     ///
+    /// ```
+    /// # use kinetostat::nalgebra::{Vector3, vector};
+    /// # use kinetostat::*;
+    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
+    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
+    /// # let chain = Chain::builder("arm")
+    /// #     .actuator("shoulder", hinge(2e5))
+    /// #     .link("upper arm", &tube, 0.6)
+    /// #     .actuator("elbow", hinge(1e5))
+    /// #     .link("forearm", &tube, 0.5)
+    /// #     .build()?;
+    /// # let home = Pose::translation(1.1, 0.0, 0.0);
+    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let push = Parameter::end_wrench(Wrench::new(vector![-1000.0, 0.0, 0.0], Vector3::zeros()));
+    /// let free = EndCondition::wrench(Wrench::zero());
+    /// let posture = arm.posture(&home)?;
+    /// let curves = posture.curves(&push, &free, &CurveSettings::within(0.0, 10.0))?;
+    /// assert!(curves.branches[0].points.len() > 1);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`crate::Error::Model`] for loads on nodes, a direction without length, or a driven direction in which the tool is
     /// to be free; those of the first equilibrium.
@@ -59,12 +79,7 @@ impl Posture {
         let mut tracer = Tracer::new(system, settings);
         let mut traced = Traced::default();
         tracer.grow(&z, &mut traced, None)?;
-        let points = &traced.branches[0].points;
-        let apart = |p: &CurvePoint<MechanismEquilibrium>| (&p.z - &z).norm();
-        let start =
-            (0..points.len()).min_by(|a, b| apart(&points[*a]).total_cmp(&apart(&points[*b])));
         Ok(MachineCurves {
-            start: start.unwrap_or(0),
             specials: tracer.specials,
             branches: traced.branches,
             more_branches: traced.more,
@@ -78,12 +93,36 @@ impl Posture {
 }
 
 impl MachineCurves<'_> {
+    /// Follows the curve through a further equilibrium of the same question, and the branches connected to it as far as
+    /// [`CurveSettings::branches`] allows for each start. False if the tool's place and its load lie on a branch that is
+    /// known.
+    ///
+    /// # Errors
+    /// The start is no equilibrium, or of another machine.
+    pub fn add(&mut self, start: &MechanismEquilibrium) -> Result<bool> {
+        check_state(&self.posture.mechanism, &start.state)?;
+        let (parameter, end, settings) = (&self.parameter, &self.end, &self.settings);
+        let conditions = ToolConditions::new(self.posture, parameter, end, settings)?;
+        let (mut system, _) = MachineSystem::start(&conditions, &self.first.0, self.first.1);
+        let z = system.place(start);
+        let mut tracer = Tracer::new(system, settings);
+        tracer.specials = std::mem::take(&mut self.specials);
+        let mut traced = Traced {
+            branches: std::mem::take(&mut self.branches),
+            more: self.more_branches,
+        };
+        let answer = tracer.grow(&z, &mut traced, None);
+        self.specials = tracer.specials;
+        (self.branches, self.more_branches) = (traced.branches, traced.more);
+        answer
+    }
+
     /// Equilibria at one value of the parameter, on all branches.
     ///
     /// # Errors
     /// None in practice: the question was accepted when the curve was followed.
     pub fn at(&self, value: f64) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
-        self.crossings(value, true)
+        self.ask(|system| points_at(system, &self.branches, value, true))
     }
 
     /// Equilibria at one value of the conjugate (force along the displacement, or displacement along the load pattern),
@@ -92,61 +131,58 @@ impl MachineCurves<'_> {
     /// # Errors
     /// None in practice: the question was accepted when the curve was followed.
     pub fn at_conjugate(&self, value: f64) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
-        self.crossings(value, false)
-    }
-
-    fn crossings(
-        &self,
-        value: f64,
-        parameter: bool,
-    ) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
-        let conditions = self.conditions()?;
-        let (mut system, _) = MachineSystem::start(&conditions, &self.first.0, self.first.1);
-        Ok(crossings(&mut system, &self.branches, value, parameter))
+        self.ask(|system| points_at(system, &self.branches, value, false))
     }
 
     /// Where the machine goes from every limit point that a stable part of a branch runs into: stable equilibria on the
     /// computed branches at the same dead load (load limits) or at the same displacement (displacement limits), nearest
-    /// first.
+    /// first. Where no branch holds one at the load, the machine is let go at the ends of the limit point's branch.
     ///
     /// # Errors
     /// None in practice: the question was accepted when the curve was followed.
     pub fn jumps(&self) -> Result<Vec<Jump<MechanismEquilibrium>>> {
-        let conditions = self.conditions()?;
-        let (mut system, _) = MachineSystem::start(&conditions, &self.first.0, self.first.1);
-        Ok(jumps(&mut system, &self.branches, &self.specials))
+        self.ask(|system| {
+            let mut list = jumps(system, &self.branches, &self.specials);
+            for jump in &mut list {
+                let special = &self.specials[jump.from];
+                if let (true, true, Some(&own)) =
+                    (jump.dead_load, jump.to.is_empty(), special.branches.first())
+                {
+                    jump.to = self.let_go(system, &self.branches[own], special);
+                    jump.branches = vec![own; jump.to.len()];
+                }
+            }
+            list
+        })
     }
 
     /// Where the machine comes to rest under the load of a special point if it is let go at a branch's ends.
-    pub(crate) fn let_go(
+    fn let_go(
         &self,
+        system: &mut MachineSystem<'_, '_>,
         branch: &Branch<MechanismEquilibrium>,
         special: &Special<MechanismEquilibrium>,
-    ) -> Result<Vec<CurvePoint<MechanismEquilibrium>>> {
-        let conditions = self.conditions()?;
-        let (mut system, _) = MachineSystem::start(&conditions, &self.first.0, self.first.1);
+    ) -> Vec<CurvePoint<MechanismEquilibrium>> {
         let load = special.point.load(&self.parameter);
-        let ends = branch
-            .points
-            .first()
-            .into_iter()
-            .chain(branch.points.last());
         let mut to: Vec<CurvePoint<MechanismEquilibrium>> = Vec::new();
-        for end in ends {
-            if let Some(p) = system.let_go(end, load)
+        for end in [branch.points.first(), branch.points.last()] {
+            if let Some(p) = end.and_then(|end| system.let_go(end, load))
                 && p.dead.stable
-                && (&p.z - &special.point.z).norm() > 1e-3
-                && to.iter().all(|q| (&p.z - &q.z).norm() > 1e-7)
+                && p.apart(&special.point) > 1e-3
+                && to.iter().all(|q| p.apart(q) > 1e-7)
             {
                 to.push(p);
             }
         }
-        let apart = |p: &CurvePoint<MechanismEquilibrium>| (&p.z - &special.point.z).norm();
-        to.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
-        Ok(to)
+        to.sort_by(|a, b| a.apart(&special.point).total_cmp(&b.apart(&special.point)));
+        to
     }
 
-    fn conditions(&self) -> Result<ToolConditions<'_>> {
-        ToolConditions::new(self.posture, &self.parameter, &self.end, &self.settings)
+    /// Asks the machine's system in the units of this curve.
+    fn ask<R>(&self, question: impl FnOnce(&mut MachineSystem<'_, '_>) -> R) -> Result<R> {
+        let (parameter, end) = (&self.parameter, &self.end);
+        let conditions = ToolConditions::new(self.posture, parameter, end, &self.settings)?;
+        let (mut system, _) = MachineSystem::start(&conditions, &self.first.0, self.first.1);
+        Ok(question(&mut system))
     }
 }

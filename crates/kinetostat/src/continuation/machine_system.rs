@@ -198,6 +198,12 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         z
     }
 
+    /// The state of a known equilibrium; what is looked for next lies near it.
+    pub fn place(&mut self, e: &MechanismEquilibrium) -> DVector<f64> {
+        self.start_from(e);
+        self.state(e, self.near.2)
+    }
+
     /// Where the tool is at some motions.
     fn pose(&self, q: &DVector<f64>) -> Pose {
         let path = self.conditions;

@@ -19,6 +19,7 @@ pub(crate) mod chain_start;
 pub(crate) mod chain_system;
 pub(crate) mod corrector;
 pub(crate) mod curve;
+pub(crate) mod curve_equilibrium;
 pub(crate) mod curve_matrix;
 pub(crate) mod curve_sweep;
 pub(crate) mod dense_matrix;
@@ -27,9 +28,9 @@ pub(crate) mod family;
 pub(crate) mod family_of;
 pub(crate) mod follow;
 pub(crate) mod held_curve;
+pub(crate) mod in_words;
 pub(crate) mod jumps;
 pub(crate) mod machine_curves;
-pub(crate) mod machine_path;
 pub(crate) mod machine_system;
 pub(crate) mod null_directions;
 pub(crate) mod parameter;
@@ -46,14 +47,11 @@ pub(crate) mod tool_stability;
 pub(crate) mod tool_steps;
 pub(crate) mod tracer;
 
-pub use curve::{
-    Branch, BranchEnd, CurveEquilibrium, CurvePoint, CurveStability, Curves, Jump, Special,
-    SpecialKind,
-};
+pub use curve::{Branch, BranchEnd, CurvePoint, Curves, Jump, Special, SpecialKind};
+pub use curve_equilibrium::{CurveEquilibrium, CurveStability};
 pub use follow::follow;
 pub use held_curve::{HeldCurve, HeldPoint};
 pub use machine_curves::MachineCurves;
-pub use machine_path::{MachinePath, PathJump, PathPoint, PathSpecial, PathSpecialKind};
 pub use parameter::{LoadPattern, Parameter};
 pub use settings::CurveSettings;
 pub use tool_stability::MachineStability;

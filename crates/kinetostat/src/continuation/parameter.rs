@@ -2,8 +2,9 @@
 
 use nalgebra::Vector6;
 
+use crate::chain::problem::EndCondition;
 use crate::model::loads::load::Load;
-use crate::spatial::{Twist, Wrench, turn_matrix};
+use crate::spatial::{Twist, Wrench, moved, turn_matrix};
 
 /// Loads that grow together: at factor `f` the chain carries its own loads plus `f` times these.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +47,17 @@ impl Parameter {
     pub fn along(axes: &nalgebra::Rotation3<f64>, direction: usize) -> Self {
         let unit = Vector6::from_fn(|i, _| f64::from(u8::from(i == direction)));
         Self::Displacement(Twist(turn_matrix(axes) * unit))
+    }
+
+    /// The end condition at a value of the parameter, from that at 0: the end moved, or loaded.
+    #[must_use]
+    pub fn end_at(&self, end: &EndCondition, value: f64) -> EndCondition {
+        let mut there = end.clone();
+        match self {
+            Self::Displacement(twist) => there.pose = moved(&end.pose, &Twist(twist.0 * value)),
+            Self::Load(pattern) => there.wrench = end.wrench + pattern.end * value,
+        }
+        there
     }
 
     /// A wrench on the end, base axes.

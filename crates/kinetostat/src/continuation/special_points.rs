@@ -12,7 +12,8 @@
 use nalgebra::DVector;
 
 use crate::continuation::bifurcation::{bifurcation, stability_change};
-use crate::continuation::curve::{CurveStability, Special, SpecialKind};
+use crate::continuation::curve::{Special, SpecialKind};
+use crate::continuation::curve_equilibrium::CurveStability;
 use crate::continuation::describe::describe;
 use crate::continuation::segment::{Segment, dip, largest_one};
 use crate::continuation::system::{Corrected, CurveSystem, Point, SpecialPoint};

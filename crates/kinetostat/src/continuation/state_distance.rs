@@ -20,12 +20,6 @@ pub(crate) fn distance<S: CurveSystem>(system: &S, a: &DVector<f64>, b: &DVector
     wrapped(a, b, &system.full_turns()).norm()
 }
 
-/// Share of the segment `a b` at which it is nearest to `p`, and the distance there.
-pub(crate) fn segment_share(p: &DVector<f64>, a: &DVector<f64>, b: &DVector<f64>) -> (f64, f64) {
-    let turns = vec![0.0; p.len()];
-    nearest(p, a, b, &turns)
-}
-
 /// Distance of `p` from the segment `a b`, full turns taken out.
 pub(crate) fn off_segment(
     p: &DVector<f64>,
@@ -33,12 +27,8 @@ pub(crate) fn off_segment(
     b: &DVector<f64>,
     turns: &[f64],
 ) -> f64 {
-    nearest(p, a, b, turns).1
-}
-
-fn nearest(p: &DVector<f64>, a: &DVector<f64>, b: &DVector<f64>, turns: &[f64]) -> (f64, f64) {
     let along = b - a;
     let from = wrapped(p, a, turns);
     let share = (from.dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (share, (from - along * share).norm())
+    (from - along * share).norm()
 }

@@ -14,7 +14,8 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::chain::residual::Balance;
-use crate::continuation::curve::{Branch, BranchEnd, CurveEquilibrium, CurvePoint, Special};
+use crate::continuation::curve::{Branch, BranchEnd, CurvePoint, Special};
+use crate::continuation::curve_equilibrium::CurveEquilibrium;
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::family::Family;
 use crate::continuation::null_directions::NullDirections;

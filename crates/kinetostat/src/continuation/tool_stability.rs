@@ -1,15 +1,16 @@
 //! Whether the tool of a machine keeps its place under dead wrenches, and everything else with it.
 
-use nalgebra::{DMatrix, Vector3, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
-use crate::chain::directions::DirectionKind;
+use crate::chain::directions::{Direction, DirectionKind};
 use crate::chain::divergence::diverging_motions;
 use crate::chain::graded::{levels, root_rows};
-use crate::continuation::curve::{CurveEquilibrium, CurveStability};
+use crate::continuation::curve_equilibrium::{CurveEquilibrium, CurveStability};
 use crate::continuation::tool_conditions::ToolConditions;
 use crate::linalg::complement::complement;
 use crate::machine::directions::without;
 use crate::machine::equilibrium::MechanismEquilibrium;
+use crate::spatial::{Pose, Wrench};
 
 /// How the tool keeps its place under dead wrenches.
 pub(crate) struct Holding {
@@ -54,10 +55,50 @@ impl CurveStability for MachineStability {
     fn unstable_modes(&self) -> usize {
         self.unstable_modes
     }
+
+    fn may_flutter(&self) -> bool {
+        self.may_flutter
+    }
 }
 
 impl CurveEquilibrium for MechanismEquilibrium {
     type Stability = MachineStability;
+
+    fn tool(&self) -> &Pose {
+        &self.tool
+    }
+
+    fn wrench(&self) -> &Wrench {
+        &self.wrench
+    }
+
+    fn spring_energy(&self) -> f64 {
+        self.limbs.iter().map(|limb| limb.energy).sum()
+    }
+
+    fn conservative(&self) -> bool {
+        self.conservative
+    }
+
+    fn stiffness(&self) -> &Matrix6<f64> {
+        &self.stiffness.matrix
+    }
+
+    fn directions(&self) -> &[Direction] {
+        &self.directions
+    }
+
+    fn shape_stable(&self) -> bool {
+        self.shapes_stable()
+    }
+
+    fn share_to_buckling(&self) -> Option<f64> {
+        self.share_to_buckling()
+    }
+
+    fn buckling_mode(&self) -> &[f64] {
+        &[]
+    }
 }
 
 impl ToolConditions<'_> {

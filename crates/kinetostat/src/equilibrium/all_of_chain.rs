@@ -16,6 +16,7 @@ use crate::chain::potential::load_energy;
 use crate::chain::problem::ChainProblem;
 use crate::equilibrium::bounds::Bounds;
 use crate::equilibrium::chain_search::{ChainSearch, Known};
+use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
 use crate::equilibrium::search::{Entry, Limits, search};
 use crate::error::Result;
 use crate::settings::Settings;
@@ -57,54 +58,6 @@ impl Default for SearchSettings {
     }
 }
 
-/// One equilibrium among all.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct FoundEquilibrium {
-    /// Coordinates (rotations of passive joints within the bounds), wrench, stiffness, shape.
-    pub equilibrium: Equilibrium,
-    /// Whether it holds under the conditions as prescribed: dead wrench where the wrench is
-    /// prescribed, held where the pose is.
-    pub stable: bool,
-    /// Under loads without a potential it does not go away, but may swing with growing amplitude
-    /// (flutter), which depends on the masses.
-    pub may_flutter: bool,
-    /// Potential energy of springs and loads, J, up to a constant of the problem; `None` where a
-    /// load has none (see [`crate::chain::is_conservative`]).
-    pub potential: Option<f64>,
-    /// How many evenly spread starts ended here; 0: found from another equilibrium only.
-    pub hits: usize,
-    /// True if the equilibrium is degenerate: at a limit or bifurcation point, or one of a family
-    /// that moves for nothing.
-    pub singular: bool,
-}
-
-/// All equilibria found, by rising potential energy (where a load has none: by the springs'
-/// energy), and how sure it is that there are no more.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Equilibria {
-    /// By rising potential energy.
-    pub found: Vec<FoundEquilibrium>,
-    /// Evenly spread starts made.
-    pub starts: usize,
-    /// Evenly spread starts that ended at an equilibrium within the bounds.
-    pub hits: usize,
-    /// Evenly spread starts that ended at an equilibrium outside the bounds.
-    pub outside: usize,
-    /// Starts since the last new equilibrium.
-    pub fruitless: usize,
-    /// Good-Turing estimate of the chance that one more successful start finds something new: the
-    /// share of successful starts whose equilibrium was found just once (never, by spread starts,
-    /// counts too).
-    pub chance_of_more: f64,
-    /// Upper end of that chance (95 %; the rule of three where no equilibrium was found just once).
-    pub chance_of_more_at_most: f64,
-    /// True if the search ended because nothing new was found, not because starts ran out or the
-    /// largest number was reached.
-    pub settled: bool,
-}
-
 /// Finds all equilibria of a chain within bounds: prescribed pose, wrench or a mixture.
 ///
 /// # Errors
@@ -141,22 +94,8 @@ pub fn equilibria(
         most: settings.most,
     };
     let (known, coverage) = search(&mut system, &limits);
-    let mut found: Vec<FoundEquilibrium> = known
-        .into_iter()
-        .map(|entry| of_entry(problem, entry))
-        .collect();
-    let rank = |f: &FoundEquilibrium| f.potential.unwrap_or(f.equilibrium.energy);
-    found.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-    Ok(Equilibria {
-        found,
-        starts: coverage.starts,
-        hits: coverage.hits,
-        outside: coverage.outside,
-        fruitless: coverage.fruitless,
-        chance_of_more: coverage.chance_of_more.0,
-        chance_of_more_at_most: coverage.chance_of_more.1,
-        settled: coverage.settled,
-    })
+    let found = known.into_iter().map(|entry| of_entry(problem, entry));
+    Ok(Equilibria::of(found.collect(), &coverage))
 }
 
 fn of_entry(problem: &ChainProblem<'_>, entry: Entry<Known>) -> FoundEquilibrium {

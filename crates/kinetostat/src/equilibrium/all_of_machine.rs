@@ -3,6 +3,7 @@
 use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
 use crate::continuation::tool_conditions::ToolConditions;
+use crate::equilibrium::found::{Equilibria, FoundEquilibrium};
 use crate::equilibrium::machine_search::{Known, MachineSearch};
 use crate::equilibrium::search::{Entry, Limits, search};
 use crate::error::Result;
@@ -33,51 +34,6 @@ impl Default for SpreadSettings {
     }
 }
 
-/// One of them.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct MachineFound {
-    /// The equilibrium.
-    pub equilibrium: MechanismEquilibrium,
-    /// Whether it stays under the conditions as prescribed: held where the tool is held, under the
-    /// dead wrench where it is free.
-    pub stable: bool,
-    /// Under a wrench without a potential it does not go away, but may swing with growing amplitude
-    /// (flutter), which depends on the masses.
-    pub may_flutter: bool,
-    /// At a limit: a motion of the tool that needs no force and is free.
-    pub singular: bool,
-    /// Energy of springs and loads less the work of the dead wrench from the nominal target, J; of
-    /// the springs alone where a load has no potential.
-    pub potential: f64,
-    /// Spread starts that ended there; 0: found only along a curve.
-    pub hits: usize,
-}
-
-/// What a search found. It is no proof that there are no others.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct MachineEquilibria {
-    /// By rising energy.
-    pub found: Vec<MachineFound>,
-    /// Starts, and how many of them ended at an equilibrium.
-    pub starts: usize,
-    /// See `starts`.
-    pub hits: usize,
-    /// Those that ended where a slide is turned inside out, or at an unstable shape farther than three
-    /// sizes of the machine from the nominal target or with springs beyond [`Bounds::of`](crate::equilibrium::Bounds::of) their limb.
-    pub outside: usize,
-    /// Starts since the last new equilibrium.
-    pub fruitless: usize,
-    /// Share of the successful starts whose equilibrium was found just once (Good and Turing); never,
-    /// by spread starts, counts too.
-    pub chance_of_more: f64,
-    /// Upper end of that chance (95 %).
-    pub chance_of_more_at_most: f64,
-    /// The search ended because nothing new came.
-    pub settled: bool,
-}
-
 impl Posture {
     /// Equilibria of the machine as it is commanded: the tool held at `end.pose` in the directions
     /// whose pose is prescribed, under the dead wrench `end.wrench` in the others.
@@ -85,7 +41,10 @@ impl Posture {
     /// The tool is held at places spread evenly and let go down the potential, and Newton is started
     /// with joints turned; from the commanded place and from every equilibrium found the tool is driven
     /// along each of its free motions, and every place where that takes no force is looked at; from
-    /// unstable ones it is pushed along the motions in which they go away.
+    /// unstable ones it is pushed along the motions in which they go away. Those with a slide turned inside out are not
+    /// listed, nor unstable ones farther than three sizes of the machine from the nominal target or with springs beyond
+    /// [`Bounds::of`](crate::equilibrium::Bounds::of) their limb. Energies leave out the work of the dead wrench up to the
+    /// nominal target.
     ///
     /// # Errors
     /// Not-a-numbers in the condition. That nothing was found is a result.
@@ -113,7 +72,7 @@ impl Posture {
         &self,
         end: &EndCondition,
         settings: &SpreadSettings,
-    ) -> Result<MachineEquilibria> {
+    ) -> Result<Equilibria<MechanismEquilibrium>> {
         let mut system = MachineSearch::new(ToolConditions::held_at(self, end)?);
         let limits = Limits {
             fruitless: settings.fruitless,
@@ -121,34 +80,22 @@ impl Posture {
             most: usize::MAX,
         };
         let (known, coverage) = search(&mut system, &limits);
-        let mut found: Vec<MachineFound> = known.into_iter().map(MachineFound::of).collect();
-        found.sort_by(|a, b| a.potential.total_cmp(&b.potential));
-        Ok(MachineEquilibria {
-            found,
-            starts: coverage.starts,
-            hits: coverage.hits,
-            outside: coverage.outside,
-            fruitless: coverage.fruitless,
-            chance_of_more: coverage.chance_of_more.0,
-            chance_of_more_at_most: coverage.chance_of_more.1,
-            settled: coverage.settled,
-        })
+        let found = known.into_iter().map(of_entry);
+        Ok(Equilibria::of(found.collect(), &coverage))
     }
 }
 
-impl MachineFound {
-    fn of(entry: Entry<Known>) -> Self {
-        let k = entry.known;
-        Self {
-            stable: k.stable,
-            may_flutter: k.may_flutter,
-            singular: k.singular,
-            potential: k.potential,
-            hits: entry.hits,
-            equilibrium: MechanismEquilibrium {
-                found_by: FoundBy::OtherStart,
-                ..k.equilibrium
-            },
-        }
+fn of_entry(entry: Entry<Known>) -> FoundEquilibrium<MechanismEquilibrium> {
+    let k = entry.known;
+    FoundEquilibrium {
+        stable: k.stable,
+        may_flutter: k.may_flutter,
+        singular: k.singular,
+        potential: k.potential,
+        hits: entry.hits,
+        equilibrium: MechanismEquilibrium {
+            found_by: FoundBy::OtherStart,
+            ..k.equilibrium
+        },
     }
 }

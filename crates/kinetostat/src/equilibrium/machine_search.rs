@@ -38,8 +38,8 @@ pub(crate) struct Known {
     pub may_flutter: bool,
     /// At a limit: a motion of the tool that needs no force and is free.
     pub singular: bool,
-    /// Energy of springs and loads less the work of the dead wrench, J; of the springs alone where a load has no potential.
-    pub potential: f64,
+    /// Energy of springs and loads less the work of the dead wrench, J; `None` where a load has no potential.
+    pub potential: Option<f64>,
     /// Free motions along which the curve through it was followed.
     followed: Vec<bool>,
 }
@@ -311,13 +311,12 @@ impl ToolConditions<'_> {
             values.iter().any(|v| v.abs() < 1e-7 * most)
         };
         let holding = self.holds(&e, &self.free);
-        let springs: f64 = e.limbs.iter().map(|l| l.energy).sum();
         let motion = self.motion(&e.tool);
         Known {
             stable: e.shapes_stable() && e.others_hold && holding.stays,
             may_flutter: holding.may_flutter(),
             singular,
-            potential: e.energy.unwrap_or(springs) - self.dead.0.dot(&motion),
+            potential: e.energy.map(|energy| energy - self.dead.0.dot(&motion)),
             followed: vec![false; self.free.ncols()],
             equilibrium: e,
         }

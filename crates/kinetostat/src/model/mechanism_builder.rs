@@ -156,40 +156,52 @@ impl MechanismBuilder {
             check_platform_load(&m, load)?;
         }
         for (name, load) in self.loads {
-            let Some(index) = m.limbs.iter().position(|l| l.name == name) else {
-                let known: Vec<&str> = m.limbs.iter().map(|l| l.name.as_str()).collect();
-                return Err(Error::UnknownName {
-                    place,
-                    what: "limb",
-                    name,
-                    known: known.join(", "),
-                });
-            };
-            let limb = &m.limbs[index];
-            if matches!(load, Load::Gravity(_)) {
-                return fault(format!(
-                    "limb '{name}': gravity acts on everything; give it to the mechanism once"
-                ));
-            }
-            let chain = &limb.actual;
-            let (x, commands) = (chain.home_coordinates(), chain.home_commands());
-            let base = &m.platforms[limb.from].home;
-            check_load(
-                chain,
-                &Kinematics::new(chain, base, &x, &commands),
-                base,
-                &x,
-                &commands,
-                &load,
-            )?;
-            m.loads.resize(m.loads.len().max(index + 1), Vec::new());
-            m.loads[index].push(load);
+            add_load(&mut m, &name, load)?;
         }
         Ok(m.into())
     }
 }
 
+/// Checks a load on the limb of this name and adds it.
+fn add_load(m: &mut MechanismParts, name: &str, load: Load) -> Result<()> {
+    let place = Place::mechanism(m.name.as_str());
+    let Some(index) = m.limbs.iter().position(|l| l.name == name) else {
+        let known: Vec<&str> = m.limbs.iter().map(|l| l.name.as_str()).collect();
+        return Err(Error::UnknownName {
+            place,
+            what: "limb",
+            name: name.to_owned(),
+            known: known.join(", "),
+        });
+    };
+    let limb = &m.limbs[index];
+    if matches!(load, Load::Gravity(_)) {
+        return Err(Error::model(
+            place,
+            format!("limb '{name}': gravity acts on everything; give it to the mechanism once"),
+        ));
+    }
+    let chain = &limb.actual;
+    let (x, commands) = (chain.home_coordinates(), chain.home_commands());
+    let base = &m.platforms[limb.from].home;
+    let home = Kinematics::new(chain, base, &x, &commands);
+    check_load(chain, &home, base, &x, &commands, &load)?;
+    m.loads.resize(m.loads.len().max(index + 1), Vec::new());
+    m.loads[index].push(load);
+    Ok(())
+}
+
 impl Mechanism {
+    /// The same machine with one more load on the limb of this name, see [`MechanismBuilder::load`].
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for a limb that does not exist, [`Error::Model`] for a load that does not fit it.
+    pub fn with_load(&self, limb: &str, load: Load) -> Result<Self> {
+        let mut machine = self.clone();
+        add_load(machine.parts_mut(), limb, load)?;
+        Ok(machine)
+    }
+
     /// Starts a description; the base platform exists already and has index 0.
     #[must_use]
     pub fn builder(name: impl Into<String>) -> MechanismBuilder {

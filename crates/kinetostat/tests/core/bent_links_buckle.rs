@@ -193,16 +193,20 @@ fn paths_of_machines_go_away_where_the_determinant_says() {
         let free = EndCondition::wrench(Wrench::zero());
         let settings = CurveSettings::within(0.0, 1.0);
         let path = posture
-            .path(&Parameter::end_wrench(wrench), &free, &settings)
+            .curves(&Parameter::end_wrench(wrench), &free, &settings)
             .unwrap();
-        for p in &path.points {
+        for p in &path.branches[0].points {
             let k = &p.equilibrium.stiffness.matrix;
             let odd = k.determinant() < 0.0;
-            assert_eq!(p.dead, !odd, "{force:?}, {moment:?} at {}", p.parameter);
-            swinging += usize::from(p.may_flutter);
+            assert_eq!(
+                p.dead.stable, !odd,
+                "{force:?}, {moment:?} at {}",
+                p.parameter
+            );
+            swinging += usize::from(p.dead.may_flutter);
             println!(
                 "{force:?} {moment:?} {} {} {}",
-                p.parameter, p.dead, p.may_flutter
+                p.parameter, p.dead.stable, p.dead.may_flutter
             );
         }
     }

@@ -100,6 +100,6 @@ fn a_truss_has_three_shapes_at_one_load() {
         }
     }
     assert_eq!(curves.jumps().unwrap().len(), 2);
-    let points = &curves.branches[0].points;
-    assert!(points[curves.start].parameter.abs() < 1e-9);
+    let own = &curves.branches[0];
+    assert!(own.points[own.start].parameter.abs() < 1e-9);
 }

@@ -165,10 +165,10 @@ fn path(change: impl Fn(&mut CurveSettings, &mut f64)) -> Result<Vec<f64>> {
     change(&mut settings, &mut along);
     let end = EndCondition::wrench(Wrench::zero());
     let growing = Wrench::new(vector![0.3, 0.2, 0.0], Vector3::zeros());
-    let path = posture.path(&Parameter::end_wrench(growing), &end, &settings)?;
+    let path = posture.curves(&Parameter::end_wrench(growing), &end, &settings)?;
     let direction = Twist::new(vector![1.0, 0.0, 0.0], Vector3::zeros());
     let held = posture.held_along(&direction, &[0.0, along], Some(posture.rest_state()))?;
-    let points = path.points.iter().map(|p| p.parameter);
+    let points = path.branches[0].points.iter().map(|p| p.parameter);
     Ok(points.chain(held.points.iter().map(|p| p.force)).collect())
 }
 

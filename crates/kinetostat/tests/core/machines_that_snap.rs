@@ -2,10 +2,10 @@
 //! while held and under a dead load, both signs of the load. Against energies written by hand.
 
 use kinetostat::{
-    ActuatorSpec, Chain, CurveSettings, EndCondition, Mechanism, MotionKind, Parameter, Platform,
-    Pose, Posture, Prescribed, Twist, Wrench,
-    continuation::{BranchEnd, LoadPattern, MachinePath, PathPoint, PathSpecialKind},
-    equilibrium::SpreadSettings,
+    ActuatorSpec, Chain, CurveSettings, EndCondition, Mechanism, MechanismEquilibrium, MotionKind,
+    Parameter, Platform, Pose, Posture, Prescribed, Twist, Wrench,
+    continuation::{BranchEnd, CurvePoint, LoadPattern, MachineCurves, SpecialKind},
+    equilibrium::{FoundEquilibrium, SpreadSettings},
     spatial::moved,
 };
 use kinetostat_testing::{LargestEntry, Worst, largest, least as least_of};
@@ -33,8 +33,10 @@ fn down() -> Parameter {
     Parameter::Displacement(Twist::new(-Vector3::z(), Vector3::zeros()))
 }
 
-fn of_kind(path: &MachinePath, kind: PathSpecialKind) -> Vec<&PathPoint> {
-    let of = path.specials.iter().filter(|s| s.kind == kind);
+type Point = CurvePoint<MechanismEquilibrium>;
+
+fn of_kind<'c>(curves: &'c MachineCurves<'_>, kind: SpecialKind) -> Vec<&'c Point> {
+    let of = curves.specials.iter().filter(|s| s.kind == kind);
     of.map(|s| &s.point).collect()
 }
 
@@ -58,16 +60,16 @@ pub fn truss_path_apart() -> [f64; 3] {
         loads: Vec::new(),
     });
     let range = CurveSettings::within(-1.2 * most, 1.2 * most);
-    let by_load = posture.path(&push, &EndCondition::wrench(Wrench::zero()), &range);
+    let by_load = posture.curves(&push, &EndCondition::wrench(Wrench::zero()), &range);
     let by_load = by_load.unwrap();
-    assert_eq!(by_load.ends, [BranchEnd::Range; 2]);
+    assert_eq!(by_load.branches[0].ends, [BranchEnd::Range; 2]);
     let hold = EndCondition::pose(Pose::identity());
     let mut settings = CurveSettings::within(-0.3 * h, 2.4 * h);
     settings.largest_change = Some(0.05 * h);
-    let by_motion = posture.path(&down(), &hold, &settings).unwrap();
+    let by_motion = posture.curves(&down(), &hold, &settings).unwrap();
     let mut worst = <[Worst; 3]>::default();
     for path in [&by_load, &by_motion] {
-        for p in &path.points {
+        for p in &path.branches[0].points {
             let z = p.equilibrium.tool.translation.z;
             let force = truss_force(b, h, k, z);
             let off = (p.equilibrium.wrench.force().z - force).abs() / (k * h);
@@ -75,8 +77,8 @@ pub fn truss_path_apart() -> [f64; 3] {
             // dF/dz > 0 holds under a dead load; held it always does.
             let l = b.hypot(z);
             let slope = 1.0 - unloaded * b * b / l.powi(3);
-            assert!(slope.abs() < 1e-6 || p.dead == (slope > 0.0), "{z}");
-            assert!(p.held || std::ptr::eq(path, &by_load));
+            assert!(slope.abs() < 1e-6 || p.dead.stable == (slope > 0.0), "{z}");
+            assert!(p.held.stable || std::ptr::eq(path, &by_load));
             let expected = 2.0 * k * slope;
             assert!(
                 (p.slope - expected).abs() < 1e-6 * k,
@@ -84,15 +86,16 @@ pub fn truss_path_apart() -> [f64; 3] {
                 p.slope
             );
         }
-        let limits = of_kind(path, PathSpecialKind::LoadLimit);
+        let limits = of_kind(path, SpecialKind::LoadLimit);
         assert_eq!(limits.len(), 2);
         for (found, expected) in limits.iter().zip([limit, -limit]) {
             let z = found.equilibrium.tool.translation.z;
             worst[1].add((z - expected).abs() / h);
         }
         // Through at the first, and back at the second: the same force on the other side.
-        assert_eq!(path.jumps.len(), 2);
-        for (jump, (side, force)) in path.jumps.iter().zip([(-1.0, -most), (1.0, most)]) {
+        let jumps = path.jumps().unwrap();
+        assert_eq!(jumps.len(), 2);
+        for (jump, (side, force)) in jumps.iter().zip([(-1.0, -most), (1.0, most)]) {
             assert!(jump.dead_load && jump.to.len() == 1);
             let (mut near, mut far) = (limit, 5.0 * h);
             for _ in 0..80 {
@@ -206,15 +209,18 @@ fn least(hessian: &Matrix6<f64>, directions: &[usize]) -> f64 {
 fn against_energy(
     legs: &Legs,
     posture: &Posture,
-    path: &MachinePath,
+    path: &MachineCurves<'_>,
     driven: &[usize],
     free: &[usize],
 ) -> f64 {
-    let wrench = |p: &PathPoint| p.equilibrium.wrench.0;
-    let size = path.points.iter().map(|p| wrench(p).largest_entry());
+    let wrench = |p: &Point| p.equilibrium.wrench.0;
+    let size = path.branches[0]
+        .points
+        .iter()
+        .map(|p| wrench(p).largest_entry());
     let size = largest(size);
     let mut worst = Worst::new();
-    for p in &path.points {
+    for p in &path.branches[0].points {
         if wrench(p).largest_entry() > 1e-6 * size {
             assert_equilibrium(posture, &p.equilibrium);
         }
@@ -222,7 +228,10 @@ fn against_energy(
         let gradient = legs.gradient(pose);
         worst.add((gradient - wrench(p)).largest_entry() / size);
         let hessian = legs.hessian(pose);
-        let verdicts = [(p.held, free.to_vec()), (p.dead, [driven, free].concat())];
+        let verdicts = [
+            (p.held.stable, free.to_vec()),
+            (p.dead.stable, [driven, free].concat()),
+        ];
         for (found, directions) in verdicts {
             if directions.is_empty() {
                 continue;
@@ -236,7 +245,7 @@ fn against_energy(
             );
         }
     }
-    worst.of(path.points.len())
+    worst.of(path.branches[0].points.len())
 }
 
 /// Three paths of a hexapod near its flat posture, against the energy of its legs; the last is
@@ -253,10 +262,10 @@ pub fn hexapod_path_apart() -> [f64; 2] {
 
     // Held in all other directions: straight through.
     let hold = EndCondition::pose(home);
-    let path = posture.path(&down(), &hold, &settings).unwrap();
-    assert_eq!(path.ends, [BranchEnd::Range; 2]);
+    let path = posture.curves(&down(), &hold, &settings).unwrap();
+    assert_eq!(path.branches[0].ends, [BranchEnd::Range; 2]);
     worst[0].add(against_energy(&legs, &posture, &path, &[2], &[]));
-    let limits = of_kind(&path, PathSpecialKind::LoadLimit);
+    let limits = of_kind(&path, SpecialKind::LoadLimit);
     assert_eq!(limits.len(), 2);
     for limit in limits {
         let stiffness = legs.hessian(&limit.equilibrium.tool)[(2, 2)];
@@ -268,7 +277,7 @@ pub fn hexapod_path_apart() -> [f64; 2] {
         [true, true, false, true, true, true],
         Wrench::new(vector![300.0, -200.0, 0.0], vector![10.0, 4.0, -6.0]),
     );
-    let path = posture.path(&down(), &pin, &settings).unwrap();
+    let path = posture.curves(&down(), &pin, &settings).unwrap();
     worst[0].add(against_energy(
         &legs,
         &posture,
@@ -276,7 +285,7 @@ pub fn hexapod_path_apart() -> [f64; 2] {
         &[2],
         &[0, 1, 3, 4, 5],
     ));
-    for limit in of_kind(&path, PathSpecialKind::LoadLimit) {
+    for limit in of_kind(&path, SpecialKind::LoadLimit) {
         let hessian = legs.hessian(&limit.equilibrium.tool);
         let unit = |i: usize| if i < 3 { 1.0 } else { 0.3 };
         let hessian = Matrix6::from_fn(|i, j| hessian[(i, j)] / (unit(i) * unit(j)));
@@ -292,8 +301,8 @@ pub fn hexapod_path_apart() -> [f64; 2] {
     });
     let settings = CurveSettings::within(-4000.0, 4000.0);
     let end = EndCondition::wrench(Wrench::zero());
-    let path = posture.path(&push, &end, &settings).unwrap();
-    assert!(path.points.len() > 20);
+    let path = posture.curves(&push, &end, &settings).unwrap();
+    assert!(path.branches[0].points.len() > 20);
     worst[0].add(against_energy(&legs, &posture, &path, &[], &[]));
     worst.map(|w| w.value())
 }
@@ -343,16 +352,16 @@ pub fn toggle_frame_apart() -> [f64; 2] {
         let mut settings = CurveSettings::within(-0.2 * far, 2.1 * far);
         settings.largest_change = Some(0.05 * far);
         let path = posture
-            .path(&down(), &EndCondition::pose(home), &settings)
+            .curves(&down(), &EndCondition::pose(home), &settings)
             .unwrap();
-        let limits = of_kind(&path, PathSpecialKind::LoadLimit);
+        let limits = of_kind(&path, SpecialKind::LoadLimit);
         assert_eq!(limits.len(), 2, "{angle}");
         let phi = angle.cos().cbrt().acos();
         let (moved, force) = (far - phi.sin(), 3.0 * k * phi.sin().powi(3));
         let found = limits[0];
         exact.add((found.parameter / moved - 1.0).abs());
         exact.add((found.conjugate / force - 1.0).abs());
-        let start = &path.points[path.start];
+        let start = &path.branches[0].points[path.branches[0].start];
         exact.add((start.slope / (3.0 * k * angle.tan().powi(2)) - 1.0).abs());
         if angle == 0.01 {
             let root = 3.0_f64.sqrt();
@@ -401,7 +410,7 @@ fn all_equilibria_of_a_truss_are_found() {
             let slope = 1.0 - b.hypot(h) * b * b / b.hypot(z).powi(3);
             assert_eq!(f.stable, slope > 0.0, "{z}");
             let energy = k * (b.hypot(z) - b.hypot(h)).powi(2) - force * (z - h);
-            assert!((f.potential - energy).abs() < 1e-9 * k * h * h);
+            assert!((f.energy() - energy).abs() < 1e-9 * k * h * h);
         }
     }
 }
@@ -482,7 +491,7 @@ fn all_shapes_of_a_column_of_several_limbs_are_found() {
             let force = Wrench::new(vector![-load, 0.0, 0.0], Vector3::zeros());
             let all = posture.equilibria(&free(plane, force), &settings).unwrap();
             let place =
-                |f: &kinetostat::equilibrium::MachineFound| f.equilibrium.tool.translation.vector;
+                |f: &FoundEquilibrium<MechanismEquilibrium>| f.equilibrium.tool.translation.vector;
             let places: Vec<_> = all.found.iter().map(|f| (place(f), f.stable)).collect();
             assert_eq!(places.len(), expected, "{case}: {places:?}");
             let straight = places.iter().filter(|(at, _)| at[sides[1]].abs() < 1e-6);
@@ -561,7 +570,7 @@ fn a_frame_beyond_its_critical_load_has_a_stable_shape_elsewhere() {
                 .equilibria(&end, &SpreadSettings::default())
                 .unwrap();
             let stable: Vec<_> = all.found.iter().filter(|f| f.stable).collect();
-            let nearby = |f: &&&kinetostat::equilibrium::MachineFound| {
+            let nearby = |f: &&&FoundEquilibrium<MechanismEquilibrium>| {
                 (f.equilibrium.tool.translation.z / h - 1.0).abs() < 0.2
             };
             assert_eq!(

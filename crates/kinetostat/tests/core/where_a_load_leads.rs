@@ -4,7 +4,7 @@
 use kinetostat::{
     ActuatorSpec, Chain, CurveSettings, EndCondition, Error, Mechanism, MotionKind, Parameter,
     Platform, Pose, Wrench,
-    continuation::{LoadPattern, PathSpecialKind},
+    continuation::{LoadPattern, SpecialKind},
     error::LoadLimit,
 };
 use nalgebra::{Matrix2, Vector2, Vector3, vector};
@@ -125,12 +125,13 @@ fn a_flat_truss_sags_by_the_third_root_of_its_load() {
     });
     let settings = CurveSettings::within(-1.0, 1.0);
     let path = posture
-        .path(&load, &EndCondition::wrench(Wrench::zero()), &settings)
+        .curves(&load, &EndCondition::wrench(Wrench::zero()), &settings)
         .unwrap();
     let limits = path.specials.iter();
-    let limits = limits.filter(|s| s.kind == PathSpecialKind::LoadLimit);
+    let limits = limits.filter(|s| s.kind == SpecialKind::LoadLimit);
     assert_eq!(limits.count(), 0);
-    let ends = [path.points.first(), path.points.last()].map(Option::unwrap);
+    let points = &path.branches[0].points;
+    let ends = [points.first(), points.last()].map(Option::unwrap);
     for (end, factor) in ends.into_iter().zip([-1.0, 1.0]) {
         assert!((end.parameter - factor).abs() < 1e-12);
         let own = truss_force(b, 0.0, k, end.equilibrium.displacement.linear().z);

@@ -1,0 +1,131 @@
+//! What was followed of a chain or a machine, before it is shown.
+
+use kinetostat::{
+    CurveSettings,
+    continuation::{Branch, BranchEnd, CurveEquilibrium, Jump, Special, SpecialKind},
+};
+use kinetostat_machining::{Warning, WarningCode};
+
+use crate::curve::answer::CriticalAnswer;
+use crate::curve::query::CurveQuery;
+use crate::ui::background::Stage;
+use crate::ui::failure::Answer;
+
+/// Curves of a chain or a machine.
+pub(crate) struct Followed<E: CurveEquilibrium> {
+    /// The start's own branch first.
+    pub(crate) branches: Vec<Branch<E>>,
+    pub(crate) specials: Vec<Special<E>>,
+    /// Some branches that cross were left out because there were too many.
+    pub(crate) more_branches: bool,
+    pub(crate) jumps: Vec<Jump<E>>,
+    pub(crate) critical: Vec<CriticalAnswer>,
+    /// Of the way to the curves.
+    pub(crate) warnings: Vec<Warning>,
+}
+
+/// Fine enough to be drawn.
+pub(crate) fn settings(q: &CurveQuery) -> CurveSettings {
+    let mut settings = CurveSettings::within(q.range.0, q.range.1);
+    settings.branches = q.branches;
+    settings.points = q.points;
+    settings.largest_turn = 0.05;
+    settings.largest_change = Some((q.range.1 - q.range.0) / 60.0);
+    if let Some(limits) = q.force_limits {
+        settings.conjugate_range = limits;
+    }
+    settings
+}
+
+/// Shapes that a search found at one value of the parameter.
+pub(crate) struct Shapes<E> {
+    pub(crate) list: Vec<E>,
+    /// The search ended because nothing new came.
+    pub(crate) settled: bool,
+}
+
+/// Searches for shapes at the start and at both ends of the range, and follows those that no branch holds.
+pub(crate) fn add_shapes_off_the_curve<E>(
+    q: &CurveQuery,
+    stage: &Stage,
+    search: impl Fn(f64) -> Answer<Shapes<E>>,
+    mut add: impl FnMut(&E, f64) -> kinetostat::Result<bool>,
+) -> Answer<Vec<Warning>> {
+    let mut values = vec![q.start(), q.range.0, q.range.1];
+    values.dedup();
+    let mut warnings = Vec::new();
+    for value in values {
+        stage.is("searching for shapes off the curve");
+        let shapes = search(value)?;
+        let at = q.shown(value);
+        if !shapes.settled {
+            warnings.push(Warning::new(
+                WarningCode::SearchEnds,
+                format!(
+                    "the search at {at} ended before it was complete: there may be more shapes"
+                ),
+            ));
+        }
+        for shape in &shapes.list {
+            stage.is("following the curve through another shape");
+            if let Err(error) = add(shape, value) {
+                warnings.push(Warning::new(
+                    WarningCode::CurveEnds,
+                    format!("a shape found at {at} could not be followed: {error}"),
+                ));
+            }
+        }
+    }
+    Ok(warnings)
+}
+
+impl<E: CurveEquilibrium> Followed<E> {
+    /// Why branches end where they were not asked to, and which were not followed.
+    pub(crate) fn what_is_missing(&self, q: &CurveQuery) -> Vec<Warning> {
+        let early = self.branches.iter().enumerate().flat_map(|(k, branch)| {
+            let ends = branch.ends.into_iter().filter(|end| end.may_go_on());
+            ends.map(move |end| {
+                let more = match end {
+                    BranchEnd::Points => {
+                        "; --points N allows more, --force-limits keeps it shorter"
+                    }
+                    _ => "",
+                };
+                let number = k + 1;
+                let text = format!(
+                    "branch {number} may go on beyond its end: {}{more}",
+                    end.in_words()
+                );
+                Warning::new(WarningCode::CurveEnds, text)
+            })
+        });
+        let lost = self.specials.iter().filter_map(|special| {
+            let at = q.shown(special.point.parameter);
+            match (special.lost_branch, special.kind) {
+                (true, _) => Some(Warning::new(
+                    WarningCode::CurveEnds,
+                    format!(
+                        "a branch that crosses at {at} could not be followed: its first step did not converge, and its shapes are missing here"
+                    ),
+                )),
+                (_, SpecialKind::StabilityChange) => Some(Warning::new(
+                    WarningCode::MoreBranches,
+                    format!(
+                        "the branch that leaves at {at} is not followed: a limb or a platform moves there while the tool stands still, and the curve of a machine has only the motions of its tool and the load as unknowns. `kinetostat equilibria` searches for its shapes"
+                    ),
+                )),
+                _ => None,
+            }
+        });
+        let more = self.more_branches.then(|| {
+            Warning::new(
+                WarningCode::MoreBranches,
+                format!(
+                    "more than {} branches cross; --branches N follows more",
+                    q.branches
+                ),
+            )
+        });
+        early.chain(lost).chain(more).collect()
+    }
+}

@@ -1,0 +1,90 @@
+//! The answer of `equilibria` from what a search found of a chain or a machine.
+
+use kinetostat::{
+    DirectionKind,
+    continuation::CurveEquilibrium,
+    equilibrium::{Equilibria, FoundEquilibrium},
+};
+use kinetostat_machining::Warning;
+
+use crate::end_condition::subject::Subject;
+use crate::equilibria::answer::{Coverage, EquilibriaAnswer, ShapeAnswer};
+use crate::equilibria::query::EquilibriaQuery;
+use crate::place::query::PlaceAnswer;
+
+pub(crate) fn answer_of<S: Subject>(
+    subject: &S,
+    q: &EquilibriaQuery,
+    (all, warnings): (Equilibria<S::Equilibrium>, Vec<Warning>),
+    place: PlaceAnswer,
+    names: [String; 3],
+) -> EquilibriaAnswer {
+    let [model, model_source, tool] = names;
+    let found = || all.found.iter().map(|f| &f.equilibrium);
+    let shapes = all.found.iter().enumerate();
+    EquilibriaAnswer {
+        schema: 3,
+        kinetostat_version: env!("CARGO_PKG_VERSION"),
+        model,
+        model_source,
+        tool,
+        place,
+        question: q.words.clone(),
+        tool_held: q.holding.clone(),
+        stiffness_along: q.along.map(Into::into),
+        coordinates: subject.coordinates(),
+        equilibria: shapes.map(|(i, f)| shape(subject, q, i + 1, f)).collect(),
+        coverage: Coverage {
+            starts: all.starts,
+            ended_within_bounds: all.hits,
+            ended_outside_bounds: all.outside,
+            fruitless: all.fruitless,
+            chance_of_more: all.chance_of_more,
+            chance_of_more_at_most: all.chance_of_more_at_most,
+            settled: all.settled,
+        },
+        conservative: found().all(CurveEquilibrium::conservative),
+        warnings,
+        outlines: found().map(|e| subject.outline(e)).collect(),
+    }
+}
+
+fn shape<S: Subject>(
+    subject: &S,
+    q: &EquilibriaQuery,
+    number: usize,
+    f: &FoundEquilibrium<S::Equilibrium>,
+) -> ShapeAnswer {
+    let e = &f.equilibrium;
+    let k = e.stiffness();
+    // Smallest principal stiffness that is neither free nor rigid.
+    let softest = || {
+        let directions = e.directions().iter();
+        directions
+            .filter(|d| !matches!(d.kind, DirectionKind::Free | DirectionKind::Rigid))
+            .map(|d| d.stiffness_n_per_m)
+            .fold(f64::INFINITY, f64::min)
+    };
+    ShapeAnswer {
+        number,
+        energy_j: f.energy(),
+        stable: f.stable,
+        may_flutter: f.may_flutter,
+        shape_stable: e.shape_stable(),
+        share_to_buckling: e.share_to_buckling().filter(|m| m.is_finite()),
+        mode_in_words: subject.motion_in_words(e.buckling_mode()),
+        singular: f.singular,
+        found_by_spread_starts: f.hits,
+        stiffness_n_per_mm: 1e-3
+            * match q.along {
+                Some(d) => (d.transpose() * k.fixed_view::<3, 3>(0, 0) * d)[0],
+                None => softest(),
+            },
+        stiffness_n_m_rad: std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)])),
+        force_n: e.wrench().force().into(),
+        moment_n_m: e.wrench().moment().into(),
+        position_mm: (e.tool().translation.vector * 1e3).into(),
+        rotation_vector_deg: e.tool().rotation.scaled_axis().map(f64::to_degrees).into(),
+        coordinates: subject.values(e),
+    }
+}
