@@ -96,10 +96,13 @@ mod compensation;
 mod continuation;
 mod equilibrium;
 mod error;
+#[doc(hidden)]
+pub mod internal;
 mod linalg;
 mod machine;
 mod model;
 pub mod number;
+mod parallel;
 mod reference;
 mod settings;
 mod spatial;

@@ -2,12 +2,14 @@
 
 use std::fmt::Debug;
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 
 /// Tolerances and limits; the defaults suit every machine in SI units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Settings {
     /// Largest closure left over, as a share of the chain's natural length. Default 1e-12.
     pub closure: f64,

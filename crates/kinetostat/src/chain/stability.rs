@@ -12,6 +12,7 @@
 //! [`crate::chain::divergence`] decides.
 
 use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::divergence::diverging_motions;
@@ -26,7 +27,8 @@ use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, column_space, inertia};
 use crate::model::chain::Chain;
 
 /// Whether a chain keeps its shape while its end is held.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ShapeStability {
     /// No neighbouring shape of the held chain has less energy; for loads without a potential: it does
     /// not go away (divergence), but see [`may_flutter`](Self::may_flutter).
@@ -35,7 +37,7 @@ pub struct ShapeStability {
     /// the Jacobian.
     pub inertia: Inertia,
     /// Number of motions in which the shape goes away.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub unstable_modes: usize,
     /// `mu`, largest share of the way to buckling: below 1 is stable. `None` for a chain without
     /// inner freedom; infinite where a passive motion is pushed out of line. Of loads without a potential
@@ -49,8 +51,9 @@ pub struct ShapeStability {
 }
 
 /// What a shape is, in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ShapeVerdict {
     /// It holds: every neighbouring shape has more energy.
     Stable,
@@ -171,7 +174,7 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
 /// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
 /// per held motion. The whole end held gives [`shape_stability`]. `conservative`: the loads have a
 /// potential.
-pub(crate) fn stability_within(
+pub fn stability_within(
     chain: &Chain,
     system: &System,
     factors: &[f64],

@@ -119,7 +119,7 @@ pub fn unloaded_stiffness(
 
 /// `solved` is the solution of the bordered system for unit motions of the tip, (6 + n) x 6, where
 /// the caller has it already.
-pub(crate) fn chain_stiffness(
+pub fn chain_stiffness(
     chain: &Chain,
     system: &System,
     factors: &[f64],
@@ -203,7 +203,7 @@ const STRAIGHT: f64 = 1e-3;
 
 /// The same by sweeps along a long chain; `None` where they cannot. `solved` are wrench and
 /// coordinates per unit motion of the tip, (6 + n) x 6, where the caller has them already.
-pub(crate) fn swept_stiffness(
+pub fn swept_stiffness(
     chain: &Chain,
     system: &System,
     sweep: &Sweep,

@@ -2,6 +2,7 @@
 //! first load step.
 
 use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::passive::balanced_jacobian;
@@ -12,8 +13,9 @@ use crate::linalg::saddle::{Saddle, column_space};
 use crate::linalg::singular_values::SingularValues;
 
 /// What must stay stable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Judged {
     /// The shape, with the whole end held where the load has brought it.
     Shape,

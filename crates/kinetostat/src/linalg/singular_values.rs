@@ -208,7 +208,7 @@ const LARGE: usize = 60;
 ///
 /// A complete orthogonal decomposition `A = P R^T Q^T` where the triangle leaves no doubt about the rank,
 /// singular values elsewhere: they cost ten times as much.
-pub(crate) fn shortest_and_free(
+pub fn shortest_and_free(
     a: &DMatrix<f64>,
     b: &DVector<f64>,
     share: f64,
@@ -480,7 +480,3 @@ fn completed(basis: &DMatrix<f64>) -> DMatrix<f64> {
     fill_up(&mut all, k);
     all
 }
-
-#[cfg(test)]
-#[path = "singular_values_tests.rs"]
-mod tests;

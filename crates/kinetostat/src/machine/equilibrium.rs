@@ -3,6 +3,7 @@
 
 use nalgebra::Matrix6;
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
@@ -28,14 +29,15 @@ use crate::machine::state::MechanismState;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 
 /// Whether the platform stays where it is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct PlatformStability {
     /// Every motion of the free platform costs energy, or (see `free`) none; for loads without a potential: it does
     /// not go away (divergence), but see `may_flutter`.
     pub stable: bool,
     /// The loads have no potential, the platform does not go away, but it may swing with growing amplitude
     /// (flutter); whether it does depends on the masses.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub may_flutter: bool,
     /// Smallest principal stiffness, N/m (rotations referred to the natural length).
     pub smallest_stiffness_n_per_m: f64,

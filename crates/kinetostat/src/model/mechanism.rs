@@ -6,6 +6,7 @@
 //! goes.
 
 use nalgebra::{Matrix3, Vector3};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
@@ -16,7 +17,8 @@ use crate::model::loads::potential::moments_have_potential;
 use crate::spatial::Pose;
 
 /// A rigid body of the graph.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Platform {
     /// Name, unique.
     pub name: String,
@@ -45,7 +47,8 @@ impl Platform {
 }
 
 /// A chain between two platforms. Its base frame is the frame of `from`; its tip is fixed to `to`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Limb {
     /// Name, unique.
     pub name: String,
@@ -63,7 +66,8 @@ pub struct Limb {
 }
 
 /// Platforms, limbs, loads on limbs and gravity. Never changes after [`MechanismBuilder::build`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Mechanism {
     pub(crate) name: String,
     pub(crate) platforms: Vec<Platform>,
@@ -71,24 +75,31 @@ pub struct Mechanism {
     pub(crate) gravity: Vector3<f64>,
     pub(crate) tool: usize,
     /// Loads on every limb besides gravity; shorter than the list of limbs where the last have none.
-    #[serde(
-        default,
-        skip_deserializing,
-        skip_serializing_if = "Vec::is_empty",
-        serialize_with = "refuse_loads"
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            default,
+            skip_deserializing,
+            skip_serializing_if = "Vec::is_empty",
+            serialize_with = "refuse_loads"
+        )
     )]
     pub(crate) loads: Vec<Vec<Load>>,
     /// Loads on platforms, those between limbs included.
-    #[serde(
-        default,
-        skip_deserializing,
-        skip_serializing_if = "Vec::is_empty",
-        serialize_with = "refuse_platform_loads"
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            default,
+            skip_deserializing,
+            skip_serializing_if = "Vec::is_empty",
+            serialize_with = "refuse_platform_loads"
+        )
     )]
     pub(crate) platform_loads: Vec<PlatformLoad>,
 }
 
 /// A load may be a function, which no file holds; to leave it out in silence would be worse.
+#[cfg(feature = "serde")]
 fn refuse_loads<S: serde::Serializer>(
     _: &[Vec<Load>],
     _: S,
@@ -98,6 +109,7 @@ fn refuse_loads<S: serde::Serializer>(
     ))
 }
 
+#[cfg(feature = "serde")]
 fn refuse_platform_loads<S: serde::Serializer>(
     _: &[PlatformLoad],
     serializer: S,

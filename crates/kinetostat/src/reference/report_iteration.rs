@@ -15,6 +15,7 @@
 //! with `mu < -1` (tension), where it ends in a cycle of two states.
 
 use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
@@ -29,7 +30,8 @@ use crate::settings::{Settings, wrong};
 use crate::spatial::{MotionKind, Wrench};
 
 /// When an iteration ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct IterationSettings {
     /// Settled when no coordinate changes by more in one step, rad (slides: as a share of the
     /// chain's natural length). Default 1e-10.
@@ -62,7 +64,8 @@ impl Default for IterationSettings {
 }
 
 /// Coordinates (m, rad) and the wrench on the end (N, N m; about its origin, base axes).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ChainState {
     /// Coordinates in the chain's order.
     pub coordinates: Vec<f64>,
@@ -71,8 +74,9 @@ pub struct ChainState {
 }
 
 /// How an iteration ended.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum IterationOutcome {
     /// On the equilibrium that exact Newton finds from the same start.
     Settled,

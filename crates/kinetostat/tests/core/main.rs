@@ -36,6 +36,7 @@ mod graphs;
 mod hybrids;
 mod inputs_are_looked_at;
 mod inputs_of_machines_are_looked_at;
+mod internal;
 mod iterations_find_their_equilibrium;
 mod jacobians_are_derivatives;
 mod joints_that_follow;

@@ -14,8 +14,10 @@ use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space};
 /// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced;
 /// every row with an entry of the size one.
 #[derive(Clone, Copy)]
-pub(crate) struct EndRows {
+pub struct EndRows {
+    /// What `t` is multiplied by.
     pub motion: Matrix6<f64>,
+    /// What `F` is multiplied by.
     pub wrench: Matrix6<f64>,
 }
 
@@ -48,9 +50,9 @@ impl EndRows {
 
 /// `[0 J; J^T M]` with the rows of an end condition, ready for right-hand sides. Holds its stages or
 /// borrows them.
-pub(crate) struct Bordered<S> {
+pub struct Bordered<S> {
     sweep: S,
-    pub factored: Factored,
+    pub(crate) factored: Factored,
     form: Form,
     rows: EndRows,
     /// Of twelve equations for wrench (in units of `1 / size`) and motion of the end.
@@ -195,7 +197,7 @@ pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
 }
 
 /// What the end of a chain can do, balanced, orthonormal columns.
-pub(crate) struct EndMotions {
+pub struct EndMotions {
     /// The motions that the chain can make.
     range: DMatrix<f64>,
     /// Those among them that nothing holds.
@@ -333,7 +335,7 @@ impl<'s> Shifted<'s> {
 }
 
 /// What [`crate::chain::stability::ShapeStability`] says, in balanced coordinates.
-pub(crate) struct Shape {
+pub struct Shape {
     pub inertia: Inertia,
     /// Largest eigenvalue of the pencil.
     pub share_to_buckling: f64,
@@ -460,7 +462,7 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
 /// Largest eigenvalue of the pencil while motions of the end are held. Rayleigh quotients bound
 /// it from below, the count of eigenvalues above a shift from above; each shift costs one sweep, and
 /// inverse iteration at the shift improves the quotient. `None` where a sweep loses a pivot.
-pub(crate) fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
+pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
     let judged = Shifted::new(sweep, ends, Form::Pencil(1.0))?;
     let inertia = judged.inertia;
     let (mut best, mut off) = lanczos(sweep, ends)?;

@@ -3,19 +3,12 @@
 
 use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
-use crate::chain::passive::balanced_jacobian;
-use crate::chain::problem::Prescribed;
-use crate::chain::scaling::balance;
-use crate::chain::stability::stability_within;
-use crate::chain::sweep::end_spring::END_SPRINGS;
-use crate::chain::sweep::solve::{Bordered, EndMotions, EndRows};
-use crate::chain::sweep::stages::{Form, Path, SWEEP_FROM};
-use crate::chain::system::System;
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::curve_matrix::CurveMatrix;
-use crate::continuation::parameter::{LoadPattern, Parameter};
-use crate::equilibrium::chain::solve_along;
-use crate::*;
+use kinetostat::internal::{
+    Bordered, ChainCurve, CurveState, END_SPRINGS, EndMotions, EndRows, Form, Path, SWEEP_FROM,
+    System, balance, balanced_jacobian, chain_stiffness, column_space, shape, solve_along,
+    stability_within, swept_stiffness,
+};
+use kinetostat::*;
 
 /// In [-1, 1).
 struct Rng(u64);
@@ -450,7 +443,7 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
         let (dense, swept, factors) = two(&mut rng, &chain, &loads, 12.0);
         let jacobian = balanced_jacobian(&dense, &factors);
         let sweep = swept.sweep.as_ref().expect("stages");
-        let range = crate::linalg::saddle::column_space(&jacobian);
+        let range = column_space(&jacobian);
         // The whole end held, some directions of it, nothing.
         let mut directions = Rng(100 + case as u64);
         for k in 0..=6 {
@@ -468,7 +461,7 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
             };
             assert_eq!(ends.held_count(), k.min(range.ncols()), "{case} {k}");
             let share_to_buckling = expected.share_to_buckling.expect("share_to_buckling");
-            let Some(shape) = crate::chain::sweep::solve::shape(sweep, &ends) else {
+            let Some(shape) = shape(sweep, &ends) else {
                 // A passive joint that only the end held.
                 assert!(k < 6 && case % 3 > 0, "{case} {k}");
                 continue;
@@ -595,8 +588,8 @@ fn curves_are_alike_by_sweeps_and_dense() {
                 loads: loads(&mut rng, &chain, true),
             }),
         };
-        let new = || ChainSystem::new(&problem, Some(&parameter), &Settings::default()).unwrap();
-        let (mut dense, mut swept) = (new(), new().by_sweeps());
+        let mut dense = ChainCurve::dense(&problem, &parameter).unwrap();
+        let mut swept = ChainCurve::swept(&problem, &parameter).unwrap();
         let m = dense.count();
         let mut direction = || {
             let v = DVector::from_fn(m + 1, |_, _| rng.next());
@@ -604,19 +597,15 @@ fn curves_are_alike_by_sweeps_and_dense() {
         };
         let (z, guide, lack) = (direction() * 4.0, direction(), direction());
         let right = lack.rows(0, m).into_owned();
-        let (a, _, x) = dense.linearised(&z);
-        let (b, _, y) = swept.linearised(&z);
-        assert!(matches!(y, CurveMatrix::Swept(_)), "{case}");
-        assert!((a - b).norm() < 1e-12, "{case}");
+        let (x, y) = (dense.linearised(&z), swept.linearised(&z));
+        assert!(y.is_swept(), "{case}");
+        assert!((&x.residual - &y.residual).norm() < 1e-12, "{case}");
         assert!((x.gradient() - y.gradient()).norm() < 1e-10, "{case}");
-        let (p, q) = (
-            x.tangent(&guide, None).unwrap(),
-            y.tangent(&guide, None).unwrap(),
-        );
+        let (p, q) = (x.tangent(&guide).unwrap(), y.tangent(&guide).unwrap());
         assert!(p.sign == q.sign, "{case}");
         signs[usize::from(p.sign > 0.0)] += 1;
         assert!((p.logarithm - q.logarithm).abs() < 1e-8, "{case}");
-        let step = |matrix: &CurveMatrix| matrix.step(&guide, &right, 0.3, None).unwrap();
+        let step = |at: &CurveState| at.step(&guide, &right, 0.3).unwrap();
         let (s, t) = (step(&x), step(&y));
         worst = worst.max((&p.direction - q.direction).norm());
         worst = worst.max((&s - t).norm() / s.norm());
@@ -646,31 +635,24 @@ fn a_cantilever_bent_far_stays_with_sweeps() {
         let grown = Wrench::new(vector![0.0, 10.0, 0.0], Vector3::zeros());
         let parameter = Parameter::end_wrench(grown);
         let settings = Settings::default();
-        let rest = crate::solve_chain(&problem, &settings).expect("rest");
-        let mut reduced = ChainSystem::new(&problem, Some(&parameter), &settings)
-            .expect("curve")
-            .by_sweeps();
+        let rest = solve_chain(&problem, &settings).expect("rest");
+        let mut reduced = ChainCurve::swept(&problem, &parameter).expect("curve");
         reduced
             .start(&rest.coordinates, &rest.wrench, 0.0)
             .expect("start");
         let mut loaded = problem.clone();
         for share in [0.0, 0.1, 0.3, 1.0] {
             loaded.end.wrench = grown * share;
-            let here = crate::solve_chain(&loaded, &settings).expect("bent");
+            let here = solve_chain(&loaded, &settings).expect("bent");
             let z = reduced.state(&here.coordinates, &here.wrench, share);
-            let (_, _, matrix) = reduced.linearised(&z);
+            let matrix = reduced.linearised(&z);
             let case = format!("{segments} {share}");
-            assert!(matches!(matrix, CurveMatrix::Swept(_)), "{case}");
+            assert!(matrix.is_swept(), "{case}");
             assert!(matrix.only_direction().is_some(), "{case}");
             let tangent = matrix.only_direction().expect("one");
             assert!(
                 matrix
-                    .step(
-                        &tangent,
-                        &DVector::from_element(z.len() - 1, 1e-3),
-                        0.0,
-                        None
-                    )
+                    .step(&tangent, &DVector::from_element(z.len() - 1, 1e-3), 0.0)
                     .is_some()
             );
         }
@@ -699,7 +681,7 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             let factors = balance(&chain, &posture);
             let force = Wrench::new(Vector3::from(push), Vector3::zeros());
             let problem = ChainProblem::new(&chain, EndCondition::wrench(force));
-            let here = crate::solve_chain(&problem, &Settings::default()).expect("equilibrium");
+            let here = solve_chain(&problem, &Settings::default()).expect("equilibrium");
             let [dense, swept] = [Path::Dense, Path::Sweep].map(|path| {
                 let mut system =
                     System::of_chain(&chain, &problem.base, &posture, &[], &factors, Some(path));
@@ -708,10 +690,9 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             });
             let case = format!("{segments} {axial:e} {push:?}");
             let sweep = swept.sweep.as_ref().expect("stages");
-            let by_sweep =
-                crate::chain::stiffness::swept_stiffness(&chain, &swept, sweep, &factors, None);
+            let by_sweep = swept_stiffness(&chain, &swept, sweep, &factors, None);
             let (a, b) = (
-                crate::chain::stiffness::chain_stiffness(&chain, &dense, &factors, None),
+                chain_stiffness(&chain, &dense, &factors, None),
                 by_sweep.expect(&case),
             );
             assert_eq!(

@@ -4,18 +4,14 @@
 //! vectorised kernels for every instruction set of this computer and for single numbers. An engine answers or refuses;
 //! where it answers, every number is compared, and a number that is none fails the comparison.
 
-use nalgebra::{Matrix6, Vector3};
-use pulp::Arch;
-
-use super::run::CHOSEN;
-use super::{Batch, Status};
-use crate::chain::sweep::stages::Path;
-use crate::equilibrium::chain::solve_along;
-use crate::{
+use kinetostat::batch::{Batch, Status};
+use kinetostat::internal::{InstructionSet, Path, solve_along};
+use kinetostat::{
     ActuatorSpec, BeamSection, BilinearLaw, Chain, ChainBuilder, ChainProblem, EndCondition, Limb,
-    LimbPosture, LinkConvention, LinkSpec, Mechanism, MotionKind, Platform, Pose, Settings,
+    LimbPosture, LinkConvention, LinkSpec, Load, Mechanism, MotionKind, Platform, Pose, Settings,
     SpringLaw, Wrench, unloaded_tip,
 };
+use nalgebra::{Matrix6, Vector3};
 
 /// Where a machine comes to rest, and how it is held there.
 struct Answer {
@@ -68,7 +64,7 @@ impl Engine for ChainBy {
         let mut problem = ChainProblem::new(&limb.actual, EndCondition::wrench(case.wrench));
         problem.base = case.machine.platforms()[0].home;
         problem.commands.clone_from(&case.commands);
-        problem.loads = case.machine.acting(0);
+        problem.loads = vec![Load::gravity(case.machine.gravity())];
         let found = solve_along(&problem, &Settings::default(), Some(self.0));
         let (found, path) = found
             .map_err(|e| println!("{}: {:?}: {e}", case.name, self.0))
@@ -115,21 +111,20 @@ impl Engine for General {
 }
 
 /// The kernels on one instruction set; refuses what it would leave to the general engine.
-struct Kernels(Arch);
+struct Kernels(InstructionSet);
 
 impl Engine for Kernels {
     fn name(&self) -> String {
-        let sort = format!("{:?}", self.0);
-        format!("kernels {}", sort.split('(').next().unwrap_or_default())
+        format!("kernels {:?}", self.0)
     }
 
     fn answer(&self, case: &Case) -> Option<Answer> {
         let batch = Batch::new(&case.machine);
-        CHOSEN.set(Some(self.0));
-        let found =
-            batch.equilibrium_at_joints(&case.commands, std::slice::from_ref(&case.wrench), true);
-        CHOSEN.set(None);
-        let found = found.ok()?;
+        let wrenches = std::slice::from_ref(&case.wrench);
+        let found = self
+            .0
+            .during(|| batch.equilibrium_at_joints(&case.commands, wrenches, true))
+            .ok()?;
         (found.status == [Status::Vectorised]).then(|| Answer {
             tool: found.tool.row(0).collect(),
             coordinates: found.coordinates.row(0).collect(),
@@ -141,12 +136,8 @@ impl Engine for Kernels {
 }
 
 fn kernels() -> Vec<Box<dyn Engine>> {
-    let mut sets = vec![Arch::Scalar];
-    #[cfg(target_arch = "x86_64")]
-    sets.extend(pulp::x86::V3::try_new().map(Arch::V3));
-    sets.push(Arch::new());
     let boxed = |set| Box::new(Kernels(set)) as Box<dyn Engine>;
-    sets.into_iter().map(boxed).collect()
+    InstructionSet::available().into_iter().map(boxed).collect()
 }
 
 /// Largest difference; a number that is none, or a row of another length, fails.

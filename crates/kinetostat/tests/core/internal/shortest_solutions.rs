@@ -1,8 +1,8 @@
 //! Shortest solutions without singular values against those by singular values.
 
+use kinetostat::SingularValues;
+use kinetostat::internal::shortest_and_free;
 use nalgebra::{DMatrix, DVector};
-
-use super::{SingularValues, shortest_and_free};
 
 /// Even numbers between -1 and 1, the same every time.
 struct Numbers(u64);

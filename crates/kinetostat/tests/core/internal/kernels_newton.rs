@@ -1,12 +1,12 @@
 //! Loads under which `theta <- K^-1 tau(theta)` does not contract.
 
+use kinetostat::batch::{Batch, Engine, Status};
+use kinetostat::{
+    ActuatorSpec, BeamSection, Chain, Kinematics, Mechanism, MotionKind, Pose, Wrench,
+};
 use nalgebra::{DVector, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3};
 
-use super::group::Places;
-use super::*;
-use crate::model::mechanism::Mechanism;
-use crate::spatial::{Pose, Wrench};
-use crate::{ActuatorSpec, BeamSection, Chain, Kinematics, MotionKind};
+use super::posture_at_joints;
 
 const EA: f64 = 1e6;
 
@@ -183,11 +183,7 @@ fn heavily_loaded_arms_are_found_together() {
         .expect("sizes");
     let (mut together, mut far) = (0, 0);
     for i in 0..count {
-        let joints = Places::Joints {
-            commands: &commands,
-            each: 3,
-        };
-        let posture = batch.posture(&joints, i).expect("a posture");
+        let posture = posture_at_joints(&machine, &commands[3 * i..3 * i + 3]);
         let Ok(alone) = posture.deflected_by(&wrenches[i]) else {
             assert_eq!(all.status[i], Status::Unsolved);
             continue;
