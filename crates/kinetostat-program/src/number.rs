@@ -36,6 +36,16 @@ pub(crate) fn decimals_of(text: &[u8]) -> usize {
         .map_or(0, |point| text.len() - point - 1)
 }
 
+/// The larger of two numbers, NaN where one of them is: `f64::max` forgets it, and what is checked would look right.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// The smaller of two numbers, NaN where one of them is.
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

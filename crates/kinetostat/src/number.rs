@@ -8,6 +8,8 @@
 //! Small values follow one rule. Below 1e-12 a value is the rounding of its arithmetic: it is stated as 0.
 //! Lengths, angles and shares have a smallest figure (0.001 um, 0.0001 deg, 0.0001 %): a largest value
 //! below it is stated as that figure, which is an upper bound; a mean or a least value is "below" it.
+//!
+//! The extremes of measured numbers are here too, for what is stated must not have lost a NaN on its way.
 
 /// What stands where there is no number.
 pub const MISSING: &str = "not available";
@@ -278,6 +280,21 @@ pub fn against(value_mm: f64, bound_mm: f64) -> (String, String) {
         length(value_mm, digits, Rounding::Nearest),
         length(bound_mm, digits, Rounding::Nearest),
     )
+}
+
+/// The larger of two numbers, NaN where one of them is: `f64::max` forgets it, and a maximum of residuals that
+/// are not numbers would look small.
+#[inline]
+#[must_use]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// The smaller of two numbers, NaN where one of them is.
+#[inline]
+#[must_use]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
 }
 
 fn no_number(value: f64) -> Option<&'static str> {

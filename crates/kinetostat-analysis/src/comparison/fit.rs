@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use kinetostat::number::smaller;
 use kinetostat::{MotionKind, Pose, SingularValues, Twist, moved, pose_residual};
 use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3, Vector6};
 
@@ -79,7 +80,7 @@ impl Fit<'_> {
         let least = others
             .iter()
             .map(|m| self.rank(m))
-            .fold(f64::INFINITY, f64::min);
+            .fold(f64::INFINITY, smaller);
         others.retain(|m| self.rank(m) <= 1.2 * least);
         others
             .into_iter()

@@ -1,5 +1,6 @@
 //! The chain of a machine with one limb, commanded for a place, with everything that acts on it.
 
+use kinetostat::number::larger;
 use kinetostat::{Load, MotionKind, Wrench};
 use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::Vector3;
@@ -77,7 +78,7 @@ pub(crate) fn mode_in_words(chain: &SerialChain, mode: &[f64]) -> String {
             .zip(mode)
             .filter(|(c, _)| c.kind == kind)
             .map(|(c, m)| m.abs() * unit_of(c.kind))
-            .fold(0.0, f64::max)
+            .fold(0.0, larger)
     };
     let (turns, slides) = (
         largest(MotionKind::Revolute),

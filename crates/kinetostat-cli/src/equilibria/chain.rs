@@ -1,5 +1,6 @@
 //! All equilibria of a chain.
 
+use kinetostat::number::smaller;
 use kinetostat::{Bounds, ChainProblem, Direction, DirectionKind, FoundEquilibrium, equilibria};
 use kinetostat_analysis::degenerate::is_degenerate;
 use kinetostat_analysis::outline::chain_outline;
@@ -112,5 +113,5 @@ fn softest(directions: &[Direction]) -> f64 {
         .iter()
         .filter(|d| d.kind != DirectionKind::Free)
         .map(|d| 1e-3 * d.stiffness_n_per_m)
-        .fold(f64::INFINITY, f64::min)
+        .fold(f64::INFINITY, smaller)
 }

@@ -1,5 +1,6 @@
 //! All equilibria of a machine of several limbs: from many places of its tool, and along curves.
 
+use kinetostat::number::smaller;
 use kinetostat::{DirectionKind, SearchSettings, SpreadSettings};
 
 use crate::end_condition::machine::CommandedMachine;
@@ -54,7 +55,7 @@ pub(crate) fn solve(
                         .iter()
                         .filter(|d| !matches!(d.kind, DirectionKind::Free | DirectionKind::Rigid))
                         .map(|d| 1e-3 * d.stiffness_n_per_m)
-                        .fold(f64::INFINITY, f64::min),
+                        .fold(f64::INFINITY, smaller),
                 },
                 stiffness_n_m_rad: std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)])),
                 force_n: e.wrench.force().into(),

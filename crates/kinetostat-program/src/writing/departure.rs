@@ -9,6 +9,8 @@
 
 use nalgebra::Vector3;
 
+use crate::number::larger;
+
 /// Values of a correction on a stretch, at its ends and quarters.
 pub(crate) type Values = [Vector3<f64>; 5];
 
@@ -57,7 +59,7 @@ pub(crate) fn departure(values: &Values, chord: [Vector3<f64>; 2]) -> f64 {
     let grid = 4 * STEPS;
     let on_grid = (0..=grid)
         .map(|i| polynomial(&off, i as f64 / grid as f64).norm())
-        .fold(0.0, f64::max);
+        .fold(0.0, larger);
     on_grid + between
 }
 

@@ -27,6 +27,7 @@ use nalgebra::{DMatrix, linalg::Schur};
 
 use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::inertia;
+use crate::number::larger;
 
 /// Number of motions in which a shape of tangent stiffness `tangent` (n x n, in units in which motions
 /// count alike) goes away. Eigenvalues of the symmetric part down to `-zero` count as none. `whole`: no
@@ -56,7 +57,10 @@ pub fn diverging_motions(tangent: &DMatrix<f64>, zero: f64, whole: bool) -> usiz
         return unstable;
     };
     let all = schur.complex_eigenvalues();
-    let most = all.iter().fold(0.0_f64, |m, x| m.max(x.norm()));
+    let most = all.iter().fold(0.0_f64, |m, x| larger(m, x.norm()));
+    if !most.is_finite() {
+        return unstable;
+    }
     // Two equal ones (a round rod) part by the root of what rounding leaves.
     let real = all.iter().filter(|x| x.im.abs() <= 1e-6 * most);
     real.filter(|x| x.re < 0.0).count()

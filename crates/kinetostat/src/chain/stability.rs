@@ -25,6 +25,7 @@ use crate::linalg::complement::{complement, complement_of_few};
 use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, column_space, inertia};
 use crate::model::chain::Chain;
+use crate::number::larger;
 
 /// Whether a chain keeps its shape while its end is held.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,7 +165,7 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
     if motion.iter().any(|x| !x.is_finite()) {
         return Vec::new();
     }
-    let most = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let most = motion.iter().fold(0.0_f64, |m, x| larger(m, x.abs()));
     for x in &mut motion {
         *x /= most.max(f64::MIN_POSITIVE);
     }

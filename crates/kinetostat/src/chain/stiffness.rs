@@ -22,6 +22,7 @@ use crate::chain::system::System;
 use crate::error::Result;
 use crate::linalg::saddle::{Saddle, column_space};
 use crate::model::chain::{Chain, Role};
+use crate::number::larger;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 
 /// Stiffness of a chain at its tip.
@@ -175,7 +176,7 @@ fn evenly_stiff_motions(
     // The direction that the joints move least in.
     let moved = range.transpose() * jacobian;
     let sizes: Vec<f64> = moved.row_iter().map(|row| row.norm()).collect();
-    let most = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
+    let most = sizes.iter().fold(0.0_f64, |m, x| larger(m, *x));
     let Some((weakest, size)) =
         (sizes.iter().copied().enumerate()).min_by(|a, b| a.1.total_cmp(&b.1))
     else {

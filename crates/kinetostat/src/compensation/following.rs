@@ -13,6 +13,7 @@ use crate::chain::directions::axis_in_words;
 use crate::chain::residual::Residual;
 use crate::compensation::target::Compensation;
 use crate::error::{Error, Result};
+use crate::linalg::largest::largest;
 use crate::machine::equilibrium::conclude;
 use crate::machine::inverse::limb::wrap;
 use crate::machine::platforms::solver::PlatformSolver;
@@ -98,7 +99,7 @@ impl Search<'_, '_> {
 
     /// Largest gap of the limbs, balanced.
     fn gap(&self) -> f64 {
-        self.closure().1.amax()
+        largest(&self.closure().1)
     }
 
     /// Newton's iteration to a position (m), turned to `wanted` as near as can be; the distance left.
@@ -118,7 +119,7 @@ impl Search<'_, '_> {
                 - &free.rotation * &moving;
             let (turning, _) = nearest(&(&free.rotation * &held), &turn)?;
             let [place, turn] = [&free.all * &moving, &free.all * (held * turning)];
-            if !(closing.amax() + place.amax() + turn.amax()).is_finite() {
+            if !(largest(&closing) + largest(&place) + largest(&turn)).is_finite() {
                 return None;
             }
             let short = |part: &DVector<f64>| part * (0.3 * length / part.amax()).min(1.0);
@@ -145,7 +146,7 @@ impl Search<'_, '_> {
         for _ in 0..STEPS {
             let (closing, _) = self.freedoms()?;
             self.go(&closing);
-            if closing.amax() <= 1e-13 * self.length {
+            if largest(&closing) <= 1e-13 * self.length {
                 break;
             }
         }

@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, Dyn, LU};
 
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE};
 use crate::linalg::sparse::Sparse;
+use crate::number::{larger, smaller};
 
 /// What blocks may be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -339,15 +340,15 @@ impl BlockFactors {
                 values.iter().copied().collect::<Vec<f64>>()
             })
             .collect();
-        let most = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let least = values.iter().fold(most, |m, v| m.min(v.abs()));
+        let most = values.iter().fold(0.0_f64, |m, v| larger(m, v.abs()));
+        let least = values.iter().fold(most, |m, v| smaller(m, v.abs()));
         let count = |positive: bool| values.iter().filter(|v| (**v > 0.0) == positive).count();
         let inertia = Inertia {
             positive: count(true),
             negative: count(false),
             zero: 0,
         };
-        (inertia, least / most.max(f64::MIN_POSITIVE))
+        (inertia, least / larger(most, f64::MIN_POSITIVE))
     }
 }
 

@@ -6,6 +6,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::linalg::largest::largest;
+
 /// Matrices of up to so many rows are decomposed as a whole.
 const SMALL: usize = 96;
 /// Motions in a block: eigenvalues of this multiplicity are found.
@@ -68,7 +70,7 @@ fn in_krylov_space(a: &DMatrix<f64>, count: usize) -> Option<(DVector<f64>, DMat
             let (values, chosen) = of_the_whole(0.5 * (&within + within.transpose()), count);
             let vectors = &space * &chosen;
             let missed = &image * &chosen - &vectors * DMatrix::from_diagonal(&values);
-            if missed.amax() <= RESIDUAL * a.amax() {
+            if largest(&missed) <= RESIDUAL * a.amax() {
                 return Some((values, vectors));
             }
         }

@@ -144,7 +144,8 @@ pub fn inertia(a: DMatrix<f64>) -> Inertia {
     let most = a.amax().max(f64::MIN_POSITIVE);
     let d = nalgebra::linalg::LBLT::new(a).d();
     let mut note = |value: f64| {
-        if value.abs() <= RANK_TOLERANCE * most {
+        // The sign of NaN is not known.
+        if value.is_nan() || value.abs() <= RANK_TOLERANCE * most {
             count.zero += 1;
         } else if value > 0.0 {
             count.positive += 1;

@@ -26,6 +26,7 @@ use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
+use crate::number::smaller;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 
 /// Whether the platform stays where it is.
@@ -348,7 +349,7 @@ impl ToolStiffness {
         let (tool, scale) = (m.tool - 1, m.scale());
         let (tangent, rigid, directions) = (&self.tangent, &self.rigid, &self.directions);
         let stiffnesses = directions.iter().map(|d| d.stiffness_n_per_m);
-        let least = stiffnesses.fold(f64::INFINITY, f64::min);
+        let least = stiffnesses.fold(f64::INFINITY, smaller);
         let free = directions.iter().filter(|d| d.kind == DirectionKind::Free);
         let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
         let hold = |held| others_hold(tangent, self.graded.as_ref(), rigid, tool, scale, held);

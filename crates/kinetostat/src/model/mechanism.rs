@@ -14,6 +14,7 @@ use crate::model::chain::{Chain, Scale};
 use crate::model::loads::load::Load;
 use crate::model::loads::platform::PlatformLoad;
 use crate::model::loads::potential::moments_have_potential;
+use crate::number::larger;
 use crate::spatial::Pose;
 
 /// A rigid body of the graph.
@@ -280,7 +281,7 @@ impl Mechanism {
                 }
             }
         }
-        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let longest = lengths.iter().copied().fold(0.0, larger);
         match ways[self.tool].is_finite() {
             true => longest.max(ways[self.tool]),
             false => longest,

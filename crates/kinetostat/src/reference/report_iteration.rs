@@ -26,6 +26,7 @@ use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
 use crate::model::chain::Chain;
+use crate::number::larger;
 use crate::settings::{Settings, wrong};
 use crate::spatial::{MotionKind, Wrench};
 
@@ -154,7 +155,9 @@ fn change(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
     a.iter()
         .zip(b)
         .zip(units)
-        .fold(0.0, |most, ((a, b), unit)| most.max((a - b).abs() / unit))
+        .fold(0.0, |most, ((a, b), unit)| {
+            larger(most, (a - b).abs() / unit)
+        })
 }
 
 /// The report's iteration [R 4.15, 4.16 with the erratum] from a start (`None`: the problem's
@@ -367,7 +370,7 @@ fn spectral_radius(mut m: DMatrix<f64>) -> f64 {
 
 /// Shrinking of the steps, from the last ones that rounding does not touch.
 fn observed(sizes: &[f64]) -> Option<f64> {
-    let most = sizes.iter().fold(0.0_f64, |m, s| m.max(*s));
+    let most = sizes.iter().fold(0.0_f64, |m, s| larger(m, *s));
     let last = sizes.iter().rposition(|s| *s > 1e-8 * most)?;
     let span = last.min(4);
     if span == 0 {

@@ -10,6 +10,7 @@ use crate::chain::sweep::factor::Factored;
 use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space};
+use crate::number::larger;
 
 /// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced;
 /// every row with an entry of the size one.
@@ -120,14 +121,16 @@ impl<S: Deref<Target = Sweep>> Bordered<S> {
         for attempt in 0..3 {
             let tip = self.sweep.product(self.form, &x, &mut motions, &mut left);
             // Where only passive joints move, all torques are rounding.
-            let moved = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let moved = x.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
             let (mut worst, mut size) = (0.0_f64, RANK_TOLERANCE * moved);
             for own in 0..x.len() {
                 let pull = column(&self.sweep.twists, own).dot(&wrench);
                 let given = torque[own];
-                size = size.max(pull.abs()).max(given.abs()).max(left[own].abs());
+                for part in [pull, given, left[own]] {
+                    size = larger(size, part.abs());
+                }
                 left[own] = given - pull - left[own];
-                worst = worst.max(left[own].abs());
+                worst = larger(worst, left[own].abs());
             }
             if !worst.is_finite() {
                 return None;
@@ -285,7 +288,7 @@ impl<'s> Shifted<'s> {
         let most = values.amax();
         let mut inertia = factored.inertia;
         for value in values.iter() {
-            if value.abs() <= LOST_SIGN * most {
+            if value.is_nan() || value.abs() <= LOST_SIGN * most {
                 inertia.zero += 1;
             } else if *value > 0.0 {
                 inertia.positive += 1;
@@ -425,7 +428,7 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
         let mut springs = vec![0.0; n];
         sweep.spring_product(&next, &mut springs);
         beyond = dot(&next, &springs).max(0.0).sqrt();
-        let size = basis.iter().map(|t| t.quotient.abs()).fold(1e-3, f64::max);
+        let size = basis.iter().map(|t| t.quotient.abs()).fold(1e-3, larger);
         // Equal eigenvalues (a round rod) exhaust the space early: what is left is rounding.
         if basis.len() == LANCZOS || beyond <= EXHAUSTED * size {
             break;

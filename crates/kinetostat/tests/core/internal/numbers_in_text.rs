@@ -40,6 +40,23 @@ fn zeros_of_a_power_of_ten_are_never_cut() {
     }
 }
 
+#[test]
+fn extremes_keep_nan() {
+    for order in [
+        [1.0, f64::NAN, 3.0],
+        [f64::NAN, 3.0, 1.0],
+        [3.0, 1.0, f64::NAN],
+    ] {
+        assert!(order.into_iter().fold(0.0, larger).is_nan());
+        assert!(order.into_iter().fold(9.0, smaller).is_nan());
+    }
+    assert_eq!([1.0, 3.0, 2.0].into_iter().fold(0.0, larger), 3.0);
+    assert_eq!(
+        [2.0, 1.0, f64::INFINITY].into_iter().fold(9.0, smaller),
+        1.0
+    );
+}
+
 /// What is read from a table and added to a place of 100 mm comes back with the rounding of that place.
 #[test]
 fn a_round_number_with_the_noise_of_a_place_stays_round() {

@@ -1,6 +1,7 @@
 //! Sweeps against dense matrices and against differences, on random spatial chains, and which of
 //! the two paths a chain takes. (The oracle of the integration tests judges the same from outside.)
 
+use kinetostat_testing::{LargestEntry, Worst, largest_size};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
 use kinetostat::internal::{
@@ -185,9 +186,9 @@ fn products_torques_and_energy_are_those_of_dense_matrices() {
             let expected = &matrix * DVector::from_column_slice(&x);
             let mut found = vec![0.0; n];
             sweep.product(form, &x, &mut Vec::new(), &mut found);
-            let off = (DVector::from_vec(found) - &expected).amax();
+            let off = (DVector::from_vec(found) - &expected).largest_entry();
             assert!(
-                off < 1e-12 * matrix.amax() * n as f64,
+                off < 1e-12 * matrix.largest_entry() * n as f64,
                 "{case} {form:?} {off:.2e}"
             );
         }
@@ -233,11 +234,11 @@ fn the_product_is_the_derivative_of_what_equilibrium_lacks() {
         let mut exact = vec![0.0; n];
         let sweep = system.sweep.as_ref().expect("stages");
         sweep.product(Form::Exact, &along, &mut Vec::new(), &mut exact);
-        let off = (DVector::from_vec(exact) - &slope).amax();
+        let off = (DVector::from_vec(exact) - &slope).largest_entry();
         assert!(
-            off < 1e-8 * slope.amax(),
+            off < 1e-8 * slope.largest_entry(),
             "{case}: {off:.2e} of {:.2e}",
-            slope.amax()
+            slope.largest_entry()
         );
     }
 }
@@ -281,7 +282,7 @@ fn bordered_systems_are_solved_as_by_dense_matrices() {
             let lu = a.clone().full_piv_lu();
             assert!(lu.solve_mut(&mut b));
             let found = DVector::from_iterator(6 + n, wrench.iter().chain(&x).copied());
-            let (off, size) = ((&found - &b).amax(), b.amax());
+            let (off, size) = ((&found - &b).largest_entry(), b.largest_entry());
             assert!(
                 off < 1e-9 * size,
                 "{case} {form:?}: {off:.2e} of {size:.2e}"
@@ -300,7 +301,7 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
             "{case}, {what}: {a:e} {b:e} of {size:e}"
         );
     };
-    let most = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let most = |v: &[f64]| largest_size(v.iter().copied());
     for (x, y) in a.coordinates.iter().zip(&b.coordinates) {
         close(*x, *y, most(&a.coordinates), "coordinate");
     }
@@ -310,7 +311,7 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
     };
     let (ka, kb) = (balanced(a), balanced(b));
     for (x, y) in ka.iter().zip(kb.iter()) {
-        close(*x, *y, ka.amax(), "stiffness");
+        close(*x, *y, ka.largest_entry(), "stiffness");
     }
     for (x, y) in [
         (&a.stiffness.springs, &b.stiffness.springs),
@@ -319,7 +320,7 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
         assert_eq!(x.shape(), y.shape());
         if !x.is_empty() {
             assert!(
-                (x - y).amax() <= 1e-9 * x.amax(),
+                (x - y).largest_entry() <= 1e-9 * x.largest_entry(),
                 "{case}: motions of coordinates"
             );
         }
@@ -563,7 +564,7 @@ fn planar_chains_of_joints_have_rigid_directions_on_both_paths() {
 #[test]
 fn curves_are_alike_by_sweeps_and_dense() {
     let mut rng = Rng(17);
-    let (mut signs, mut worst) = ([0, 0], 0.0_f64);
+    let (mut signs, mut worst) = ([0, 0], Worst::new());
     for case in 0..40 {
         let chain = random(&mut rng, 11 + case % 4, case % 3, 1.0);
         assert!(chain.coordinate_count() >= SWEEP_FROM);
@@ -607,11 +608,11 @@ fn curves_are_alike_by_sweeps_and_dense() {
         assert!((p.logarithm - q.logarithm).abs() < 1e-8, "{case}");
         let step = |at: &CurveState| at.step(&guide, &right, 0.3).unwrap();
         let (s, t) = (step(&x), step(&y));
-        worst = worst.max((&p.direction - q.direction).norm());
-        worst = worst.max((&s - t).norm() / s.norm());
+        worst.add((&p.direction - q.direction).norm());
+        worst.add((&s - t).norm() / s.norm());
     }
-    println!("apart {worst:e}, signs {signs:?}");
-    assert!(worst < 1e-9, "{worst:e}");
+    println!("apart {worst}, signs {signs:?}");
+    assert!(worst.of(80) < 1e-9, "{worst}");
     assert!(signs[0] > 5 && signs[1] > 5, "{signs:?}");
 }
 
@@ -663,7 +664,7 @@ fn a_cantilever_bent_far_stays_with_sweeps() {
 /// Slender rods, pushed along and bent: the stiffness of an end that is far stiffer along than across.
 #[test]
 fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
-    let mut worst = [0.0_f64; 2];
+    let mut worst = [Worst::new(), Worst::new()];
     for (segments, axial) in [(11, 1e5), (16, 1e7), (16, 1e9), (24, 1e11)] {
         for push in [[-1.0, 0.0, 0.0], [-2.0, 0.3, 0.1], [3.0, 5.0, -2.0]] {
             let rod = BeamSection {
@@ -703,13 +704,14 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             for (x, y) in a.directions.iter().zip(&b.directions) {
                 assert_eq!(x.kind, y.kind, "{case}");
                 let off = (x.stiffness_n_per_m / y.stiffness_n_per_m - 1.0).abs();
-                worst[0] = worst[0].max(off);
+                worst[0].add(off);
             }
             let (x, y) = (&a.cartesian.matrix, &b.cartesian.matrix);
-            worst[1] = worst[1].max((x - y).amax() / x.amax());
-            assert!(worst.iter().all(|w| w.is_finite()), "{case}");
+            worst[1].add((x - y).largest_entry() / x.largest_entry());
         }
     }
-    println!("directions apart {:e}, matrices {:e}", worst[0], worst[1]);
-    assert!(worst[0] < 1e-7 && worst[1] < 1e-9, "{worst:?}");
+    let [directions, matrices] = worst;
+    println!("directions apart {directions}, matrices {matrices}");
+    assert!(directions.value() < 1e-7, "{directions}");
+    assert!(matrices.of(12) < 1e-9, "{matrices}");
 }
