@@ -9,7 +9,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::summary::Summary;
 use crate::run::checked::Checked;
 use crate::task::Task;
-use kinetostat::number::{larger, smaller};
+use kinetostat::number::smaller;
 
 pub(crate) fn summarise(
     task: &Task<'_>,

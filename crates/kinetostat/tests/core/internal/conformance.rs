@@ -67,7 +67,7 @@ impl Engine for ChainBy {
         problem.loads = vec![Load::gravity(case.machine.gravity())];
         let found = solve_along(&problem, &Settings::default(), Some(self.0));
         let (found, path) = found
-            .map_err(|e| println!("{}: {:?}: {e}", case.name, self.0))
+            .map_err(|e| eprintln!("{}: {:?}: {e}", case.name, self.0))
             .ok()?;
         // Sweeps answer stable states, dense matrices the rest.
         assert!(path == self.0 || !found.stability.stable, "{}", case.name);
