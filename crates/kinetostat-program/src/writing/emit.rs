@@ -574,7 +574,7 @@ impl<'a> Emitter<'a> {
 }
 
 /// A share in percent with two digits, neither stated too large nor as nothing.
-fn least_percent(share: f64) -> String {
+pub fn least_percent(share: f64) -> String {
     let percent = 100.0 * share;
     if percent < 1e-3 {
         return "less than 0.001".to_owned();
@@ -589,25 +589,5 @@ fn counted(count: usize, one: &str) -> String {
     match count {
         1 => format!("1 {one}"),
         _ => format!("{count} {one}s"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::least_percent;
-
-    #[test]
-    fn the_slowest_speed_is_never_nothing_and_never_too_large() {
-        for (share, told) in [
-            (0.999, "99"),
-            (0.5, "50"),
-            (0.058_26, "5.8"),
-            (0.001_999, "0.19"),
-            (4.3e-5, "0.0043"),
-            (1e-9, "less than 0.001"),
-            (0.0, "less than 0.001"),
-        ] {
-            assert_eq!(least_percent(share), told, "{share}");
-        }
     }
 }
