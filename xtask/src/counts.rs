@@ -226,20 +226,37 @@ fn version(program: &mut Command) -> Option<String> {
     Some(line[number..].to_owned())
 }
 
+/// Every instruction set that this processor has gives the same bits.
+///
+/// # Errors
+/// One that does not, or a build that fails.
+pub fn instruction_sets() -> Result<()> {
+    optimised(
+        "every instruction set, optimised",
+        "run",
+        "instruction_sets",
+    )
+}
+
+/// A program of the benches, built for speed.
+fn optimised(title: &str, command: &str, program: &str) -> Result<()> {
+    step(
+        title,
+        cargo()
+            .args([command, "--quiet", "--release", "-p", "kinetostat-bench"])
+            .args(["--bin", program])
+            // Pairs of single numbers that the compiler packs by itself take a move that valgrind 3.19
+            // does not know. The kernels say what is packed, and are the same without.
+            .env("RUSTFLAGS", "-Cno-vectorize-slp"),
+    )
+}
+
 /// Counts everything; none without valgrind.
 fn counted(tools: Tools) -> Result<Option<Counts>> {
     let Some(valgrind) = tools.valgrind else {
         return Ok(None);
     };
-    step(
-        "the works to count",
-        cargo()
-            .args(["build", "--quiet", "--release", "-p", "kinetostat-bench"])
-            .args(["--bin", "counts"])
-            // Pairs of single numbers that the compiler packs by itself take a move that valgrind 3.19
-            // does not know. The kernels say what is packed, and are the same without.
-            .env("RUSTFLAGS", "-Cno-vectorize-slp"),
-    )?;
+    optimised("the works to count", "build", "counts")?;
     let program = target().join("release").join("counts");
     let names = Command::new(&program)
         .output()

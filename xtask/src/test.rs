@@ -1,4 +1,4 @@
-//! `cargo xtask test`: format, lints, tests, documentation, the book, instruction counts.
+//! `cargo xtask test`: format, lints, tests, documentation, the book, instruction sets and counts.
 
 use anyhow::Result;
 
@@ -20,6 +20,16 @@ pub fn run() -> Result<()> {
         ]),
     )?;
     step(
+        "the core without its features",
+        cargo().args([
+            "check",
+            "--quiet",
+            "-p",
+            "kinetostat",
+            "--no-default-features",
+        ]),
+    )?;
+    step(
         "documentation",
         cargo()
             .args(["doc", "--workspace", "--no-deps", "--quiet"])
@@ -35,6 +45,7 @@ pub fn run() -> Result<()> {
         cargo().args(["test", "--workspace", "--no-fail-fast", "--doc"]),
     )?;
     book::check()?;
+    counts::instruction_sets()?;
     counts::check()?;
     eprintln!("== all passed");
     Ok(())

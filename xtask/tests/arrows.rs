@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use syn::visit::Visit;
 
 /// Rooms of the core, each of which may use those before it.
-const ROOMS: [&str; 13] = [
+const ROOMS: [&str; 15] = [
+    "parallel",
     "number",
     "spatial",
     "error",
@@ -24,6 +25,7 @@ const ROOMS: [&str; 13] = [
     "compensation",
     "batch",
     "reference",
+    "internal",
 ];
 
 /// Files that belong together although each uses the other, with the reason.

@@ -1,6 +1,7 @@
 //! How near a load brings a machine to instability: its limbs with their ends held, its links, and
 //! the whole while nothing holds its tool. All shares are 0 unloaded and 1 where stability is lost.
 
+use kinetostat::number::larger;
 use kinetostat::{MechanismEquilibrium, Posture, PostureRequest, machine::LimbPosture};
 use nalgebra::{DMatrix, Matrix6};
 
@@ -81,7 +82,7 @@ impl<'e> InstabilityShares<'e> {
             self.link.map(|l| l.share),
             self.free,
         ];
-        shares.into_iter().flatten().fold(0.0, f64::max)
+        shares.into_iter().flatten().fold(0.0, larger)
     }
 
     /// Stable, but not far from where it is not.
@@ -97,7 +98,7 @@ impl<'e> InstabilityShares<'e> {
         let limbs = limbs.filter_map(|l| finite(l.stability.share_to_buckling));
         let free = self.free.filter(|_| self.state.conservative);
         let shares = limbs.chain(free).chain(self.link.map(|l| l.share));
-        shares.fold(0.0, f64::max)
+        shares.fold(0.0, larger)
     }
 
     /// All loads on the limb that is nearest to buckling have a potential: its share leads to buckling.

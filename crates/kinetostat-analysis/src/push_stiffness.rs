@@ -1,5 +1,6 @@
 //! How stiff a tool is against a force, free to turn, and against a moment, free to move.
 
+use kinetostat::number::smaller;
 use nalgebra::{Matrix3, Matrix6};
 
 /// Stiffnesses of a tool against pushes of both kinds; none where no push of the kind moves it.
@@ -48,7 +49,7 @@ fn push_stiffness(block: &Matrix3<f64>, nothing: f64) -> Option<PushStiffness> {
         return Some(PushStiffness::Against);
     }
     let moving = values.iter().copied().filter(|x| *x > nothing);
-    let least = moving.fold(f64::INFINITY, f64::min);
+    let least = moving.fold(f64::INFINITY, smaller);
     least
         .is_finite()
         .then(|| PushStiffness::Along([1.0 / values.max(), 1.0 / least]))

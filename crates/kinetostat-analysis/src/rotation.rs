@@ -123,7 +123,9 @@ impl ContinuousRotation {
 }
 
 /// The rotation of `within` half a turn, by as many whole turns more as bring it next to `before`.
-fn continued(within: Vector3<f64>, before: &Vector3<f64>) -> Vector3<f64> {
+#[doc(hidden)]
+#[must_use]
+pub fn continued(within: Vector3<f64>, before: &Vector3<f64>) -> Vector3<f64> {
     // After whole turns the axis is lost in rounding: it is the last one.
     let axis = if within.norm() > 1e-5 {
         within.normalize()
@@ -141,26 +143,4 @@ fn nearest<E: CurveEquilibrium>(
 ) -> usize {
     let off = points.iter().map(off).enumerate();
     off.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |b| b.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn turns_go_on_beyond_one_and_come_back() {
-        let axis = Vector3::new(0.6, 0.0, -0.8);
-        let mut before = Vector3::zeros();
-        let there = (0..=60).map(|k| 0.21 * f64::from(k));
-        let back = (0..60).rev().map(|k| 0.21 * f64::from(k));
-        for angle in there.chain(back) {
-            let q = UnitQuaternion::from_scaled_axis(axis * angle);
-            before = continued(q.scaled_axis(), &before);
-            assert!((before - axis * angle).norm() < 1e-9, "{angle}: {before}");
-        }
-        // Exactly one turn, but for rounding in any direction.
-        let rounding = Vector3::new(1e-9, -2e-9, 1e-9);
-        let one = continued(rounding, &(axis * 6.2));
-        assert!((one - axis * TAU).norm() < 1e-8, "{one}");
-    }
 }

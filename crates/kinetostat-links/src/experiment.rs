@@ -7,6 +7,7 @@
 //! what is not is noise (or a mistake in axes and points): its share is reported, and compared with what
 //! the residuals of the fits explain.
 
+use kinetostat::number::larger;
 use kinetostat::number::short;
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 
@@ -76,7 +77,7 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
         .iter()
         .flat_map(|c| &c.places)
         .map(|p| (p - end).norm())
-        .fold(0.0, f64::max)
+        .fold(0.0, larger)
         .max(1e-3);
     let wrenches = DMatrix::from_fn(6, cases.len(), |i, m| cases[m].wrench[i]);
     let inverse = right_inverse(file, &wrenches, size)?;
@@ -183,7 +184,7 @@ fn stiffness_deviation(
 
 /// Why a compliance has no inverse: noise, or a mistake in the table.
 fn singular(file: &str, fits: &[RigidFit]) -> Error {
-    let worst = fits.iter().map(|f| f.not_rigid).fold(0.0, f64::max);
+    let worst = fits.iter().map(|f| f.not_rigid).fold(0.0, larger);
     if worst > NOISY {
         return Error::new(
             file,

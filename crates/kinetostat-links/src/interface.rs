@@ -7,6 +7,7 @@
 //! [Klimchik2013], A. Klimchik, A. Pashkevich, D. Chablat, "CAD-based approach for identification of
 //! elasto-static parameters of robotic manipulators", Finite Elements in Analysis and Design 75 (2013).
 
+use kinetostat::number::larger;
 use kinetostat::spatial::hat;
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
@@ -72,7 +73,7 @@ pub fn rigid_rank(places: &[Vector3<f64>]) -> RigidRank {
         * share)
         .sqrt();
     // Nodes at one place have no size; any will do, for their rotations are unknown in all.
-    let reach = places.iter().map(|p| p.norm()).fold(0.0, f64::max);
+    let reach = places.iter().map(|p| p.norm()).fold(0.0, larger);
     let unit = if size > 1e-9 * reach { size } else { 0.0 };
     let mut map = spider(places, &centre);
     for j in 3..6 {

@@ -21,6 +21,8 @@ mod error;
 mod experiment;
 mod files;
 mod interface;
+#[doc(hidden)]
+pub mod internal;
 mod stiffness_check;
 mod superelement;
 mod table;

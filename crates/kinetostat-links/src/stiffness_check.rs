@@ -1,6 +1,7 @@
 //! Is this 6 x 6 matrix the stiffness of a link? Symmetric, positive (semi-)definite, of which rank,
 //! and of a plausible size; and in words what it is not.
 
+use kinetostat::number::{larger, smaller};
 use kinetostat::number::{setting, short};
 use nalgebra::{Matrix6, Vector6};
 
@@ -254,12 +255,12 @@ fn softest(balanced: &Matrix6<f64>, scale: &Vector6<f64>) -> String {
 
 /// Sizes that are possible but unlikely: usually a unit is wrong.
 fn plausible(k: &Matrix6<f64>, findings: &mut Vec<Finding>) -> f64 {
-    let largest = |from: usize| (from..from + 3).map(|i| k[(i, i)]).fold(0.0, f64::max);
+    let largest = |from: usize| (from..from + 3).map(|i| k[(i, i)]).fold(0.0, larger);
     let (moves, turns) = (largest(0), largest(3));
     let softest = (0..3)
         .map(|i| k[(i, i)])
         .filter(|d| *d > 0.0)
-        .fold(f64::INFINITY, f64::min);
+        .fold(f64::INFINITY, smaller);
     let length = (turns / softest).sqrt();
     let mut doubt = |message: String| {
         findings.push(Finding {

@@ -7,6 +7,8 @@
 mod bounds;
 mod checks;
 mod field;
+#[doc(hidden)]
+pub mod internal;
 mod limits;
 mod load;
 mod map;

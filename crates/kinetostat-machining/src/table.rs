@@ -8,6 +8,7 @@ use kinetostat_program::{
 use crate::number::mean_length;
 use crate::result::tolerance;
 use crate::warning::{Warning, WarningCode};
+use kinetostat::number::{larger, smaller};
 
 /// The program as it will be written, and how far it is from the table.
 #[derive(Clone, Debug)]
@@ -74,8 +75,8 @@ pub fn wide_table(path: &Path, field: &CorrectionMap) -> Option<Warning> {
     let mut found = None;
     for axis in 0..3 {
         let places = || feeds().flat_map(|m| [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| m.point(s)[axis]));
-        let least = places().fold(f64::INFINITY, f64::min);
-        let program = places().fold(f64::NEG_INFINITY, f64::max) - least;
+        let least = places().fold(f64::INFINITY, smaller);
+        let program = places().fold(f64::NEG_INFINITY, larger) - least;
         let table = high[axis] - low[axis];
         if !(program > 0.0 && table > 0.0) {
             continue;

@@ -71,6 +71,8 @@ mod assembly;
 mod elements;
 mod exact;
 mod findings;
+#[doc(hidden)]
+pub mod internal;
 mod model;
 mod plausibility;
 mod presets;

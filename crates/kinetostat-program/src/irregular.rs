@@ -23,25 +23,3 @@ fn mixed(mut state: u64) -> u64 {
     state = (state ^ (state >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     state ^ (state >> 31)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::irregular;
-
-    #[test]
-    fn they_are_spread_evenly_and_repeat() {
-        let mut tenths = [0; 10];
-        for index in 0..5000 {
-            for k in 0..2 {
-                let place = irregular(7, index, k);
-                assert!(place > 0.0 && place < 1.0);
-                assert_eq!(place.to_bits(), irregular(7, index, k).to_bits());
-                tenths[(place * 10.0) as usize] += 1;
-            }
-        }
-        assert!(
-            tenths.iter().all(|count| (900..1100).contains(count)),
-            "{tenths:?}"
-        );
-    }
-}

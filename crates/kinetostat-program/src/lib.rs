@@ -43,6 +43,8 @@
 mod checking;
 mod error;
 mod field;
+#[doc(hidden)]
+pub mod internal;
 mod irregular;
 mod number;
 mod path;

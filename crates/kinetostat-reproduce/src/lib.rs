@@ -13,6 +13,8 @@ mod chapter_3;
 mod chapter_4;
 mod chapter_5;
 mod entry;
+#[doc(hidden)]
+pub mod internal;
 mod orthoglide;
 mod page;
 mod registry;

@@ -1,12 +1,12 @@
 //! The Orthoglide of chapters 5.5.3, 6 and 7.
 
 mod assembly;
-mod bars;
+pub(crate) mod bars;
 mod circle;
 mod flat;
 mod groove;
 mod line;
-mod machine;
+pub(crate) mod machine;
 mod toggle;
 
 pub(crate) use assembly::{table_6_1, table_6_2};

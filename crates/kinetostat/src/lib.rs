@@ -90,10 +90,13 @@ pub mod compensation;
 pub mod continuation;
 pub mod equilibrium;
 pub mod error;
+#[doc(hidden)]
+pub mod internal;
 pub mod linalg;
 pub mod machine;
 pub mod model;
 pub mod number;
+mod parallel;
 pub mod reference;
 mod settings;
 pub mod spatial;

@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
@@ -25,7 +26,8 @@ macro_rules! setters {
 pub(crate) use setters;
 
 /// Tolerances and limits; the defaults suit every machine in SI units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Settings {
     /// Largest closure left over, as a share of the chain's natural length. Default 1e-12.

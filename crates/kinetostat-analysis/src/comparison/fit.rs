@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use kinetostat::number::smaller;
 use kinetostat::{
     MotionKind, Pose, Twist,
     linalg::SingularValues,
@@ -83,7 +84,7 @@ impl Fit<'_> {
         let least = others
             .iter()
             .map(|m| self.rank(m))
-            .fold(f64::INFINITY, f64::min);
+            .fold(f64::INFINITY, smaller);
         others.retain(|m| self.rank(m) <= 1.2 * least);
         others
             .into_iter()

@@ -1,6 +1,7 @@
 //! The search for explanations, the simplest first.
 
 use kinetostat::Pose;
+use kinetostat::number::larger;
 
 use crate::measured_poses::changes::changes;
 use crate::measured_poses::explanation::{Axis, Explanation, Forward, Frame};
@@ -92,7 +93,7 @@ pub fn explain(
             let worst = differences
                 .iter()
                 .map(|g| tolerance.share(g))
-                .fold(0.0, f64::max);
+                .fold(0.0, larger);
             let whole = worst <= 1.0
                 && remaining_differences(forward, rows, axes, &candidate)
                     .is_some_and(|all| all.iter().all(|g| tolerance.share(g) <= 1.0));

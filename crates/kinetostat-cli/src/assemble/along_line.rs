@@ -1,6 +1,7 @@
 //! Along a line: deviations alone, load alone, both together, and the sum of both alone
 //! [R 6.5.2, figures 6.6 and 6.7].
 
+use kinetostat::number::larger;
 use kinetostat::{Mechanism, MechanismEquilibrium, Pose, Posture, PostureRequest, Wrench};
 use kinetostat_analysis::assembled::AssembledMachine;
 use kinetostat_machining::number::counted;
@@ -92,7 +93,7 @@ fn point(solved: &AssembledMachine, place: Vector3<f64>, distance_mm: f64) -> Po
     let inside = |of: fn(&Wrench) -> f64| {
         let own = built.limbs.iter().zip(&drawn.limbs);
         own.map(|(b, d)| of(&Wrench(b.wrench.0 - d.wrench.0)))
-            .fold(0.0, f64::max)
+            .fold(0.0, larger)
     };
     Point {
         distance_mm,
@@ -148,7 +149,7 @@ pub(crate) fn answer(
         posture.within_limits().map_err(located)?;
         let drawn =
             at(&question.perfect, &target, follows, near_drawn.as_ref()).map_err(located)?;
-        turned = turned.max(posture.target().rotation.angle_to(&target.rotation));
+        turned = larger(turned, posture.target().rotation.angle_to(&target.rotation));
         near = Some(posture.clone());
         let solved = AssembledMachine::solve(posture, &drawn, &query.wrench).map_err(located)?;
         near_drawn = Some(drawn);
@@ -180,7 +181,7 @@ pub(crate) fn answer(
         force_n: query.wrench.force().into(),
         moment_n_m: query.wrench.moment().into(),
         deviations: query.deviations.clone(),
-        largest_superposition_error_mm: points.iter().map(apart).fold(0.0, f64::max),
+        largest_superposition_error_mm: points.iter().map(apart).fold(0.0, larger),
         mean_superposition_error_mm: points.iter().map(apart).sum::<f64>() / count as f64,
         points,
         warnings,
@@ -311,7 +312,7 @@ pub(crate) fn in_words(question: &AssemblyQuery, a: &AlongLine) -> String {
     }
     let size = |of: fn(&Point) -> [f64; 3]| {
         let sizes = a.points.iter().map(|p| part(of(p), Component::Size));
-        sizes.fold(0.0, f64::max)
+        sizes.fold(0.0, larger)
     };
     let moment = a.points.iter().map(|p| p.largest_internal_moment_n_m);
     out.push('\n');
@@ -319,7 +320,7 @@ pub(crate) fn in_words(question: &AssemblyQuery, a: &AlongLine) -> String {
         &format!(
             "The deviations alone move the tool by up to {} mm and leave up to {} N m in a limb. With the load it is off by up to {} mm; adding up both alone errs by {} mm at most, {} mm in the mean.",
             fixed(size(|p| p.deviations_alone_mm), 4),
-            fixed(moment.fold(0.0, f64::max), 4),
+            fixed(moment.fold(0.0, larger), 4),
             fixed(size(|p| p.together_mm), 4),
             fixed(a.largest_superposition_error_mm, 4),
             fixed(a.mean_superposition_error_mm, 4),

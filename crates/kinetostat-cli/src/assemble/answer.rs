@@ -1,5 +1,6 @@
 //! What assembly locked in at one place: numbers with units, in every case.
 
+use kinetostat::number::larger;
 use kinetostat::{
     MechanismEquilibrium, MotionKind, Posture, Wrench,
     machine::{LinearAssembly, Overconstraint},
@@ -120,11 +121,11 @@ pub(crate) fn answer(question: &AssemblyQuery) -> Answer<Assembly> {
     let [perfect, built] = &solved.rest;
     let inside = |e: &MechanismEquilibrium| {
         let sizes = e.limbs.iter().map(|l| size(&l.wrench, length));
-        sizes.fold(0.0, f64::max)
+        sizes.fold(0.0, larger)
     };
     let acts = inside(perfect) > 1e-9 || perfect.displacement.0.norm() > 1e-12;
     // The first of those that are strained alike.
-    let largest = limbs.iter().map(|l| l.strain_n).fold(NOTHING_N, f64::max);
+    let largest = limbs.iter().map(|l| l.strain_n).fold(NOTHING_N, larger);
     let most = limbs.iter().find(|l| l.strain_n > (1.0 - 1e-6) * largest);
     let ends = solved.loaded.as_ref().map_or(built, |[_, built]| built);
     let mut warnings = query.warnings.clone();

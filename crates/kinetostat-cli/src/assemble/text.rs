@@ -6,6 +6,7 @@ use crate::assemble::table::{Row, decimals, rows};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::{fixed, load_triple, number};
 use crate::ui::warnings;
+use kinetostat::number::larger;
 
 /// Rows of a list that is not asked for as a whole.
 const SHOWN: usize = 12;
@@ -87,7 +88,7 @@ fn verdict(a: &Assembly) -> String {
             let unlike = norm(l.force_n.without_load_by_deviations);
             (unlike, norm(l.force_n.without_load))
         });
-        let (unlike, whole) = shares.fold((0.0_f64, 0.0_f64), |m, s| (m.0.max(s.0), m.1.max(s.1)));
+        let (unlike, whole) = shares.fold((0.0, 0.0), |m, s| (larger(m.0, s.0), larger(m.1, s.1)));
         return format!(
             "Nothing is locked in: the machine is statically determinate, its deviations only move it; {moved}. Weights, loads and preloads of the model pass through the limbs a little otherwise than in the machine as drawn under the same: the forces on their ends change by up to {} N, of up to {} N.",
             number(unlike, 3),
@@ -156,7 +157,7 @@ fn group(
         let same = of_group.iter().filter(|r| r.unit == unit);
         same.flat_map(|r| r.cases.all())
             .flatten()
-            .fold(0.0_f64, |m, x| m.max(x.abs()))
+            .fold(0.0_f64, |m, x| larger(m, x.abs()))
     };
     let cell = |row: &Row, x: f64| {
         let least = (1e-5 * most(row.unit)).max(0.5 * 0.1_f64.powi(decimals(row.unit)));

@@ -2,6 +2,7 @@
 //! units.
 
 use kinetostat::continuation::{BranchEnd, SpecialKind};
+use kinetostat::number::larger;
 use kinetostat_machining::{Warning, WarningCode};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -59,7 +60,7 @@ impl CurveAnswer {
         let start = self.branches.first().and_then(|b| b.points.first());
         let farthest = start.map_or(0.0, |start| {
             let start = Vector3::from(start.position_mm);
-            places.map(|p| (p - start).norm()).fold(0.0, f64::max)
+            places.map(|p| (p - start).norm()).fold(0.0, larger)
         });
         if farthest > STRETCHED * 1e3 * length {
             self.warnings.push(Warning::new(

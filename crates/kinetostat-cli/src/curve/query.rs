@@ -1,5 +1,6 @@
 //! The query of `curve`, from its options: what grows, how far, and what acts besides.
 
+use kinetostat::number::larger;
 use kinetostat::{EndCondition, Load, Parameter, Twist, Wrench, continuation::LoadPattern};
 use kinetostat_analysis::serial_chain::SerialChain;
 use nalgebra::{Vector3, Vector6};
@@ -93,7 +94,7 @@ fn given(value: f64) -> String {
 
 /// Three components that were asked for; what turning them left of nothing is nothing.
 fn given_triple(v: [f64; 3]) -> String {
-    let most = v.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let most = v.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
     triple(v, |x| {
         if x.abs() < 1e-12 * most {
             "0".into()

@@ -8,6 +8,7 @@ use crate::curve::verdict::{reach, verdict};
 use crate::ui::layout::{columns, item, wrapped};
 use crate::ui::numbers::number;
 use crate::ui::warnings;
+use kinetostat::number::larger;
 
 /// More ends of branches than this are only counted.
 const MOST_ENDS: usize = 6;
@@ -63,7 +64,7 @@ fn table(a: &CurveAnswer) -> String {
         a.named_points
             .iter()
             .map(|p| p.point.shown[k].abs())
-            .fold(0.0, f64::max)
+            .fold(0.0, larger)
     };
     let sizes = [size(0), size(1)];
     let mut rows = vec![header];
@@ -246,7 +247,7 @@ fn branches(a: &CurveAnswer) -> String {
         .flat_map(|b| &b.points)
         .filter_map(|p| p.share_to_buckling)
         .collect();
-    let most = shares.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let most = shares.iter().copied().fold(f64::NEG_INFINITY, larger);
     let at_start = a
         .named_points
         .first()

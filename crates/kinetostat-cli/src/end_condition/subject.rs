@@ -37,7 +37,7 @@ pub(crate) fn motion_in_words(
             .zip(motion)
             .filter(|(part, _)| part.1 == kind)
             .map(|(part, m)| m.abs() * unit_of(part.1))
-            .fold(0.0, f64::max)
+            .fold(0.0, kinetostat::number::larger)
     };
     let (turns, slides) = (
         largest(MotionKind::Revolute),

@@ -63,7 +63,7 @@ fn shape<S: Subject>(
         directions
             .filter(|d| !matches!(d.kind, DirectionKind::Free | DirectionKind::Rigid))
             .map(|d| d.stiffness_n_per_m)
-            .fold(f64::INFINITY, f64::min)
+            .fold(f64::INFINITY, kinetostat::number::smaller)
     };
     ShapeAnswer {
         number,

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use crate::equilibria::answer::EquilibriaAnswer;
 use crate::ui::numbers::number;
+use kinetostat::number::smaller;
 
 /// The shapes over the two axes of the base in which they differ most.
 pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
@@ -47,7 +48,7 @@ pub(crate) fn plot(a: &EquilibriaAnswer) -> Plot {
                     .filter(|other| *other != outline)
                     .flat_map(|other| other.iter())
                     .map(|q| (p - q).norm())
-                    .fold(f64::INFINITY, f64::min);
+                    .fold(f64::INFINITY, smaller);
                 (away, p)
             })
             .max_by(|x, y| x.0.total_cmp(&y.0));

@@ -7,6 +7,7 @@ use crate::equilibria::query::MOST_KNOWN;
 use crate::ui::layout::{WIDTH, columns, item, wrapped};
 use crate::ui::numbers::{fixed, number};
 use crate::ui::warnings;
+use kinetostat::number::larger;
 
 /// More equilibria than this are only counted on the screen.
 const MOST_SHOWN: usize = 20;
@@ -90,7 +91,7 @@ fn table(a: &EquilibriaAnswer) -> String {
         a.equilibria
             .iter()
             .flat_map(|e| list.clone().map(move |k| component(e, k).abs()))
-            .fold(0.0, f64::max)
+            .fold(0.0, larger)
     };
     let most = [most(0..3), most(3..6)];
     let names = ["fx, N", "fy, N", "fz, N", "mx, N m", "my, N m", "mz, N m"];

@@ -4,6 +4,7 @@ use kinetostat_analysis::instability::{InstabilityShares, LimbShare, LinkShare, 
 use kinetostat_machining::number as formatter;
 
 use crate::ui::numbers::number;
+use kinetostat::number::larger;
 
 /// Shares below are nothing.
 const NOTHING: f64 = 1e-9;
@@ -35,7 +36,7 @@ pub(crate) fn in_words(shares: &InstabilityShares<'_>, under_load: bool) -> Stri
     }
     let mut most = shares.limb.map_or(0.0, |l| l.share);
     if let Some(LinkShare { share, limb, link }) = shares.link.filter(|l| l.share > 0.0) {
-        most = most.max(share);
+        most = larger(most, share);
         parts.push(format!(
             "the link nearest to its Euler load is '{link}' of '{limb}', {} of it",
             formatter::share(share)

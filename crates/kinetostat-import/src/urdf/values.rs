@@ -6,6 +6,7 @@ use roxmltree::Node;
 
 use crate::log::{At, Log};
 use crate::urdf::robot::Origin;
+use kinetostat::number::larger;
 
 impl Reader<'_> {
     pub(crate) fn at(&self, node: Node<'_, '_>, element: &str) -> At {
@@ -83,7 +84,7 @@ impl Reader<'_> {
                 &at,
                 format!(
                     "an offset is {:.1} m long",
-                    origin.xyz.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
+                    origin.xyz.iter().fold(0.0_f64, |m, x| larger(m, x.abs()))
                 ),
                 "lengths of a URDF are metres; are these millimetres?",
             );

@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout)] // figures
 
 mod figures;
+mod internal;
 mod matrices;
 
 use kinetostat_links::Text;

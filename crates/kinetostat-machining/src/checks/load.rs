@@ -156,20 +156,3 @@ pub(crate) fn never_acts(task: &Task<'_>, points: &[PointResult]) -> Option<Warn
         format!("the load never acts: {why}; only weights and deviations are corrected"),
     ))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_load_of_a_place_is_large_where_that_of_a_program_is_refused() {
-        let limits = Limits::default();
-        let count = |force: f64, moment: f64| {
-            let wrench = Wrench::new(Vector3::z() * force, Vector3::x() * moment);
-            large_load(&wrench).len()
-        };
-        assert_eq!(count(limits.force_n, limits.moment_n_m), 0);
-        assert_eq!(count(-1.001 * limits.force_n, 0.0), 1);
-        assert_eq!(count(1e300, -1.001 * limits.moment_n_m), 2);
-    }
-}

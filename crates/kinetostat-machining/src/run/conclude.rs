@@ -1,5 +1,6 @@
 //! The result of a run: what was asked, its figures, warnings and points.
 
+use kinetostat::number::{larger, smaller};
 use kinetostat::{Mechanism, MotionKind};
 use kinetostat_program::{Corrected, Path};
 
@@ -146,8 +147,8 @@ fn feed_box(points: &[PointResult]) -> ([f64; 3], [f64; 3]) {
         return ([0.0; 3], [0.0; 3]);
     }
     let values = |k: usize| feed().map(move |p| p.position_mm[k]);
-    let lower = [0, 1, 2].map(|k| values(k).fold(f64::INFINITY, f64::min));
-    let upper = [0, 1, 2].map(|k| values(k).fold(f64::NEG_INFINITY, f64::max));
+    let lower = [0, 1, 2].map(|k| values(k).fold(f64::INFINITY, smaller));
+    let upper = [0, 1, 2].map(|k| values(k).fold(f64::NEG_INFINITY, larger));
     (lower, upper)
 }
 

@@ -9,6 +9,7 @@ use crate::result::point::{PointKind, PointResult, size};
 use crate::result::summary::Summary;
 use crate::run::checked::Checked;
 use crate::task::Task;
+use kinetostat::number::smaller;
 
 pub(crate) fn summarise(
     task: &Task<'_>,
@@ -69,7 +70,7 @@ pub(crate) fn summarise(
         smallest_stiffness_n_per_mm: cutting
             .iter()
             .map(|p| p.smallest_stiffness_n_per_mm)
-            .fold(f64::INFINITY, f64::min),
+            .fold(f64::INFINITY, smaller),
         largest_share_to_buckling: cutting
             .iter()
             .filter_map(|p| p.share_to_buckling)

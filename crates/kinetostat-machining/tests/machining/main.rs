@@ -9,6 +9,7 @@
 )]
 
 mod again;
+mod internal;
 mod load;
 mod map;
 mod orientation_follows;

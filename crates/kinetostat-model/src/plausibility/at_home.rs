@@ -1,5 +1,7 @@
 //! Where the parts of a limb are when the machine is at home, and which weight its joints carry.
 
+use kinetostat::number::larger;
+use kinetostat::number::smaller;
 use kinetostat::{Chain, Mechanism, MotionKind, Pose, model::Element};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
@@ -47,7 +49,7 @@ pub(crate) fn machine_size(mechanism: &Mechanism) -> f64 {
         at.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>()
     };
     let limbs = mechanism.limbs().iter();
-    limbs.map(|l| length(&l.nominal)).fold(0.0, f64::max)
+    limbs.map(|l| length(&l.nominal)).fold(0.0, larger)
 }
 
 /// The body whose centre of mass is farthest from the nearest joint or end of its limb, and that
@@ -73,7 +75,7 @@ pub(crate) fn farthest(chain: &Chain) -> Option<(String, f64)> {
         .filter_map(|b| {
             let centre = at(b.node)?;
             let away = near.iter().map(|p| (centre - p).norm());
-            Some((b.name.clone(), away.fold(f64::INFINITY, f64::min)))
+            Some((b.name.clone(), away.fold(f64::INFINITY, smaller)))
         })
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }

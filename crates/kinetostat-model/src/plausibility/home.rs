@@ -1,5 +1,6 @@
 //! Figures that are possible but unlikely: usually a unit or a decimal point is wrong.
 
+use kinetostat::number::larger;
 use kinetostat::number::{apart, short};
 use kinetostat::{Chain, Mechanism, Pose};
 
@@ -19,7 +20,7 @@ fn tip(chain: &Chain) -> (Pose, f64) {
     let reach = frames.iter().skip(1).map(|f| (at(f) - origin).norm());
     (
         frames.last().copied().unwrap_or_default(),
-        reach.fold(0.0, f64::max),
+        reach.fold(0.0, larger),
     )
 }
 

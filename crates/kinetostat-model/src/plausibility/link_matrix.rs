@@ -1,6 +1,7 @@
 //! What speaks against a 6 x 6 matrix being the stiffness of a link at its far end: a direction that
 //! is nearly free, couplings of the wrong end, a size out of proportion.
 
+use kinetostat::number::larger;
 use kinetostat::number::short;
 use nalgebra::{Matrix6, Vector6};
 
@@ -199,7 +200,7 @@ pub(crate) fn check(document: &Document, warnings: &mut Vec<Finding>) {
         {
             warnings.push(Finding::new(&place, message, help));
         }
-        let largest = (0..3).map(|i| k[(i, i)]).fold(0.0, f64::max);
+        let largest = (0..3).map(|i| k[(i, i)]).fold(0.0, larger);
         if !(1e3..=1e12).contains(&largest) {
             warnings.push(Finding::new(
                 &place,

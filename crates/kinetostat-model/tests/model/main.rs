@@ -7,6 +7,7 @@ mod controller;
 mod deviations;
 mod format;
 mod identical;
+mod internal;
 mod library;
 mod link_matrices;
 mod loads_and_links;

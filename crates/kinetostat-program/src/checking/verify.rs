@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::error::{ProgramError, WriteError};
 use crate::irregular::irregular;
+use crate::number::larger;
 use crate::path::curve::{Curve, NO_LENGTH_MM};
 use crate::path::moves::{ExtraMode, FeedMode, Knowledge, Move, MoveKind, Path};
 use crate::reading::interpret::interpret;
@@ -190,7 +191,7 @@ impl Verifier<'_> {
             let share = piece.share_from + (piece.share_to - piece.share_from) * part;
             let commanded = read.point(part);
             let distance = (commanded - motion.point(share)).norm();
-            self.found.largest_distance_mm = self.found.largest_distance_mm.max(distance);
+            self.found.largest_distance_mm = larger(self.found.largest_distance_mm, distance);
             if distance > allowed {
                 return Err(fail(
                     motion.line,
@@ -250,7 +251,7 @@ impl Verifier<'_> {
             return Ok(());
         }
         let error = (speed / feed.value - 1.0).abs();
-        self.found.largest_speed_error = self.found.largest_speed_error.max(error);
+        self.found.largest_speed_error = larger(self.found.largest_speed_error, error);
         if error > SPEED_TOLERANCE {
             return Err(fail(
                 motion.line,

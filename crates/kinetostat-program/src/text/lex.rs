@@ -97,39 +97,3 @@ fn number(input: &mut Input<'_>) -> Result<f64, winnow::error::EmptyError> {
         .verify_map(|digits: &[u8]| std::str::from_utf8(digits).ok()?.parse().ok())
         .parse_next(input)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn words(line: &str) -> Vec<(char, f64)> {
-        let mut tokens = Vec::new();
-        tokens_of(line.as_bytes(), &mut tokens);
-        let end = tokens.iter().fold(0, |end, token| {
-            assert_eq!(token.span.start, end, "no byte is skipped in {line:?}");
-            token.span.end
-        });
-        assert_eq!(end, line.len(), "no byte is lost in {line:?}");
-        tokens
-            .into_iter()
-            .filter_map(|token| match token.token {
-                Token::Word { letter, value, .. } => Some((char::from(letter), value)),
-                _ => None,
-            })
-            .collect()
-    }
-
-    #[test]
-    fn words_need_no_spaces_and_numbers_need_no_leading_digit() {
-        let expected = vec![
-            ('N', 10.0),
-            ('G', 1.0),
-            ('X', -0.5),
-            ('Y', 3.0),
-            ('F', 1200.0),
-        ];
-        assert_eq!(words("n10g1x-.5Y+3.F1200"), expected);
-        assert_eq!(words("N10 G 1 X -.5\tY+3. F1200 ; X9"), expected);
-        assert_eq!(words("N10 (X7) G1 X-.5(Y8)Y3 F1200 (open"), expected);
-    }
-}

@@ -9,14 +9,16 @@
 
 use nalgebra::Vector3;
 
+use crate::number::larger;
+
 /// Values of a correction on a stretch, at its ends and quarters.
-pub(crate) type Values = [Vector3<f64>; 5];
+pub type Values = [Vector3<f64>; 5];
 
 /// Steps of the grid in one quarter of the stretch.
 const STEPS: usize = 4;
 
 /// The polynomial through five values at a part of the stretch.
-pub(crate) fn polynomial(values: &Values, part: f64) -> Vector3<f64> {
+pub fn polynomial(values: &Values, part: f64) -> Vector3<f64> {
     // Newton's forward differences, x from 0 to 4.
     let x = 4.0 * part;
     let mut row = *values;
@@ -33,7 +35,7 @@ pub(crate) fn polynomial(values: &Values, part: f64) -> Vector3<f64> {
 }
 
 /// Values at the quarters of the parabola through ends and middle.
-pub(crate) fn parabola(first: Vector3<f64>, middle: Vector3<f64>, last: Vector3<f64>) -> Values {
+pub fn parabola(first: Vector3<f64>, middle: Vector3<f64>, last: Vector3<f64>) -> Values {
     let bulge = middle - first.lerp(&last, 0.5);
     let quarter = |part: f64| first.lerp(&last, part) + bulge * (4.0 * part * (1.0 - part));
     [first, quarter(0.25), middle, quarter(0.75), last]
@@ -41,7 +43,7 @@ pub(crate) fn parabola(first: Vector3<f64>, middle: Vector3<f64>, last: Vector3<
 
 /// Upper bound of the distance between the polynomial through the values and the straight line from
 /// `chord[0]` to `chord[1]`, at equal parts.
-pub(crate) fn departure(values: &Values, chord: [Vector3<f64>; 2]) -> f64 {
+pub fn departure(values: &Values, chord: [Vector3<f64>; 2]) -> f64 {
     let mut off = *values;
     for (i, value) in off.iter_mut().enumerate() {
         *value -= chord[0].lerp(&chord[1], 0.25 * i as f64);
@@ -57,7 +59,7 @@ pub(crate) fn departure(values: &Values, chord: [Vector3<f64>; 2]) -> f64 {
     let grid = 4 * STEPS;
     let on_grid = (0..=grid)
         .map(|i| polynomial(&off, i as f64 / grid as f64).norm())
-        .fold(0.0, f64::max);
+        .fold(0.0, larger);
     on_grid + between
 }
 
@@ -67,7 +69,7 @@ pub(crate) fn departure(values: &Values, chord: [Vector3<f64>; 2]) -> f64 {
 ///
 /// By Hermite's formula on a contour at that distance, `|f - P| <= max|f| (1 + l / (pi r)) max|w| / r^n`,
 /// `w` the product of the distances to the `n` places.
-pub(crate) fn remainder(points: u8, size: f64, length: f64, radius: f64) -> f64 {
+pub fn remainder(points: u8, size: f64, length: f64, radius: f64) -> f64 {
     let ratio = length / radius;
     let largest = 2.0 * size * (1.0 + ratio / std::f64::consts::PI);
     if points == 3 {
@@ -76,62 +78,5 @@ pub(crate) fn remainder(points: u8, size: f64, length: f64, radius: f64) -> f64 
     } else {
         // (l/4)^5 times 3.632
         largest * 0.003_55 * ratio.powi(5)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use kinetostat_testing::{Worst, largest_size};
-
-    fn values(f: impl Fn(f64) -> f64) -> Values {
-        std::array::from_fn(|i| Vector3::new(f(0.25 * i as f64), 0.0, 0.0))
-    }
-
-    #[test]
-    fn a_quartic_is_met_and_its_departure_is_bounded_closely() {
-        let f = |t: f64| 0.3 - t + 2.0 * t * t - 5.0 * t.powi(3) + 1.7 * t.powi(4);
-        let known = values(f);
-        let chord = [Vector3::new(0.1, 0.0, 0.0), Vector3::new(-2.0, 0.0, 0.0)];
-        let mut largest = Worst::new();
-        for i in 0..=5000 {
-            let t = f64::from(i) / 5000.0;
-            assert!((polynomial(&known, t).x - f(t)).abs() < 1e-12);
-            largest.add(f(t) - chord[0].lerp(&chord[1], t).x);
-        }
-        let (largest, bound) = (largest.of(5001), departure(&known, chord));
-        assert!(
-            bound >= largest && bound < 1.1 * largest,
-            "{bound} {largest}"
-        );
-    }
-
-    #[test]
-    fn a_parabola_is_bounded_to_half_a_percent() {
-        let f = |t: f64| t * t;
-        let chord = [Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0)];
-        let bound = departure(&values(f), chord);
-        assert!((0.25..0.251_3).contains(&bound), "{bound}");
-        let middle = Vector3::new(0.25, 0.0, 0.0);
-        assert!((parabola(chord[0], middle, chord[1])[1].x - 0.0625).abs() < 1e-15);
-    }
-
-    #[test]
-    fn the_remainder_holds_for_functions_with_a_pole_at_that_distance() {
-        // 1 / (r + x) has its pole at -r; at half that distance it is at most 2/r = twice its value at 0.
-        for radius in [0.5, 1.0, 3.0] {
-            let f = |x: f64| 1.0 / (radius + x);
-            for length in [0.05_f64, 0.2, 0.4] {
-                let known = values(|t| f(t * length));
-                let three = parabola(known[0], known[2], known[4]);
-                let missed = |values: &Values| {
-                    let shares = (0..=400).map(|i| f64::from(i) / 400.0);
-                    largest_size(shares.map(|t| polynomial(values, t).x - f(t * length)))
-                };
-                let bound = |points| remainder(points, f(0.0), length, 0.5 * radius);
-                assert!(missed(&known) <= bound(5) + 1e-15, "{radius} {length}");
-                assert!(missed(&three) <= bound(3) + 1e-15, "{radius} {length}");
-            }
-        }
     }
 }

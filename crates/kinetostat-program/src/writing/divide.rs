@@ -23,6 +23,7 @@ use nalgebra::Vector3;
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Course, Monitor, Request};
 use crate::irregular::irregular;
+use crate::number::larger;
 use crate::path::curve::Curve;
 use crate::path::moves::Path;
 use crate::writing::corner::follow_turns;
@@ -117,7 +118,7 @@ impl Stretch {
                     .iter()
                     .chain(seen)
                     .map(Vector3::norm)
-                    .fold(tolerance, f64::max);
+                    .fold(tolerance, larger);
                 let radius = match &motion.curve {
                     Curve::Line => radius_mm,
                     Curve::Arc(arc) => radius_mm.min(arc.start_radius.min(arc.end_radius)),

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::error::WriteError;
 use crate::number::at_most;
+use crate::number::{larger, smaller};
 use crate::path::curve::Curve;
 use crate::path::moves::{Change, Knowledge, Move, MoveKind, Path, Warning};
 use crate::path::position_offset::{OffsetChange, PositionOffset};
@@ -433,7 +434,7 @@ impl<'a> Emitter<'a> {
                     );
                 } else {
                     let taken_up = &mut self.accounting.largest_jump_taken_up_mm;
-                    *taken_up = taken_up.max(jump);
+                    *taken_up = larger(*taken_up, jump);
                 }
             }
         }
@@ -455,7 +456,7 @@ impl<'a> Emitter<'a> {
         };
         let accounting = &mut self.accounting;
         let rounding = (self.state.position - step.target).norm();
-        accounting.largest_rounding_mm = accounting.largest_rounding_mm.max(rounding);
+        accounting.largest_rounding_mm = larger(accounting.largest_rounding_mm, rounding);
         if step.corrected {
             let correction = (step.target - motion.point(step.share_to)).norm();
             if correction > accounting.largest_correction_mm {
@@ -465,7 +466,8 @@ impl<'a> Emitter<'a> {
         }
         if step.corner_step {
             accounting.corner_steps += 1;
-            accounting.largest_corner_step_mm = accounting.largest_corner_step_mm.max(written_mm);
+            accounting.largest_corner_step_mm =
+                larger(accounting.largest_corner_step_mm, written_mm);
         }
         if motion.kind != MoveKind::Feed {
             self.rate.note(None);
@@ -477,7 +479,7 @@ impl<'a> Emitter<'a> {
             accounting.feed_limited_line.get_or_insert(motion.line);
             let speed = self.options.max_feed_factor * part_mm / written_mm;
             let slowest = accounting.slowest_limited_speed.get_or_insert(speed);
-            *slowest = slowest.min(speed);
+            *slowest = smaller(*slowest, speed);
         }
         if motion.known == Knowledge::Whole {
             accounting.feed_length_out_mm += written_mm;
@@ -534,7 +536,7 @@ impl<'a> Emitter<'a> {
                 accounting.largest_backward_line = Some(motion.line);
             }
         }
-        accounting.largest_backward_mm = accounting.largest_backward_mm.max(backward);
+        accounting.largest_backward_mm = larger(accounting.largest_backward_mm, backward);
     }
 
     fn note_block(&mut self, line: &Line, motion: &Move, pieces: usize, before: usize) {
@@ -572,7 +574,7 @@ impl<'a> Emitter<'a> {
 }
 
 /// A share in percent with two digits, neither stated too large nor as nothing.
-fn least_percent(share: f64) -> String {
+pub fn least_percent(share: f64) -> String {
     let percent = 100.0 * share;
     if percent < 1e-3 {
         return "less than 0.001".to_owned();
@@ -587,25 +589,5 @@ fn counted(count: usize, one: &str) -> String {
     match count {
         1 => format!("1 {one}"),
         _ => format!("{count} {one}s"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::least_percent;
-
-    #[test]
-    fn the_slowest_speed_is_never_nothing_and_never_too_large() {
-        for (share, told) in [
-            (0.999, "99"),
-            (0.5, "50"),
-            (0.058_26, "5.8"),
-            (0.001_999, "0.19"),
-            (4.3e-5, "0.0043"),
-            (1e-9, "less than 0.001"),
-            (0.0, "less than 0.001"),
-        ] {
-            assert_eq!(least_percent(share), told, "{share}");
-        }
     }
 }

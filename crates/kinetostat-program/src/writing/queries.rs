@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::error::WriteError;
 use crate::field::request::{CorrectionField, Monitor, Request};
+use crate::number::larger;
 use crate::path::moves::{Knowledge, Path};
 
 /// Asks the field and checks its answers.
@@ -62,7 +63,7 @@ impl FieldQueries<'_> {
                 };
                 for axis in 0..3 {
                     if !self.path.stated[axis] {
-                        self.left_out_mm = self.left_out_mm.max(value[axis].abs());
+                        self.left_out_mm = larger(self.left_out_mm, value[axis].abs());
                         value[axis] = 0.0;
                     }
                 }

@@ -1,5 +1,6 @@
 //! What passive joints do to the stiffness of a link: equation 3.26, Tables 3.1 to 3.3.
 
+use kinetostat::number::larger;
 use kinetostat::{
     BeamSection, Chain, Error, MotionKind, Pose,
     reference::{
@@ -65,7 +66,7 @@ fn difference(one: &Matrix6<f64>, other: &Matrix6<f64>) -> Result<f64, Cause> {
     for i in 0..6 {
         for j in 0..6 {
             let size = (link[(i, i)] * link[(j, j)]).sqrt();
-            most = most.max((one[(i, j)] - other[(i, j)]).abs() / size);
+            most = larger(most, (one[(i, j)] - other[(i, j)]).abs() / size);
         }
     }
     Ok(most)
@@ -284,7 +285,7 @@ fn against_elimination(
             let (i, j) = (n / 3, n % 3);
             (chain[(i, j)] - own[(i, j)]).abs() / (beam[(i, i)] * beam[(j, j)]).sqrt()
         })
-        .fold(0.0, f64::max);
+        .fold(0.0, larger);
     Item::unprinted(
         format!("{joint}: the rule against elimination on a chain, largest difference as a share"),
         most,

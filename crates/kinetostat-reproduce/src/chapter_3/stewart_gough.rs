@@ -1,5 +1,6 @@
 //! Two platforms on six legs [R 3.34, 3.35].
 
+use kinetostat::number::larger;
 use kinetostat::{
     ActuatorSpec, Chain, DirectionKind, Limb, Mechanism, MotionKind, Platform, Pose,
     UnloadedStiffness,
@@ -96,7 +97,7 @@ fn compare(k: &UnloadedStiffness, length: f64, printed: &[Entry], notes: &str) -
     for i in 1..=6 {
         for j in i..=6 {
             if !shown.contains(&(i, j)) {
-                most = most.max(k.cartesian.matrix[(i - 1, j - 1)].abs() / LEG);
+                most = larger(most, k.cartesian.matrix[(i - 1, j - 1)].abs() / LEG);
             }
         }
     }

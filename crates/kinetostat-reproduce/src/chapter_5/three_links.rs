@@ -1,6 +1,7 @@
 //! Three rigid links with two torsion springs, straight (S) or zigzag (Z) at rest [R 5.5.1]: Table
 //! 5.1, equations 5.32 to 5.34, 5.41 and 5.42.
 
+use kinetostat::number::larger;
 use kinetostat::{
     Chain, ChainProblem, DirectionKind, EndCondition, Equilibrium, Pose, Prescribed, Settings,
     Wrench, equilibria,
@@ -403,7 +404,7 @@ pub(crate) fn eq_5_41() -> Result<Contents, Cause> {
     let mut most = 0.0_f64;
     for (i, j, text, printed, corrected) in rows {
         let own = g[(i - 1, j - 1)];
-        most = most.max((own - corrected).abs());
+        most = larger(most, (own - corrected).abs());
         let name = format!("J^T J, row {i}, column {j} / l^2");
         items.push(Item::wrong_formula(name, text, printed, own, "", note));
     }

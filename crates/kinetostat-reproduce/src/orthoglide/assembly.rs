@@ -1,5 +1,6 @@
 //! Tables 6.1 and 6.2: legs with errors, assembled without a load [R 6.5.1].
 
+use kinetostat::number::larger;
 use kinetostat::{
     Mechanism, MechanismEquilibrium, MotionKind, Posture, Wrench, machine::LinearAssembly,
     model::Role,
@@ -22,7 +23,7 @@ struct Row {
 }
 
 fn most(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |m, x| m.max(x.abs()))
+    values.into_iter().fold(0.0, |m, x| larger(m, x.abs()))
 }
 
 /// Largest spring deflections and torques over the legs; torques by each leg's own stiffness.

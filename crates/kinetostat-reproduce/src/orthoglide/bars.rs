@@ -12,7 +12,7 @@ use crate::Cause;
 use crate::orthoglide::machine::{FOOT, Orthoglide, WIDTH, axes, bar, head};
 
 /// Such a machine at one nominal target of the tool, and the joints that command it.
-pub(super) struct Barred {
+pub(crate) struct Barred {
     pub(super) mechanism: Mechanism,
     pub(super) joints: Vec<LimbPosture>,
     pub(super) target: Pose,
@@ -20,7 +20,7 @@ pub(super) struct Barred {
 
 impl Barred {
     /// Bars in `segments` segments of a convention.
-    pub(super) fn new(
+    pub(crate) fn new(
         machine: &Orthoglide,
         target: &Pose,
         convention: LinkConvention,
@@ -111,7 +111,7 @@ impl Barred {
     }
 
     /// Commanded for its target.
-    pub(super) fn posture(&self) -> Result<Posture, Cause> {
+    pub(crate) fn posture(&self) -> Result<Posture, Cause> {
         Ok(self
             .mechanism
             .posture(PostureRequest::joints(&self.target, self.joints.clone()))?)
@@ -129,40 +129,4 @@ fn coordinates_with(chain: &Chain, set: &[(&str, f64)]) -> Vec<f64> {
         }
     }
     coordinates
-}
-
-#[cfg(test)]
-mod tests {
-    use kinetostat_testing::LargestEntry;
-
-    use super::*;
-    use crate::orthoglide::machine::{POINTS, cutting, target};
-
-    /// Two bars between two beams are what the lumped parallelogram stands for: the same stiffness
-    /// (to rounding), and loaded, with springs of the same convention, a
-    /// motion that differs by less than 1.4e-4 mm (reference numbers, section 2.0).
-    #[test]
-    fn bars_stand_for_the_lumped_spring() {
-        let machine = Orthoglide::default();
-        let lumped = machine.build().expect("machine");
-        for (name, point) in POINTS {
-            let home = target(point);
-            let posture = lumped.posture(&home).expect(name);
-            let k = posture.stiffness().expect(name).cartesian.matrix;
-            let loaded = posture.deflected_by(&cutting(0.0)).expect(name);
-            for convention in [LinkConvention::TranslationsFirst, LinkConvention::Bowing] {
-                let barred = Barred::new(&machine, &home, convention, 1).expect(name);
-                let posture = barred.posture().expect(name);
-                let rest = posture.wrench_at(&home).expect(name);
-                assert!(rest.wrench.0.largest_entry() < 1e-6, "{name}");
-                let apart = (rest.stiffness.matrix - k).largest_entry() / k.largest_entry();
-                assert!(apart < 1e-11, "{name}: {apart:e}");
-                if convention == LinkConvention::TranslationsFirst {
-                    let e = posture.deflected_by(&cutting(0.0)).expect(name);
-                    let apart = (e.displacement.linear() - loaded.displacement.linear()).norm();
-                    assert!(apart < 2e-7, "{name}: {apart:e} m");
-                }
-            }
-        }
-    }
 }

@@ -1,6 +1,8 @@
 //! A groove milled in a circle, compensated [R 7.5]: the machine, the circle and the load at every
 //! angle, and what the report's figures show of it.
 
+use kinetostat::number::larger;
+use kinetostat::number::smaller;
 use kinetostat::{
     Directions, Mechanism, Pose, Settings, Wrench, compensate, spatial::pose_residual,
 };
@@ -195,7 +197,7 @@ impl Circle {
         self.points
             .iter()
             .map(value)
-            .fold(f64::NEG_INFINITY, f64::max)
+            .fold(f64::NEG_INFINITY, larger)
     }
 
     /// Largest displacement by the cutting force alone, mm.
@@ -220,7 +222,7 @@ impl Circle {
 
     /// Smallest value along the circle.
     pub(super) fn least(&self, value: impl Fn(&At) -> f64) -> f64 {
-        self.points.iter().map(value).fold(f64::INFINITY, f64::min)
+        self.points.iter().map(value).fold(f64::INFINITY, smaller)
     }
 
     /// Mean over the circle (the last point repeats the first).

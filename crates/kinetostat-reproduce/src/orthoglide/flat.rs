@@ -1,6 +1,7 @@
 //! Table 5.3 and Figure 5.11: the neighbourhood of the flat posture [R 5.5.3].
 
 use kinetostat::model::LinkConvention;
+use kinetostat::number::larger;
 use kinetostat_model::Model;
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use rayon::prelude::*;
@@ -104,7 +105,7 @@ impl Configuration {
             let force = curve.force(moved.abs() * share.signum());
             let force = force.ok_or_else(|| missing("a point"))?;
             let held = hold(&posture, self.at, moved.abs() * share.signum())?;
-            apart = apart.max((held.force - force).abs());
+            apart = larger(apart, (held.force - force).abs());
         }
         let bowed = Bars::new(self.at, LinkConvention::default())?;
         let others = CONVENTIONS

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::orthoglide::circle::{At, Circle, READINGS, Reading};
 use crate::orthoglide::machine::{POINTS, cutting};
 use crate::{Cause, Contents, Item};
+use kinetostat::number::{larger, smaller};
 
 /// What is true of all of chapter 7.
 const FRAME: &str = "The report gives neither the stiffness of the drives nor the places of the circles (they are in its figures only); its numbers are good to ±30 %.";
@@ -108,8 +109,8 @@ fn plan(title: String, circle: &Circle, paths: &[Path]) -> Plot {
         .collect();
     let all = || lines.iter().flat_map(|l| l.points.iter());
     let span = |of: fn(&(f64, f64)) -> f64| {
-        let low = all().map(of).fold(0.0, f64::min);
-        let high = all().map(of).fold(0.0, f64::max);
+        let low = all().map(of).fold(0.0, smaller);
+        let high = all().map(of).fold(0.0, larger);
         (0.5 * (low + high), 0.5 * (high - low))
     };
     let (x, y) = (span(|p| p.0), span(|p| p.1));

@@ -1,5 +1,6 @@
 //! Figures 6.6 and 6.7: milling along the line from Q2 to Q5, legs with errors [R 6.5.2].
 
+use kinetostat::number::larger;
 use kinetostat::{Mechanism, Wrench};
 use kinetostat_report::{Plot, PlotLine};
 use nalgebra::Vector3;
@@ -79,7 +80,8 @@ const CURVES: [Curve; 5] = [
 fn figure(case: &Orthoglide, name: &str) -> Result<Contents, Cause> {
     let points = line(case)?;
     let few: Vec<&Sources> = points.iter().step_by(4).map(|(_, s)| s).collect();
-    let most = |value: &dyn Fn(&Sources) -> f64| few.iter().fold(0.0_f64, |m, s| m.max(value(s)));
+    let most =
+        |value: &dyn Fn(&Sources) -> f64| few.iter().fold(0.0_f64, |m, s| larger(m, value(s)));
     let least = |value: &dyn Fn(&Sources) -> f64| -most(&|s| 1e3 - value(s)) + 1e3;
     #[allow(clippy::cast_precision_loss)] // eleven points
     let mean = |value: &dyn Fn(&Sources) -> f64| {

@@ -29,7 +29,7 @@ pub(super) const LARGE: f64 = 0.126_35;
 pub(super) const SMALL: f64 = -0.073_65;
 
 /// Q0 to Q4 of chapter 6 (m).
-pub(super) const POINTS: [(&str, [f64; 3]); 5] = [
+pub(crate) const POINTS: [(&str, [f64; 3]); 5] = [
     ("Q0", [0.0, 0.0, 0.0]),
     ("Q1", [LARGE, LARGE, LARGE]),
     ("Q2", [SMALL, SMALL, SMALL]),
@@ -44,7 +44,7 @@ pub(super) const TOOL: f64 = 0.100;
 
 /// What is varied.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Orthoglide {
+pub(crate) struct Orthoglide {
     /// Length of the bars, m.
     pub(super) bar_length: f64,
     /// Stiffness of the drives, N/m.
@@ -87,7 +87,7 @@ impl Orthoglide {
     }
 
     /// Each leg one chain, its parallelogram one spring: the report's model.
-    pub(super) fn build(&self) -> Result<Mechanism, Cause> {
+    pub(crate) fn build(&self) -> Result<Mechanism, Cause> {
         let mut builder = Mechanism::builder("orthoglide");
         let tool = builder.platform(Platform::new("tool", Pose::identity()));
         for leg in 0..3 {
@@ -199,14 +199,14 @@ pub(super) fn bar() -> Matrix6<f64> {
 }
 
 /// A target of the tool (m), not turned.
-pub(super) fn target(point: [f64; 3]) -> Pose {
+pub fn target(point: [f64; 3]) -> Pose {
     Pose::translation(point[0], point[1], point[2])
 }
 
 /// Cutting forces on the platform while the tool's edge stands at `angle` (rad) about z [R 7.16, and
 /// 7.17 with the sign of erratum 12 of part 2]: radial force outwards, tangential force forwards, the
 /// tip one tool length along z.
-pub(super) fn cutting(angle: f64) -> Wrench {
+pub fn cutting(angle: f64) -> Wrench {
     let [radial, tangential, axial] = CUTTING_N;
     let (s, c) = angle.sin_cos();
     let force = vector![
@@ -223,33 +223,4 @@ pub(super) fn inclination(posture: &Posture, leg: usize) -> f64 {
         .nominal
         .indices_of(Role::Passive);
     posture.limbs()[leg].coordinates[joints[1]]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use kinetostat_model::Model;
-    use kinetostat_testing::LargestEntry;
-
-    #[test]
-    fn the_machine_is_the_preset() {
-        let preset = Model::preset("orthoglide").expect("preset").mechanism;
-        let own = Orthoglide::default().build().expect("machine");
-        for (name, point) in POINTS {
-            let [a, b] = [&preset, &own].map(|machine| {
-                let posture = machine.posture(&target(point)).expect(name);
-                let k = posture.stiffness().expect(name).cartesian.matrix;
-                let e = posture.deflected_by(&cutting(0.3)).expect(name);
-                (posture.commands(), k, e.displacement.0)
-            });
-            for (x, y) in a.0.iter().zip(&b.0) {
-                assert!((x - y).abs() < 1e-12, "{name}");
-            }
-            assert!(
-                (a.1 - b.1).largest_entry() < 1e-9 * b.1.largest_entry(),
-                "{name}"
-            );
-            assert!((a.2 - b.2).largest_entry() < 1e-12, "{name}");
-        }
-    }
 }

@@ -3,5 +3,6 @@
 //! One binary instead of many, because linking dominates the time of a test run.
 
 mod chapters_2_to_5;
+mod internal;
 mod orthoglide;
 mod registry;

@@ -7,6 +7,8 @@
 
 use pulp::{Simd, WithSimd};
 
+use super::instruction_set::singly;
+
 struct Part<F>(F);
 
 impl<F: FnOnce() -> R, R> WithSimd for Part<F> {
@@ -36,16 +38,7 @@ pub(super) use apart;
 pub(super) fn call<S: Simd, R>(simd: S, part: impl FnOnce() -> R) -> R {
     // Single numbers do not tell whether the fused multiply-adds of a wide instruction set are there.
     if S::F64_LANES == 1 {
-        #[cfg(target_arch = "x86_64")]
-        if let Some(wide) = pulp::x86::V3::try_new() {
-            return Simd::vectorize(wide, Part(part));
-        }
-        return plain(part);
+        return singly(Part(part));
     }
     simd.vectorize(Part(part))
-}
-
-#[inline(never)]
-fn plain<R>(part: impl FnOnce() -> R) -> R {
-    part()
 }

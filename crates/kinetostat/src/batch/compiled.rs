@@ -1,7 +1,5 @@
 //! A machine compiled for many postures, and what is done with those that kernels leave over.
 
-use rayon::prelude::*;
-
 use super::group::Places;
 use super::plan::Plan;
 use super::run::Work;
@@ -13,6 +11,7 @@ use crate::machine::posture::Posture;
 use crate::model::chain::Chain;
 use crate::model::kinematics::unloaded_tip;
 use crate::model::mechanism::{Limb, Mechanism};
+use crate::parallel;
 
 /// Blocks of eight postures that a thread takes at a time.
 pub(super) const BLOCKS: usize = 32;
@@ -97,6 +96,12 @@ impl Batch {
         Ok(Places::Joints { commands, each })
     }
 
+    /// As if no kernel knew the machine without load.
+    pub(crate) fn without_unloaded_kernels(mut self) -> Self {
+        self.nominal = Err(NoKernel::LoadedPlatform);
+        self
+    }
+
     /// Number of actuators.
     pub(super) fn commands(&self) -> usize {
         let limbs = self.mechanism.limbs().iter();
@@ -125,10 +130,7 @@ pub(super) fn in_parallel<'a>(works: impl Iterator<Item = Work<'a>>, count: usiz
     if count <= BLOCKS * BLOCK {
         works.for_each(Work::run);
     } else {
-        works
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .for_each(Work::run);
+        parallel::map(works.collect(), Work::run);
     }
 }
 
@@ -177,5 +179,5 @@ pub(super) fn left<T: Send>(
     if left.len() < 2 {
         return left.into_iter().map(|i| (i, scalar(i).ok())).collect();
     }
-    left.into_par_iter().map(|i| (i, scalar(i).ok())).collect()
+    parallel::map(left, |i| (i, scalar(i).ok()))
 }

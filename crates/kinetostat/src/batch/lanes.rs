@@ -12,7 +12,7 @@ use pulp::Simd;
 use crate::linalg::derivatives::{ASIN, LOGARITHM, Number, Real};
 
 /// One number per lane.
-pub(super) struct Lanes<S: Simd> {
+pub(crate) struct Lanes<S: Simd> {
     simd: S,
     value: S::f64s,
 }

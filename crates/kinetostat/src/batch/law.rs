@@ -31,13 +31,13 @@ pub(super) fn parallelogram<S: Simd>(
 /// Torques of a spring of six coordinates at a deflection (m, rad; translations before rotations), and the
 /// square of its rotation.
 #[inline(always)]
-pub(super) fn torque<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> ([Lanes<S>; 6], Lanes<S>) {
+pub(crate) fn torque<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> ([Lanes<S>; 6], Lanes<S>) {
     if_curved!(law, own => own.torque_at(at), else (*at, at[0] * f64::NAN))
 }
 
 /// Its tangent stiffness.
 #[inline(always)]
-pub(super) fn tangent<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> Mat6<S> {
+pub(crate) fn tangent<S: Simd>(law: &SpringLaw, at: &[Lanes<S>; 6]) -> Mat6<S> {
     apart!(at[0].simd(), {
         if_curved!(law, own => own.tangent(at), else [[at[0] * f64::NAN; 6]; 6])
     })

@@ -15,21 +15,18 @@ mod apart;
 mod compensate;
 mod compile;
 mod compiled;
-#[cfg(test)]
-mod conformance;
 mod eliminate;
 mod equilibria;
 mod freed;
 mod group;
-mod lanes;
-mod law;
+pub(crate) mod instruction_set;
+pub(crate) mod lanes;
+pub(crate) mod law;
 mod loaded;
 mod machine;
 mod models;
 mod newton;
 mod newton_stage;
-#[cfg(test)]
-mod newton_tests;
 mod path;
 mod place;
 mod plan;
@@ -43,8 +40,6 @@ mod stiffness;
 mod symmetric;
 mod table;
 mod tangent;
-#[cfg(test)]
-mod tests;
 mod unloaded;
 mod vectors;
 mod verdict;

@@ -1,10 +1,9 @@
 //! Machines that differ in parameters: stiffnesses, errors, masses, lengths.
 
-use rayon::prelude::*;
-
 use super::compiled::Batch;
 use crate::error::Result;
 use crate::model::mechanism::Mechanism;
+use crate::parallel;
 
 /// Asks `count` machines the same thing: `machine(i)` makes the i-th, which is compiled, asked and
 /// dropped, so that memory does not grow with their number. Machines are spread over the threads,
@@ -40,11 +39,8 @@ pub fn over_machines<T: Send>(
     machine: impl Fn(usize) -> Result<Mechanism> + Sync,
     ask: impl Fn(usize, &Batch) -> Result<T> + Sync,
 ) -> Vec<Result<T>> {
-    (0..count)
-        .into_par_iter()
-        .map(|i| {
-            let own = machine(i)?;
-            ask(i, &Batch::new(&own))
-        })
-        .collect()
+    parallel::map((0..count).collect(), |i| {
+        let own = machine(i)?;
+        ask(i, &Batch::new(&own))
+    })
 }

@@ -1,9 +1,10 @@
 //! From lists of postures to lanes and back.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::compensate;
 use super::group::{Group, Places};
+use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
 use super::machine::{Machine, bounded};
 use super::plan::Plan;
@@ -53,51 +54,17 @@ pub(super) struct Answers<'a> {
 }
 
 impl Work<'_> {
-    /// In the widest registers that the postures fill at least by half: one posture costs as much in a
-    /// wide register as eight.
+    /// In the widest registers that the postures fill at least by half.
     pub fn run(self) {
-        #[cfg(test)]
-        if let Some(set) = CHOSEN.get() {
-            return set.dispatch(self);
-        }
-        #[cfg(target_arch = "x86_64")]
-        if let Some(simd) = pulp::x86::V3::try_new() {
-            match self.len() {
-                0..=1 => return Simd::vectorize(simd, One(self)),
-                2..=4 => return Simd::vectorize(simd, self),
-                _ => {}
-            }
-        }
-        Arch::new().dispatch(self);
+        InstructionSet::of(self.len()).run(self);
     }
 
-    #[cfg(target_arch = "x86_64")]
     fn len(&self) -> usize {
         match self {
             Self::Unloaded { status, .. } => status.len(),
             Self::Loaded { answers, .. } => answers.status.len(),
         }
     }
-}
-
-/// In single numbers, with the fused multiply-adds of the instruction set.
-#[cfg(target_arch = "x86_64")]
-struct One<'a>(Work<'a>);
-
-#[cfg(target_arch = "x86_64")]
-impl WithSimd for One<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.0.with_simd(pulp::Scalar);
-    }
-}
-
-#[cfg(test)]
-thread_local! {
-    /// The instruction set that a test has chosen for its thread.
-    pub(super) static CHOSEN: std::cell::Cell<Option<Arch>> = const { std::cell::Cell::new(None) };
 }
 
 impl WithSimd for Work<'_> {

@@ -3,6 +3,7 @@
 //! cannot make, whose stiffness is infinite).
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::linalg::complement::complement;
@@ -12,8 +13,9 @@ use crate::number::short;
 use crate::spatial::{MotionKind, Twist};
 
 /// Kind of a direction of the end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum DirectionKind {
     /// Moves without force.
     Free,
@@ -26,7 +28,8 @@ pub enum DirectionKind {
 }
 
 /// A joint or spring that moves when the end moves in a direction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Share {
     /// Name of the coordinate; in a mechanism `limb: coordinate`.
     pub name: String,
@@ -41,7 +44,8 @@ pub struct Share {
 }
 
 /// A principal direction of the (symmetric part of the) stiffness.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Direction {
     /// Free, finite, negative or rigid.
@@ -53,7 +57,7 @@ pub struct Direction {
     /// For free and negative directions: joints and springs that move, the most first; those below
     /// 0.1 % are left out. Empty where limbs hang on platforms in between.
     /// [`crate::ChainStiffness::participation`] tells it of any motion.
-    #[serde(default, rename = "behind")]
+    #[cfg_attr(feature = "serde", serde(default, rename = "behind"))]
     pub participation: Vec<Share>,
 }
 

@@ -69,7 +69,7 @@ impl System {
         Some((stiffness, stability))
     }
 
-    pub fn dense_verdicts(
+    pub(crate) fn dense_verdicts(
         &self,
         chain: &Chain,
         factors: &[f64],
@@ -83,7 +83,7 @@ impl System {
     /// Everything that is known about the state at which the system was evaluated; it is dense unless
     /// the verdicts are given.
     #[allow(clippy::too_many_arguments)] // one internal kernel, called from one place
-    pub fn equilibrium(
+    pub(crate) fn equilibrium(
         &self,
         chain: &Chain,
         factors: &[f64],
@@ -108,7 +108,7 @@ impl System {
     }
 
     #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
-    pub fn described(
+    pub(crate) fn described(
         &self,
         chain: &Chain,
         x: Vec<f64>,

@@ -1,10 +1,12 @@
 //! How an equilibrium was found, which tells whether a load that grows from rest leads to it.
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 /// How an equilibrium was found. Where several equilibria exist, it tells which of them this is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FoundBy {
     /// Newton's iteration from the commanded posture, or from the state that was given.

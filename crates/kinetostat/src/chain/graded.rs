@@ -20,6 +20,7 @@ use crate::model::chain::{Chain, Scale};
 use crate::model::mechanism::Mechanism;
 use crate::model::springs::block::balanced;
 use crate::number::short;
+use crate::number::{larger, smaller};
 
 /// Roots of compliances that differ by more than this (stiffnesses by its square) are taken apart.
 const UNEVEN: f64 = 1e3;
@@ -247,7 +248,9 @@ fn by_root(scale: Scale, root: &DMatrix<f64>, range: &DMatrix<f64>, rank: usize)
 pub(crate) fn spread(list: &[Direction]) -> f64 {
     let finite = list.iter().map(|d| d.stiffness_n_per_m.abs());
     let finite = finite.filter(|k| k.is_finite() && *k > 0.0);
-    let (most, least) = finite.fold((0.0_f64, f64::INFINITY), |(m, l), k| (m.max(k), l.min(k)));
+    let (most, least) = finite.fold((0.0_f64, f64::INFINITY), |(m, l), k| {
+        (larger(m, k), smaller(l, k))
+    });
     if most > 0.0 { most / least } else { 1.0 }
 }
 

@@ -1,13 +1,15 @@
 //! How near every link is to buckling: its axial force as a share of its Euler load.
 
 use nalgebra::Vector3;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::model::chain::Chain;
 
 /// How a link is loaded along its axis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct LinkLoad {
     /// Name of the link.

@@ -3,7 +3,7 @@
 //! Takes a [`ChainProblem`] (commands, loads, what is prescribed at the end), gives the tangent
 //! stiffness at the end, the principal directions with the joints and springs that take part in them, and whether the
 //! shape is stable. Long chains are solved by sweeps along them (`sweep`), short ones by dense matrices: two algorithms
-//! of one linear system, held together by one suite of tests (`sweep::tests`).
+//! of one linear system, held together by one suite of tests (`tests/core/internal/sweeps.rs`).
 //!
 //! ```text
 //! [ 0    J   ] [ F ]                                                      bordered system [R 4.15-4.16, 4.26]

@@ -12,6 +12,7 @@ use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{Form, Path, Sweep, turned_rows};
 use crate::chain::system::{System, rounding};
 use crate::linalg::saddle::Saddle;
+use crate::number::larger;
 use crate::settings::Settings;
 use crate::spatial::{MotionKind, Pose, Twist, Wrench, on_screw, pose_residual, rotation_rate};
 
@@ -115,7 +116,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
             } else {
                 torque += (rows[k] / s).powi(2);
             }
-            loads = loads.max((wrench.0[k] / s).abs());
+            loads = larger(loads, (wrench.0[k] / s).abs());
         }
         Balance {
             closure: closure.sqrt(),

@@ -8,7 +8,7 @@ use crate::linalg::saddle::{column_space, rows_certainly_independent};
 use crate::model::chain::{Chain, Role};
 
 /// Balanced Jacobian of the `n` coordinates, 6 x n.
-pub(crate) fn balanced_jacobian(system: &System, factors: &[f64]) -> DMatrix<f64> {
+pub fn balanced_jacobian(system: &System, factors: &[f64]) -> DMatrix<f64> {
     let n = system.spring_torque.len();
     DMatrix::from_fn(6, n, |i, j| {
         system.jacobian[(i, j)] * factors[i] * factors[6 + j]

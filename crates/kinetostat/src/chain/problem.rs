@@ -1,6 +1,7 @@
 //! What decides the equilibrium of one chain: its commands, its loads and what is prescribed at its end.
 
 use nalgebra::{Rotation3, Vector6};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
@@ -41,8 +42,9 @@ pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
 }
 
 /// What is prescribed in one direction of the end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Prescribed {
     /// The pose: the wrench follows.
     Pose,

@@ -1,5 +1,6 @@
 //! How well the conditions of equilibrium hold.
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::scaling::beyond;
@@ -27,7 +28,8 @@ impl Balance {
 }
 
 /// How well the conditions of equilibrium hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Residual {
     /// Closure of the end pose where it is prescribed, m (rotations at the natural length).
@@ -39,6 +41,6 @@ pub struct Residual {
     /// Rate observed: norm of the last correction by that of the one before, in balanced units
     /// (square root of energy). A linear iteration settles at its rate, exact Newton falls towards
     /// 0 from step to step. `None` with fewer than two corrections, and where nobody measured it.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub rate: Option<f64>,
 }

@@ -30,7 +30,7 @@ pub(crate) fn disparate(factors: &[f64], chain: &Chain) -> bool {
 
 /// Factors that make all unknowns of a bordered system comparable: six for the wrench, `n` for
 /// the coordinates; each has the unit of its unknown per square root of energy.
-pub(crate) fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
+pub fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
     let scale = chain.scale();
     let root = scale.stiffness.sqrt();
     let mut factors = Vec::with_capacity(6 + chain.coordinate_count());

@@ -12,6 +12,7 @@
 //! [`crate::chain::divergence`] decides.
 
 use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::divergence::diverging_motions;
@@ -24,9 +25,11 @@ use crate::linalg::complement::{complement, complement_of_few};
 use crate::linalg::krylov::largest_eigenvalues;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, column_space, inertia};
 use crate::model::chain::Chain;
+use crate::number::larger;
 
 /// Whether a chain keeps its shape while its end is held.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct ShapeStability {
     /// No neighbouring shape of the held chain has less energy; for loads without a potential: it does
@@ -36,7 +39,7 @@ pub struct ShapeStability {
     /// the Jacobian.
     pub inertia: Inertia,
     /// Number of motions in which the shape goes away.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub unstable_modes: usize,
     /// `mu`, largest share of the way to buckling: below 1 is stable. `None` for a chain without
     /// inner freedom; infinite where a passive motion is pushed out of line. Of loads without a potential
@@ -50,8 +53,9 @@ pub struct ShapeStability {
 }
 
 /// What a shape is, in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ShapeState {
     /// It holds: every neighbouring shape has more energy.
@@ -163,7 +167,7 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
     if motion.iter().any(|x| !x.is_finite()) {
         return Vec::new();
     }
-    let most = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let most = motion.iter().fold(0.0_f64, |m, x| larger(m, x.abs()));
     for x in &mut motion {
         *x /= most.max(f64::MIN_POSITIVE);
     }
@@ -173,7 +177,7 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
 /// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
 /// per held motion. The whole end held gives [`shape_stability`]. `conservative`: the loads have a
 /// potential.
-pub(crate) fn stability_within(
+pub fn stability_within(
     chain: &Chain,
     system: &System,
     factors: &[f64],

@@ -22,6 +22,7 @@ use crate::chain::system::System;
 use crate::error::{Place, Result};
 use crate::linalg::saddle::{Saddle, column_space};
 use crate::model::chain::{Chain, Role};
+use crate::number::larger;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench};
 
 /// Stiffness of a chain at its tip.
@@ -136,7 +137,7 @@ pub fn unloaded_stiffness(
 
 /// `solved` is the solution of the bordered system for unit motions of the tip, (6 + n) x 6, where
 /// the caller has it already.
-pub(crate) fn chain_stiffness(
+pub fn chain_stiffness(
     chain: &Chain,
     system: &System,
     factors: &[f64],
@@ -192,7 +193,7 @@ fn evenly_stiff_motions(
     // The direction that the joints move least in.
     let moved = range.transpose() * jacobian;
     let sizes: Vec<f64> = moved.row_iter().map(|row| row.norm()).collect();
-    let most = sizes.iter().fold(0.0_f64, |m, x| m.max(*x));
+    let most = sizes.iter().fold(0.0_f64, |m, x| larger(m, *x));
     let Some((weakest, size)) =
         (sizes.iter().copied().enumerate()).min_by(|a, b| a.1.total_cmp(&b.1))
     else {
@@ -220,7 +221,7 @@ const STRAIGHT: f64 = 1e-3;
 
 /// The same by sweeps along a long chain; `None` where they cannot. `solved` are wrench and
 /// coordinates per unit motion of the tip, (6 + n) x 6, where the caller has them already.
-pub(crate) fn swept_stiffness(
+pub fn swept_stiffness(
     chain: &Chain,
     system: &System,
     sweep: &Sweep,

@@ -12,7 +12,8 @@ use crate::model::loads::load::Load;
 use crate::spatial::{Pose, Wrench};
 
 /// Matrices and residuals of a chain at one state; buffers are reused between iterations.
-pub(crate) struct System {
+pub struct System {
+    /// Poses and motions of the joints.
     pub kinematics: Kinematics,
     /// 6 x (n + r \[+ 6\]) at the tip.
     pub jacobian: Matrix6xX<f64>,
@@ -29,6 +30,7 @@ pub(crate) struct System {
     pub spring_turnover: Vec<f64>,
     /// Change of the tangent since rest, per block of six coordinates: first coordinate, matrix.
     pub spring_geometric: Vec<(usize, Matrix6<f64>)>,
+    /// Of the springs and loads, J.
     pub energy: f64,
     /// Loads that grow along a curve, on top of those given to [`Self::evaluate`], and their factor.
     pub pattern: (Vec<Load>, f64),
@@ -40,6 +42,7 @@ pub(crate) struct System {
 }
 
 impl System {
+    /// Dense, at the commanded posture.
     pub fn new(
         chain: &Chain,
         base: &Pose,

@@ -13,6 +13,7 @@ use crate::continuation::dense_matrix::{StateUnits, Whole};
 use crate::continuation::null_directions::NullDirections;
 use crate::continuation::parameter::Parameter;
 use crate::model::chain::Role;
+use crate::number::larger;
 use crate::spatial::{Twist, Wrench, moved, pose_residual, rotation_rate};
 
 impl ChainSystem<'_, '_> {
@@ -60,14 +61,13 @@ impl ChainSystem<'_, '_> {
                 closure[i]
             } else {
                 let s = self.scaling[6 + i - r] / self.unit;
-                loads = loads
-                    .max((self.equations.torque[i - r] * s).abs())
-                    .max((self.equations.spring_torque[i - r] * s).abs());
+                loads = larger(loads, (self.equations.torque[i - r] * s).abs());
+                loads = larger(loads, (self.equations.spring_torque[i - r] * s).abs());
                 self.equations.unbalanced(i - r) * s
             }
         });
         for i in 0..6 {
-            loads = loads.max((wrench.0[i] / (self.scaling[i] * self.unit)).abs());
+            loads = larger(loads, (wrench.0[i] / (self.scaling[i] * self.unit)).abs());
         }
         let balance = Balance {
             closure: (self.frame.transpose() * &scaled).norm(),

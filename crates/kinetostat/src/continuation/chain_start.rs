@@ -13,6 +13,7 @@ use crate::error::{Error, Place, Result};
 use crate::linalg::saddle::{RANK_TOLERANCE, column_space};
 use crate::linalg::singular_values::SingularValues;
 use crate::model::chain::Role;
+use crate::number::larger;
 use crate::settings::Settings;
 use crate::spatial::{Wrench, turn_matrix};
 
@@ -205,7 +206,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
                     load.add_wrenches(chain, &self.equations.kinematics, 1.0, &mut wrenches);
                 }
                 let sizes = wrenches.iter().map(|(_, w)| balanced(&w.0, -1).norm());
-                sizes.fold(0.0, f64::max)
+                sizes.fold(0.0, larger)
             }
             None => 1.0,
         };

@@ -11,6 +11,7 @@
 use std::sync::Arc;
 
 use nalgebra::DVector;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
@@ -21,8 +22,9 @@ use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
 
 /// Why a branch ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum BranchEnd {
     /// The parameter or its conjugate reached a limit.
@@ -100,8 +102,9 @@ impl<E: CurveEquilibrium> CurvePoint<E> {
 }
 
 /// What is special about a point of a curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SpecialKind {
     /// Limit point of the load: under a dead load the chain jumps (snap-through).

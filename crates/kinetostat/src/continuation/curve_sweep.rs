@@ -21,6 +21,7 @@ use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::continuation::tangent::{Tangent, determinant};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::Saddle;
+use crate::number::larger;
 
 /// A state of a curve, its chain swept.
 pub(crate) struct CurveSweep {
@@ -210,9 +211,9 @@ impl Closed<'_> {
                 let grown = own.gradient[r + i] * z.lambda;
                 size = [pull, grown, torque[i], left[i]]
                     .iter()
-                    .fold(size, |s, v| s.max(v.abs()));
+                    .fold(size, |s, v| larger(s, v.abs()));
                 left[i] = torque[i] - pull - grown - left[i];
-                worst = worst.max(left[i].abs());
+                worst = larger(worst, left[i].abs());
             }
             if !worst.is_finite() {
                 return None;

@@ -3,13 +3,15 @@
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Place, Result};
 use crate::settings::{Settings, wrong};
 
 /// How far and how finely curves are followed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct CurveSettings {
     /// The parameter stays between these values (m, rad or a factor).

@@ -10,6 +10,7 @@ use crate::linalg::saddle::independent_columns;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::{Guide, Unknowns};
 use crate::machine::state::MechanismState;
+use crate::number::larger;
 use crate::spatial::{Twist, Wrench, moved, pose_residual};
 
 impl ToolConditions<'_> {
@@ -35,7 +36,7 @@ impl ToolConditions<'_> {
         let most = x
             .iter()
             .chain(&y)
-            .fold(0.0_f64, |most, t| most.max(t.abs()));
+            .fold(0.0_f64, |most, t| larger(most, t.abs()));
         let off = self.balanced(&pose_residual(&a.tool, &b.tool).0);
         let costly = self.without(a, &DMatrix::identity(6, 6), DirectionKind::Free);
         (costly.transpose() * off).norm() < 1e-6 * self.length

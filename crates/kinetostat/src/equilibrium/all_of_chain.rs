@@ -8,6 +8,7 @@
 //! result says how often each equilibrium was found and how likely another start is to find a new
 //! one. It is deterministic.
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
@@ -22,7 +23,8 @@ use crate::error::Result;
 use crate::settings::Settings;
 
 /// How long to search.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct SearchSettings {
     /// The search stops after this many evenly spread starts in a row that found nothing new (four

@@ -1,5 +1,6 @@
 //! Limits of a chain's coordinates within which equilibria count.
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
@@ -7,7 +8,8 @@ use crate::model::chain::{Chain, Role};
 use crate::spatial::MotionKind;
 
 /// Limits of the coordinates within which equilibria count.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Bounds {
     /// Lowest value of every coordinate, m or rad.
     pub low: Vec<f64>,

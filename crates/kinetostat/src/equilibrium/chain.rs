@@ -42,7 +42,7 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
 }
 
 /// [`solve_chain`] by an algorithm of choice (dense or by sweeps); with the one that was used at the end.
-pub(crate) fn solve_along(
+pub fn solve_along(
     problem: &ChainProblem<'_>,
     settings: &Settings,
     path: Option<Path>,

@@ -8,6 +8,7 @@ use crate::chain::scaling::nudged;
 use crate::continuation::chain_system::ChainSystem;
 use crate::equilibrium::bounds::Bounds;
 use crate::model::chain::{Chain, Role};
+use crate::number::{larger, smaller};
 use crate::spatial::MotionKind;
 
 /// Starts that a person would try: the posture, home, their mirror images, the stretched chain.
@@ -61,7 +62,7 @@ pub(crate) fn spread(system: &ChainSystem<'_, '_>, bounds: &Bounds, index: usize
         let rotations = chain.coordinates().iter().zip(&reach);
         let softest = rotations
             .filter(|(c, _)| c.role == Role::Spring && c.kind == MotionKind::Revolute)
-            .fold(0.0_f64, |most, (_, x)| most.max(*x));
+            .fold(0.0_f64, |most, (_, x)| larger(most, *x));
         if softest > share {
             reach.iter_mut().for_each(|x| *x *= share / softest);
         }
@@ -99,6 +100,8 @@ fn spread_of_springs(chain: &Chain, reach: &[f64]) -> f64 {
         MotionKind::Prismatic => *x,
         MotionKind::Revolute => x * length,
     });
-    let (least, most) = moved.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+    let (least, most) = moved.fold((f64::INFINITY, 0.0_f64), |(a, b), x| {
+        (smaller(a, x), larger(b, x))
+    });
     (most / least).powi(2)
 }

@@ -26,6 +26,7 @@ use crate::equilibrium::critical_tangent::{
     StabilityOf, Tangent, diverges, largest_one, largest_real, linear_prediction,
 };
 use crate::error::{Place, Result};
+use crate::number::larger;
 use crate::spatial::Wrench;
 
 /// Where stability is lost.
@@ -161,7 +162,7 @@ pub fn critical_load_factor(
         Some(&unstable),
     )?;
     let points = &curves.branches[0].points;
-    let mut reached = points.iter().map(|p| p.parameter).fold(0.0, f64::max);
+    let mut reached = points.iter().map(|p| p.parameter).fold(0.0, larger);
     let indefinite = |p: &CurvePoint| load.indefinite(p);
     let definite_until = match points.iter().position(indefinite) {
         _ if conservative => None,
@@ -172,7 +173,7 @@ pub fn critical_load_factor(
     let first = points.iter().position(unstable);
     let exact = first.map(|i| load.critical_point(&curves, i)).transpose()?;
     if let Some(exact) = &exact {
-        reached = reached.max(exact.factor);
+        reached = larger(reached, exact.factor);
     }
     Ok(CriticalLoad {
         linear,

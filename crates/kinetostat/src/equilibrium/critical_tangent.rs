@@ -2,6 +2,7 @@
 //! first load step.
 
 use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::passive::balanced_jacobian;
@@ -10,10 +11,12 @@ use crate::continuation::chain_system::ChainSystem;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Saddle, column_space};
 use crate::linalg::singular_values::SingularValues;
+use crate::number::larger;
 
 /// What must stay stable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum StabilityOf {
     /// The shape, with the whole end held where the load has brought it.
@@ -120,9 +123,12 @@ pub(crate) fn largest_real(springs: &DMatrix<f64>, loads: &DMatrix<f64>) -> Opti
     let found = solved.and_then(|product| {
         let schur = nalgebra::linalg::Schur::try_new(product, f64::EPSILON, 10_000)?;
         let all = schur.complex_eigenvalues();
-        let most = all.iter().fold(0.0_f64, |m, x| m.max(x.norm()));
+        let most = all.iter().fold(0.0_f64, |m, x| larger(m, x.norm()));
+        if !most.is_finite() {
+            return None;
+        }
         let real = all.iter().filter(|x| x.im.abs() <= 1e-6 * most);
-        Some(real.fold(f64::NEG_INFINITY, |m, x| m.max(x.re)))
+        Some(real.fold(f64::NEG_INFINITY, |m, x| larger(m, x.re)))
     });
     found.or_else(|| {
         let sign = (springs - loads).determinant();

@@ -17,6 +17,7 @@ use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
+use crate::number::larger;
 use crate::spatial::{Twist, Wrench, pose_residual};
 
 /// How far a tool is followed, in natural lengths: more than half a turn about any axis nearby.
@@ -67,7 +68,7 @@ impl Posture {
         let by = |e: &MechanismEquilibrium| wrench.0.dot(&(e.compliance().springs * wrench.0));
         let secant = pose_residual(&loaded.tool, &rest.tool).dot(&wrench);
         let yields = [by(rest), by(loaded), secant];
-        let most = yields.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+        let most = yields.iter().fold(0.0_f64, |most, y| larger(most, y.abs()));
         let smooth = yields.iter().all(|y| *y * SMOOTH > most) || most == 0.0;
         if smooth && loaded.stable() >= rest.stable() {
             return Ok(None);

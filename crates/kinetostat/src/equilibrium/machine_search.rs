@@ -4,7 +4,6 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{DMatrix, DVector, Vector6};
-use rayon::prelude::*;
 
 use crate::chain::directions::DirectionKind;
 use crate::continuation::settings::CurveSettings;
@@ -16,6 +15,7 @@ use crate::machine::platforms::parts::Unknowns;
 use crate::machine::state::MechanismState;
 use crate::model::chain::Role;
 use crate::model::kinematics::unloaded_tip;
+use crate::parallel;
 use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 
 /// How far tools are put from the target, as shares of the machine's size.
@@ -177,11 +177,11 @@ impl<'p> MachineSearch<'p> {
         settings.largest_change = Some(0.05 * reach);
         let open = |i: &usize| known.is_none_or(|k| !k.followed[*i]);
         let motions: Vec<usize> = (0..path.free.ncols()).filter(open).collect();
-        let curve = |&i: &usize| {
+        let curve = |i: usize| {
             let motion = Vector6::from_fn(|row, _| path.free[(row, i)]);
             path.driven(&motion, settings.clone()).unloaded(from)
         };
-        let curves: Vec<_> = motions.par_iter().map(curve).collect();
+        let curves = parallel::map(motions.clone(), curve);
         let mut list = Vec::new();
         for (i, [crossings, ends]) in motions.into_iter().zip(curves) {
             for state in crossings {
@@ -207,10 +207,7 @@ impl<'p> MachineSearch<'p> {
             return Vec::new();
         }
         let beside = self.conditions.pushed_off(&known.equilibrium);
-        let ended: Vec<_> = beside
-            .into_par_iter()
-            .map(|e| self.conditions.descend(e))
-            .collect();
+        let ended = parallel::map(beside, |e| self.conditions.descend(e));
         ended.into_iter().map(Candidate::of).collect()
     }
 }
@@ -244,7 +241,7 @@ impl Searched for MachineSearch<'_> {
     }
 
     fn solve(&mut self, starts: &[usize]) -> Vec<Found<Candidate>> {
-        let ended: Vec<_> = starts.par_iter().map(|&k| self.let_go(k)).collect();
+        let ended = parallel::map(starts.to_vec(), |k| self.let_go(k));
         ended.into_iter().map(Candidate::of).collect()
     }
 

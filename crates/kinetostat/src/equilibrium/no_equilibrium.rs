@@ -11,6 +11,7 @@ use crate::linalg::complement::complement;
 use crate::linalg::singular_values::range;
 use crate::model::chain::Role;
 use crate::model::kinematics::{Kinematics, unloaded_tip};
+use crate::number::larger;
 use crate::spatial::{MotionKind, pose_residual, turn_matrix};
 
 /// The reason, if it is one of those that no iteration can change.
@@ -100,7 +101,7 @@ fn pushed_slide(problem: &ChainProblem<'_>) -> Option<Error> {
     system.evaluate_problem(problem, &problem.posture, &wrench, 1.0);
     let length = chain.scale().length;
     let torques = (0..chain.coordinate_count()).map(|i| system.unbalanced(i).abs());
-    let most = torques.fold(0.0_f64, f64::max);
+    let most = torques.fold(0.0_f64, larger);
     let free = chain.coordinates().iter().enumerate().find(|(i, c)| {
         let push = system.unbalanced(*i).abs();
         let column = DVector::from_fn(6, |k, _| system.jacobian[(k, *i)]);
@@ -109,7 +110,7 @@ fn pushed_slide(problem: &ChainProblem<'_>) -> Option<Error> {
             && c.kind == MotionKind::Prismatic
             && push > 1e-6 * most
             && (held.transpose() * column).norm() <= 1e-9
-            && other.fold(0.0_f64, f64::max) * length <= 1e-9 * push
+            && other.fold(0.0_f64, larger) * length <= 1e-9 * push
     })?;
     let push = system.unbalanced(free.0).abs();
     Some(Error::FreeDirection {

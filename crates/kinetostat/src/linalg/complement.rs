@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 /// Orthonormal basis of everything orthogonal to the (independent) columns of `a`, n x (n - k).
-pub(crate) fn complement(a: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn complement(a: &DMatrix<f64>) -> DMatrix<f64> {
     let (n, k) = a.shape();
     // As many columns as rows span all there is; more can only be rounding's.
     if k >= n {

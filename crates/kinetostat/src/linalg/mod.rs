@@ -10,12 +10,14 @@
 //! block_elimination  the same for many platforms, block by block with delayed pivots; sparse: their entries
 //! derivatives        numbers that formulas are written for once: single ones, several in one, with their derivatives
 //! krylov             the few largest eigenvalues of a large symmetric matrix
+//! largest            the largest entry, NaN included
 //! ```
 
 pub(crate) mod block_elimination;
 pub(crate) mod complement;
 pub(crate) mod derivatives;
 pub(crate) mod krylov;
+pub(crate) mod largest;
 pub(crate) mod saddle;
 pub(crate) mod singular_values;
 pub(crate) mod sparse;

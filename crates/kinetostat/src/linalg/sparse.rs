@@ -4,13 +4,17 @@ use nalgebra::{DMatrix, Dim, Matrix, RawStorage};
 
 /// A matrix by entries that add up.
 #[derive(Clone, Debug)]
-pub(crate) struct Sparse {
+pub struct Sparse {
+    /// Number of rows.
     pub rows: usize,
+    /// Number of columns.
     pub columns: usize,
+    /// Row, column and value.
     pub entries: Vec<(usize, usize, f64)>,
 }
 
 impl Sparse {
+    /// Without entries.
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self {
             rows,
@@ -36,6 +40,7 @@ impl Sparse {
         }
     }
 
+    /// With every zero written out.
     pub fn dense(&self) -> DMatrix<f64> {
         let mut a = DMatrix::zeros(self.rows, self.columns);
         for &(i, j, value) in &self.entries {
@@ -44,6 +49,7 @@ impl Sparse {
         a
     }
 
+    /// Its diagonal entries.
     pub fn diagonal(&self) -> Vec<f64> {
         let mut list = vec![0.0; self.rows];
         for &(i, j, value) in &self.entries {

@@ -11,6 +11,7 @@ use crate::machine::network::ends;
 use crate::machine::posture::Posture;
 use crate::model::chain::Role;
 use crate::model::kinematics::Kinematics;
+use crate::number::larger;
 use crate::spatial::{MotionKind, Wrench};
 
 /// Singular values below this share of the largest are zero: postures close to about 1e-13.
@@ -162,7 +163,7 @@ impl Posture {
                 list.push((limb, w));
             }
             let size = |w: &DVector<f64>| w.norm();
-            let most = list.iter().map(|(_, w)| size(w)).fold(0.0, f64::max);
+            let most = list.iter().map(|(_, w)| size(w)).fold(0.0, larger);
             list.retain(|(_, w)| size(w) > 1e-9 * most);
             SelfStress {
                 wrenches: list

@@ -3,6 +3,7 @@
 
 use nalgebra::Matrix6;
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
@@ -25,10 +26,12 @@ use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
+use crate::number::smaller;
 use crate::spatial::{CartesianStiffness, Pose, Twist, Wrench, pose_residual};
 
 /// Whether the platform stays where it is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct PlatformStability {
     /// Every motion of the free platform costs energy, or (see `free`) none; for loads without a potential: it does
@@ -36,7 +39,7 @@ pub struct PlatformStability {
     pub stable: bool,
     /// The loads have no potential, the platform does not go away, but it may swing with growing amplitude
     /// (flutter); whether it does depends on the masses.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub may_flutter: bool,
     /// Smallest principal stiffness, N/m (rotations referred to the natural length).
     pub smallest_stiffness_n_per_m: f64,
@@ -349,7 +352,7 @@ impl ToolStiffness {
         let (tool, scale) = (m.tool() - 1, m.scale());
         let (tangent, rigid, directions) = (&self.tangent, &self.rigid, &self.directions);
         let stiffnesses = directions.iter().map(|d| d.stiffness_n_per_m);
-        let least = stiffnesses.fold(f64::INFINITY, f64::min);
+        let least = stiffnesses.fold(f64::INFINITY, smaller);
         let free = directions.iter().filter(|d| d.kind == DirectionKind::Free);
         let whole = limbs.iter().all(LimbEquilibrium::follows_its_end);
         let hold = |held| others_hold(tangent, self.graded.as_ref(), rigid, tool, scale, held);

@@ -13,6 +13,7 @@ use crate::machine::posture::Posture;
 use crate::model::chain::Role;
 use crate::model::kinematics::{Kinematics, unloaded_tip};
 use crate::model::mechanism::Mechanism;
+use crate::number::larger;
 use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual, shift_matrix};
 
 /// Largest motion of a command between two closed shapes, rad or natural lengths.
@@ -108,7 +109,7 @@ impl Mechanism {
                     MotionKind::Revolute => (to - from).abs(),
                 })
             })
-            .fold(0.0, f64::max);
+            .fold(0.0, larger);
         let (mut share, mut step) = (0.0_f64, 1.0 / (longest / STRIDE).ceil().clamp(1.0, 1e4));
         let least = 1e-3 * step;
         let mut closed = false;

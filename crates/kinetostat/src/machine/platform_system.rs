@@ -10,6 +10,7 @@ use crate::linalg::block_elimination::{BlockFactors, FEW, Pivots};
 use crate::linalg::saddle::Saddle;
 use crate::linalg::sparse::Sparse;
 use crate::model::chain::Scale;
+use crate::number::larger;
 
 /// Motions of the platforms that limbs forbid, as rows over all of them, `k x 6P`.
 #[derive(Clone, Debug)]
@@ -76,7 +77,7 @@ impl PlatformSystem {
                 .iter()
                 .zip(&units)
                 .map(|(d, u)| d.abs() * u * u)
-                .fold(1.0, f64::max);
+                .fold(1.0, larger);
             let mut sizes = vec![0.0; rigid.count()];
             for &(i, j, value) in &rigid.matrix.entries {
                 sizes[i] += (value * units[j]).powi(2);

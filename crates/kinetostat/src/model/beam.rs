@@ -4,13 +4,15 @@
 //! here (errata of 3.26): the printed matrix can be indefinite.
 
 use nalgebra::Matrix6;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result, Whole};
 use crate::model::limits::positive;
 
 /// Section and material of a straight prismatic link along its local x axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct BeamSection {
     /// Young's modulus, Pa.
     pub youngs_modulus: f64,

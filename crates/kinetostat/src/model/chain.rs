@@ -7,6 +7,7 @@
 //! `J = J_e C` and `H = C^T H_e C` hold from the first day.
 
 use nalgebra::{Matrix3, Unit, Vector3};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
@@ -15,7 +16,8 @@ use crate::model::springs::block::SpringBlock;
 use crate::spatial::{MotionKind, Pose};
 
 /// A share of a coordinate or a command in a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Drive {
     /// Index of the coordinate (or of the actuator).
     pub index: usize,
@@ -25,7 +27,8 @@ pub struct Drive {
 
 /// One elementary motion: displacement `ratio * coordinate + ratio * command` along or about
 /// `axis`, which is given in the frame reached so far.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Motion {
     /// Translation or rotation.
     pub kind: MotionKind,
@@ -38,7 +41,8 @@ pub struct Motion {
 }
 
 /// One factor of the product.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Element {
     /// Constant offset.
     Rigid(Pose),
@@ -49,8 +53,9 @@ pub enum Element {
 }
 
 /// What holds a coordinate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Role {
     /// A spring, `theta`.
     Spring,
@@ -59,7 +64,8 @@ pub enum Role {
 }
 
 /// A coordinate of the chain.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Coordinate {
     /// Name, unique in the chain.
     pub name: String,
@@ -72,7 +78,8 @@ pub struct Coordinate {
 }
 
 /// A commanded joint.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Actuator {
     /// Name, unique in the chain.
     pub name: String,
@@ -87,7 +94,8 @@ pub struct Actuator {
 }
 
 /// A rigid mass fixed to the frame of a node.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Body {
     /// Name.
     pub name: String,
@@ -102,7 +110,8 @@ pub struct Body {
 
 /// An ordered product of elementary motions with springs, passive joints, nodes and masses.
 /// Never changes after [`crate::ChainBuilder::build`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Chain {
     pub(crate) name: String,
     pub(crate) elements: Vec<Element>,
@@ -116,7 +125,8 @@ pub struct Chain {
 
 /// Natural length and stiffness of a chain: they make metres and radians comparable where a rank
 /// is decided; results do not depend on them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Scale {
     /// m.
     pub length: f64,

@@ -20,6 +20,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::model::beam::BeamSection;
@@ -31,8 +32,9 @@ use crate::model::uniform::{compliance_per_length, moved, segment_compliance};
 use crate::spatial::{Pose, turn_matrix};
 
 /// How a segment moves, and what energy that costs. Unloaded stiffness does not depend on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum LinkConvention {
     /// Spring at the segment's end, translations first, and bending shortens: [`BowingLaw`].
@@ -53,8 +55,9 @@ pub enum LinkConvention {
 
 /// What a link's stiffness is known from.
 #[allow(clippy::large_enum_variant)] // one per link, gone when the chain is built
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum LinkElasticity {
     /// Section and material.
     Section(BeamSection),
@@ -63,7 +66,8 @@ pub enum LinkElasticity {
 }
 
 /// A straight elastic link along local x; see [`ChainBuilder::link_with`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct LinkSpec {
     /// Section or matrix.
     pub elasticity: LinkElasticity,

@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Result};
@@ -15,10 +16,12 @@ use crate::model::chain::{Chain, Scale};
 use crate::model::loads::load::Load;
 use crate::model::loads::platform::PlatformLoad;
 use crate::model::loads::potential::moments_have_potential;
+use crate::number::larger;
 use crate::spatial::Pose;
 
 /// A rigid body of the graph.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Platform {
     /// Name, unique.
     pub name: String,
@@ -47,7 +50,8 @@ impl Platform {
 }
 
 /// A chain between two platforms. Its base frame is the frame of `from`; its tip is fixed to `to`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Limb {
     /// Name, unique.
@@ -98,15 +102,20 @@ impl Limb {
 /// Platforms, limbs, loads on limbs and gravity. Never changes after
 /// [`MechanismBuilder::build`](crate::MechanismBuilder::build), and is shared: a copy costs nothing, so that
 /// postures and batches own theirs and go to other threads with it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(from = "MechanismParts", into = "MechanismParts")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(from = "MechanismParts", into = "MechanismParts")
+)]
 pub struct Mechanism {
     parts: Arc<MechanismParts>,
 }
 
 /// What a mechanism is made of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename = "Mechanism")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename = "Mechanism"))]
 pub(crate) struct MechanismParts {
     pub(crate) name: String,
     pub(crate) platforms: Vec<Platform>,
@@ -114,19 +123,25 @@ pub(crate) struct MechanismParts {
     pub(crate) gravity: Vector3<f64>,
     pub(crate) tool: usize,
     /// Loads on every limb besides gravity; shorter than the list of limbs where the last have none.
-    #[serde(
-        default,
-        skip_deserializing,
-        skip_serializing_if = "Vec::is_empty",
-        serialize_with = "refuse_loads"
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            default,
+            skip_deserializing,
+            skip_serializing_if = "Vec::is_empty",
+            serialize_with = "refuse_loads"
+        )
     )]
     pub(crate) loads: Vec<Vec<Load>>,
     /// Loads on platforms, those between limbs included.
-    #[serde(
-        default,
-        skip_deserializing,
-        skip_serializing_if = "Vec::is_empty",
-        serialize_with = "refuse_platform_loads"
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            default,
+            skip_deserializing,
+            skip_serializing_if = "Vec::is_empty",
+            serialize_with = "refuse_platform_loads"
+        )
     )]
     pub(crate) platform_loads: Vec<PlatformLoad>,
 }
@@ -146,6 +161,7 @@ impl From<Mechanism> for MechanismParts {
 }
 
 /// A load may be a function, which no file holds; to leave it out in silence would be worse.
+#[cfg(feature = "serde")]
 fn refuse_loads<S: serde::Serializer>(
     _: &[Vec<Load>],
     _: S,
@@ -155,6 +171,7 @@ fn refuse_loads<S: serde::Serializer>(
     ))
 }
 
+#[cfg(feature = "serde")]
 fn refuse_platform_loads<S: serde::Serializer>(
     _: &[PlatformLoad],
     serializer: S,
@@ -364,9 +381,9 @@ impl Mechanism {
                 }
             }
         }
-        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let longest = lengths.iter().copied().fold(0.0, larger);
         match ways[self.tool()].is_finite() {
-            true => longest.max(ways[self.tool()]),
+            true => larger(longest, ways[self.tool()]),
             false => longest,
         }
     }

@@ -15,6 +15,7 @@
 //! with `mu < -1` (tension), where it ends in a cycle of two states.
 
 use nalgebra::{DMatrix, DVector};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::chain::equilibrium::Equilibrium;
@@ -25,11 +26,13 @@ use crate::error::{Place, Result};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
 use crate::model::chain::Chain;
+use crate::number::larger;
 use crate::settings::{Settings, wrong};
 use crate::spatial::{MotionKind, Wrench};
 
 /// When an iteration ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct IterationSettings {
     /// Settled when no coordinate changes by more in one step, rad (slides: as a share of the
@@ -68,7 +71,8 @@ impl Default for IterationSettings {
 }
 
 /// Coordinates (m, rad) and the wrench on the end (N, N m; about its origin, base axes).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ChainState {
     /// Coordinates in the chain's order.
     pub coordinates: Vec<f64>,
@@ -77,8 +81,9 @@ pub struct ChainState {
 }
 
 /// How an iteration ended.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum IterationOutcome {
     /// On the equilibrium that exact Newton finds from the same start.
@@ -157,7 +162,9 @@ fn change(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
     a.iter()
         .zip(b)
         .zip(units)
-        .fold(0.0, |most, ((a, b), unit)| most.max((a - b).abs() / unit))
+        .fold(0.0, |most, ((a, b), unit)| {
+            larger(most, (a - b).abs() / unit)
+        })
 }
 
 /// The report's iteration [R 4.15, 4.16 with the erratum] from a start (`None`: the problem's
@@ -370,7 +377,7 @@ fn spectral_radius(mut m: DMatrix<f64>) -> f64 {
 
 /// Shrinking of the steps, from the last ones that rounding does not touch.
 fn observed(sizes: &[f64]) -> Option<f64> {
-    let most = sizes.iter().fold(0.0_f64, |m, s| m.max(*s));
+    let most = sizes.iter().fold(0.0_f64, |m, s| larger(m, *s));
     let last = sizes.iter().rposition(|s| *s > 1e-8 * most)?;
     let span = last.min(4);
     if span == 0 {

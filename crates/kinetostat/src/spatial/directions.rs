@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::Index;
 
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 /// Names of the directions, in order: motions along the axes, rotations about them.
@@ -19,8 +20,9 @@ const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 /// assert_eq!(directions.to_string(), "x y z");
 /// assert_eq!(Directions::from([true, true, true, false, false, false]), directions);
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(transparent)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct Directions([bool; 6]);
 
 impl Directions {

@@ -6,6 +6,7 @@
 //! body, so that `wrench = stiffness * twist` for a small motion.
 
 use nalgebra::{Isometry3, Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 mod directions;
@@ -25,12 +26,14 @@ pub fn hat(a: &Vector3<f64>) -> Matrix3<f64> {
 
 /// Small motion of a body, `[dp; dpsi]`: linear part (m) of the reference point and spatial
 /// rotation vector (rad), both in base axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Twist(pub Vector6<f64>);
 
 /// Load on a body, `[f; m]`: force (N) and moment (N m) about the reference point, both in base
 /// axes, applied by the environment to the body.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Wrench(pub Vector6<f64>);
 
 macro_rules! six_vector {
@@ -151,7 +154,8 @@ pub fn moved(pose: &Pose, twist: &Twist) -> Pose {
 /// Under a load with a moment `m` it is not symmetric: `K - K^T = blkdiag(0, -hat(m))` exactly,
 /// unless dead moments act on inner nodes or loads are not conservative.
 /// [`Self::symmetric`] is the Hessian of the stored energy in exponential coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct CartesianStiffness {
     /// The matrix as it is (N/m, N/rad, N m/m, N m/rad).
     pub matrix: Matrix6<f64>,
@@ -225,8 +229,9 @@ pub(crate) fn on_screw(from: &Pose, to: &Pose, share: f64) -> Pose {
 }
 
 /// Translation along, or rotation about, an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum MotionKind {
     /// Translation, m.
     Prismatic,
@@ -243,34 +248,4 @@ pub(crate) fn rotation_rate(e: &Vector3<f64>) -> Matrix3<f64> {
         1.0 / (angle * angle) - 1.0 / (2.0 * angle * (0.5 * angle).tan())
     };
     Matrix3::identity() + 0.5 * hat(e) + second * hat(e) * hat(e)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::vector;
-
-    #[test]
-    fn work_does_not_depend_on_the_reference_point() {
-        let twist = Twist::new(vector![0.1, -0.2, 0.3], vector![0.4, 0.5, -0.6]);
-        let wrench = Wrench::new(vector![10.0, -3.0, 2.0], vector![1.0, 7.0, -4.0]);
-        let arm = vector![0.3, 0.9, -0.2];
-        let there = twist.shifted(&arm).dot(&wrench.shifted(&arm));
-        assert!((there - twist.dot(&wrench)).abs() < 1e-12);
-        assert!((shift_matrix(&arm) * twist.0 - twist.shifted(&arm).0).norm() < 1e-15);
-        assert!(
-            (shift_matrix(&arm).transpose() * wrench.shifted(&arm).0 - wrench.0).norm() < 1e-12
-        );
-    }
-
-    #[test]
-    fn residual_undoes_a_motion_for_tiny_and_large_angles() {
-        let pose = Pose::new(vector![0.2, -1.0, 3.0], vector![0.3, 2.0, -1.0]);
-        for size in [1e-9, 1e-3, 1.0, 3.1] {
-            let axis = vector![0.36, -0.48, 0.8] * size;
-            let twist = Twist::new(vector![0.1, 0.2, 0.3] * size, axis);
-            let back = pose_residual(&moved(&pose, &twist), &pose);
-            assert!((back.0 - twist.0).norm() < 1e-12 * size.max(1e-3), "{size}");
-        }
-    }
 }

@@ -1,5 +1,6 @@
 //! A machine at home: mobility, what holds it, what its own loads do.
 
+use kinetostat::number::larger;
 use kinetostat::{Mechanism, MechanismEquilibrium, Posture, Wrench};
 use kinetostat_analysis::limb_motions::{directions_held_by_limb, redundant_actuators};
 use nalgebra::Vector3;
@@ -134,5 +135,5 @@ fn balance_in_words(words: &str) -> String {
 }
 
 fn largest(e: &MechanismEquilibrium, size: impl Fn(&Wrench) -> f64) -> f64 {
-    e.limbs.iter().map(|l| size(&l.wrench)).fold(0.0, f64::max)
+    e.limbs.iter().map(|l| size(&l.wrench)).fold(0.0, larger)
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use kinetostat::MotionKind;
+use kinetostat::number::larger;
 use kinetostat_analysis::measured_poses::{
     Difference, Explained, Explanation, MeasuredPose, Pendant, Tolerance, difference, explain,
     remaining_differences,
@@ -173,10 +174,8 @@ fn nearest(
 }
 
 fn largest(differences: &[Difference]) -> (f64, Option<f64>) {
-    let distance = differences.iter().map(|d| d.distance).fold(0.0, f64::max);
+    let distance = differences.iter().map(|d| d.distance).fold(0.0, larger);
     let angles = differences.iter().filter_map(|d| d.angle);
-    let angle = angles.fold(None, |most, a| {
-        Some(most.map_or(a, |most: f64| most.max(a)))
-    });
+    let angle = angles.fold(None, |most, a| Some(most.map_or(a, |most| larger(most, a))));
     (distance, angle)
 }

@@ -192,15 +192,15 @@ fn complete(columns: &[Column], names: &[Named]) -> Answer<()> {
 #[derive(Debug, thiserror::Error)]
 enum RowFault {
     #[error("'{text}' in the column '{column}': a finite number with a decimal point is needed")]
-    NoNumber { text: String, column: String },
+    Number { text: String, column: String },
     #[error("'{text}' in the column '{column}': {fault}")]
-    NoQuantity {
+    Quantity {
         text: String,
         column: String,
         fault: NoQuantity,
     },
     #[error(transparent)]
-    NoOrientation(#[from] NoOrientation),
+    Orientation(#[from] NoOrientation),
 }
 
 fn cells(
@@ -219,7 +219,7 @@ fn cells(
             text.parse::<f64>()
                 .ok()
                 .filter(|x| x.is_finite())
-                .ok_or_else(|| RowFault::NoNumber {
+                .ok_or_else(|| RowFault::Number {
                     text: text.to_owned(),
                     column: head.to_owned(),
                 })
@@ -228,7 +228,7 @@ fn cells(
             Column::Name => name = cell.to_owned(),
             Column::Joint(i) => {
                 let (_, kind, usual) = names[*i];
-                joints[*i] = quantity(cell, kind, usual).map_err(|fault| RowFault::NoQuantity {
+                joints[*i] = quantity(cell, kind, usual).map_err(|fault| RowFault::Quantity {
                     text: cell.to_owned(),
                     column: head.to_owned(),
                     fault,

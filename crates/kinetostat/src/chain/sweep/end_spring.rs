@@ -4,7 +4,7 @@ use crate::linalg::saddle::RANK_TOLERANCE;
 
 /// A spring at the end of a chain while its coordinates are eliminated, and what may be lost.
 #[derive(Clone, Copy)]
-pub(crate) struct EndSpring {
+pub struct EndSpring {
     /// Its share of the chain's own stiffness.
     pub share: f64,
     /// The share of the largest compliance that the smallest one counts as.
@@ -39,7 +39,7 @@ impl EndSpring {
 }
 
 /// Springs at the end that are tried one after the other.
-pub(crate) const END_SPRINGS: [EndSpring; 3] = [
+pub const END_SPRINGS: [EndSpring; 3] = [
     EndSpring::as_stiff(1.0),
     EndSpring::as_stiff(0.17),
     EndSpring::as_stiff(5.3),

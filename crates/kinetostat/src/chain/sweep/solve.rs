@@ -10,12 +10,15 @@ use crate::chain::sweep::factor::Factored;
 use crate::chain::sweep::stages::{Form, Sweep, column};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space};
+use crate::number::larger;
 
 /// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced;
 /// every row with an entry of the size one.
 #[derive(Clone, Copy)]
-pub(crate) struct EndRows {
+pub struct EndRows {
+    /// What `t` is multiplied by.
     pub motion: Matrix6<f64>,
+    /// What `F` is multiplied by.
     pub wrench: Matrix6<f64>,
 }
 
@@ -48,9 +51,9 @@ impl EndRows {
 
 /// `[0 J; J^T M]` with the rows of an end condition, ready for right-hand sides. Holds its stages or
 /// borrows them.
-pub(crate) struct Bordered<S> {
+pub struct Bordered<S> {
     sweep: S,
-    pub factored: Factored,
+    pub(crate) factored: Factored,
     form: Form,
     rows: EndRows,
     /// Of twelve equations for wrench (in units of `1 / size`) and motion of the end.
@@ -118,14 +121,16 @@ impl<S: Deref<Target = Sweep>> Bordered<S> {
         for attempt in 0..3 {
             let tip = self.sweep.product(self.form, &x, &mut motions, &mut left);
             // Where only passive joints move, all torques are rounding.
-            let moved = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let moved = x.iter().fold(0.0_f64, |most, x| larger(most, x.abs()));
             let (mut worst, mut size) = (0.0_f64, RANK_TOLERANCE * moved);
             for own in 0..x.len() {
                 let pull = column(&self.sweep.twists, own).dot(&wrench);
                 let given = torque[own];
-                size = size.max(pull.abs()).max(given.abs()).max(left[own].abs());
+                for part in [pull, given, left[own]] {
+                    size = larger(size, part.abs());
+                }
                 left[own] = given - pull - left[own];
-                worst = worst.max(left[own].abs());
+                worst = larger(worst, left[own].abs());
             }
             if !worst.is_finite() {
                 return None;
@@ -195,7 +200,7 @@ pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
 }
 
 /// What the end of a chain can do, balanced, orthonormal columns.
-pub(crate) struct EndMotions {
+pub struct EndMotions {
     /// The motions that the chain can make.
     range: DMatrix<f64>,
     /// Those among them that nothing holds.
@@ -283,7 +288,7 @@ impl<'s> Shifted<'s> {
         let most = values.amax();
         let mut inertia = factored.inertia;
         for value in values.iter() {
-            if value.abs() <= LOST_SIGN * most {
+            if value.is_nan() || value.abs() <= LOST_SIGN * most {
                 inertia.zero += 1;
             } else if *value > 0.0 {
                 inertia.positive += 1;
@@ -333,7 +338,7 @@ impl<'s> Shifted<'s> {
 }
 
 /// What [`crate::chain::stability::ShapeStability`] says, in balanced coordinates.
-pub(crate) struct Shape {
+pub struct Shape {
     pub inertia: Inertia,
     /// Largest eigenvalue of the pencil.
     pub share_to_buckling: f64,
@@ -423,7 +428,7 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
         let mut springs = vec![0.0; n];
         sweep.spring_product(&next, &mut springs);
         beyond = dot(&next, &springs).max(0.0).sqrt();
-        let size = basis.iter().map(|t| t.quotient.abs()).fold(1e-3, f64::max);
+        let size = basis.iter().map(|t| t.quotient.abs()).fold(1e-3, larger);
         // Equal eigenvalues (a round rod) exhaust the space early: what is left is rounding.
         if basis.len() == LANCZOS || beyond <= EXHAUSTED * size {
             break;
@@ -460,7 +465,7 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
 /// Largest eigenvalue of the pencil while motions of the end are held. Rayleigh quotients bound
 /// it from below, the count of eigenvalues above a shift from above; each shift costs one sweep, and
 /// inverse iteration at the shift improves the quotient. `None` where a sweep loses a pivot.
-pub(crate) fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
+pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
     let judged = Shifted::new(sweep, ends, Form::Pencil(1.0))?;
     let inertia = judged.inertia;
     let (mut best, mut off) = lanczos(sweep, ends)?;

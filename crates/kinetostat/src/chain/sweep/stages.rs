@@ -34,11 +34,11 @@ use crate::model::kinematics::{Kinematics, NodeTangent};
 use crate::spatial::{Wrench, hat, shift_matrix};
 
 /// Chains of fewer coordinates are solved with dense matrices, which are faster there.
-pub(crate) const SWEEP_FROM: usize = 60;
+pub const SWEEP_FROM: usize = 60;
 
 /// Coordinates that are eliminated together: a spring block or a passive joint.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stage {
+pub struct Stage {
     pub first: usize,
     /// One to six.
     pub len: usize,
@@ -96,7 +96,7 @@ pub(crate) fn column(list: &[f64], coordinate: usize) -> Vector6<f64> {
 
 /// Which tangent is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Form {
+pub enum Form {
     /// `-K`: the report's iteration, loads lagged.
     Lagged,
     /// `H - K`, `H` of dead wrenches as it is.
@@ -121,7 +121,7 @@ impl Form {
 
 /// A chain at one state, stage by stage.
 #[derive(Clone)]
-pub(crate) struct Sweep {
+pub struct Sweep {
     pub stages: Vec<Stage>,
     /// Per node: number of stages nearer the base.
     before: Vec<usize>,
@@ -513,7 +513,7 @@ impl Sweep {
 
 /// Which of two paths solves a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Path {
+pub enum Path {
     /// Dense matrices: any chain.
     Dense,
     /// Sweeps along the chain, cost O(n).

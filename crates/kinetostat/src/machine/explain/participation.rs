@@ -102,7 +102,7 @@ fn limbs_behind<'a>(
         }
     }
     for share in &mut all {
-        share.share /= f64::max(total, f64::MIN_POSITIVE);
+        share.share /= total.max(f64::MIN_POSITIVE);
     }
     largest(all)
 }

@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
 use crate::chain::directions::axis_in_words;
 use crate::error::{Error, Place, Result};
+use crate::linalg::largest::largest;
 use crate::machine::inverse::limb::wrap;
 use crate::machine::posture::Posture;
 use crate::machine::singular::lost_motion::{Search, solve};
@@ -109,7 +110,7 @@ impl Search<'_> {
                 - &free.rotation * &moving;
             let (turning, _) = nearest(&(&free.rotation * &held), &turn)?;
             let [place, turn] = [&free.all * &moving, &free.all * (held * turning)];
-            if !(closing.amax() + place.amax() + turn.amax()).is_finite() {
+            if !(largest(&closing) + largest(&place) + largest(&turn)).is_finite() {
                 return None;
             }
             let short = |part: &DVector<f64>| part * (0.3 * length / part.amax()).min(1.0);
@@ -136,7 +137,7 @@ impl Search<'_> {
         for _ in 0..STEPS {
             let (closing, _) = self.freedoms()?;
             self.go(&closing);
-            if closing.amax() <= 1e-13 * self.length {
+            if largest(&closing) <= 1e-13 * self.length {
                 break;
             }
         }

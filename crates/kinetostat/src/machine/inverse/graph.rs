@@ -15,6 +15,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector6};
 
 use crate::error::{Error, Place, Result};
 use crate::linalg::block_elimination::{BlockFactors, FEW, Pivots};
+use crate::linalg::largest::largest;
 use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::limb::{LimbPosture, inverse_kinematics};
 use crate::model::chain::Role;
@@ -54,7 +55,7 @@ pub(crate) fn graph_inverse(
     }
     let home = search.home()?;
     let off = pose_residual(target, &home.platforms[mechanism.tool()]).0;
-    if off.amax() <= 1e-9 * search.length.max(1.0) {
+    if largest(&off) <= 1e-9 * search.length.max(1.0) {
         let mut found = home;
         found.platforms[mechanism.tool()] = *target;
         let found = search

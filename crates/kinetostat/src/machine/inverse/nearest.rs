@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::machine::inverse::graph::graph_nearest;
 use crate::machine::inverse::limb::{blocked_motions, inverse_kinematics};
 use crate::model::mechanism::Mechanism;
+use crate::number::larger;
 use crate::spatial::{Pose, Twist, moved, pose_residual, shift_matrix};
 
 /// Steps until all limbs reach the same pose.
@@ -44,7 +45,7 @@ impl Mechanism {
                 if size(&lack) > limit {
                     return None;
                 }
-                most = most.max(size(&lack) / length);
+                most = larger(most, size(&lack) / length);
                 let own = limb.nominal.scale().length;
                 let unit = |k: usize| if k < 3 { 1.0 } else { own };
                 let blocked = blocked_motions(&limb.nominal, base, &joints);

@@ -21,6 +21,7 @@ use crate::chain::residual::Balance;
 use crate::chain::scaling::LEAST_LOAD;
 use crate::chain::stability::{ShapeStability, shape_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, motions_of_end};
+use crate::linalg::largest::largest;
 use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::machine::inverse::limb::{LimbPosture, command_rates, inverse_kinematics};
@@ -30,6 +31,7 @@ use crate::machine::state::MechanismState;
 use crate::model::chain::{Chain, Scale};
 use crate::model::loads::load::Load;
 use crate::model::mechanism::Mechanism;
+use crate::number::larger;
 use crate::settings::Settings;
 use crate::spatial::{Pose, Twist, Wrench, pose_residual, shift_matrix};
 
@@ -248,7 +250,7 @@ impl<'m> PlatformSolver<'m> {
                 .sum::<f64>()
                 .sqrt()
         };
-        forces = lack.iter().skip(1).map(size).fold(forces, f64::max);
+        forces = lack.iter().skip(1).map(size).fold(forces, larger);
         for (i, limb) in m.limbs().iter().enumerate() {
             let arm = self.arm(i, &self.state);
             let (x, f) = (&self.state.coordinates[i], &self.state.wrenches[i]);
@@ -265,29 +267,29 @@ impl<'m> PlatformSolver<'m> {
                 &self.factors[i],
             );
             merit += b.closure.powi(2) + b.torque.powi(2);
-            closure_m = closure_m.max(b.closure / limb.actual.scale().stiffness.sqrt());
-            torque = torque.max(b.torque);
-            loads = loads.max(b.loads);
-            exceeding = exceeding.max(b.exceeding());
+            closure_m = larger(closure_m, b.closure / limb.actual.scale().stiffness.sqrt());
+            torque = larger(torque, b.torque);
+            loads = larger(loads, b.loads);
+            exceeding = larger(exceeding, b.exceeding());
             lack[limb.to] += Wrench(-(shift_matrix(&arm).transpose() * f.0));
             if limb.from != 0 {
                 let n = x.len() + limb.actual.actuators().len();
                 let reaction = Vector6::from_fn(|k, _| linear.system.torque[n + k]);
                 lack[limb.from] += Wrench(reaction);
             }
-            forces = forces.max(size(f));
+            forces = larger(forces, size(f));
         }
         let mut force = 0.0_f64;
         if self.unknowns == Unknowns::Guided {
             let missing = self.guide.lack(&self.state.platforms[m.tool()]);
-            let missing = missing.amax();
+            let missing = largest(&missing);
             merit += (missing * root).powi(2);
-            closure_m = closure_m.max(missing);
+            closure_m = larger(closure_m, missing);
         }
         for (k, w) in lack.iter().enumerate().skip(1) {
             // Whoever holds the tool supplies what it lacks.
             if self.unknowns != Unknowns::Held || k != m.tool() {
-                force = force.max(size(w));
+                force = larger(force, size(w));
                 merit += size(w).powi(2);
             }
         }
@@ -460,7 +462,7 @@ fn measure(
     let mut gap = 0.0;
     for k in 0..6 {
         gap += (closure.0[k] * factors[k]).powi(2);
-        loads = loads.max((wrench.0[k] / factors[k]).abs());
+        loads = larger(loads, (wrench.0[k] / factors[k]).abs());
     }
     Balance {
         closure: gap.sqrt(),

@@ -7,12 +7,14 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
+use crate::linalg::largest::largest;
 use crate::linalg::singular_values::{SingularValues, shortest_and_free};
 use crate::machine::constraints::limb_motions;
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::network::ends;
 use crate::machine::posture::Posture;
 use crate::model::chain::{Chain, Role};
+use crate::number::larger;
 use crate::spatial::{MotionKind, Pose, Twist, moved, pose_residual};
 
 /// A limb is singular where its singular value is at most this share of the largest.
@@ -289,8 +291,8 @@ impl<'p> Search<'p> {
             ));
             let (condition, value) = self.condition(limb, &axes, which);
             let parts = self.step(&condition, &value)?;
-            let size = parts.iter().map(|p| p.amax()).fold(0.0, f64::max);
-            if !parts.iter().all(|p| p.iter().all(|x| x.is_finite())) {
+            let size = parts.iter().map(largest).fold(0.0, larger);
+            if !size.is_finite() {
                 return None;
             }
             // Each in its bounds: near a lost motion the second may be long and must not hold up
@@ -302,7 +304,7 @@ impl<'p> Search<'p> {
             }
             axes = self.axes(limb)?;
             let singular = axes.values[rank - 1] <= SINGULAR * axes.values[0];
-            let closed = self.closure().1.amax() <= 1e-9 * self.length;
+            let closed = largest(&self.closure().1) <= 1e-9 * self.length;
             if singular && closed && size <= 1e-7 * self.length {
                 return Some(true);
             }

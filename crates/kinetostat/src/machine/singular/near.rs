@@ -9,11 +9,13 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::directions::motion_in_words;
 use crate::error::Result;
+use crate::linalg::largest::largest;
 use crate::linalg::singular_values::SingularValues;
 use crate::machine::constraints::Constraints;
 use crate::machine::posture::Posture;
 use crate::machine::singular::lost_motion::{Search, solve};
 use crate::number;
+use crate::number::smaller;
 use crate::spatial::{Pose, Twist, moved, pose_residual};
 
 /// What happens at a singular posture.
@@ -124,7 +126,7 @@ impl<'p> Beside<'p> {
         search.go(&(&self.free * self.moves.shortest(&wanted, small)));
         for _ in 0..CLOSING_STEPS {
             let (closure, gaps) = search.closure();
-            if gaps.amax() <= 1e-12 * length {
+            if largest(&gaps) <= 1e-12 * length {
                 let gone = pose_residual(&search.at.target, &self.start.at.target);
                 let off = (balanced(&gone.0) - &wanted).norm();
                 return (off <= 0.5 * wanted.norm()).then_some(search.at);
@@ -379,6 +381,6 @@ fn follow(start: f64, first: f64, square: &dyn Fn(f64) -> Option<f64>) -> Option
         points[worst] = (next, value);
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
-    let least = points.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
+    let least = points.iter().map(|p| p.1).fold(f64::INFINITY, smaller);
     (least <= 1e-4 * start).then_some(estimate)
 }

@@ -3,10 +3,12 @@
 use nalgebra::DVector;
 
 use crate::error::{Error, Place, Result};
+use crate::linalg::largest::largest;
 use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
 use crate::model::limits::check_number;
 use crate::model::loads::load::Load;
+use crate::number::larger;
 use crate::number::short;
 use crate::spatial::{MotionKind, Pose, Wrench};
 
@@ -64,7 +66,7 @@ pub fn check_tangents(
     let mut list = Vec::new();
     load.add_wrenches(chain, &kinematics, 1.0, &mut list);
     let newtons = |w: &Wrench| w.force().norm().max(w.moment().norm() / length);
-    let mut size = list.iter().map(|(_, w)| newtons(w)).fold(0.0_f64, f64::max);
+    let mut size = list.iter().map(|(_, w)| newtons(w)).fold(0.0_f64, larger);
     let mut worst = TangentCheck {
         largest: 0.0,
         node: 0,
@@ -90,7 +92,7 @@ pub fn check_tangents(
         };
         let differences: DVector<f64> =
             (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step);
-        size = size.max(exact.amax()).max(differences.amax());
+        size = larger(larger(size, largest(&exact)), largest(&differences));
         let off = (exact - differences).abs();
         let row = off.imax();
         // A difference that is not a number is the worst of all.
@@ -106,7 +108,7 @@ pub fn check_tangents(
             };
         }
     }
-    worst.largest /= size.max(f64::MIN_POSITIVE);
+    worst.largest /= larger(size, f64::MIN_POSITIVE);
     Ok(worst)
 }
 

@@ -5,6 +5,7 @@
 //! torque that the chain must apply to it is the gradient.
 
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::model::springs::curved::CurvedLaw;
@@ -13,7 +14,8 @@ use crate::model::springs::law::{if_curved, if_single};
 use crate::model::springs::single::SingleLaw;
 
 /// A named group of spring coordinates with one law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct SpringBlock {
     /// Name, unique in the chain.
     pub name: String,
@@ -24,12 +26,13 @@ pub struct SpringBlock {
     /// The law.
     pub law: SpringLaw,
     /// The piece of an elastic link that this spring stands for, if it is one.
-    #[serde(default)]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub segment: Option<Segment>,
 }
 
 /// A piece of a straight elastic link.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Segment {
     /// Name of the link.
     pub link: String,
@@ -38,7 +41,7 @@ pub struct Segment {
     /// Smaller of the link's two bending stiffnesses `EI`, N m^2.
     pub bending_stiffness: f64,
     /// Direction of the link from its near to its far end, in the axes of the spring; unit length.
-    #[serde(default = "Vector3::x")]
+    #[cfg_attr(feature = "serde", serde(default = "Vector3::x"))]
     pub along: Vector3<f64>,
 }
 
@@ -172,93 +175,4 @@ pub(crate) fn balanced(k: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(k.nrows(), k.ncols(), |i, j| {
         k[(i, j)] / (scale[i] * scale[j])
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::BeamSection;
-    use crate::model::springs::bowing::BowingLaw;
-    use crate::model::springs::logarithm::LogarithmLaw;
-
-    fn respond(block: &SpringBlock, x: &[f64; 6]) -> (f64, Vec<f64>, DMatrix<f64>) {
-        let (mut torque, mut tangent) = (vec![0.0; 6], DMatrix::zeros(6, 6));
-        let energy = block.add(
-            x,
-            &[0.0; 6],
-            1.0,
-            &mut torque,
-            &mut |i, j, value| tangent[(i, j)] += value,
-            &mut Vec::new(),
-        );
-        (energy, torque, tangent)
-    }
-
-    #[test]
-    fn torque_and_tangent_are_derivatives_of_the_energy() {
-        let section = BeamSection {
-            youngs_modulus: 1.0,
-            shear_modulus: 0.4,
-            area: 5.0,
-            second_moment_y: 0.3,
-            second_moment_z: 0.7,
-            torsion_constant: 0.5,
-        };
-        // Every coupling that a matrix from finite elements may have.
-        let matrix = section.cantilever(0.8).unwrap()
-            + Matrix6::from_fn(|i, j| 0.02 * ((1 + i + j + i * j) as f64).sin());
-        let laws = [
-            SpringLaw::Bowing(Box::new(BowingLaw {
-                matrix,
-                length: 0.8,
-            })),
-            SpringLaw::Logarithm(Box::new(LogarithmLaw {
-                matrix,
-                length: 0.0,
-            })),
-            SpringLaw::Logarithm(Box::new(LogarithmLaw {
-                matrix,
-                length: 0.8,
-            })),
-        ];
-        for law in laws {
-            let block = SpringBlock {
-                name: "s".into(),
-                first: 0,
-                rest: vec![0.01, -0.02, 0.03, 0.02, -0.01, 0.04],
-                law,
-                segment: None,
-            };
-            for x in [
-                [0.1, -0.3, 0.2, 0.4, -0.6, 0.5],
-                [-0.2, 0.5, 0.1, -1.0, 1.2, 0.9],
-                [0.01, -0.02, 0.03, 0.02, -0.01, 0.04],
-            ] {
-                let (_, torque, tangent) = respond(&block, &x);
-                assert!((&tangent - tangent.transpose()).amax() < 1e-14);
-                for k in 0..6 {
-                    let at = |s: f64| {
-                        let mut moved = x;
-                        moved[k] += s * 1e-3;
-                        respond(&block, &moved)
-                    };
-                    let [a, b, c, d] = [at(1.0), at(-1.0), at(2.0), at(-2.0)];
-                    let slope = (8.0 * (a.0 - b.0) - (c.0 - d.0)) / 12e-3;
-                    assert!(
-                        (slope - torque[k]).abs() < 1e-9,
-                        "{k}: {slope} {}",
-                        torque[k]
-                    );
-                    for i in 0..6 {
-                        let slope = (8.0 * (a.1[i] - b.1[i]) - (c.1[i] - d.1[i])) / 12e-3;
-                        assert!((slope - tangent[(i, k)]).abs() < 1e-9, "{i} {k}");
-                    }
-                }
-            }
-            let (energy, torque, tangent) =
-                respond(&block, &[0.01, -0.02, 0.03, 0.02, -0.01, 0.04]);
-            assert!(energy == 0.0 && torque.iter().all(|t| t.abs() < 1e-15));
-            assert!((tangent - block.stiffness_at(&[])).amax() < 1e-14);
-        }
-    }
 }

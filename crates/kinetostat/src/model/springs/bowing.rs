@@ -28,6 +28,7 @@
 //! vectorised kernels evaluate the same formulas.
 
 use nalgebra::{Matrix6, Vector6};
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::linalg::derivatives::{Forward, Number, Real};
@@ -35,7 +36,8 @@ use crate::model::springs::curved::{CurvedLaw, Six, times};
 use crate::model::springs::rotation::{angles, rotation_vector, torque_on_turns};
 
 /// Energy of a beam segment that shortens as it bends; see [`crate::model::LinkConvention::Bowing`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct BowingLaw {
     /// Stiffness at the far end with the root clamped, 6 x 6 (N/m, N/rad, N m/m, N m/rad).
     pub matrix: Matrix6<f64>,

@@ -13,7 +13,7 @@ use crate::model::springs::response::Response;
 pub(crate) type Six<N> = [[N; 6]; 6];
 
 /// A law of the six motions of a spring (m, rad; translations before rotations).
-pub(crate) trait CurvedLaw {
+pub trait CurvedLaw {
     /// Stiffness `K` of the strains.
     fn matrix(&self) -> &Matrix6<f64>;
 
@@ -121,7 +121,7 @@ pub(crate) trait CurvedLaw {
 }
 
 /// A law to first order about a deflection.
-pub(crate) struct Linearised<N> {
+pub struct Linearised<N> {
     strain: [N; 6],
     /// Of the strains.
     force: [N; 6],

@@ -4,6 +4,7 @@
 //! [`SpringLaw`] and a line in the macro of its kind; both engines go through these.
 
 use nalgebra::DMatrix;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::model::springs::bilinear::BilinearLaw;
@@ -14,7 +15,8 @@ use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::model::springs::single::SingleLaw;
 
 /// How a spring block answers a deflection.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub enum SpringLaw {
     /// Constant symmetric stiffness, k x k (N/m, N/rad, N m/m, N m/rad by coordinate).

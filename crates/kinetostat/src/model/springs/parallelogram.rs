@@ -1,6 +1,7 @@
 //! The stiffness of a bar parallelogram as one link.
 
 use nalgebra::Matrix6;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use crate::linalg::derivatives::Number;
@@ -24,7 +25,8 @@ use crate::linalg::derivatives::Number;
 /// stiffnesses with the load; where it matters, write the two bars as limbs between platforms. The
 /// test `a_loaded_parallelogram_differs_by_the_geometric_stiffness_of_its_bars` holds that there is
 /// nothing else.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ParallelogramLaw {
     /// Stiffness of one bar at its distal end, 6 x 6, cantilever (N/m, N/rad, N m/rad).
     pub bar: Matrix6<f64>,

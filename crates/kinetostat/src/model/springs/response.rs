@@ -4,7 +4,7 @@ use nalgebra::{Matrix6, Vector6};
 
 /// What a six-dimensional law answers to a deflection.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Response {
+pub struct Response {
     /// J.
     pub energy: f64,
     /// Its gradient, N or N m.

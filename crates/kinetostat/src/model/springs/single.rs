@@ -3,7 +3,7 @@
 use crate::linalg::derivatives::{Forward, Number, Real};
 
 /// A law that grows without end in both senses, zero at zero.
-pub(crate) trait SingleLaw {
+pub trait SingleLaw {
     /// Stiffness at rest, N/m or N m/rad.
     fn at_rest(&self) -> f64;
 

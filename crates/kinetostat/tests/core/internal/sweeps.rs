@@ -1,22 +1,19 @@
 //! Sweeps against dense matrices and against differences, on random spatial chains, and which of
 //! the two paths a chain takes. (The oracle of the integration tests judges the same from outside.)
 
+use kinetostat_testing::{LargestEntry, Worst, largest_size};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
-use crate::chain::passive::balanced_jacobian;
-use crate::chain::problem::Prescribed;
-use crate::chain::scaling::balance;
-use crate::chain::stability::stability_within;
-use crate::chain::sweep::end_spring::END_SPRINGS;
-use crate::chain::sweep::solve::{Bordered, EndMotions, EndRows};
-use crate::chain::sweep::stages::{Form, Path, SWEEP_FROM};
-use crate::chain::system::System;
-use crate::continuation::chain_system::ChainSystem;
-use crate::continuation::curve_matrix::CurveMatrix;
-use crate::continuation::parameter::{LoadPattern, Parameter};
-use crate::equilibrium::chain::solve_along;
-use crate::model::{Role, unloaded_tip};
-use crate::*;
+use kinetostat::internal::{
+    Bordered, ChainCurve, CurveState, END_SPRINGS, EndMotions, EndRows, Form, Path, SWEEP_FROM,
+    System, balance, balanced_jacobian, chain_stiffness, column_space, shape, solve_along,
+    stability_within, swept_stiffness,
+};
+use kinetostat::{
+    continuation::LoadPattern,
+    model::{Role, unloaded_tip},
+    *,
+};
 
 /// In [-1, 1).
 struct Rng(u64);
@@ -193,9 +190,9 @@ fn products_torques_and_energy_are_those_of_dense_matrices() {
             let expected = &matrix * DVector::from_column_slice(&x);
             let mut found = vec![0.0; n];
             sweep.product(form, &x, &mut Vec::new(), &mut found);
-            let off = (DVector::from_vec(found) - &expected).amax();
+            let off = (DVector::from_vec(found) - &expected).largest_entry();
             assert!(
-                off < 1e-12 * matrix.amax() * n as f64,
+                off < 1e-12 * matrix.largest_entry() * n as f64,
                 "{case} {form:?} {off:.2e}"
             );
         }
@@ -241,11 +238,11 @@ fn the_product_is_the_derivative_of_what_equilibrium_lacks() {
         let mut exact = vec![0.0; n];
         let sweep = system.sweep.as_ref().expect("stages");
         sweep.product(Form::Exact, &along, &mut Vec::new(), &mut exact);
-        let off = (DVector::from_vec(exact) - &slope).amax();
+        let off = (DVector::from_vec(exact) - &slope).largest_entry();
         assert!(
-            off < 1e-8 * slope.amax(),
+            off < 1e-8 * slope.largest_entry(),
             "{case}: {off:.2e} of {:.2e}",
-            slope.amax()
+            slope.largest_entry()
         );
     }
 }
@@ -289,7 +286,7 @@ fn bordered_systems_are_solved_as_by_dense_matrices() {
             let lu = a.clone().full_piv_lu();
             assert!(lu.solve_mut(&mut b));
             let found = DVector::from_iterator(6 + n, wrench.iter().chain(&x).copied());
-            let (off, size) = ((&found - &b).amax(), b.amax());
+            let (off, size) = ((&found - &b).largest_entry(), b.largest_entry());
             assert!(
                 off < 1e-9 * size,
                 "{case} {form:?}: {off:.2e} of {size:.2e}"
@@ -308,7 +305,7 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
             "{case}, {what}: {a:e} {b:e} of {size:e}"
         );
     };
-    let most = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let most = |v: &[f64]| largest_size(v.iter().copied());
     for (x, y) in a.coordinates.iter().zip(&b.coordinates) {
         close(*x, *y, most(&a.coordinates), "coordinate");
     }
@@ -318,7 +315,7 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
     };
     let (ka, kb) = (balanced(a), balanced(b));
     for (x, y) in ka.iter().zip(kb.iter()) {
-        close(*x, *y, ka.amax(), "stiffness");
+        close(*x, *y, ka.largest_entry(), "stiffness");
     }
     for (x, y) in [
         (&a.stiffness.springs, &b.stiffness.springs),
@@ -327,7 +324,7 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
         assert_eq!(x.shape(), y.shape());
         if !x.is_empty() {
             assert!(
-                (x - y).amax() <= 1e-9 * x.amax(),
+                (x - y).largest_entry() <= 1e-9 * x.largest_entry(),
                 "{case}: motions of coordinates"
             );
         }
@@ -451,7 +448,7 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
         let (dense, swept, factors) = two(&mut rng, &chain, &loads, 12.0);
         let jacobian = balanced_jacobian(&dense, &factors);
         let sweep = swept.sweep.as_ref().expect("stages");
-        let range = crate::linalg::saddle::column_space(&jacobian);
+        let range = column_space(&jacobian);
         // The whole end held, some directions of it, nothing.
         let mut directions = Rng(100 + case as u64);
         for k in 0..=6 {
@@ -469,7 +466,7 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
             };
             assert_eq!(ends.held_count(), k.min(range.ncols()), "{case} {k}");
             let share_to_buckling = expected.share_to_buckling.expect("share_to_buckling");
-            let Some(shape) = crate::chain::sweep::solve::shape(sweep, &ends) else {
+            let Some(shape) = shape(sweep, &ends) else {
                 // A passive joint that only the end held.
                 assert!(k < 6 && case % 3 > 0, "{case} {k}");
                 continue;
@@ -571,7 +568,7 @@ fn planar_chains_of_joints_have_rigid_directions_on_both_paths() {
 #[test]
 fn curves_are_alike_by_sweeps_and_dense() {
     let mut rng = Rng(17);
-    let (mut signs, mut worst) = ([0, 0], 0.0_f64);
+    let (mut signs, mut worst) = ([0, 0], Worst::new());
     for case in 0..40 {
         let chain = random(&mut rng, 11 + case % 4, case % 3, 1.0);
         assert!(chain.coordinate_count() >= SWEEP_FROM);
@@ -596,8 +593,8 @@ fn curves_are_alike_by_sweeps_and_dense() {
                 loads: loads(&mut rng, &chain, true),
             }),
         };
-        let new = || ChainSystem::new(&problem, Some(&parameter), &Settings::default()).unwrap();
-        let (mut dense, mut swept) = (new(), new().by_sweeps());
+        let mut dense = ChainCurve::dense(&problem, &parameter).unwrap();
+        let mut swept = ChainCurve::swept(&problem, &parameter).unwrap();
         let m = dense.count();
         let mut direction = || {
             let v = DVector::from_fn(m + 1, |_, _| rng.next());
@@ -605,25 +602,21 @@ fn curves_are_alike_by_sweeps_and_dense() {
         };
         let (z, guide, lack) = (direction() * 4.0, direction(), direction());
         let right = lack.rows(0, m).into_owned();
-        let (a, _, x) = dense.linearised(&z);
-        let (b, _, y) = swept.linearised(&z);
-        assert!(matches!(y, CurveMatrix::Swept(_)), "{case}");
-        assert!((a - b).norm() < 1e-12, "{case}");
+        let (x, y) = (dense.linearised(&z), swept.linearised(&z));
+        assert!(y.is_swept(), "{case}");
+        assert!((&x.residual - &y.residual).norm() < 1e-12, "{case}");
         assert!((x.gradient() - y.gradient()).norm() < 1e-10, "{case}");
-        let (p, q) = (
-            x.tangent(&guide, None).unwrap(),
-            y.tangent(&guide, None).unwrap(),
-        );
+        let (p, q) = (x.tangent(&guide).unwrap(), y.tangent(&guide).unwrap());
         assert!(p.sign == q.sign, "{case}");
         signs[usize::from(p.sign > 0.0)] += 1;
         assert!((p.logarithm - q.logarithm).abs() < 1e-8, "{case}");
-        let step = |matrix: &CurveMatrix| matrix.step(&guide, &right, 0.3, None).unwrap();
+        let step = |at: &CurveState| at.step(&guide, &right, 0.3).unwrap();
         let (s, t) = (step(&x), step(&y));
-        worst = worst.max((&p.direction - q.direction).norm());
-        worst = worst.max((&s - t).norm() / s.norm());
+        worst.add((&p.direction - q.direction).norm());
+        worst.add((&s - t).norm() / s.norm());
     }
-    println!("apart {worst:e}, signs {signs:?}");
-    assert!(worst < 1e-9, "{worst:e}");
+    println!("apart {worst}, signs {signs:?}");
+    assert!(worst.of(80) < 1e-9, "{worst}");
     assert!(signs[0] > 5 && signs[1] > 5, "{signs:?}");
 }
 
@@ -647,31 +640,24 @@ fn a_cantilever_bent_far_stays_with_sweeps() {
         let grown = Wrench::new(vector![0.0, 10.0, 0.0], Vector3::zeros());
         let parameter = Parameter::end_wrench(grown);
         let settings = Settings::default();
-        let rest = crate::solve_chain(&problem, &settings).expect("rest");
-        let mut reduced = ChainSystem::new(&problem, Some(&parameter), &settings)
-            .expect("curve")
-            .by_sweeps();
+        let rest = solve_chain(&problem, &settings).expect("rest");
+        let mut reduced = ChainCurve::swept(&problem, &parameter).expect("curve");
         reduced
             .start(&rest.coordinates, &rest.wrench, 0.0)
             .expect("start");
         let mut loaded = problem.clone();
         for share in [0.0, 0.1, 0.3, 1.0] {
             loaded.end.wrench = grown * share;
-            let here = crate::solve_chain(&loaded, &settings).expect("bent");
+            let here = solve_chain(&loaded, &settings).expect("bent");
             let z = reduced.state(&here.coordinates, &here.wrench, share);
-            let (_, _, matrix) = reduced.linearised(&z);
+            let matrix = reduced.linearised(&z);
             let case = format!("{segments} {share}");
-            assert!(matches!(matrix, CurveMatrix::Swept(_)), "{case}");
+            assert!(matrix.is_swept(), "{case}");
             assert!(matrix.only_direction().is_some(), "{case}");
             let tangent = matrix.only_direction().expect("one");
             assert!(
                 matrix
-                    .step(
-                        &tangent,
-                        &DVector::from_element(z.len() - 1, 1e-3),
-                        0.0,
-                        None
-                    )
+                    .step(&tangent, &DVector::from_element(z.len() - 1, 1e-3), 0.0)
                     .is_some()
             );
         }
@@ -682,7 +668,7 @@ fn a_cantilever_bent_far_stays_with_sweeps() {
 /// Slender rods, pushed along and bent: the stiffness of an end that is far stiffer along than across.
 #[test]
 fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
-    let mut worst = [0.0_f64; 2];
+    let mut worst = [Worst::new(), Worst::new()];
     for (segments, axial) in [(11, 1e5), (16, 1e7), (16, 1e9), (24, 1e11)] {
         for push in [[-1.0, 0.0, 0.0], [-2.0, 0.3, 0.1], [3.0, 5.0, -2.0]] {
             let rod = BeamSection {
@@ -700,7 +686,7 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             let factors = balance(&chain, &posture);
             let force = Wrench::new(Vector3::from(push), Vector3::zeros());
             let problem = ChainProblem::new(&chain, EndCondition::wrench(force));
-            let here = crate::solve_chain(&problem, &Settings::default()).expect("equilibrium");
+            let here = solve_chain(&problem, &Settings::default()).expect("equilibrium");
             let [dense, swept] = [Path::Dense, Path::Sweep].map(|path| {
                 let mut system =
                     System::of_chain(&chain, &problem.base, &posture, &[], &factors, Some(path));
@@ -709,10 +695,9 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             });
             let case = format!("{segments} {axial:e} {push:?}");
             let sweep = swept.sweep.as_ref().expect("stages");
-            let by_sweep =
-                crate::chain::stiffness::swept_stiffness(&chain, &swept, sweep, &factors, None);
+            let by_sweep = swept_stiffness(&chain, &swept, sweep, &factors, None);
             let (a, b) = (
-                crate::chain::stiffness::chain_stiffness(&chain, &dense, &factors, None),
+                chain_stiffness(&chain, &dense, &factors, None),
                 by_sweep.expect(&case),
             );
             assert_eq!(
@@ -723,13 +708,14 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             for (x, y) in a.directions.iter().zip(&b.directions) {
                 assert_eq!(x.kind, y.kind, "{case}");
                 let off = (x.stiffness_n_per_m / y.stiffness_n_per_m - 1.0).abs();
-                worst[0] = worst[0].max(off);
+                worst[0].add(off);
             }
             let (x, y) = (&a.cartesian.matrix, &b.cartesian.matrix);
-            worst[1] = worst[1].max((x - y).amax() / x.amax());
-            assert!(worst.iter().all(|w| w.is_finite()), "{case}");
+            worst[1].add((x - y).largest_entry() / x.largest_entry());
         }
     }
-    println!("directions apart {:e}, matrices {:e}", worst[0], worst[1]);
-    assert!(worst[0] < 1e-7 && worst[1] < 1e-9, "{worst:?}");
+    let [directions, matrices] = worst;
+    println!("directions apart {directions}, matrices {matrices}");
+    assert!(directions.value() < 1e-7, "{directions}");
+    assert!(matrices.of(12) < 1e-9, "{matrices}");
 }

@@ -4,20 +4,15 @@
 //! vectorised kernels for every instruction set of this computer and for single numbers. An engine answers or refuses;
 //! where it answers, every number is compared, and a number that is none fails the comparison.
 
-use nalgebra::{Matrix6, Vector3};
-use pulp::Arch;
-
-use super::equilibria::Details;
-use super::run::CHOSEN;
-use super::{Batch, Status};
-use crate::chain::sweep::stages::Path;
-use crate::equilibrium::chain::solve_along;
-use crate::{
+use kinetostat::batch::{Batch, Details, Status};
+use kinetostat::internal::{InstructionSet, Path, solve_along};
+use kinetostat::{
     ActuatorSpec, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Limb, LinkSpec,
-    Mechanism, MotionKind, Platform, Pose, Settings, Wrench,
+    Load, Mechanism, MotionKind, Platform, Pose, PostureRequest, Settings, Wrench,
     machine::LimbPosture,
     model::{BilinearLaw, LinkConvention, SpringLaw, unloaded_tip},
 };
+use nalgebra::{Matrix6, Vector3};
 
 /// Where a machine comes to rest, and how it is held there.
 struct Answer {
@@ -70,10 +65,10 @@ impl Engine for ChainBy {
         let mut problem = ChainProblem::new(&limb.actual, EndCondition::wrench(case.wrench));
         problem.base = case.machine.platforms()[0].home;
         problem.commands.clone_from(&case.commands);
-        problem.loads = case.machine.acting(0);
+        problem.loads = vec![Load::gravity(case.machine.gravity())];
         let found = solve_along(&problem, &Settings::default(), Some(self.0));
         let (found, path) = found
-            .map_err(|e| println!("{}: {:?}: {e}", case.name, self.0))
+            .map_err(|e| eprintln!("{}: {:?}: {e}", case.name, self.0))
             .ok()?;
         // Sweeps answer stable states, dense matrices the rest.
         assert!(path == self.0 || !found.stability.stable, "{}", case.name);
@@ -102,7 +97,9 @@ impl Engine for General {
         };
         let base = case.machine.platforms()[0].home;
         let target = unloaded_tip(&limb.nominal, &base, &joints.coordinates, &joints.commands);
-        let posture = case.machine.posture_from_joints(&target, vec![joints]);
+        let posture = case
+            .machine
+            .posture(PostureRequest::joints(&target, vec![joints]));
         let found = posture.ok()?.deflected_by(&case.wrench).ok()?;
         Some(Answer {
             stable: found.stable(),
@@ -117,24 +114,20 @@ impl Engine for General {
 }
 
 /// The kernels on one instruction set; refuses what it would leave to the general engine.
-struct Kernels(Arch);
+struct Kernels(InstructionSet);
 
 impl Engine for Kernels {
     fn name(&self) -> String {
-        let sort = format!("{:?}", self.0);
-        format!("kernels {}", sort.split('(').next().unwrap_or_default())
+        format!("kernels {:?}", self.0)
     }
 
     fn answer(&self, case: &Case) -> Option<Answer> {
         let batch = Batch::new(&case.machine);
-        CHOSEN.set(Some(self.0));
-        let found = batch.equilibrium_at_joints(
-            &case.commands,
-            std::slice::from_ref(&case.wrench),
-            Details::Stiffness,
-        );
-        CHOSEN.set(None);
-        let found = found.ok()?;
+        let wrenches = std::slice::from_ref(&case.wrench);
+        let found = self
+            .0
+            .during(|| batch.equilibrium_at_joints(&case.commands, wrenches, Details::Stiffness))
+            .ok()?;
         (found.status == [Status::Vectorised]).then(|| Answer {
             tool: found.tool.row(0).collect(),
             coordinates: found.coordinates.row(0).collect(),
@@ -146,12 +139,8 @@ impl Engine for Kernels {
 }
 
 fn kernels() -> Vec<Box<dyn Engine>> {
-    let mut sets = vec![Arch::Scalar];
-    #[cfg(target_arch = "x86_64")]
-    sets.extend(pulp::x86::V3::try_new().map(Arch::V3));
-    sets.push(Arch::new());
     let boxed = |set| Box::new(Kernels(set)) as Box<dyn Engine>;
-    sets.into_iter().map(boxed).collect()
+    InstructionSet::available().into_iter().map(boxed).collect()
 }
 
 /// Largest difference; a number that is none, or a row of another length, fails.

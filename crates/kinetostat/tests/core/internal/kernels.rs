@@ -1,20 +1,18 @@
 //! A lane's bits depend on nothing but its own posture.
 
-use nalgebra::{Matrix6, UnitQuaternion, Vector3};
-use pulp::{Arch, Scalar};
-
-use super::group::Places;
-use super::lanes::Lanes;
-use super::run::CHOSEN;
-use super::*;
-use crate::error::Error;
-use crate::model::kinematics::unloaded_tip;
-use crate::model::mechanism::Mechanism;
-use crate::spatial::{Directions, Pose};
-use crate::{
-    ActuatorSpec, BeamSection, Chain, Limb, MotionKind, Platform, Wrench,
-    model::{BowingLaw, LogarithmLaw, SpringLaw},
+use kinetostat::batch::{Batch, BatchStiffness, Details, Status, Table, over_machines};
+use kinetostat::internal::{
+    InstructionSet, kernel_sine_and_cosine, kernel_tangent, kernel_torque, without_unloaded_kernels,
 };
+use kinetostat::{
+    ActuatorSpec, BeamSection, Chain, Directions, Error, Limb, Mechanism, MotionKind, Place,
+    Platform, Pose, Wrench,
+    model::{BowingLaw, Kinematics, LogarithmLaw, SpringLaw, unloaded_tip},
+};
+use kinetostat_testing::{LargestEntry, Worst, largest_size};
+use nalgebra::{Matrix6, UnitQuaternion, Vector3};
+
+use super::posture_at_joints;
 
 /// Numbers between -1 and 1 with nothing special about them.
 fn irregular(i: usize) -> f64 {
@@ -89,8 +87,7 @@ fn wrenches(count: usize) -> Vec<Wrench> {
 }
 
 /// Bits of all numbers of all answers, found with one instruction set on this thread.
-fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize) -> Vec<u64> {
-    CHOSEN.set(Some(set));
+fn answers(machine: &Mechanism, joints: Option<&[f64]>, count: usize) -> Vec<u64> {
     let batch = Batch::new(machine);
     let (poses, wrenches) = (poses(count), wrenches(count));
     let (free, bent) = match joints {
@@ -122,7 +119,6 @@ fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize)
         tables.extend([targets.tool, targets.coordinates, targets.commands]);
         found.extend(targets.status);
     }
-    CHOSEN.set(None);
     assert!(found.iter().all(|f| *f == Status::Vectorised));
     let rows = |i: usize| tables.iter().flat_map(move |t| t.row(i));
     (0..count).flat_map(rows).map(f64::to_bits).collect()
@@ -131,14 +127,12 @@ fn answers(set: Arch, machine: &Mechanism, joints: Option<&[f64]>, count: usize)
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
     let count = 11;
-    let mut sets = vec![Arch::new()];
-    #[cfg(target_arch = "x86_64")]
-    sets.extend(pulp::x86::V3::try_new().map(Arch::V3));
+    let sets = InstructionSet::available();
     let commands: Vec<f64> = (0..3 * count).map(|i| 1.5 * irregular(i)).collect();
     for (machine, joints) in [(sliders(), None), (arm(), Some(commands.as_slice()))] {
-        let single = answers(Arch::Scalar, &machine, joints, count);
+        let single = InstructionSet::Single.during(|| answers(&machine, joints, count));
         for set in &sets {
-            let same = answers(*set, &machine, joints, count) == single;
+            let same = set.during(|| answers(&machine, joints, count)) == single;
             assert!(same, "{}: {set:?}", machine.name());
         }
     }
@@ -205,12 +199,9 @@ fn together_is_as_alone() {
 fn sines_are_those_of_the_library() {
     for i in 0..20_000 {
         let x = irregular(i) * [1.0, 4.0, 100.0, 3e4][i % 4];
-        let mut out = [0.0; 2];
-        let (s, c) = Lanes::new(Scalar, x).sin_cos();
-        s.store(&mut out[..1]);
-        c.store(&mut out[1..]);
-        assert!((out[0] - x.sin()).abs() < 3e-16, "sin {x}");
-        assert!((out[1] - x.cos()).abs() < 3e-16, "cos {x}");
+        let (sine, cosine) = kernel_sine_and_cosine(x);
+        assert!((sine - x.sin()).abs() < 3e-16, "sin {x}");
+        assert!((cosine - x.cos()).abs() < 3e-16, "cos {x}");
     }
 }
 
@@ -253,20 +244,16 @@ fn a_serial_arm_has_its_tangent() {
     let free = batch.stiffness_and_jacobian(&commands).expect("sizes");
     for i in 0..count {
         assert_eq!(all.status[i], Status::Vectorised);
-        let joints = Places::Joints {
-            commands: &commands,
-            each: 3,
-        };
-        let posture = batch.posture(&joints, i).expect("a posture");
+        let posture = posture_at_joints(&machine, &commands[3 * i..3 * i + 3]);
         let alone = posture.deflected_by(&wrenches[i]).expect("an equilibrium");
         let same = |table: &Table, matrix: &Matrix6<f64>| {
             let own = Matrix6::from_fn(|r, c| table.get(i, 6 * r + c));
-            (own - matrix).amax() / matrix.amax()
+            (own - matrix).largest_entry() / matrix.largest_entry()
         };
         assert!(same(&all.stiffness, &alone.stiffness.matrix) < 1e-12);
         let unloaded = posture.stiffness().expect("a stiffness");
         assert!(same(&free.stiffness, &unloaded.cartesian.matrix) < 1e-12);
-        let at = crate::model::Kinematics::new(
+        let at = Kinematics::new(
             &machine.limbs()[0].nominal,
             &Pose::identity(),
             &[0.0; 21],
@@ -282,10 +269,10 @@ fn a_serial_arm_has_its_tangent() {
 #[test]
 fn a_jacobian_alone_is_the_one_together() {
     let machine = arm();
-    let mut batch = Batch::new(&machine);
+    let batch = Batch::new(&machine);
     let commands: Vec<f64> = (0..30).map(irregular).collect();
     let together = batch.stiffness_and_jacobian(&commands).expect("sizes");
-    batch.nominal = Err(NoKernel::LoadedPlatform);
+    let batch = without_unloaded_kernels(batch);
     let mut alone = BatchStiffness::default();
     // Room for more postures than the second call has.
     let more: Vec<f64> = (0..300).map(irregular).collect();
@@ -301,10 +288,7 @@ fn a_jacobian_alone_is_the_one_together() {
         for (a, b) in alone.jacobian.row(i).zip(together.jacobian.row(i)) {
             assert!((a - b).abs() < 1e-14, "{a} {b}");
         }
-        let largest = together
-            .stiffness
-            .row(i)
-            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        let largest = largest_size(together.stiffness.row(i));
         for (a, b) in alone.stiffness.row(i).zip(together.stiffness.row(i)) {
             assert!((a - b).abs() < 1e-12 * largest, "{a} {b}");
         }
@@ -317,7 +301,10 @@ fn machines_do_not_matter_to_each_other() {
     // Every arm is a little softer than the one before; one of them is none.
     let machine = |i: usize| {
         if i == 7 {
-            return Err(Error::model(crate::Place::mechanism("7"), "is left out"));
+            return Err(Error::Model {
+                place: Place::mechanism("7"),
+                reason: "is left out".into(),
+            });
         }
         let drive = ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), 2e5 - 1e3 * i as f64);
         let chain = Chain::builder("arm")
@@ -344,14 +331,10 @@ fn machines_do_not_matter_to_each_other() {
         };
         let many = many[i].as_ref().expect("a stiffness");
         assert_eq!(many, one[i].as_ref().expect("a stiffness"));
-        let at = Places::Joints {
-            commands: &[irregular(3)],
-            each: 1,
-        };
-        let alone = Batch::new(&own).posture(&at, 0).expect("a posture");
+        let alone = posture_at_joints(&own, &[irregular(3)]);
         let alone = alone.stiffness().expect("a stiffness").cartesian.matrix;
         for (k, x) in many.iter().enumerate() {
-            assert!((x - alone[(k / 6, k % 6)]).abs() < 1e-12 * alone.amax());
+            assert!((x - alone[(k / 6, k % 6)]).abs() < 1e-12 * alone.largest_entry());
         }
     }
 }
@@ -374,36 +357,24 @@ fn the_tangent_of_a_bent_beam_is_the_difference_of_its_torques() {
 }
 
 fn tangent_of(law: &SpringLaw, k: &Matrix6<f64>) {
-    let torque = |at: &[f64; 6]| {
-        let at = at.map(|x| Lanes::new(Scalar, x));
-        let (torque, _) = super::law::torque(law, &at);
-        torque.map(number)
-    };
     for i in 0..20 {
         let at: [f64; 6] =
             std::array::from_fn(|d| irregular(6 * i + d) * if d < 3 { 0.02 } else { 0.2 });
-        let lanes = at.map(|x| Lanes::new(Scalar, x));
-        let tangent = super::law::tangent(law, &lanes);
+        let tangent = kernel_tangent(law, &at);
         for column in 0..6 {
             let step = if column < 3 { 1e-6 } else { 1e-5 };
             let (mut more, mut less) = (at, at);
             more[column] += step;
             less[column] -= step;
-            let (more, less) = (torque(&more), torque(&less));
+            let (more, less) = (kernel_torque(law, &more), kernel_torque(law, &less));
             for row in 0..6 {
                 let slope = (more[row] - less[row]) / (2.0 * step);
-                let own = number(tangent[row][column]);
+                let own = tangent[row][column];
                 let size = (k[(row, row)] * k[(column, column)]).sqrt();
                 assert!((slope - own).abs() < 1e-7 * size, "{row} {column}");
             }
         }
     }
-}
-
-fn number(x: Lanes<Scalar>) -> f64 {
-    let mut out = [0.0];
-    x.store(&mut out);
-    out[0]
 }
 
 /// A serial arm with a heavy tool, whose limb holds the platform as limbs of a parallel machine do.
@@ -417,10 +388,12 @@ fn a_heavy_tool_at_given_joints_does_not_remember_its_neighbours() {
         ..light.platforms()[light.tool()].clone()
     });
     let machine = builder
-        .limb(Limb {
-            to: tool,
-            ..light.limbs()[0].clone()
-        })
+        .limb(Limb::between(
+            "arm",
+            0,
+            tool,
+            light.limbs()[0].nominal.clone(),
+        ))
         .build()
         .expect("a machine");
     let batch = Batch::new(&machine);
@@ -436,11 +409,7 @@ fn a_heavy_tool_at_given_joints_does_not_remember_its_neighbours() {
             .expect("sizes");
         assert_eq!(all.status[i], Status::Vectorised);
         assert!(all.tool.row(i).eq(one.tool.row(0)));
-        let joints = Places::Joints {
-            commands: &commands,
-            each: 3,
-        };
-        let alone = batch.posture(&joints, i).expect("a posture");
+        let alone = posture_at_joints(&machine, &commands[3 * i..3 * i + 3]);
         let alone = alone.deflected_by(&wrenches[i]).expect("an equilibrium");
         let own = all.tool_pose(i).translation.vector;
         assert!((own - alone.tool.translation.vector).norm() < 1e-11);
@@ -498,14 +467,15 @@ fn nearly_stretched_arms_have_the_joints_of_the_general_engine() {
             continue;
         };
         let alone = posture.stiffness().expect("a stiffness").cartesian.matrix;
-        let off = found.stiffness.row(0).enumerate();
-        let off = off.fold(0.0, |m: f64, (k, x)| {
-            m.max((x - alone[(k / 6, k % 6)]).abs())
-        });
+        let mut off = Worst::new();
+        for (k, x) in found.stiffness.row(0).enumerate() {
+            off.apart(x, alone[(k / 6, k % 6)]);
+        }
+        let off = off.of(36);
         assert!(
-            off < 1e-9 * alone.amax(),
+            off < 1e-9 * alone.largest_entry(),
             "{elbow}: {off} of {}",
-            alone.amax()
+            alone.largest_entry()
         );
     }
 }

@@ -1,8 +1,9 @@
 //! Shortest solutions without singular values against those by singular values.
 
+use kinetostat::internal::shortest_and_free;
+use kinetostat::linalg::SingularValues;
+use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, DVector};
-
-use super::{SingularValues, shortest_and_free};
 
 /// Even numbers between -1 and 1, the same every time.
 struct Numbers(u64);
@@ -39,7 +40,7 @@ fn shortest_solutions_are_those_by_singular_values() {
         let by_values = SingularValues::of(&a);
         let expected = by_values.shortest(&b, 1e-9 * by_values.largest());
         let scale = 10.0_f64.powf(decades);
-        let off = (&x - &expected).amax();
+        let off = (&x - &expected).largest_entry();
         assert!(
             off <= 1e-13 * scale * scale,
             "{m} x {n}, rank {rank}: {off:e}"
@@ -47,9 +48,12 @@ fn shortest_solutions_are_those_by_singular_values() {
         assert_eq!(free.shape(), (n, n - rank), "{m} x {n}, rank {rank}");
         let square = free.transpose() * &free - DMatrix::identity(n - rank, n - rank);
         if rank < n {
-            assert!((&a * &free).amax() <= 1e-13, "{m} x {n}, rank {rank}");
-            assert!(square.amax() <= 1e-13, "{m} x {n}, rank {rank}");
-            assert!((free.transpose() * &x).amax() <= 1e-13 * (1.0 + x.amax()));
+            assert!(
+                (&a * &free).largest_entry() <= 1e-13,
+                "{m} x {n}, rank {rank}"
+            );
+            assert!(square.largest_entry() <= 1e-13, "{m} x {n}, rank {rank}");
+            assert!((free.transpose() * &x).largest_entry() <= 1e-13 * (1.0 + x.largest_entry()));
         }
     }
     // Doubtful ranks are left to the singular values; odd numbers have no answer.

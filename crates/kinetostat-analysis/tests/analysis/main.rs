@@ -1,0 +1,3 @@
+//! Analyses by themselves; with models and machines the command line tests them.
+
+mod rotation;

@@ -1,0 +1,6 @@
+//! Parts of the crate that its interface does not show, each by itself.
+
+mod correction;
+mod limits;
+mod load;
+mod refused;

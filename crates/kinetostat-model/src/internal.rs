@@ -1,0 +1,27 @@
+//! What this crate's own tests reach inside it, in `tests/model/internal`. It is no part of the interface and changes
+//! without a word.
+
+use kinetostat::Pose;
+use nalgebra::{Unit, Vector3};
+
+use crate::elements::placement;
+use crate::problem::Place;
+use crate::schema::{Axis, Placement};
+
+pub use crate::exact::wrong_length;
+
+/// The pose that a table of a model file states.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn pose(written: &Placement) -> Result<Pose, String> {
+    placement::pose(&Place::root(), written).map_err(|finding| finding.message)
+}
+
+/// The direction that a model file states.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn direction(axis: &Axis) -> Result<Unit<Vector3<f64>>, String> {
+    placement::direction(&Place::root(), axis).map_err(|finding| finding.message)
+}

@@ -1,0 +1,57 @@
+//! What this crate's own tests reach inside it, in `tests/reproduce/internal`. It is no part of the interface and changes
+//! without a word.
+
+use kinetostat::{Mechanism, Pose, Posture, model::LinkConvention};
+
+use crate::orthoglide::bars::Barred;
+use crate::orthoglide::machine::{Orthoglide, POINTS};
+use crate::page::{formula, mathml};
+
+pub use crate::orthoglide::machine::{cutting, target};
+
+/// Q0 to Q4 of chapter 6 (m).
+pub const CHAPTER_6_POINTS: [(&str, [f64; 3]); 5] = POINTS;
+
+/// The machine of chapter 6.
+///
+/// # Panics
+/// If it cannot be built.
+#[must_use]
+pub fn orthoglide() -> Mechanism {
+    Orthoglide::default().build().expect("the machine")
+}
+
+/// The same with two bars in the place of each parallelogram.
+pub struct WithBars(Barred);
+
+impl WithBars {
+    /// At a target of the tool, each bar in one segment.
+    ///
+    /// # Panics
+    /// If the target cannot be reached.
+    #[must_use]
+    pub fn new(target: &Pose, convention: LinkConvention) -> Self {
+        Self(Barred::new(&Orthoglide::default(), target, convention, 1).expect("a machine"))
+    }
+
+    /// Commanded there.
+    ///
+    /// # Panics
+    /// If the bars do not close there.
+    #[must_use]
+    pub fn posture(&self) -> Posture {
+        self.0.posture().expect("a posture")
+    }
+}
+
+/// A formula in plain characters, as HTML.
+#[must_use]
+pub fn formula_in_html(text: &str) -> String {
+    formula::html(text)
+}
+
+/// The same as MathML, if it is a formula.
+#[must_use]
+pub fn formula_in_mathml(text: &str) -> Option<String> {
+    mathml::math(text)
+}
