@@ -175,7 +175,7 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
 }
 
 /// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
-/// per held motion. The whole end held gives [`shape_stability`]. `conservative`: the loads have a
+/// per held motion. The whole end held gives `shape_stability`. `conservative`: the loads have a
 /// potential.
 pub fn stability_within(
     chain: &Chain,

@@ -14,6 +14,7 @@ pub(crate) mod constraints;
 pub(crate) mod directions;
 pub(crate) mod equilibrium;
 pub(crate) mod explain;
+pub(crate) mod following;
 pub(crate) mod forward;
 pub(crate) mod graded;
 pub(crate) mod inverse;
