@@ -259,6 +259,29 @@ fn no_source_folds_without_nan() {
     );
 }
 
+/// A library that is not built for tests would never run a module of tests in its sources.
+#[test]
+fn no_test_stands_where_it_is_not_built() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut looked_at = 0;
+    for entry in fs::read_dir(crates).expect("a folder") {
+        let folder = entry.expect("an entry").path();
+        let manifest = fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
+        let library = manifest.split("\n[").find(|part| part.starts_with("lib]"));
+        if !library.is_some_and(|part| part.contains("\ntest = false")) {
+            continue;
+        }
+        looked_at += 1;
+        let mut sources = Sources::default();
+        sources.read(&folder.join("src"), true);
+        for (path, text) in &sources.tests {
+            assert!(!text.contains("#[cfg(test)]"), "{}", path.display());
+            assert!(!text.contains("#[test]"), "{}", path.display());
+        }
+    }
+    assert!(looked_at > 7, "{looked_at} libraries");
+}
+
 fn is_in(path: &Path, part: &str) -> bool {
     path.to_string_lossy().contains(part)
 }

@@ -71,6 +71,7 @@
 //!
 //! ```text
 //! number, spatial, error, settings   digits in text; poses, twists, wrenches; what can go wrong; tolerances
+//! parallel       work on all threads, or on one
 //! linalg         bordered systems, singular values, block elimination: knows nothing of robots
 //! model          chains and mechanisms, spring laws, loads; Jacobians and Hessians of a chain
 //! chain          one chain at one state: its system (dense or by sweeps), stiffness, stability, Newton
@@ -80,7 +81,14 @@
 //! compensation   the target to command so that the loaded tool is where it should be
 //! batch          many postures at once, one per lane of the processor's vector registers
 //! reference      the report's own forms and iterations, for those who check, teach or simplify
+//! internal       what this crate's own tests reach inside it: no part of the interface
 //! ```
+//!
+//! # Features
+//!
+//! All are on by default. `serde`: models and results are written and read. `parallel`: many postures, machines and
+//! starts go to all threads. `simd`: the kernels of [`batch`] for vector registers, chosen at run time. The numbers are
+//! the same without the last two.
 
 pub use nalgebra;
 
