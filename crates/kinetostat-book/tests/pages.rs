@@ -288,7 +288,11 @@ fn functions_of(cell: &str) -> Vec<(Option<&str>, &str)> {
     let called = names.map(|name| name.split('(').next().unwrap_or(name));
     called
         .map(|name| match name.rsplit_once("::") {
-            Some((of, function)) => (of.rsplit("::").next(), function),
+            // A room of the core is no type.
+            Some((of, function)) => (
+                Some(of).filter(|of| of.starts_with(char::is_uppercase)),
+                function,
+            ),
             None => (None, name),
         })
         .collect()

@@ -7,6 +7,7 @@ use kinetostat::{
 use kinetostat_machining::{Warning, WarningCode};
 
 use crate::curve::answer::CriticalAnswer;
+use crate::curve::figures::short;
 use crate::curve::query::CurveQuery;
 use crate::ui::background::Stage;
 use crate::ui::failure::Answer;
@@ -57,7 +58,7 @@ pub(crate) fn add_shapes_off_the_curve<E>(
     for value in values {
         stage.is("searching for shapes off the curve");
         let shapes = search(value)?;
-        let at = q.shown(value);
+        let at = short(q.shown(value));
         if !shapes.settled {
             warnings.push(Warning::new(
                 WarningCode::SearchEnds,
@@ -100,7 +101,7 @@ impl<E: CurveEquilibrium> Followed<E> {
             })
         });
         let lost = self.specials.iter().filter_map(|special| {
-            let at = q.shown(special.point.parameter);
+            let at = short(q.shown(special.point.parameter));
             match (special.lost_branch, special.kind) {
                 (true, _) => Some(Warning::new(
                     WarningCode::CurveEnds,
