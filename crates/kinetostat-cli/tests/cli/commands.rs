@@ -417,12 +417,13 @@ home = { position_mm = [1000, 0, 0] }
 rigidities = { axial_n = 1e7, bending_y_n_m2 = 1.0, bending_z_n_m2 = 1.0, torsion_n_m2 = 1.0 }
 [chain.rod]
 elements = [{ link = "rod", name = "rod", length_mm = 1000, segments = 100 }]
-[[limb]]
-name = "rod"
-from = "base"
-to = "tip"
-chain = "rod"
 "#;
+    // Six rods side by side: a second and more, however fast the machine is.
+    let limb = |k: usize| {
+        format!("[[limb]]\nname = \"rod {k}\"\nfrom = \"base\"\nto = \"tip\"\nchain = \"rod\"\n")
+    };
+    let limbs: String = (0..6).map(limb).collect();
+    let rod = format!("{rod}{limbs}");
     std::fs::write(here.path().join("rod.toml"), rod).unwrap();
     let mut child = crate::common::command(here.path())
         .args(["deflect", "rod.toml", "--force", "0", "1e6", "0"])

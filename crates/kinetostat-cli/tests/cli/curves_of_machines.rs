@@ -346,7 +346,7 @@ fn all_shapes_of_a_machine_off_its_curve_are_followed() {
     let ends: Vec<&Value> = branches
         .iter()
         .flat_map(|b| b["points"].as_array().expect("points"))
-        .filter(|p| number(&p["factor"]) == 1.0)
+        .filter(|p| (number(&p["factor"]) - 1.0).abs() < 1e-9)
         .filter(near)
         .collect();
     assert_eq!(ends.len(), 3, "{ends:#?}");

@@ -43,23 +43,19 @@ pub struct Compensation {
 /// ```
 /// # use kinetostat::nalgebra::{Vector3, vector};
 /// # use kinetostat::*;
-/// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
-/// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
-/// # let chain = Chain::builder("arm")
-/// #     .actuator("shoulder", hinge(2e5))
-/// #     .link("upper arm", &tube, 0.6)
-/// #     .actuator("elbow", hinge(1e5))
-/// #     .link("forearm", &tube, 0.5)
+/// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+/// # let chain = Chain::builder("gantry")
+/// #     .actuator("x", slide(Vector3::x()))
+/// #     .actuator("y", slide(Vector3::y()))
+/// #     .link("column", &BeamSection::tube(2.1e11, 8.1e10, 0.2, 0.17), 0.4) // Pa, m
 /// #     .build()?;
-/// # let home = Pose::translation(1.1, 0.0, 0.0);
-/// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
-/// let target = Pose::new(vector![0.8, 0.4, 0.0], vector![0.0, 0.0, 1.2]);
-/// let position = target.translation.vector;
-/// let reached = arm.posture(PostureRequest::position(&position, &target.rotation))?;
-/// let cutting = Wrench::new(vector![60.0, -40.0, 0.0], Vector3::zeros()); // N
-/// let settings = Settings::default();
-/// let plane = Directions::NONE.with(0).with(1);
-/// let answer = compensate(&arm, reached.target(), &cutting, plane, &settings)?;
+/// # let home = Pose::translation(0.4, 0.0, 0.0);
+/// # let gantry = Mechanism::serial(chain, home, Vector3::zeros())?;
+/// let target = Pose::translation(0.45, 0.2, 0.0);
+/// let cutting = Wrench::new(vector![300.0, -400.0, 0.0], Vector3::zeros()); // N
+/// let plane = Directions::NONE.with(0).with(1); // what its two slides can correct
+/// let answer = compensate(&gantry, &target, &cutting, plane, &Settings::default())?;
+/// assert!(answer.correction.linear().y > 0.0, "it is commanded against the force");
 /// assert!(answer.left_over.linear().norm() < 1e-9);
 /// # Ok::<(), Error>(())
 /// ```

@@ -158,19 +158,16 @@ impl Posture {
     /// ```
     /// # use kinetostat::nalgebra::{Vector3, vector};
     /// # use kinetostat::*;
-    /// # let tube = BeamSection::tube(2.1e11, 8.1e10, 0.12, 0.10); // Pa, m
-    /// # let hinge = |stiffness| ActuatorSpec::new(MotionKind::Revolute, Vector3::z(), stiffness);
-    /// # let chain = Chain::builder("arm")
-    /// #     .actuator("shoulder", hinge(2e5))
-    /// #     .link("upper arm", &tube, 0.6)
-    /// #     .actuator("elbow", hinge(1e5))
-    /// #     .link("forearm", &tube, 0.5)
+    /// # let slide = |axis| ActuatorSpec::new(MotionKind::Prismatic, axis, 5e7); // N/m
+    /// # let chain = Chain::builder("gantry")
+    /// #     .actuator("x", slide(Vector3::x()))
+    /// #     .actuator("y", slide(Vector3::y()))
+    /// #     .link("column", &BeamSection::tube(2.1e11, 8.1e10, 0.2, 0.17), 0.4) // Pa, m
     /// #     .build()?;
-    /// # let home = Pose::translation(1.1, 0.0, 0.0);
-    /// # let arm = Mechanism::serial(chain, home, Vector3::zeros())?;
-    /// // Stretched out, the arm cannot move along itself.
-    /// let near = arm.posture(&home)?.near_singularities(0.1)?;
-    /// assert!(near.iter().any(|found| found.kind == machine::SingularityKind::Lost));
+    /// # let home = Pose::translation(0.4, 0.0, 0.0);
+    /// # let gantry = Mechanism::serial(chain, home, Vector3::zeros())?;
+    /// let near = gantry.posture(&home)?.near_singularities(0.1)?;
+    /// assert!(near.is_empty(), "slides at right angles never lose a motion");
     /// # Ok::<(), Error>(())
     /// ```
     pub fn near_singularities(&self, within_m: f64) -> Result<Vec<NearSingularity>> {
