@@ -247,7 +247,9 @@ fn optimised(title: &str, command: &str, program: &str) -> Result<()> {
             .args(["--bin", program])
             // Pairs of single numbers that the compiler packs by itself take a move that valgrind 3.19
             // does not know. The kernels say what is packed, and are the same without.
-            .env("RUSTFLAGS", "-Cno-vectorize-slp"),
+            .env("RUSTFLAGS", "-Cno-vectorize-slp")
+            // Valgrind finds the function to count by its name.
+            .env("CARGO_PROFILE_RELEASE_STRIP", "none"),
     )
 }
 
