@@ -52,6 +52,15 @@ pub fn check() -> Result<()> {
     };
     let Comparison { more, less, table } = compare(&found, &baseline);
     eprint!("{table}");
+    let (open, more): (Vec<_>, Vec<_>) = more
+        .into_iter()
+        .partition(|name| is_open(name, &found, &baseline));
+    if !open.is_empty() {
+        eprintln!(
+            "open: {} is above its baseline and known to be, see the issue",
+            open.join(", ")
+        );
+    }
     if !more.is_empty() {
         bail!(
             "{}: more than {SLACK} % above the baseline. {}If that is meant, renew it: cargo xtask counts --renew",
@@ -66,6 +75,25 @@ pub fn check() -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Works that are above the baseline, by how much (%) they may be until that is mended, with the issue that asks for it.
+/// The baseline stays: it is what is asked for.
+const OPEN: [(&str, f64); 1] = [
+    // Issue 12, measured 5.2 % on 2026-11-22.
+    ("together w3_k", 5.5),
+];
+
+/// A growth that is known, and no larger than what is known.
+fn is_open(name: &str, found: &Counts, baseline: &Counts) -> bool {
+    let Some((_, most)) = OPEN.iter().find(|(open, _)| *open == name) else {
+        return false;
+    };
+    let [now, before] = [found, baseline].map(|counts| counts.instructions.get(name));
+    let (Some(&now), Some(&before)) = (now, before) else {
+        return false;
+    };
+    now as f64 <= before as f64 * (1.0 + most / 100.0)
 }
 
 /// The largest growth beside the baseline, %; none where it cannot be counted.
