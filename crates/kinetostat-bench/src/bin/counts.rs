@@ -52,7 +52,7 @@ fn names() {
     }
 }
 
-/// What valgrind counts: it is told to look between the call and the return of the function of this name.
+/// What valgrind counts: the instructions between the call and the return of the function of this name.
 #[inline(never)]
 fn kinetostat_counted(work: &mut dyn FnMut()) {
     work();

@@ -20,7 +20,7 @@ use crate::ui::layout::{columns, wrapped};
 use crate::ui::numbers::{fixed, short, triple};
 use crate::ui::warnings;
 
-/// More points are a slip of the pen.
+/// More points are a typing error.
 const MOST_POINTS: usize = 100_000;
 
 /// The answer, stable names with units.

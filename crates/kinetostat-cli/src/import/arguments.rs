@@ -25,7 +25,7 @@ pub(crate) enum ImportAction {
 ///
 /// Geometry, masses and limits come from the URDF; it says nothing of what bends. Joint stiffnesses
 /// and the section of links are given here, or filled in where the written file says FILL IN.
-/// Everything that is skipped, replaced or looks wrong is told.
+/// Everything that is skipped, replaced or looks wrong is reported.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct UrdfArgs {

@@ -8,7 +8,7 @@ use crate::map::arguments::MapArgs;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
 
-/// More places are a slip of the pen: their table would fill a disk.
+/// More places are a typing error: their table would fill a disk.
 const MOST_PLACES: usize = 100_000_000;
 
 /// Places along an axis unless said otherwise.

@@ -1,6 +1,6 @@
 //! What was meant by a misspelt word.
 
-/// The known word nearest to a slip of the pen.
+/// The known word nearest to a misspelled one.
 pub(crate) fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
     known
         .iter()

@@ -327,7 +327,7 @@ fn a_steep_truss_goes_aside_on_branches_of_its_own() {
     ] {
         assert!(said.contains(needle), "{needle}: {said}");
     }
-    // The start's own branch alone: that there are more is told.
+    // The start's own branch alone.
     let own = json(here.path(), &words(&format!("{line} --branches 1")));
     assert_eq!(own["branches"].as_array().expect("branches").len(), 1);
     assert_eq!(named(&own, "pitchfork").len(), 1);

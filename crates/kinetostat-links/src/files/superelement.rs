@@ -7,7 +7,7 @@ use crate::files::harwell_boeing::{read_hbmat, recognised};
 use crate::superelement::Superelement;
 use crate::text::{Text, fields};
 
-/// Reads a matrix of many degrees of freedom; the format is told apart by the text:
+/// Reads a matrix of many degrees of freedom; the format is recognised from the text:
 ///
 /// - Nastran bulk data with `DMIG` (small, large and free fields),
 /// - CalculiX and Abaqus `.mtx`: `*USER ELEMENT` with `*MATRIX, TYPE=STIFFNESS`, or lines

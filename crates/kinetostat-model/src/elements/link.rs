@@ -11,7 +11,7 @@ use crate::elements::quantity::{DEG, MM, choice, forbid, pick, positive};
 use crate::problem::{Finding, Place};
 use crate::schema::{Convention, LinkElement, ParallelogramElement};
 
-/// More pieces of one link are a slip of the pen.
+/// More pieces of one link are a typing error.
 const MOST_SEGMENTS: u32 = 100;
 
 pub(crate) fn link(

@@ -5,7 +5,7 @@ use super::plan::Plan;
 use super::run::Work;
 use super::status::{Engine, NoKernel, Status};
 use super::table::BLOCK;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::posture::Posture;
 use crate::model::chain::Chain;
@@ -71,7 +71,7 @@ impl Batch {
     }
 
     pub(super) fn joints<'a>(&self, commands: &'a [f64]) -> Result<Places<'a>> {
-        let place = || Place::mechanism(self.mechanism.name());
+        let place = || self.mechanism.place();
         let limbs = self.mechanism.limbs();
         let serial = limbs.len() == 1
             && limbs[0]

@@ -9,7 +9,7 @@ use super::status::{Engine, Status};
 use super::table::{BLOCK, Table};
 use crate::chain::system::System;
 use crate::compensation::target::target_under_load;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::posture::Posture;
 use crate::machine::state::MechanismState;
@@ -410,7 +410,7 @@ impl Batch {
             return Ok(());
         }
         Err(Error::Size {
-            place: Place::mechanism(self.mechanism.name()),
+            place: self.mechanism.place(),
             what: "wrenches",
             expected: places.len(),
             found: wrenches.len(),

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector6};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
 use crate::model::limits::check_number;
@@ -16,7 +16,7 @@ use crate::spatial::{Pose, Wrench};
 /// every tangent.
 pub(crate) fn check_loads(problem: &ChainProblem<'_>) -> Result<()> {
     let (chain, base) = (problem.chain, &problem.base);
-    let place = Place::chain(chain.name());
+    let place = chain.place();
     let end = &problem.end;
     let of_pose = |pose: &Pose| {
         let (p, r) = (pose.translation.vector, pose.rotation.coords);
@@ -134,7 +134,7 @@ pub(crate) fn check_problem(problem: &ChainProblem<'_>) -> Result<()> {
         .chain(problem.end.pose.translation.vector.iter());
     if let Some(value) = numbers.copied().find(|v| !v.is_finite()) {
         return Err(Error::NotFinite {
-            place: Place::chain(chain.name()),
+            place: chain.place(),
             what: "the end condition".into(),
             value,
         });
@@ -147,7 +147,7 @@ pub(crate) fn check_numbers(
     what: &str,
     v: &Vector6<f64>,
 ) -> Result<()> {
-    let place = Place::chain(problem.chain.name());
+    let place = problem.chain.place();
     let mut numbers = v.iter();
     numbers.try_for_each(|x| check_number(&place, || what.to_owned(), *x))
 }

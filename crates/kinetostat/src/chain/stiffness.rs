@@ -19,7 +19,7 @@ use crate::chain::passive::{balanced_jacobian, names_in, passive_null_space};
 use crate::chain::scaling::balance;
 use crate::chain::sweep::stages::Sweep;
 use crate::chain::system::System;
-use crate::error::{Place, Result};
+use crate::error::Result;
 use crate::linalg::saddle::{Saddle, column_space};
 use crate::model::chain::{Chain, Role};
 use crate::number::larger;
@@ -110,7 +110,7 @@ pub fn unloaded_stiffness(
     commands: &[f64],
 ) -> Result<ChainStiffness> {
     chain.check(coordinates, commands)?;
-    let place = Place::chain(chain.name());
+    let place = chain.place();
     crate::model::limits::check_pose(&place, "the pose of the base", base)?;
     let factors = balance(chain, coordinates);
     let mut system = System::of_chain(chain, base, coordinates, commands, &factors, None);

@@ -5,7 +5,7 @@ use nalgebra::{DVector, UnitQuaternion, Vector3};
 
 use crate::chain::residual::Residual;
 use crate::compensation::target::Compensation;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::machine::equilibrium::conclude;
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::machine::posture::Posture;
@@ -130,7 +130,7 @@ fn corrected<T>(
         posture = carry(next);
     }
     Err(Error::NotConverged {
-        place: Place::mechanism(mechanism.name()).during("compensation on "),
+        place: mechanism.place().during("compensation on "),
         iterations: spent,
         residual_position_m: left,
         residual_torque: 0.0,

@@ -7,7 +7,7 @@
 //! What the machine cannot correct stays as a reported residual.
 
 use crate::chain::residual::Residual;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
@@ -126,7 +126,7 @@ fn solve_target<'m>(
 ) -> Result<(PlatformSolver<'m>, Residual)> {
     let mechanism = near.mechanism();
     near.finite("the wrench", wrench.0.iter())?;
-    let place = Place::mechanism(mechanism.name());
+    let place = mechanism.place();
     check_pose(&place, "the pose that is wanted", desired)?;
     check_state(mechanism, &start)?;
     let mut state = start;
@@ -260,7 +260,7 @@ fn fixed_point(
     }
     // Each step was an equilibrium under the full load; it is the target that was not found.
     Err(Error::NotConverged {
-        place: Place::mechanism(mechanism.name()).during("compensation on "),
+        place: mechanism.place().during("compensation on "),
         iterations: spent,
         residual_position_m: left,
         residual_torque: 0.0,

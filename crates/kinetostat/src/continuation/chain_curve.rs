@@ -14,7 +14,7 @@ use crate::continuation::family::Family;
 use crate::continuation::null_directions::NullDirections;
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::system::{Corrected, CurveSystem, Row};
-use crate::error::{Error, Place};
+use crate::error::Error;
 use crate::model::chain::Role;
 use crate::spatial::MotionKind;
 
@@ -154,7 +154,7 @@ impl CurveSystem for ChainSystem<'_, '_> {
         let (_, balance) = self.evaluate(z);
         let chain = self.problem.chain;
         Error::NotConverged {
-            place: Place::chain(chain.name()),
+            place: chain.place(),
             iterations,
             residual_position_m: balance.closure * chain.scale().length,
             residual_torque: balance.torque / balance.loads.max(1e-9),

@@ -9,7 +9,7 @@ use crate::chain::scaling::{natural, nudged};
 use crate::chain::sweep::stages::Path;
 use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::parameter::Parameter;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::saddle::{RANK_TOLERANCE, column_space};
 use crate::linalg::singular_values::SingularValues;
 use crate::model::chain::Role;
@@ -33,7 +33,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
     ) -> Result<Self> {
         check_problem(problem)?;
         let chain = problem.chain;
-        settings.check(&Place::chain(chain.name()))?;
+        settings.check(&chain.place())?;
         let factors = balance(chain, &problem.posture);
         let mut equations = System::new(
             chain,
@@ -58,7 +58,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
                 check_numbers(problem, "the direction of a curve", &twist.0)?;
                 if twist.0.amax() == 0.0 || misplaced(&twist.0, &turn, |k| !is_pose(k)) {
                     return Err(Error::model(
-                        Place::chain(chain.name()),
+                        chain.place(),
                         "the direction of a displacement must not vanish and must lie in directions in which the end condition prescribes the pose",
                     ));
                 }
@@ -67,7 +67,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
                 check_numbers(problem, "the load pattern", &pattern.end.0)?;
                 if misplaced(&pattern.end.0, &turn, is_pose) {
                     return Err(Error::model(
-                        Place::chain(chain.name()),
+                        chain.place(),
                         "the end wrench of a load pattern must lie in directions in which the end condition prescribes the wrench",
                     ));
                 }
@@ -193,7 +193,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
                 let within = self.range.transpose() * &moved;
                 if within.norm() < (1.0 - 1e-9) * moved.norm() {
                     return Err(Error::model(
-                        Place::chain(self.problem.chain.name()),
+                        self.problem.chain.place(),
                         "the end of this chain can never move in the direction of the curve",
                     ));
                 }
@@ -212,7 +212,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
         };
         if !(size.is_finite() && size > 0.0) {
             return Err(Error::model(
-                Place::chain(self.problem.chain.name()),
+                self.problem.chain.place(),
                 "the load pattern of the curve is zero",
             ));
         }

@@ -9,7 +9,7 @@ use crate::continuation::jumps::{jumps, points_at};
 use crate::continuation::parameter::Parameter;
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tracer::Tracer;
-use crate::error::{Place, Result};
+use crate::error::Result;
 use crate::model::limits::check_number;
 
 /// Follows the equilibrium path through `start` both ways, and the branches connected to it as far
@@ -56,7 +56,7 @@ pub(crate) fn follow_until<'a>(
     settings: &CurveSettings,
     stop: Stop<'_>,
 ) -> Result<Curves<'a>> {
-    let place = Place::chain(problem.chain.name());
+    let place = problem.chain.place();
     settings.check(&place)?;
     check_number(&place, || "the parameter at the start".into(), value)?;
     problem.chain.check(&start.coordinates, &problem.commands)?;

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
 
-use crate::error::{Place, Result};
+use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::pseudo_inverse;
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
@@ -143,7 +143,7 @@ impl Posture {
         self.finite("the direction", direction.iter())?;
         let Some(direction) = direction.try_normalize(1e-12) else {
             return Err(crate::Error::model(
-                Place::mechanism(self.mechanism.name()),
+                self.mechanism.place(),
                 "the direction of a push has no length",
             ));
         };

@@ -30,7 +30,7 @@ use crate::continuation::special_points::NO_RATE;
 use crate::continuation::system::{Corrected, CurveSystem, Row};
 use crate::continuation::tool_conditions::ToolConditions;
 use crate::continuation::tool_stability::{MachineStability, condensed_modes};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::complement::complement;
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::platforms::parts::Guide;
@@ -543,7 +543,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
 
     fn not_converged(&mut self, _z: &DVector<f64>, iterations: usize) -> Error {
         Error::NotConverged {
-            place: Place::mechanism(self.conditions.posture.mechanism.name()),
+            place: self.conditions.posture.mechanism.place(),
             iterations,
             residual_position_m: self.here.equilibrium.residual.closure_m,
             residual_torque: self.here.equilibrium.residual.torque,

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Vector6};
 use crate::chain::problem::{EndCondition, Prescribed};
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::complement::complement;
 use crate::machine::platforms::parts::Guide;
 use crate::machine::posture::Posture;
@@ -40,7 +40,7 @@ impl<'p> ToolConditions<'p> {
         end: &EndCondition,
         settings: &CurveSettings,
     ) -> Result<Self> {
-        let place = || Place::mechanism(posture.mechanism.name());
+        let place = || posture.mechanism.place();
         settings.check(&place())?;
         let length = posture.mechanism.scale().length;
         let axes = turn_matrix(&end.axes);

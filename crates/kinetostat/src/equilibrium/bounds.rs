@@ -3,7 +3,7 @@
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::model::chain::{Chain, Role};
 use crate::spatial::MotionKind;
 
@@ -58,7 +58,7 @@ impl Bounds {
         for (what, list) in [("lower bounds", &self.low), ("upper bounds", &self.high)] {
             if list.len() != n {
                 return Err(Error::Size {
-                    place: Place::chain(chain.name()),
+                    place: chain.place(),
                     what,
                     expected: n,
                     found: list.len(),
@@ -69,7 +69,7 @@ impl Bounds {
             .find(|&i| self.low[i].partial_cmp(&self.high[i]) != Some(std::cmp::Ordering::Less))
         {
             Some(i) => Err(Error::model(
-                Place::chain(chain.name()),
+                chain.place(),
                 format!(
                     "the bounds of '{}' are {} and {}: the first must be less than the second",
                     chain.coordinates()[i].name,

@@ -9,7 +9,7 @@ use crate::chain::residual::Balance;
 use crate::chain::scaling::{FAR, LEAST_LOAD, SHORT_STEP, aside, gone, natural, nudged};
 use crate::chain::sweep::stages::Path;
 use crate::continuation::chain_stability::stability_as_prescribed;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::model::kinematics::Kinematics;
 use crate::settings::Settings;
 use crate::spatial::{Wrench, pose_residual};
@@ -49,7 +49,7 @@ pub fn solve_along(
 ) -> Result<(Equilibrium, Path)> {
     check_problem(problem)?;
     let chain = problem.chain;
-    settings.check(&Place::chain(chain.name()))?;
+    settings.check(&chain.place())?;
     let mut attempt = Attempt::new(problem, settings, path);
     let mut spent = 0;
     let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
@@ -110,7 +110,7 @@ pub fn solve_along(
         return Err(reason);
     }
     Err(Error::NotConverged {
-        place: Place::chain(chain.name()),
+        place: chain.place(),
         iterations: spent + failure.iterations,
         residual_position_m: failure.balance.closure / chain.scale().stiffness.sqrt(),
         residual_torque: failure.balance.torque

@@ -25,7 +25,7 @@ use crate::equilibrium::chain::solve_chain;
 use crate::equilibrium::critical_tangent::{
     StabilityOf, Tangent, diverges, largest_one, largest_real, linear_prediction,
 };
-use crate::error::{Place, Result};
+use crate::error::Result;
 use crate::number::larger;
 use crate::spatial::Wrench;
 
@@ -120,7 +120,7 @@ pub fn critical_load_factor(
     of: StabilityOf,
     settings: &CurveSettings,
 ) -> Result<CriticalLoad> {
-    settings.check(&Place::chain(problem.chain.name()))?;
+    settings.check(&problem.chain.place())?;
     let parameter = Parameter::Load(pattern.clone());
     let start = solve_chain(problem, &settings.solver)?;
     let mut system = ChainSystem::new(problem, Some(&parameter), &settings.solver)?;

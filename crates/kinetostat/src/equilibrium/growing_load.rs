@@ -11,7 +11,7 @@ use crate::chain::scaling::SHORT_STEP;
 use crate::continuation::parameter::{LoadPattern, Parameter};
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tool_conditions::ToolConditions;
-use crate::error::{Error, LoadLimit, Place, Result};
+use crate::error::{Error, LoadLimit, Result};
 use crate::machine::equilibrium::MechanismEquilibrium;
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::platforms::solver::PlatformSolver;
@@ -245,7 +245,7 @@ impl Posture {
 
     fn free_direction(&self, motion: &Twist, wrench: &Wrench) -> Error {
         Error::FreeDirection {
-            place: Place::mechanism(self.mechanism.name()),
+            place: self.mechanism.place(),
             reason: format!(
                 "no force is needed where the tool {}, and the load pushes on as far as it could be followed",
                 motion_in_words(motion)

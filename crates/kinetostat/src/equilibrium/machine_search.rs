@@ -95,7 +95,7 @@ impl<'p> MachineSearch<'p> {
     fn let_go(&self, k: usize) -> Option<MechanismEquilibrium> {
         let path = &self.conditions;
         let posture = path.posture;
-        let (mechanism, tool) = (posture.mechanism.clone(), posture.mechanism.tool());
+        let (mechanism, tool) = (&posture.mechanism, posture.mechanism.tool());
         let motion = match self.first.get(k) {
             Some(motion) => path.freely(&motion.0),
             None => spread(&self.free, k, path),
@@ -144,7 +144,7 @@ impl<'p> MachineSearch<'p> {
     /// Shapes with a drive whose slide is turned inside out do not count, nor do unstable ones far away.
     fn counts(&self, found: &Known) -> bool {
         let posture = self.conditions.posture;
-        let (mechanism, e) = (posture.mechanism.clone(), &found.equilibrium);
+        let (mechanism, e) = (&posture.mechanism, &found.equilibrium);
         let joints = mechanism.limbs().iter().zip(&e.state.coordinates);
         let drives = joints.clone().zip(&posture.limbs);
         let mut slides = drives.flat_map(|((limb, x), own)| {

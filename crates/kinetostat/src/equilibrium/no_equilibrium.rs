@@ -6,7 +6,7 @@ use crate::chain::directions::{motion_in_words, scaled_twist};
 use crate::chain::potential::prescribed_wrench;
 use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::system::System;
-use crate::error::{Error, Place};
+use crate::error::Error;
 use crate::linalg::complement::complement;
 use crate::linalg::singular_values::range;
 use crate::model::chain::Role;
@@ -77,7 +77,7 @@ fn held_outside(problem: &ChainProblem<'_>) -> Option<Error> {
     );
     let motion = motion_in_words(&scaled_twist(chain.scale(), &off));
     Some(Error::model(
-        Place::chain(chain.name()),
+        chain.place(),
         format!(
             "the end is held {:.4} mm and {:.4} deg beside everything that the chain can reach: nothing in it {motion}; hold the end where the chain can take it, or prescribe a wrench in that direction",
             distance * 1e3,
@@ -114,7 +114,7 @@ fn pushed_slide(problem: &ChainProblem<'_>) -> Option<Error> {
     })?;
     let push = system.unbalanced(free.0).abs();
     Some(Error::FreeDirection {
-        place: Place::chain(chain.name()),
+        place: chain.place(),
         reason: format!(
             "the load pushes the passive slide '{}' with {push:.4} N, and nothing holds it",
             free.1.name

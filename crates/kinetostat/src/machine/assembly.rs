@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::machine::network::Network;
 use crate::machine::platform_system::PlatformSystem;
 use crate::machine::posture::Posture;
@@ -30,7 +30,7 @@ impl Posture {
     /// its base where it is nominally.
     #[must_use]
     pub fn assembly_errors(&self) -> Vec<Twist> {
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         m.limbs()
             .iter()
             .zip(&self.limbs)
@@ -94,10 +94,10 @@ impl Posture {
         wrench: &Wrench,
     ) -> Result<LinearAssembly> {
         self.finite("the wrench", wrench.0.iter())?;
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         if errors.len() != m.limbs().len() {
             return Err(Error::Size {
-                place: Place::mechanism(m.name()),
+                place: m.place(),
                 what: "limb errors",
                 expected: m.limbs().len(),
                 found: errors.len(),

@@ -102,7 +102,7 @@ pub(crate) fn limb_motions(
 
 impl Constraints {
     pub fn new(posture: &Posture, with_actuators_free: bool) -> Self {
-        let m = posture.mechanism.clone();
+        let m = &posture.mechanism;
         let length = m.scale().length;
         let moving = m.platforms().len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { length };
@@ -191,7 +191,7 @@ impl Posture {
     /// minimum), and a machine of single limbs the least motion from where the search starts.
     #[must_use]
     pub fn redundancy(&self) -> usize {
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         let length = m.scale().length;
         let moving = m.platforms().len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { length };

@@ -15,7 +15,7 @@ use crate::chain::problem::{ChainProblem, EndCondition};
 use crate::chain::residual::Residual;
 use crate::chain::stability::ShapeStability;
 use crate::chain::stiffness::ChainStiffness;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::sparse::Sparse;
 use crate::machine::directions::{
     balanced_directions, condensed_directions, none_diverges, others_hold,
@@ -194,7 +194,7 @@ pub(crate) fn conclude(
     let m = solver.mechanism;
     if let Some(&(.., value)) = tangent.entries.iter().find(|(.., x)| !x.is_finite()) {
         return Err(Error::NotFinite {
-            place: Place::mechanism(m.name()),
+            place: m.place(),
             what: "its tangent stiffness".into(),
             value,
         });

@@ -10,7 +10,7 @@
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
 use crate::chain::directions::axis_in_words;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::largest::largest;
 use crate::machine::inverse::limb::wrap;
 use crate::machine::posture::Posture;
@@ -50,7 +50,7 @@ fn nearest(rows: &DMatrix<f64>, wanted: &DVector<f64>) -> Option<(DVector<f64>, 
 /// Normal of the surface that the tool's reference point moves in, of a machine that has no third direction
 /// anywhere: neither where it stands nor beside home, which may be singular.
 fn surface_normal(at: &Posture) -> Option<Vector3<f64>> {
-    let mechanism = at.mechanism.clone();
+    let mechanism = &at.mechanism;
     let home = mechanism.posture_at_pose(&mechanism.platforms()[mechanism.tool()].home, None);
     let home = home.ok()?;
     let mut beside = Search::new(&home);
@@ -201,7 +201,7 @@ impl Mechanism {
             ),
             None => " with whatever orientation of its tool".to_owned(),
         };
-        let place = Place::mechanism(self.name()).with_detail(place);
+        let place = self.place().with_detail(place);
         Error::Unreachable {
             place,
             distance_m: left,
@@ -215,7 +215,7 @@ impl Mechanism {
         match numbers.find(|x| !x.is_finite()) {
             None => Ok(()),
             Some(value) => Err(Error::NotFinite {
-                place: Place::mechanism(self.name()),
+                place: self.place(),
                 what: "the place that is asked for".into(),
                 value,
             }),

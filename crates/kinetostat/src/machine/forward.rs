@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::saddle::{Saddle, pseudo_inverse, rows_certainly_independent};
 use crate::machine::inverse::limb::{LimbPosture, wrap_passive};
 use crate::machine::posture::Posture;
@@ -60,7 +60,7 @@ impl Mechanism {
     /// A list of the wrong length or a number that is not finite; [`Error::NoClosure`] where the
     /// loops do not close all the way from home to these commands.
     pub(crate) fn posture_at_commands(&self, commands: &[f64]) -> Result<Posture> {
-        let place = || Place::mechanism(self.name());
+        let place = || self.place();
         if commands.len() != self.actuator_count() {
             return Err(Error::Size {
                 place: place(),

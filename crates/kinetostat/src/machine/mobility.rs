@@ -14,7 +14,7 @@ impl Posture {
     /// (rotations in units of the natural length).
     #[must_use]
     pub fn mobility(&self) -> DMatrix<f64> {
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         let moving = m.platforms().len() - 1;
         let length = m.scale().length;
         let mut blocked = DMatrix::zeros(6 * moving, 6 * moving);
@@ -56,12 +56,12 @@ impl Posture {
     /// natural length): [`Self::mobility`] without what passive joints allow on their own.
     #[must_use]
     pub fn commanded_motions(&self) -> DMatrix<f64> {
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         let basis = self.mobility();
         let mut motions = basis.clone();
         motions.rows_mut(3, 3).unscale_mut(m.scale().length);
         let mut driven = DMatrix::zeros(basis.ncols(), basis.ncols());
-        for rates in rates_of(&m, &self.platforms, &self.limbs) {
+        for rates in rates_of(m, &self.platforms, &self.limbs) {
             let rates = rates * &motions;
             driven += rates.transpose() * rates;
         }

@@ -64,7 +64,7 @@ pub(crate) fn ends(mechanism: &Mechanism, platforms: &[Pose], limb: usize) -> En
 
 impl Network {
     pub fn new(posture: &Posture) -> Result<Self> {
-        let m = posture.mechanism.clone();
+        let m = &posture.mechanism;
         let mut network = Self {
             limbs: Vec::new(),
             motions: Vec::new(),
@@ -96,7 +96,7 @@ impl Network {
                 false => DMatrix::from_columns(&normals),
             });
             network.limbs.push(k);
-            network.motions.push(ends(&m, &posture.platforms, i));
+            network.motions.push(ends(m, &posture.platforms, i));
         }
         Ok(network)
     }

@@ -3,7 +3,7 @@
 //!
 //! The thing right of the bar is a [`Posture`]; the thing left of it is an argument.
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse};
 use crate::machine::inverse::limb::{LimbPosture, inverse_kinematics};
 use crate::machine::platforms::parts::Unknowns;
@@ -30,7 +30,7 @@ pub struct Posture {
 impl Mechanism {
     /// Commands the actuators for a target of the tool, from home or near the joints of another posture.
     pub(crate) fn posture_at_pose(&self, target: &Pose, near: Option<&Posture>) -> Result<Posture> {
-        let place = Place::mechanism(self.name());
+        let place = self.place();
         crate::model::limits::check_pose(&place, "the target pose", target)?;
         let mut platforms: Vec<Pose> = self.platforms().iter().map(|p| p.home).collect();
         platforms[self.tool()] = *target;
@@ -76,7 +76,7 @@ impl Mechanism {
     ) -> Result<Posture> {
         if limbs.len() != self.limbs().len() {
             return Err(Error::Size {
-                place: Place::mechanism(self.name()),
+                place: self.place(),
                 what: "limb postures",
                 expected: self.limbs().len(),
                 found: limbs.len(),
@@ -177,7 +177,7 @@ impl Posture {
         let count = self.mechanism.platforms().len();
         if platform == 0 || platform >= count {
             return Err(Error::model(
-                Place::mechanism(self.mechanism.name()),
+                self.mechanism.place(),
                 format!(
                     "a wrench acts on platform {platform}; those that move are 1 to {}",
                     count - 1
@@ -273,7 +273,7 @@ impl Posture {
         what: &str,
         mut values: impl Iterator<Item = &'a f64>,
     ) -> Result<()> {
-        let place = Place::mechanism(self.mechanism.name());
+        let place = self.mechanism.place();
         self.settings.check(&place)?;
         values.try_for_each(|value| {
             crate::model::limits::check_number(&place, || what.to_owned(), *value)

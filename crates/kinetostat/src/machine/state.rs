@@ -1,13 +1,13 @@
 //! The state of a machine: where its platforms are and what its limbs do.
 
-use crate::error::{Error, Part, Place, Result};
+use crate::error::{Error, Part, Result};
 use crate::model::limits::{check_numbers, check_pose};
 use crate::model::mechanism::Mechanism;
 use crate::spatial::{Pose, Wrench};
 
 /// Refuses a state that is not one of this mechanism.
 pub(crate) fn check_state(mechanism: &Mechanism, state: &MechanismState) -> Result<()> {
-    let place = Place::mechanism(mechanism.name());
+    let place = mechanism.place();
     let limbs = mechanism.limbs().len();
     let lists = [
         (

@@ -39,7 +39,7 @@ impl Posture {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn stiffness(&self) -> Result<UnloadedStiffness> {
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         let network = Network::new(self)?;
         let scale = m.scale();
         // Nothing acts: no more than the limbs' own.

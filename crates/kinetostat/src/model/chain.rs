@@ -135,6 +135,11 @@ pub struct Scale {
 }
 
 impl Chain {
+    /// This chain, as errors name it.
+    pub(crate) fn place(&self) -> Place {
+        Place::chain(self.name.as_str())
+    }
+
     /// Name.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -212,7 +217,7 @@ impl Chain {
             .iter()
             .position(|n| n == name)
             .ok_or_else(|| Error::UnknownName {
-                place: Place::chain(self.name.as_str()),
+                place: self.place(),
                 what: "node",
                 name: name.into(),
                 known: self.nodes.join(", "),
@@ -240,7 +245,7 @@ impl Chain {
     pub fn with_end(&self, name: &str, offset: &Pose) -> Result<Self> {
         if self.nodes.iter().any(|n| n == name) {
             return Err(Error::model(
-                Place::chain(self.name.as_str()),
+                self.place(),
                 format!("the name '{name}' is used twice"),
             ));
         }
@@ -255,7 +260,7 @@ impl Chain {
 
     /// Checks the lengths of a configuration and that its numbers are finite.
     pub(crate) fn check(&self, coordinates: &[f64], commands: &[f64]) -> Result<()> {
-        let place = || Place::chain(self.name.as_str());
+        let place = || self.place();
         for (what, expected, given) in [
             ("coordinates", self.coordinates.len(), coordinates),
             ("commands", self.actuators.len(), commands),

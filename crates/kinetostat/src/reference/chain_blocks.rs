@@ -6,7 +6,7 @@ use crate::chain::compliance::CartesianCompliance;
 use crate::chain::directions::scaled_twist;
 use crate::chain::equilibrium::{Equilibrium, System, balance};
 use crate::chain::problem::ChainProblem;
-use crate::error::{Place, Result};
+use crate::error::Result;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::{RANK_TOLERANCE, column_space, pseudo_inverse};
 use crate::model::chain::{Chain, Role, Scale};
@@ -47,7 +47,7 @@ impl ChainBlocks {
         commands: &[f64],
     ) -> Result<Self> {
         chain.check(coordinates, commands)?;
-        let place = Place::chain(chain.name());
+        let place = chain.place();
         crate::model::limits::check_pose(&place, "the pose of the base", base)?;
         let mut system = System::new(chain, base, coordinates, commands, false);
         let none = Wrench::zero();

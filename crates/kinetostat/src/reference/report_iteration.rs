@@ -204,7 +204,7 @@ fn iterate(
         coordinates: problem.posture.clone(),
         wrench: Wrench::zero(),
     });
-    settings.check(&Place::chain(chain.name()))?;
+    settings.check(&chain.place())?;
     chain.check(&start.coordinates, &problem.commands)?;
     check_numbers(problem, "the wrench of the start", &start.wrench.0)?;
     let mut z = system.state(&start.coordinates, &start.wrench, 0.0);

@@ -13,7 +13,7 @@ use nalgebra::DMatrix;
 use crate::chain::equilibrium::{Equilibrium, System};
 use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::stability::neutral_motions;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::column_space;
 use crate::spatial::MotionKind;
@@ -79,7 +79,7 @@ pub fn shape_criterion(
 ) -> Result<ShapeCriterion> {
     let chain = problem.chain;
     let n = chain.coordinate_count();
-    let place = || Place::chain(chain.name()).during(crate::error::SHAPE_CRITERION);
+    let place = || chain.place().during(crate::error::SHAPE_CRITERION);
     if !(length > 0.0 && length.is_finite()) {
         return Err(Error::Model {
             place: place(),

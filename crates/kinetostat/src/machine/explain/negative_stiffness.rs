@@ -45,7 +45,7 @@ impl Posture {
         &self,
         at: &MechanismEquilibrium,
     ) -> Result<Vec<NegativeNetStiffness>> {
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         let mut found = Vec::new();
         for (index, (limb, here)) in m.limbs().iter().zip(&at.limbs).enumerate() {
             let (chain, joints) = (&limb.actual, &self.limbs[index]);

@@ -13,7 +13,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector6};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::block_elimination::{BlockFactors, FEW, Pivots};
 use crate::linalg::largest::largest;
 use crate::linalg::sparse::Sparse;
@@ -219,7 +219,7 @@ impl<'m> GraphSearch<'m> {
     fn unreachable(&self, target: &Pose, nearest: &Pose) -> Error {
         let miss = pose_residual(target, nearest);
         Error::Unreachable {
-            place: Place::mechanism(self.mechanism.name()),
+            place: self.mechanism.place(),
             distance_m: miss.linear().norm(),
             angle_rad: miss.angular().norm(),
             nearest: Box::new(*nearest),

@@ -339,7 +339,7 @@ impl PlatformSolver<'_> {
     ) -> Error {
         let residual = balance.residual(iterations);
         Error::NotConverged {
-            place: crate::error::Place::mechanism(self.mechanism.name()),
+            place: self.mechanism.place(),
             iterations,
             residual_position_m: residual.closure_m,
             residual_torque: residual.torque,

@@ -99,7 +99,7 @@ pub(crate) struct Search<'p> {
 
 impl<'p> Search<'p> {
     pub(crate) fn new(start: &'p Posture) -> Self {
-        let m = start.mechanism.clone();
+        let m = &start.mechanism;
         let length = m.scale().length;
         let mut count = 6 * (m.platforms().len() - 1);
         let mut first = Vec::new();
@@ -143,7 +143,7 @@ impl<'p> Search<'p> {
 
     /// Gaps between limbs and platforms, and how they change.
     pub(crate) fn closure(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let m = self.at.mechanism.clone();
+        let m = &self.at.mechanism;
         let moving = m.platforms().len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { self.length };
         let mut rows = DMatrix::zeros(6 * m.limbs().len() + self.idle.nrows(), self.count);
@@ -250,7 +250,7 @@ impl<'p> Search<'p> {
     }
 
     pub(crate) fn go(&mut self, step: &DVector<f64>) {
-        let m = self.at.mechanism.clone();
+        let m = &self.at.mechanism;
         for p in 1..m.platforms().len() {
             let part = step.rows(6 * (p - 1), 6);
             let unit = |i: usize| if i < 3 { 1.0 } else { self.length };

@@ -287,7 +287,7 @@ impl Posture {
 
     /// The machine with its actuators locked.
     fn locked(&self) -> Measure {
-        let m = self.mechanism.clone();
+        let m = &self.mechanism;
         let length = m.scale().length;
         let tool = 6 * (m.tool() - 1);
         let rows = Constraints::new(self, false).rows;

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Result};
 use crate::linalg::largest::largest;
 use crate::model::chain::Chain;
 use crate::model::kinematics::Kinematics;
@@ -41,7 +41,7 @@ pub fn check_tangents(
     load: &Load,
 ) -> Result<TangentCheck> {
     chain.check(coordinates, commands)?;
-    let place = Place::chain(chain.name());
+    let place = chain.place();
     crate::model::limits::check_pose(&place, "the pose of the base", base)?;
     let kinematics = Kinematics::new(chain, base, coordinates, commands);
     fits(chain, &kinematics, load)?;
@@ -114,7 +114,7 @@ pub fn check_tangents(
 
 /// Refuses loads that do not fit a chain: nodes it lacks, numbers that are not finite.
 pub(crate) fn fits(chain: &Chain, kinematics: &Kinematics, load: &Load) -> Result<()> {
-    let place = || Place::chain(chain.name());
+    let place = || chain.place();
     let (values, nodes) = match load {
         Load::Dead { node, wrench } => (wrench.0.as_slice().to_vec(), vec![*node]),
         Load::Gravity(g) => (g.as_slice().to_vec(), Vec::new()),
@@ -172,7 +172,7 @@ pub(crate) fn check_load(
         let check = check_tangents(chain, base, coordinates, commands, load)?;
         if check.largest > TANGENT_TOLERANCE {
             return Err(Error::model(
-                Place::chain(chain.name()),
+                chain.place(),
                 format!(
                     "the tangent of a load is not the derivative of its wrench: on node '{}' they differ by {} (share of the load) when '{}' moves ({load:?})",
                     chain.nodes()[check.node],
