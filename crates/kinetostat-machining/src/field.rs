@@ -120,7 +120,7 @@ impl ModelField<'_> {
                 memory[0]
                     .target(mechanism, pose, wrench, orientation)
                     .map(|posture| correction(pose, posture.target()))
-                    .map_err(|error| FieldFailure::new(in_words(&error)))
+                    .map_err(|error| FieldFailure::new(cause_and_advice(&error)))
             })
             .collect()
         })
@@ -128,7 +128,7 @@ impl ModelField<'_> {
 }
 
 /// A failure of the core with what a person can do about it.
-pub(crate) fn in_words(error: &Error) -> String {
+pub(crate) fn cause_and_advice(error: &Error) -> String {
     let advice = match error {
         Error::Unreachable { .. } | Error::OutsideLimits { .. } => {
             "; move the part (placement) or check the model's limits"

@@ -44,10 +44,10 @@ pub use result::run_result::{NearSingularPlace, RESULT_SCHEMA, RunResult};
 pub use result::selection::thinned;
 pub use result::summary::Summary;
 pub use result::tolerance::{
-    MissedTolerance, ToleranceVerdict, keeps_as_it_is, of_table, unchanged_in_words,
+    MissedTolerance, ToleranceVerdict, keeps_as_it_is, of_table, unchanged_text,
 };
 pub use run::compensate::{analyse, compensate_program};
-pub use run::conclude::{Run, load_in_words, of_program};
+pub use run::conclude::{Run, load_description, of_program};
 pub use table::{TableCorrection, correct_by_table, wide_table};
 pub use task::{RunError, Task, Unwatched, Watch};
 pub use warning::{Warning, WarningCode};

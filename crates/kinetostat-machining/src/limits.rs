@@ -92,7 +92,7 @@ impl Limit {
 
     /// The values that it can be given: "0.000001 to 1000000 mm can be allowed".
     #[must_use]
-    pub fn range_in_words(&self) -> String {
+    pub fn range_description(&self) -> String {
         let [least, most] = self.range;
         format!("{least} to {} can be allowed", self.with_unit(most))
     }
@@ -280,7 +280,7 @@ pub(crate) fn apart(found: f64, allowed: f64, stated: bool) -> (String, String) 
 impl Beyond {
     /// What was found, what is allowed and what is usual, without the option that would allow it.
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         let line = self
             .line
             .map_or_else(String::new, |line| format!("line {line}: "));
@@ -312,7 +312,7 @@ impl fmt::Display for Beyond {
         write!(
             f,
             "{}. If it is meant, write  --limit {name}={value}  or, in the job file under [limits],  {name} = {value}",
-            self.in_words()
+            self.description()
         )
     }
 }

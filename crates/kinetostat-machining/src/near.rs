@@ -74,10 +74,10 @@ pub fn near_singular(posture: &Posture) -> Option<NearSingular> {
     let near = list
         .iter()
         .find(|n| n.distance_m <= NEAR_SINGULAR * length)?;
-    Some(in_words(near, length))
+    Some(described(near, length))
 }
 
-fn in_words(near: &NearSingularity, length: f64) -> NearSingular {
+fn described(near: &NearSingularity, length: f64) -> NearSingular {
     let motion = near.way.linear() * (1e3 * near.distance_m);
     let turn = near.way.angular().map(f64::to_degrees) * near.distance_m;
     let (kind, there) = match (near.kind, &near.limb) {

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::assembly::controller::{Controller, controller};
 use crate::assembly::mechanism::assemble;
 use crate::assembly::repair::others;
-use crate::elements::placement::{in_words, three_digits, written};
+use crate::elements::placement::{three_digits, written, written_pose};
 use crate::elements::workspace::corners;
 use crate::findings::Findings;
 use crate::presets::{preset_text, unknown_preset};
@@ -273,7 +273,7 @@ fn settle_home(mechanism: &mut Mechanism, findings: &mut Findings) {
             three_digits(1e3 * off.linear().norm()),
             three_digits(off.angular().norm().to_degrees())
         ),
-        format!("to be exact, write {}", in_words(&home)),
+        format!("to be exact, write {}", written_pose(&home)),
     ));
 }
 

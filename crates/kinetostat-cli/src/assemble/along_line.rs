@@ -295,7 +295,7 @@ pub(crate) fn csv(a: &AlongLine) -> Answer<Vec<u8>> {
 /// Eleven points are what a screen holds.
 const SHOWN: usize = 11;
 
-pub(crate) fn in_words(question: &AssemblyQuery, a: &AlongLine) -> String {
+pub(crate) fn answer_text(question: &AssemblyQuery, a: &AlongLine) -> String {
     let mut out = wrapped(
         &format!(
             "{} ({}), from {} to {} mm in {}",

@@ -166,7 +166,7 @@ fn size(wrench: &Wrench, length: f64) -> f64 {
 
 fn directions(over: &Overconstraint, posture: &Posture) -> Directions {
     let stresses = over.stresses.iter().map(|stress| StressAnswer {
-        in_words: stress.in_words(posture),
+        in_words: stress.description(posture),
         limbs: stress
             .wrenches
             .iter()

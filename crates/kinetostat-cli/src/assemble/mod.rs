@@ -34,7 +34,7 @@ pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
                 outputs.fill(index, drawn.as_bytes())?;
             }
             (
-                along_line::in_words(&question, &a),
+                along_line::answer_text(&question, &a),
                 json::json(&a)?,
                 along_line::csv(&a)?,
             )
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &AssembleArgs) -> Answer<()> {
         None => {
             let a = answer(&question)?;
             (
-                text::in_words(&question, &a, args.all),
+                text::answer_text(&question, &a, args.all),
                 json::json(&a)?,
                 table::csv(&a)?,
             )

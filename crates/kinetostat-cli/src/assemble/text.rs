@@ -12,7 +12,7 @@ use kinetostat::number::larger;
 const SHOWN: usize = 12;
 
 /// The question, one sentence, and tables.
-pub(crate) fn in_words(question: &AssemblyQuery, a: &Assembly, all: bool) -> String {
+pub(crate) fn answer_text(question: &AssemblyQuery, a: &Assembly, all: bool) -> String {
     let mut out = question.query.heading();
     out.push_str(&wrapped(&verdict(a), 2));
     out.push_str("\nOver-constraint\n");

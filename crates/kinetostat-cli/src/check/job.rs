@@ -5,7 +5,7 @@ use std::path::Path;
 
 use kinetostat::Mechanism;
 use kinetostat_machining::number::counted;
-use kinetostat_machining::{LoadAlongPath, Placement, Warning, load_in_words};
+use kinetostat_machining::{LoadAlongPath, Placement, Warning, load_description};
 use kinetostat_program::{Knowledge, MoveKind, Path as ToolPath};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -86,7 +86,7 @@ pub(crate) fn run(path: &Path, json: bool) -> Answer<()> {
         };
         with_all_others(&files, &query, failure)
     })?;
-    let text = in_words(&found);
+    let text = answer_text(&found);
     json::print_answer(&text, &found, json)?;
     match found.ends.iter().filter(|e| !e.reached).count() {
         0 => Ok(()),
@@ -122,7 +122,7 @@ fn findings(files: &InputFiles, path: &Path, flags: &ProgramArgs) -> Answer<JobF
         model_deviations: q.model_deviations.clone(),
         tool: q.tool.clone(),
         placement: q.placement.clone(),
-        load: load_in_words(
+        load: load_description(
             &machine.mechanism,
             &LoadAlongPath::new(machine.load, &motion),
         ),
@@ -208,7 +208,7 @@ fn outputs(targets: &OutputPaths) -> Vec<OutputFinding> {
         .collect()
 }
 
-fn in_words(f: &JobFindings) -> String {
+fn answer_text(f: &JobFindings) -> String {
     let mut out = wrapped(&format!("{}: a job for `kinetostat compensate`", f.job), 0);
     out.push('\n');
     let p = &f.program;

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use crate::check::arguments::CheckArgs;
 use crate::check::model::findings::findings;
-use crate::check::model::text::in_words;
+use crate::check::model::text::answer_text;
 use crate::files::input_files::InputFiles;
 use crate::job::format::looks_like_a_job;
 use crate::options::vector;
@@ -44,6 +44,6 @@ pub(crate) fn run(args: &CheckArgs) -> Answer<()> {
     let force = args.force.as_deref().map(|f| vector("--force", f));
     let force = force.transpose()?;
     let findings = findings(&model, source, force);
-    let text = in_words(&findings, &model, force.is_some());
+    let text = answer_text(&findings, &model, force.is_some());
     json::print_answer(&text, &findings, args.json)
 }

@@ -8,7 +8,7 @@ use kinetostat_machining::number::{
 use kinetostat_machining::{
     RESULT_SCHEMA, RunError, TableCorrection, ToleranceVerdict, Warning, WarningCode,
     correct_by_table, odd_correction, odd_tolerances, of_accounting, of_program, of_table,
-    unchanged_in_words, wide_table,
+    unchanged_text, wide_table,
 };
 use kinetostat_program::{
     Accounting, CorrectionMap, Path as ToolPath, WriteOptions, verify_written,
@@ -155,7 +155,7 @@ fn read_table(files: &InputFiles, map: &Path) -> Answer<CorrectionMap> {
             _ => "places of the table",
         };
         let message =
-            fault_list::faults_in_words(places, &first, &all, |fault| fault.reason.as_str());
+            fault_list::fault_list_text(places, &first, &all, |fault| fault.reason.as_str());
         Failure::input(message).within(&map.display().to_string())
     })
 }
@@ -193,11 +193,11 @@ fn words(result: &MapResult<'_>) -> String {
         &format!("{} corrected by the table {}", result.program, result.map),
         0,
     );
-    let said = result.tolerance.missed_in_words().or_else(|| {
+    let said = result.tolerance.missed_text().or_else(|| {
         let before = result.max_position_error_before_mm;
         result
             .unchanged
-            .then(|| unchanged_in_words(result.within_tolerance_before, before))
+            .then(|| unchanged_text(result.within_tolerance_before, before))
     });
     if let Some(said) = said {
         text.push('\n');

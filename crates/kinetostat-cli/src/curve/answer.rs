@@ -234,7 +234,7 @@ pub(crate) fn kind_name(kind: SpecialKind) -> &'static str {
     }
 }
 
-pub(crate) fn kind_in_words(kind: &str) -> &'static str {
+pub(crate) fn kind_description(kind: &str) -> &'static str {
     match kind {
         "load_limit" => "limit of the load",
         "displacement_limit" => "limit of the motion",

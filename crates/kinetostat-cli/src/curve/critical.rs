@@ -40,10 +40,10 @@ fn critical_answer(chain: &SerialChain, judged: &'static str, c: CriticalLoad) -
     CriticalAnswer {
         judged,
         linear_factor: c.linear,
-        linear_mode_in_words: chain.motion_in_words(&c.linear_mode),
+        linear_mode_in_words: chain.motion_description(&c.linear_mode),
         factor: c.exact.as_ref().map(|e| e.factor),
         kind: c.exact.as_ref().and_then(|e| e.kind).map(kind_name),
-        mode_in_words: chain.motion_in_words(&mode),
+        mode_in_words: chain.motion_description(&mode),
         mode,
         followed_to_factor: c.reached,
         conservative: c.conservative,

@@ -95,7 +95,7 @@ impl<E: CurveEquilibrium> Followed<E> {
                 let number = k + 1;
                 let text = format!(
                     "branch {number} may go on beyond its end: {}{more}",
-                    end.in_words()
+                    end.description()
                 );
                 Warning::new(WarningCode::CurveEnds, text)
             })

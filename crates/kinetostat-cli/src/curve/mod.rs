@@ -64,7 +64,7 @@ pub(crate) fn run(args: &CurveArgs) -> Answer<()> {
         |answer| &mut answer.warnings,
         |heading, answer| {
             Ok(Shown {
-                text: text::in_words(heading, answer),
+                text: text::answer_text(heading, answer),
                 csv: csv::of_curve(answer)?,
                 svg: plot::plot(answer).svg(),
             })

@@ -2,7 +2,7 @@
 
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 
-use crate::curve::answer::{CurveAnswer, NamedPoint, PointAnswer, kind_in_words};
+use crate::curve::answer::{CurveAnswer, NamedPoint, PointAnswer, kind_description};
 use crate::ui::numbers::number;
 
 /// How far a part of a branch holds.
@@ -134,7 +134,7 @@ fn marks(a: &CurveAnswer) -> Vec<PlotMark> {
     let (width, height) = (size(0), size(1));
     for p in a.named_points.iter().filter(|p| p.kind != "end") {
         let at = (p.point.shown[0], p.point.shown[1]);
-        let words = kind_in_words(p.kind);
+        let words = kind_description(p.kind);
         let detail = format!(
             "{}: {} {}, {} {}: {}",
             p.name,

@@ -120,9 +120,9 @@ impl<S: Subject> Names<'_, S> {
     }
 
     fn special(&mut self, s: &Special<S::Equilibrium>) -> String {
-        let words = s.in_words(self.view.q.holding.subject);
+        let words = s.description(self.view.q.holding.subject);
         let name = self.add(kind_name(s.kind), words, 0, &s.point);
-        let mode_in_words = self.view.subject.motion_in_words(&s.mode);
+        let mode_in_words = self.view.subject.motion_description(&s.mode);
         if let Some(added) = self.list.last_mut() {
             added.branches = s.branches.iter().map(|b| b + 1).collect();
             // Without the sign of zeros.
@@ -162,7 +162,7 @@ impl<S: Subject> Names<'_, S> {
                 continue;
             }
             if let Some(p) = p.filter(|p| !is_start(p)) {
-                let words = format!("end of branch {}: {}", k + 1, end.in_words());
+                let words = format!("end of branch {}: {}", k + 1, end.description());
                 self.add("end", words, k, p);
             }
         }

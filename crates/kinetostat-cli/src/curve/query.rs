@@ -7,8 +7,8 @@ use nalgebra::{Vector3, Vector6};
 
 use crate::curve::arguments::CurveArgs;
 use crate::end_condition::chain::node_force;
-use crate::end_condition::holding::{Driven, Holding, axis_in_words, holding};
-use crate::end_condition::loads::{constant, constant_in_words, no_growing_nodes, wrench};
+use crate::end_condition::holding::{Driven, Holding, axis_description, holding};
+use crate::end_condition::loads::{constant, constant_loads_text, no_growing_nodes, wrench};
 use crate::end_condition::moves::Moves;
 use crate::options::vector;
 use crate::ui::failure::{Answer, Failure};
@@ -169,8 +169,8 @@ pub(crate) fn curve_query(
         load_pattern(&mut question, moves, chain, args, constant)?;
     }
     question.words.push(' ');
-    question.words.push_str(&question.holding.in_words());
-    question.words.push_str(&constant_in_words(&args.end));
+    question.words.push_str(&question.holding.description());
+    question.words.push_str(&constant_loads_text(&args.end));
     Ok(question)
 }
 
@@ -190,7 +190,7 @@ fn pushed(question: &mut CurveQuery, direction: &[f64], args: &CurveArgs) -> Ans
     };
     question.words = format!(
         "The tool is pushed along {} from {} to {} mm; the force is what pushes it that way.",
-        axis_in_words(&driven.axis),
+        axis_description(&driven.axis),
         short(low),
         short(high)
     );
@@ -217,7 +217,7 @@ fn turned(question: &mut CurveQuery, about: &[f64], args: &CurveArgs) -> Answer<
     };
     question.words = format!(
         "The tool is turned about {} from {} to {} deg; the moment is what turns it that way.",
-        axis_in_words(&driven.axis),
+        axis_description(&driven.axis),
         short(low),
         short(high)
     );

@@ -2,7 +2,7 @@
 
 use kinetostat_machining::number::{counted, share};
 
-use crate::curve::answer::{CriticalAnswer, CurveAnswer, NamedPoint, kind_in_words};
+use crate::curve::answer::{CriticalAnswer, CurveAnswer, NamedPoint, kind_description};
 use crate::curve::figures::value;
 use crate::curve::verdict::{reach, verdict};
 use crate::ui::layout::{columns, item, wrapped};
@@ -13,7 +13,7 @@ use kinetostat::number::larger;
 /// More ends of branches than this are only counted.
 const MOST_ENDS: usize = 6;
 
-pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
+pub(crate) fn answer_text(heading: &str, a: &CurveAnswer) -> String {
     let mut out = heading.to_owned();
     out.push_str(&wrapped(&a.question, 0));
     out.push('\n');
@@ -22,7 +22,7 @@ pub(crate) fn in_words(heading: &str, a: &CurveAnswer) -> String {
     out.push_str(&table(a));
     out.push('\n');
     for p in a.named_points.iter().filter(|p| p.kind != "end") {
-        out.push_str(&item(&point_in_words(p)));
+        out.push_str(&item(&point_text(p)));
     }
     out.push_str(&ends(a));
     out.push_str(&jumps(a));
@@ -114,12 +114,12 @@ fn verdict_of(limit: bool, stable: bool) -> String {
     .to_owned()
 }
 
-fn point_in_words(p: &NamedPoint) -> String {
+fn point_text(p: &NamedPoint) -> String {
     let branches: Vec<String> = p.branches.iter().map(usize::to_string).collect();
     let mut text = format!(
         "{} ({}, branch {}): {}",
         p.name,
-        kind_in_words(p.kind),
+        kind_description(p.kind),
         branches.join(" and "),
         p.in_words
     );
@@ -198,12 +198,12 @@ fn critical(a: &CurveAnswer) -> String {
     }
     let mut out = String::from("\nCritical load factor\n");
     for c in &a.critical_loads {
-        out.push_str(&item(&critical_in_words(c)));
+        out.push_str(&item(&critical_load_text(c)));
     }
     out
 }
 
-fn critical_in_words(c: &CriticalAnswer) -> String {
+fn critical_load_text(c: &CriticalAnswer) -> String {
     let what = if c.judged == "shape" {
         "the shape, with the tool held where the load brings it"
     } else {
@@ -214,7 +214,7 @@ fn critical_in_words(c: &CriticalAnswer) -> String {
             "{}{}; the mode moves {}",
             number(factor, 8),
             c.kind
-                .map_or_else(String::new, |k| format!(" ({})", kind_in_words(k))),
+                .map_or_else(String::new, |k| format!(" ({})", kind_description(k))),
             c.mode_in_words
         ),
         None => format!("none up to {}", number(c.followed_to_factor, 5)),

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::machine::displacement_warnings::folds;
 use crate::machine::instability;
-use crate::machine::principal_directions::motion_in_words;
+use crate::machine::principal_directions::motion_description;
 use crate::machine::unstable_joints::{UnstableJoint, unstable_joints};
 use crate::place::joints::JointValue;
 use crate::place::query::{PlaceAnswer, PlaceQuery};
@@ -141,7 +141,7 @@ pub(crate) fn answer(
             "the machine does NOT stay in its shape under this load",
         ));
     } else if shares.is_near_buckling() {
-        let said = instability::in_words(&shares, true);
+        let said = instability::description(&shares, true);
         warnings.push(Warning::new(WarningCode::NearBuckling, said));
     }
     warnings.extend(folds(1e-3 * shift.norm(), query.mechanism.size()));
@@ -191,7 +191,7 @@ pub(crate) fn answer(
             .directions
             .iter()
             .filter(|d| d.kind == DirectionKind::Negative)
-            .map(motion_in_words)
+            .map(motion_description)
             .collect(),
         platform_stable: loaded.platform.stable,
         platform_may_flutter: loaded.platform.may_flutter,

@@ -6,7 +6,7 @@ use kinetostat::Wrench;
 
 use crate::deflect::answer::answer;
 use crate::deflect::arguments::DeflectArgs;
-use crate::deflect::text::in_words;
+use crate::deflect::text::answer_text;
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
 use crate::machine::displacement_warnings::snaps;
@@ -48,7 +48,7 @@ pub(crate) fn at_place(args: &DeflectArgs) -> Answer<()> {
     let limit = posture.snaps_on_the_way(&rest, &loaded)?;
     let mut answer = answer(&query, &posture, &loaded, &rest, limit.is_some());
     answer.warnings.extend(limit.as_ref().map(snaps));
-    let text = in_words(&query, &answer);
+    let text = answer_text(&query, &answer);
     let to_screen = args.json.as_deref() == Some(Path::new("-"));
     let mut paths = Vec::new();
     if let Some(path) = args.json.as_deref().filter(|_| !to_screen) {

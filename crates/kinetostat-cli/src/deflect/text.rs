@@ -14,7 +14,7 @@ use kinetostat::number::larger;
 /// From this rate of the last corrections on, an iteration is slow.
 const SLOW: f64 = 0.2;
 
-pub(crate) fn in_words(query: &PlaceQuery, a: &Deflection) -> String {
+pub(crate) fn answer_text(query: &PlaceQuery, a: &Deflection) -> String {
     let mut out = query.heading();
     out.push_str(&wrapped(
         &format!(
@@ -31,7 +31,7 @@ pub(crate) fn in_words(query: &PlaceQuery, a: &Deflection) -> String {
     out.push_str(&vectors(a));
     out.push('\n');
     out.push_str(&actuators(a));
-    out.push_str(&joints::in_words("On the pendant", &a.pendant));
+    out.push_str(&joints::values_text("On the pendant", &a.pendant));
     out.push_str(&stability(a));
     out.push_str(&links(a));
     out.push_str(&internal(a));
@@ -100,7 +100,7 @@ fn actuators(a: &Deflection) -> String {
 fn stability(a: &Deflection) -> String {
     let mut out = String::from("\nStability\n");
     for limb in &a.limbs {
-        out.push_str(&layout::item(&limb_in_words(limb)));
+        out.push_str(&layout::item(&limb_text(limb)));
     }
     out.push_str(&layout::item(&platform(a)));
     if let Some(share) = a.free_beyond_limbs.filter(|_| a.stable) {
@@ -115,7 +115,7 @@ fn stability(a: &Deflection) -> String {
         )));
     }
     for joint in &a.overcome_joints {
-        out.push_str(&layout::item(&joint.in_words()));
+        out.push_str(&layout::item(&joint.description()));
     }
     if !a.conservative {
         out.push_str(&layout::item(&format!(
@@ -165,7 +165,7 @@ fn platform(a: &Deflection) -> String {
 
 /// Where a share of the way leads: without a potential only the bound is known below which all is well
 /// (see [`kinetostat::equilibrium::CriticalLoad::definite_until`]).
-fn limb_in_words(limb: &LimbAnswer) -> String {
+fn limb_text(limb: &LimbAnswer) -> String {
     let share = match limb.share_to_buckling {
         Some(mu) if mu.abs() < 1e-6 => "no load bends or buckles it".to_owned(),
         Some(mu) if mu < 0.0 => format!("{}: the load stretches it", formatter::share(mu)),

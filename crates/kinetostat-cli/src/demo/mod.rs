@@ -22,7 +22,7 @@ use crate::program::{report, solve, summary};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::layout::{listed, wrapped};
 use crate::ui::safe_text::safe;
-use crate::ui::system_error::in_words;
+use crate::ui::system_error::description;
 
 const PROGRAM: &str = "\
 (circular groove, radius 25 mm, depth 2 mm)
@@ -107,7 +107,7 @@ fn directory(path: &Path) -> Answer<bool> {
                 std::io::ErrorKind::NotFound => {
                     "the directory above it does not exist; create it first".to_owned()
                 }
-                _ => in_words(&error),
+                _ => description(&error),
             };
             Err(Failure::input(format!(
                 "the directory '{}' cannot be made: {reason}; choose another with --out",

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_of};
 use crate::end_condition::moves::Moves;
-use crate::end_condition::subject::{Subject, motion_in_words};
+use crate::end_condition::subject::{Subject, motion_description};
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
 
@@ -40,10 +40,10 @@ impl Subject for SerialChain {
         chain_outline(&self.chain, &self.base, &self.commands, &e.coordinates)
     }
 
-    fn motion_in_words(&self, motion: &[f64]) -> String {
+    fn motion_description(&self, motion: &[f64]) -> String {
         let coordinates = self.chain.coordinates().iter();
         let parts: Vec<_> = coordinates.map(|c| (c.name.clone(), c.kind)).collect();
-        motion_in_words(&parts, motion, self.chain.scale().length)
+        motion_description(&parts, motion, self.chain.scale().length)
     }
 }
 

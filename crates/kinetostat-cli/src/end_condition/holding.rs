@@ -48,14 +48,14 @@ impl Driven {
         Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z)
     }
 
-    pub(crate) fn in_words(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         let word = if self.turns { "about" } else { "along" };
-        format!("{word} {}", axis_in_words(&self.axis))
+        format!("{word} {}", axis_description(&self.axis))
     }
 }
 
 /// `x`, `-y` or the components.
-pub(crate) fn axis_in_words(axis: &Vector3<f64>) -> String {
+pub(crate) fn axis_description(axis: &Vector3<f64>) -> String {
     for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
         if axis[k].abs() > 1.0 - 1e-12 {
             let sign = if axis[k] < 0.0 { "-" } else { "" };
@@ -150,16 +150,16 @@ pub(crate) fn holding(
         if moves.directions.share(&twist) < 1.0 - 1e-6 {
             return Err(Failure::input(format!(
                 "the tool cannot be moved {}: the {} is rigid {}. Choose a direction in which it can move",
-                d.in_words(),
+                d.description(),
                 moves.subject,
-                in_words_of(&rigid, "along or about a skew direction"),
+                motion_list(&rigid, "along or about a skew direction"),
             )));
         }
         let local = turn.transpose() * twist;
         if let Some(k) = (0..6).find(|&k| free[k] && local[k].abs() > 1e-9) {
             return Err(Failure::input(format!(
                 "the tool is pushed {}, and is to be free in '{}', which is a part of that: hold it there, or write --free others to free all that is across",
-                d.in_words(),
+                d.description(),
                 DIRECTIONS[k]
             )));
         }
@@ -191,7 +191,7 @@ fn names(of: impl Fn(usize) -> bool) -> Vec<&'static str> {
     (0..6).filter(|&k| of(k)).map(|k| DIRECTIONS[k]).collect()
 }
 
-fn in_words_of(set: &[bool; 6], otherwise: &str) -> String {
+fn motion_list(set: &[bool; 6], otherwise: &str) -> String {
     let list = names(|k| set[k]);
     if list.is_empty() {
         otherwise.to_owned()
@@ -217,7 +217,7 @@ impl Holding {
     }
 
     /// What holds the tool, in words.
-    pub(crate) fn in_words(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         let mut text = match (self.held.as_slice(), self.free.as_slice()) {
             ([], []) => format!("The end of this {} cannot move at all", self.subject),
             ([], _) => "The tool is free".to_owned(),

@@ -45,7 +45,7 @@ pub(crate) fn with_loads(mut chain: SerialChain, args: &EndArgs) -> Answer<Seria
 }
 
 /// What acts all the time, in words; nothing if nothing does.
-pub(crate) fn constant_in_words(args: &EndArgs) -> String {
+pub(crate) fn constant_loads_text(args: &EndArgs) -> String {
     let mut parts = Vec::new();
     if let Some(f) = &args.constant_force {
         parts.push(format!(

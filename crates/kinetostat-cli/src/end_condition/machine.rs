@@ -10,7 +10,7 @@ use crate::end_condition::arguments::EndArgs;
 use crate::end_condition::chain::node_force;
 use crate::end_condition::coordinates::{CoordinateName, coordinates_of, values_of};
 use crate::end_condition::moves::Moves;
-use crate::end_condition::subject::{Subject, motion_in_words};
+use crate::end_condition::subject::{Subject, motion_description};
 use crate::place::query::PlaceQuery;
 use crate::ui::failure::{Answer, Failure};
 
@@ -46,7 +46,8 @@ impl CommandedMachine {
     pub(crate) fn near_singular(&self, within: f64) -> Answer<Vec<Warning>> {
         let within = within.max(0.1 * self.moves.directions.length);
         let list = self.posture.near_singularities(within)?;
-        let reported = |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.in_words());
+        let reported =
+            |s: &NearSingularity| Warning::new(WarningCode::NearSingular, s.description());
         Ok(list.iter().map(reported).collect())
     }
 }
@@ -114,12 +115,12 @@ impl Subject for CommandedMachine {
             .collect()
     }
 
-    fn motion_in_words(&self, motion: &[f64]) -> String {
+    fn motion_description(&self, motion: &[f64]) -> String {
         let axes = ["x", "y", "z"];
         let slides = axes.map(|axis| (format!("the tool along {axis}"), MotionKind::Prismatic));
         let turns = axes.map(|axis| (format!("the tool about {axis}"), MotionKind::Revolute));
         let parts: Vec<_> = slides.into_iter().chain(turns).collect();
         let length = self.posture.mechanism().natural_length();
-        motion_in_words(&parts, motion, length)
+        motion_description(&parts, motion, length)
     }
 }

@@ -18,12 +18,12 @@ pub(crate) trait Subject {
     /// The line through all joints, m.
     fn outline(&self, e: &Self::Equilibrium) -> Vec<Vector3<f64>>;
     /// A motion (m, rad) in words: of the coordinates of a chain, of the tool of a machine.
-    fn motion_in_words(&self, motion: &[f64]) -> String;
+    fn motion_description(&self, motion: &[f64]) -> String;
 }
 
 /// A motion in words: the parts that move most, each by how much while the largest turns by one degree (or slides by one
 /// millimetre, where nothing turns). `length`: natural length, m.
-pub(crate) fn motion_in_words(
+pub(crate) fn motion_description(
     parts: &[(String, MotionKind)],
     motion: &[f64],
     length: f64,

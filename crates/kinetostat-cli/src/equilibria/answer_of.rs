@@ -72,7 +72,7 @@ fn shape<S: Subject>(
         may_flutter: f.may_flutter,
         shape_stable: e.shape_stable(),
         share_to_buckling: e.share_to_buckling().filter(|m| m.is_finite()),
-        mode_in_words: subject.motion_in_words(e.buckling_mode()),
+        mode_in_words: subject.motion_description(e.buckling_mode()),
         singular: f.singular,
         found_by_spread_starts: f.hits,
         stiffness_n_per_mm: 1e-3

@@ -55,7 +55,7 @@ pub(crate) fn run(args: &EquilibriaArgs) -> Answer<()> {
         |answer| &mut answer.warnings,
         |heading, answer| {
             Ok(Shown {
-                text: text::in_words(heading, answer),
+                text: text::answer_text(heading, answer),
                 csv: csv::of_equilibria(answer)?,
                 svg: plot::plot(answer).shape_svg(),
             })

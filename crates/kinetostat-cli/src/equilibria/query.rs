@@ -4,7 +4,7 @@ use kinetostat::{EndCondition, Twist, equilibrium::SearchSettings, spatial::move
 use nalgebra::Vector3;
 
 use crate::end_condition::holding::{Holding, holding};
-use crate::end_condition::loads::{constant, constant_in_words, wrench};
+use crate::end_condition::loads::{constant, constant_loads_text, wrench};
 use crate::end_condition::moves::Moves;
 use crate::equilibria::arguments::EquilibriaArgs;
 use crate::options::vector;
@@ -83,8 +83,8 @@ pub(crate) fn equilibria_query(moves: &Moves, args: &EquilibriaArgs) -> Answer<E
         }
     };
     words.push(' ');
-    words.push_str(&held.in_words());
-    words.push_str(&constant_in_words(&args.end));
+    words.push_str(&held.description());
+    words.push_str(&constant_loads_text(&args.end));
     Ok(EquilibriaQuery {
         end: held.end.clone(),
         holding: held,

@@ -12,7 +12,7 @@ use kinetostat::number::larger;
 /// More equilibria than this are only counted on the screen.
 const MOST_SHOWN: usize = 20;
 
-pub(crate) fn in_words(heading: &str, a: &EquilibriaAnswer) -> String {
+pub(crate) fn answer_text(heading: &str, a: &EquilibriaAnswer) -> String {
     let mut out = heading.to_owned();
     out.push_str(&wrapped(&a.question, 0));
     out.push('\n');
@@ -70,7 +70,7 @@ fn table(a: &EquilibriaAnswer) -> String {
     let along = match a.stiffness_along {
         Some(d) => format!(
             "N/mm along {}",
-            crate::end_condition::holding::axis_in_words(&Vector3::from(d))
+            crate::end_condition::holding::axis_description(&Vector3::from(d))
         ),
         None => "smallest principal, N/mm".to_owned(),
     };

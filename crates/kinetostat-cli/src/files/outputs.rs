@@ -13,7 +13,7 @@ use crate::files::journal::{self, Contents, Entry, Journal};
 use crate::files::paths::{parent_of, same_bytes, same_file, same_place};
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::safe_text::safe;
-use crate::ui::system_error::in_words;
+use crate::ui::system_error::description;
 use crate::ui::{layout, screen};
 
 /// What to do about an output that exists.
@@ -54,7 +54,7 @@ impl Claimed {
             "the {} cannot be written to '{}': {}; no output was changed",
             self.what,
             self.target.display(),
-            in_words(error)
+            description(error)
         ))
     }
 }
@@ -97,7 +97,7 @@ pub(crate) fn may_be_written(
             return Err(refuse(&format!(
                 "the directory '{}' cannot be looked at: {}",
                 parent.display(),
-                in_words(&error)
+                description(&error)
             )));
         }
     }
@@ -131,7 +131,7 @@ pub(crate) fn may_be_written(
         }
         Ok(_) => {}
         Err(error) if error.kind() == ErrorKind::NotFound => {}
-        Err(error) => return Err(refuse(&in_words(&error))),
+        Err(error) => return Err(refuse(&description(&error))),
     }
     Ok(())
 }
@@ -172,7 +172,7 @@ impl Outputs {
         }
         let (journal, file) = journal
             .and_then(|index| Ok((index, self.journals[index].part()?)))
-            .map_err(|error| refuse(&in_words(&error)))?;
+            .map_err(|error| refuse(&description(&error)))?;
         self.claimed.push(Claimed {
             what,
             target: target.to_owned(),
@@ -253,7 +253,7 @@ impl Outputs {
                     Failure::input(format!(
                         "nothing can be written to '{}': {}; no output was changed",
                         journal.directory.display(),
-                        in_words(&error)
+                        description(&error)
                     ))
                 })?;
             }
@@ -272,7 +272,7 @@ impl Outputs {
                     return Err(Failure::input(format!(
                         "the {what} cannot be put in place as '{}': {}; no output was changed",
                         target.display(),
-                        in_words(&error)
+                        description(&error)
                     )));
                 }
             }

@@ -96,7 +96,7 @@ pub(crate) fn finish(
         outputs.commit()?;
     }
     let share = remarks.asymmetry.unwrap_or(judged.antisymmetric_share);
-    let text = in_words(
+    let text = answer_text(
         &name,
         &judged,
         stiffness,
@@ -151,7 +151,7 @@ fn refuse_what_is_none(file: &Path, judged: &Judgement) -> Answer<()> {
     }
 }
 
-fn in_words(
+fn answer_text(
     name: &str,
     judged: &Judgement,
     stiffness: &Matrix6<f64>,

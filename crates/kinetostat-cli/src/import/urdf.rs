@@ -71,7 +71,7 @@ pub(crate) fn urdf(args: &UrdfArgs) -> Answer<()> {
         outputs.fill(index, imported.toml.as_bytes())?;
         outputs.commit()?;
     }
-    let text = in_words(
+    let text = answer_text(
         &imported,
         &args.file.display().to_string(),
         args.out.as_deref(),
@@ -205,7 +205,7 @@ fn summary<'a>(imported: &'a Imported, args: &UrdfArgs) -> Summary<'a> {
     }
 }
 
-fn in_words(imported: &Imported, source: &str, out: Option<&Path>) -> String {
+fn answer_text(imported: &Imported, source: &str, out: Option<&Path>) -> String {
     let mut text = wrapped(
         &format!(
             "{}: from '{}' to '{}'",

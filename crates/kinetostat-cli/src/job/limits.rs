@@ -39,7 +39,7 @@ fn of_job(job: &JobFile, limits: &mut Limits) -> Answer<()> {
         if !limit.takes(*value.get_ref()) {
             let found = limit.with_unit(value.get_ref());
             let message = format!("the limit '{}' is {found}", limit.name);
-            return Err(job.error(value, &message, &limit.range_in_words()));
+            return Err(job.error(value, &message, &limit.range_description()));
         }
         limits.set(limit, *value.get_ref());
         if limit.name.ends_with("tool_mm") {
@@ -69,7 +69,7 @@ fn of_option(text: &str) -> Answer<(Limit, f64)> {
         .filter(|v: &f64| v.is_finite())
         .ok_or_else(|| unread("the value is no finite number"))?;
     if !limit.takes(value) {
-        return Err(refuse(&limit.range_in_words()));
+        return Err(refuse(&limit.range_description()));
     }
     Ok((limit, value))
 }

@@ -13,9 +13,9 @@ use crate::files::origin;
 use crate::job::arguments::ProgramArgs;
 use crate::job::job_file::JobFile;
 use crate::job::load::load;
-use crate::job::placement::{placement, placement_in_words};
+use crate::job::placement::{placement, placement_description};
 use crate::job::tools::{numbered_tools, tool};
-use crate::machine::model_warnings::deviations_in_words;
+use crate::machine::model_warnings::deviation_descriptions;
 use crate::machine::stiffness_list;
 use crate::place::orientation;
 use crate::ui::failure::{Answer, Failure};
@@ -92,10 +92,10 @@ pub(crate) fn machine_setup(
     let question = Question {
         model: model.name().to_owned(),
         model_source: source,
-        model_deviations: deviations_in_words(&model),
-        placement: placement_in_words(&placement),
+        model_deviations: deviation_descriptions(&model),
+        placement: placement_description(&placement),
         tool: tool_words,
-        tool_orientation: orientation::in_words(&placement.tool_orientation),
+        tool_orientation: orientation::description(&placement.tool_orientation),
         stiffnesses: stiffness_list::stiffnesses(&model),
         files: vec![model_file],
         ..Question::default()

@@ -74,18 +74,18 @@ pub(crate) fn placement(
     })
 }
 
-pub(crate) fn placement_in_words(placement: &Placement) -> String {
+pub(crate) fn placement_description(placement: &Placement) -> String {
     let origin = placement.base_from_part.translation.vector * 1e3;
     let mut text = format!(
         "program zero at {} mm in the base, axes {}; tool {}",
         triple(origin.into(), short),
-        orientation::in_words(&placement.base_from_part.rotation),
+        orientation::description(&placement.base_from_part.rotation),
         match placement.orientation_follows {
             true => format!(
                 "as near as it can be to the orientation {} (the orientation follows)",
-                orientation::in_words(&placement.tool_orientation)
+                orientation::description(&placement.tool_orientation)
             ),
-            false => orientation::in_words(&placement.tool_orientation),
+            false => orientation::description(&placement.tool_orientation),
         },
     );
     if placement.scale != 1.0 {

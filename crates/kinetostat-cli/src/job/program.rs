@@ -4,7 +4,7 @@ use kinetostat_program::{Path as ToolPath, Program, faults, interpret};
 
 use crate::job::setting::Setting;
 use crate::ui::failure::{Answer, Failure};
-use crate::ui::fault_list::faults_in_words;
+use crate::ui::fault_list::fault_list_text;
 
 /// Reads and interprets a program.
 pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
@@ -14,7 +14,7 @@ pub(crate) fn read_program(setting: &Setting) -> Answer<(Program, ToolPath)> {
     });
     read.map_err(|error| {
         let all = faults(setting.program.clone(), &setting.reading);
-        let message = faults_in_words("lines", &error, &all, |fault| fault.reason.as_str());
+        let message = fault_list_text("lines", &error, &all, |fault| fault.reason.as_str());
         Failure::input(message).within(&setting.program_name)
     })
 }

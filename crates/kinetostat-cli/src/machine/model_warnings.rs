@@ -56,8 +56,8 @@ pub(crate) fn no_potential(mechanism: &Mechanism) -> Option<Warning> {
 }
 
 /// The deviations of a model, one sentence each.
-pub(crate) fn deviations_in_words(model: &Model) -> Vec<String> {
+pub(crate) fn deviation_descriptions(model: &Model) -> Vec<String> {
     let list = model.document.deviation.iter();
-    list.map(kinetostat_model::schema::Deviation::in_words)
+    list.map(kinetostat_model::schema::Deviation::description)
         .collect()
 }

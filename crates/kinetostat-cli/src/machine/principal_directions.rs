@@ -40,8 +40,8 @@ pub(crate) fn uneven(
     mechanism: &Mechanism,
     directions: &[Direction],
 ) -> impl Iterator<Item = Warning> {
-    let said = kinetostat::chain::uneven_in_words(directions).into_iter();
-    let of_springs = kinetostat::chain::uneven_springs_in_words(mechanism);
+    let said = kinetostat::chain::uneven_stiffness(directions).into_iter();
+    let of_springs = kinetostat::chain::uneven_springs(mechanism);
     said.chain(of_springs)
         .map(|said| Warning::new(WarningCode::UnevenStiffness, said))
 }
@@ -57,7 +57,7 @@ pub(crate) fn principal(d: &Direction) -> Principal {
             .then_some(1e-3 * d.stiffness_n_per_m),
         translation_share: d.twist.linear().into(),
         rotation_deg_per_mm: turn.into(),
-        in_words: motion_in_words(d),
+        in_words: motion_description(d),
         participation: d
             .participation
             .iter()
@@ -79,11 +79,11 @@ pub(crate) fn principal(d: &Direction) -> Principal {
 }
 
 /// `turns about z by arm: q`, with no more names than a line holds.
-pub(crate) fn motion_in_words(d: &Direction) -> String {
+pub(crate) fn motion_description(d: &Direction) -> String {
     const NAMES: usize = 3;
     let mut short = d.clone();
     short.participation.truncate(NAMES);
-    let text = short.in_words();
+    let text = short.description();
     let motion = text.split_once(": ").map_or(text.as_str(), |(_, m)| m);
     match d.participation.len().saturating_sub(NAMES) {
         0 => motion.to_owned(),
@@ -100,7 +100,7 @@ pub(crate) fn principals(list: &[Principal]) -> String {
     ];
     for p in list {
         rows.push(vec![
-            kind_in_words(p.kind).to_owned(),
+            kind_description(p.kind).to_owned(),
             p.stiffness_n_per_mm
                 .map_or_else(|| "infinite".to_owned(), |s| number(s, 4)),
             triple(p.translation_share, |x| fixed(x, 3)),
@@ -115,7 +115,7 @@ pub(crate) fn principals(list: &[Principal]) -> String {
     out
 }
 
-fn kind_in_words(kind: DirectionKind) -> &'static str {
+fn kind_description(kind: DirectionKind) -> &'static str {
     match kind {
         DirectionKind::Free => "free",
         DirectionKind::Finite => "stiff",
@@ -134,7 +134,7 @@ pub(crate) fn what_moves(p: &Principal) -> String {
     };
     item(&format!(
         "{}{stiffness}: {}",
-        kind_in_words(p.kind),
+        kind_description(p.kind),
         p.in_words
     ))
 }

@@ -84,7 +84,7 @@ fn written(
 
 impl UnstableJoint {
     /// One sentence.
-    pub(crate) fn in_words(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         let mut text = format!(
             "limb '{}', joint '{}' runs away: its spring holds with {} {}, the loads take {}",
             self.limb,

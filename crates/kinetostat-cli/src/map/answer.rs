@@ -147,7 +147,7 @@ impl Quantity {
         }
     }
 
-    pub(crate) fn in_words(self) -> &'static str {
+    pub(crate) fn description(self) -> &'static str {
         match self {
             Self::Softest => "smallest stiffness against a force",
             Self::X => "stiffness against a force along x",

@@ -15,7 +15,7 @@ use kinetostat_machining::{MapTask, Warning, large_load, straight_tool};
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
-use crate::machine::model_warnings::{deviations_in_words, no_potential, of_model};
+use crate::machine::model_warnings::{deviation_descriptions, no_potential, of_model};
 use crate::map::answer::MapAnswer;
 use crate::map::arguments::{MapArgs, Quantity};
 use crate::map::picture::Picture;
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         loaded: load.is_some(),
         force_n: load.map_or([0.0; 3], |w| w.force().into()),
         moment_n_m: load.map_or([0.0; 3], |w| w.moment().into()),
-        deviations: deviations_in_words(&model),
+        deviations: deviation_descriptions(&model),
         places: figures.places,
         figures: figures.answer(load.is_some()),
         warnings,
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &MapArgs) -> Answer<()> {
         outputs.fill(index, picture.svg(&answer).as_bytes())?;
     }
     let paths = outputs.commit()?;
-    let text = text::in_words(&answer, &rotation);
+    let text = text::answer_text(&answer, &rotation);
     let text = format!("{text}{}", outputs::written(&paths));
     json::print_answer(&text, &answer, args.json)
 }

@@ -106,11 +106,11 @@ impl Picture {
         let title = format!(
             "{}: {} at {}{under}{tool}",
             a.model,
-            self.show.in_words(),
+            self.show.description(),
             fixed.join(", ")
         );
         let label = |k: usize| format!("{}, mm", AXES[self.axes[k]]);
-        let value_label = format!("{}, {}", self.show.in_words(), self.show.unit());
+        let value_label = format!("{}, {}", self.show.description(), self.show.unit());
         let single = (0..2).find(|k| self.places[*k].len() == 1);
         if let Some(single) = single {
             let values = self.cells.iter().map(|c| match c {

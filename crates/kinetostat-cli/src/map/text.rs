@@ -85,14 +85,14 @@ pub(crate) fn status(state: PlaceState) -> &'static str {
     }
 }
 
-pub(crate) fn in_words(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64>) -> String {
+pub(crate) fn answer_text(a: &MapAnswer, rotation: &nalgebra::UnitQuaternion<f64>) -> String {
     let mut out = wrapped(
         &format!(
             "{} ({}), {}, tool {}",
             a.model,
             a.model_source,
             counted(a.places.asked, "place"),
-            orientation::in_words(rotation)
+            orientation::description(rotation)
         ),
         0,
     );

@@ -22,7 +22,7 @@ pub(crate) fn without_figures(task: &MapTask<'_>, places: &Places) -> Option<Fai
             1 => "cannot be put at the place".to_owned(),
             n => format!("can be put at none of the {n} places"),
         },
-        orientation::in_words(&task.orientation),
+        orientation::description(&task.orientation),
         places.unreachable,
         places.outside_limits
     )))

@@ -71,7 +71,7 @@ impl FrameMap {
         }
     }
 
-    fn in_words(&self) -> String {
+    fn description(&self) -> String {
         let clean = |x: f64| short(if x.abs() < 1e-4 { 0.0 } else { x });
         let still = |v: &[f64; 3]| v.iter().all(|x| x.abs() < 1e-4);
         match (still(&self.position_mm), still(&self.rotation_vector_deg)) {
@@ -94,7 +94,7 @@ pub(crate) fn run(a: &str, b: &str, json: bool) -> Answer<()> {
     };
     let (one, other) = (read(a)?, read(b)?);
     let answer = compare(&one, &other, a, b)?;
-    let text = in_words(&answer);
+    let text = answer_text(&answer);
     json::print_answer(&text, &answer, json)
 }
 
@@ -168,7 +168,7 @@ fn maps(m: &Mechanism, n: &Mechanism, best: &Mapping) -> Vec<JointMap> {
         .collect()
 }
 
-fn in_words(c: &Comparison) -> String {
+fn answer_text(c: &Comparison) -> String {
     let mut out = wrapped(&format!("A: {}, B: {}", c.a, c.b), 0);
     out.push('\n');
     let plain = c.joints.iter().all(|j| !j.reversed && j.offset == 0.0);
@@ -197,7 +197,7 @@ fn in_words(c: &Comparison) -> String {
         ("tool of A in the tool of B", &c.tool),
     ];
     for (name, frame) in frames {
-        out.push_str(&item(&format!("{name}: {}", frame.in_words())));
+        out.push_str(&item(&format!("{name}: {}", frame.description())));
     }
     if plain {
         out.push_str(&item("all joints: the same signs and zeros"));
@@ -257,7 +257,7 @@ fn in_words(c: &Comparison) -> String {
             ],
             2,
         ));
-        out.push_str(&joints::in_words(
+        out.push_str(&joints::values_text(
             "with the joints of A at",
             &c.stiffness_at,
         ));

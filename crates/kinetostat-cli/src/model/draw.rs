@@ -10,7 +10,7 @@ use kinetostat_report::{Drawing, Magnified, Moved, Placed, View};
 
 use crate::files::input_files::InputFiles;
 use crate::files::outputs::{self, Existing, Outputs};
-use crate::machine::principal_directions::motion_in_words;
+use crate::machine::principal_directions::motion_description;
 use crate::options::{EXIT_CODES, number};
 use crate::place::arguments::PlaceArgs;
 use crate::place::query::{PlaceQuery, place_query};
@@ -182,7 +182,7 @@ fn motion(posture: &Posture, rank: usize) -> Answer<(Moved, String)> {
             numbers::number(1e-3 * direction.stiffness_n_per_m, 3)
         ),
     };
-    let words = format!("{kind} {}", motion_in_words(&direction));
+    let words = format!("{kind} {}", motion_description(&direction));
     let name = match direction.kind {
         DirectionKind::Free => "moved along the free direction",
         _ => "moved along the direction",

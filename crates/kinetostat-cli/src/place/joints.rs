@@ -67,7 +67,7 @@ pub(crate) fn on_pendant(controller: Option<&Controller>, commands: &[f64]) -> V
 }
 
 /// `label: A1 10 deg, A2 -90 deg, E1 1250 mm`.
-pub(crate) fn in_words(label: &str, values: &[JointValue]) -> String {
+pub(crate) fn values_text(label: &str, values: &[JointValue]) -> String {
     if values.is_empty() {
         return String::new();
     }

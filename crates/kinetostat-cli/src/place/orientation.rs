@@ -121,7 +121,7 @@ pub(crate) fn of(name: &str, numbers: &[f64]) -> Result<UnitQuaternion<f64>, NoO
 }
 
 /// An orientation in words: the rotation vector in degrees.
-pub(crate) fn in_words(q: &UnitQuaternion<f64>) -> String {
+pub(crate) fn description(q: &UnitQuaternion<f64>) -> String {
     let v = q.scaled_axis().map(f64::to_degrees);
     if v.norm() < 1e-9 {
         "parallel to the base".into()

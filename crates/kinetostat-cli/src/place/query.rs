@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::files::input_files::InputFiles;
-use crate::machine::model_warnings::{deviations_in_words, of_model};
+use crate::machine::model_warnings::{deviation_descriptions, of_model};
 use crate::machine::unstable_joints::load_names;
 use crate::options::vector;
 use crate::place::arguments::PlaceArgs;
@@ -136,7 +136,7 @@ pub(crate) fn place_query_of(
         controller: read.controller.clone(),
         wrench,
         inputs: path.into_iter().collect(),
-        deviations: deviations_in_words(read),
+        deviations: deviation_descriptions(read),
         warnings,
         mechanism,
     })
@@ -214,7 +214,7 @@ impl PlaceQuery {
                 self.source,
                 if self.at_home { "at home," } else { "at" },
                 triple(position.into(), short),
-                orientation::in_words(&self.target.rotation)
+                orientation::description(&self.target.rotation)
             ),
             0,
         );
@@ -226,7 +226,7 @@ impl PlaceQuery {
         }
         if let Some(commands) = &self.joints {
             let values = joints::of_model(&self.mechanism, commands);
-            out.push_str(&joints::in_words("joints of the model", &values));
+            out.push_str(&joints::values_text("joints of the model", &values));
         }
         for deviation in &self.deviations {
             out.push_str(&wrapped(deviation, 0));

@@ -6,7 +6,7 @@ use kinetostat_machining::{Warning, WarningCode, natural_length};
 
 use crate::place::orientation;
 use crate::ui::failure::Answer;
-use crate::ui::pose::pose_in_words;
+use crate::ui::pose::pose_text;
 
 /// A place whose orientation follows.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ pub(crate) fn followed(
             warnings.push(nearest_used(format!(
                 "the machine cannot take this place exactly; the nearest is used, {} away: {}",
                 mean_length(1e3 * distance_m),
-                pose_in_words(&nearest)
+                pose_text(&nearest)
             )));
             m.posture(PostureRequest::position(
                 &nearest.translation.vector,
@@ -79,7 +79,7 @@ pub(crate) fn reachable(m: &Mechanism, target: Pose, warnings: &mut Vec<Warning>
         warnings.push(nearest_used(format!(
             "the machine cannot take this place exactly; the nearest is used, {} away: {}",
             apart(1e3 * shift, turn.to_degrees()),
-            pose_in_words(&nearest)
+            pose_text(&nearest)
         )));
         return Ok(nearest);
     }

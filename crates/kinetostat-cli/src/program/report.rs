@@ -8,7 +8,7 @@ use crate::ui::screen::{self, Stream};
 
 /// A written program that misses its tolerance has an exit code of its own; files are in place.
 pub(crate) fn refuse_missed_tolerance(tolerance: &ToleranceVerdict, program: &str) -> Answer<()> {
-    match tolerance.missed_in_words() {
+    match tolerance.missed_text() {
         Some(text) => Err(Failure::tolerance_missed(text).within(program)),
         None => Ok(()),
     }

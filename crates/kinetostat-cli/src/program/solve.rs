@@ -3,7 +3,7 @@
 use kinetostat_machining::number::{largest, length_setting, setting as setting_of};
 use kinetostat_machining::{
     Bounds, LoadAlongPath, Run, Task, Tool, Warning, WarningCode, analyse, compensate_program,
-    load_in_words, origin_in_metres,
+    load_description, origin_in_metres,
 };
 
 use crate::job::machine::MachineSetup;
@@ -76,7 +76,7 @@ pub(crate) fn solve(
             ),
             format!(
                 "load {}",
-                load_in_words(
+                load_description(
                     &machine.mechanism,
                     &LoadAlongPath::with_tools(machine.load, &path, &tools)
                 )

@@ -31,14 +31,14 @@ pub(crate) fn of_run(result: &RunResult) -> String {
 /// One or two sentences that answer the question.
 pub(crate) fn verdict(result: &RunResult) -> String {
     let figures = Figures::of(result);
-    let mut text = if let Some(unchanged) = result.unchanged_in_words() {
+    let mut text = if let Some(unchanged) = result.unchanged_text() {
         format!(
             "{unchanged} The tool is up to {} off its path.",
             figures.error_after
         )
     } else if result.question.compensated {
         let held = result.tolerance.held == Some(true);
-        let missed = result.tolerance.missed_in_words();
+        let missed = result.tolerance.missed_text();
         let first = missed.map_or_else(String::new, |missed| format!("{missed} "));
         let (after, allowed) = against(
             result.summary.max_position_error_after_mm,
@@ -58,11 +58,11 @@ pub(crate) fn verdict(result: &RunResult) -> String {
             figures.error_before
         )
     };
-    if let Some(own) = result.own_weight_in_words() {
+    if let Some(own) = result.own_weight_text() {
         text.push(' ');
         text.push_str(&own);
     }
-    if let Some(corners) = result.corners_in_words() {
+    if let Some(corners) = result.corners_text() {
         text.push(' ');
         text.push_str(&corners);
     }

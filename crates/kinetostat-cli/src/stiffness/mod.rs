@@ -13,7 +13,7 @@ use crate::files::input_files::InputFiles;
 use crate::place::query::place_query;
 use crate::stiffness::answer::{answer, with_causes, with_own_loads};
 use crate::stiffness::arguments::StiffnessArgs;
-use crate::stiffness::text::in_words;
+use crate::stiffness::text::answer_text;
 use crate::ui::failure::Answer;
 use crate::ui::json;
 
@@ -58,6 +58,6 @@ pub(crate) fn run(args: &StiffnessArgs) -> Answer<()> {
         with_own_loads(&mut answer, &query, &posture);
         answer
     };
-    let text = in_words(&query, &answer);
+    let text = answer_text(&query, &answer);
     json::print_answer(&text, &answer, args.json)
 }

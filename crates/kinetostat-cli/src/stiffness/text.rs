@@ -9,10 +9,10 @@ use crate::ui::numbers::{fixed, load_triple, number};
 use crate::ui::warnings;
 use kinetostat::number::larger;
 
-pub(crate) fn in_words(query: &PlaceQuery, a: &Stiffness) -> String {
+pub(crate) fn answer_text(query: &PlaceQuery, a: &Stiffness) -> String {
     let mut out = query.heading();
     if !a.pendant.is_empty() {
-        out.push_str(&joints::in_words("On the pendant", &a.pendant));
+        out.push_str(&joints::values_text("On the pendant", &a.pendant));
         out.push('\n');
     }
     let state = if a.loaded {
@@ -88,7 +88,7 @@ pub(crate) fn in_words(query: &PlaceQuery, a: &Stiffness) -> String {
         .for_each(|p| out.push_str(&what_moves(p)));
     out.push_str("\nLimbs\n");
     for limb in &a.limbs {
-        out.push_str(&item(&limb_in_words(limb, a.limbs.len())));
+        out.push_str(&item(&limb_text(limb, a.limbs.len())));
     }
     out.push_str(&warnings::warnings(&a.warnings));
     out
@@ -220,7 +220,7 @@ fn asymmetry(query: &PlaceQuery, a: &Stiffness) -> String {
 }
 
 /// A limb among a number of them.
-fn limb_in_words(limb: &LimbShare, of: usize) -> String {
+fn limb_text(limb: &LimbShare, of: usize) -> String {
     let mut parts = vec![format!("stiff in {} of 6", limb.rank - limb.negative)];
     if limb.free > 0 {
         parts.push(format!("free in {} (passive joints)", limb.free));

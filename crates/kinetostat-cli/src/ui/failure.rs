@@ -8,7 +8,7 @@ use kinetostat_machining::number::apart;
 use kinetostat_model::{ModelError, shortened};
 use kinetostat_program::WriteError;
 
-use crate::ui::pose::pose_in_words;
+use crate::ui::pose::pose_text;
 use crate::ui::safe_text::safe;
 
 /// Exit codes, as in the table of `kinetostat --help`.
@@ -161,7 +161,7 @@ impl From<kinetostat::Error> for Failure {
             } => format!(
                 "{place}: the place cannot be reached; the nearest that was found is {} away: {}",
                 apart(1e3 * distance_m, angle_rad.to_degrees()),
-                pose_in_words(nearest)
+                pose_text(nearest)
             ),
             other => other.to_string(),
         };

@@ -10,7 +10,7 @@ const FAULTS_OF_A_REASON: usize = 3;
 const FAULTS_SHOWN: usize = 40;
 
 /// All faults of a file in the order of its lines, or the only one.
-pub(crate) fn faults_in_words<'f, F: Display>(
+pub(crate) fn fault_list_text<'f, F: Display>(
     places: &str,
     first: &F,
     all: &'f [F],

@@ -5,7 +5,7 @@ use kinetostat::Pose;
 use crate::ui::numbers::triple;
 
 /// A pose to copy: `position (0, 760, 0) mm, rotation vector (0, 0, 53.13) deg`.
-pub(crate) fn pose_in_words(pose: &Pose) -> String {
+pub(crate) fn pose_text(pose: &Pose) -> String {
     let clean = |x: f64| (x * 1e6).round() / 1e6 + 0.0;
     format!(
         "position {} mm, rotation vector {} deg",

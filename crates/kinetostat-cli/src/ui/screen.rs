@@ -41,7 +41,7 @@ fn unless_closed(result: std::io::Result<()>) -> Answer<()> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::input(format!(
             "the standard output cannot be written: {}",
-            crate::ui::system_error::in_words(&error)
+            crate::ui::system_error::description(&error)
         ))),
         Ok(()) => Ok(()),
     }

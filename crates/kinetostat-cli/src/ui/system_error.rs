@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 
 /// An error of the system as a person would say it.
-pub(crate) fn in_words(error: &std::io::Error) -> String {
+pub(crate) fn description(error: &std::io::Error) -> String {
     match error.kind() {
         ErrorKind::NotFound => "there is no such file or directory".into(),
         ErrorKind::PermissionDenied => "you may not write there; choose another place".into(),

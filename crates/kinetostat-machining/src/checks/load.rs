@@ -66,7 +66,7 @@ pub fn large_load(wrench: &Wrench) -> Vec<Warning> {
     exceeded
         .found
         .iter()
-        .map(|beyond| Warning::new(WarningCode::OverLimit, beyond.in_words()))
+        .map(|beyond| Warning::new(WarningCode::OverLimit, beyond.description()))
         .collect()
 }
 

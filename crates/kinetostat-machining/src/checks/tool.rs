@@ -39,7 +39,7 @@ pub fn odd_tool_length(mechanism: &Mechanism, length_mm: f64) -> Vec<Warning> {
     };
     note_length(&mut exceeded, length_mm, "");
     let beyond = exceeded.found.iter();
-    let beyond = beyond.map(|b| Warning::new(WarningCode::OverLimit, b.in_words()));
+    let beyond = beyond.map(|b| Warning::new(WarningCode::OverLimit, b.description()));
     let odd = odd_length(mechanism, length_mm, &limits);
     beyond.chain(odd).collect()
 }

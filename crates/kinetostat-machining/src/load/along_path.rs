@@ -290,11 +290,12 @@ impl<'a> LoadAlongPath<'a> {
 
     /// The load in words.
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         if self.tools.is_empty() {
-            return self.load.in_words();
+            return self.load.description();
         }
-        let of_tool = |tool: &Tool<'_>| format!("tool {}: {}", tool.number, tool.load.in_words());
+        let of_tool =
+            |tool: &Tool<'_>| format!("tool {}: {}", tool.number, tool.load.description());
         let all: Vec<String> = self.tools.iter().map(of_tool).collect();
         all.join("; ")
     }

@@ -105,7 +105,7 @@ impl ProgramLoad {
         }
     }
 
-    pub(crate) fn in_words(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         let text = match self.cutting {
             CuttingLoad::None => return "no cutting load".into(),
             CuttingLoad::Constant { axes, wrench } => {

@@ -4,21 +4,21 @@
 use crate::load::law::CornerLoad;
 use crate::number::{counted, largest, largest_length};
 use crate::result::run_result::RunResult;
-use crate::result::tolerance::unchanged_in_words;
+use crate::result::tolerance::unchanged_text;
 
 impl RunResult {
     /// What a program that came back byte for byte means; none for others, nor where that misses the tolerance.
     #[must_use]
-    pub fn unchanged_in_words(&self) -> Option<String> {
+    pub fn unchanged_text(&self) -> Option<String> {
         let s = &self.summary;
         (s.unchanged && self.tolerance.held != Some(false))
-            .then(|| unchanged_in_words(s.within_tolerance_before, s.max_position_error_before_mm))
+            .then(|| unchanged_text(s.within_tolerance_before, s.max_position_error_before_mm))
     }
 
     /// What is assumed at sharp corners, how many steps that concerns, and what becomes of the claim
     /// otherwise; none for a program without such steps.
     #[must_use]
-    pub fn corners_in_words(&self) -> Option<String> {
+    pub fn corners_text(&self) -> Option<String> {
         let s = &self.summary;
         let known = s.largest_corner_step_mm.is_finite() && s.corner_points_percent.is_finite();
         if s.corner_steps == 0 || !known {
@@ -60,7 +60,7 @@ impl RunResult {
     /// What the machine's own weight has to do with the errors, and for whom it must not be corrected; none
     /// where it is no more than the tolerance.
     #[must_use]
-    pub fn own_weight_in_words(&self) -> Option<String> {
+    pub fn own_weight_text(&self) -> Option<String> {
         let s = &self.summary;
         let own = s.max_error_by_own_weight_mm?;
         if !own.is_finite() || own <= self.question.tolerance_mm || s.unchanged {

@@ -41,7 +41,7 @@ pub fn keeps_as_it_is(before_mm: f64, after_mm: f64, tolerance_mm: f64, allowed_
 /// What a program that came back byte for byte means: it was within the tolerance as it is, by so much, or there
 /// was nothing that could be written.
 #[must_use]
-pub fn unchanged_in_words(within_tolerance: bool, before_mm: f64) -> String {
+pub fn unchanged_text(within_tolerance: bool, before_mm: f64) -> String {
     if within_tolerance {
         return format!(
             "Nothing was corrected: as the program is, the tool is at most {} off, which is within the tolerance, \
@@ -57,7 +57,7 @@ pub fn unchanged_in_words(within_tolerance: bool, before_mm: f64) -> String {
 impl ToleranceVerdict {
     /// That the tolerance is missed, where, by how much and why; none where it is held or nothing was written.
     #[must_use]
-    pub fn missed_in_words(&self) -> Option<String> {
+    pub fn missed_text(&self) -> Option<String> {
         if self.held != Some(false) {
             return None;
         }

@@ -110,7 +110,7 @@ pub fn compensate_program(task: &Task<'_>, watch: &dyn Watch) -> Result<Run, Run
         if_follows_mm: by_the_other_reading(task, CornerLoad::FollowsFeed, sites, watch)?,
         divided_again: match within_before {
             true => None,
-            false => again.in_words(allowed_mm),
+            false => again.description(allowed_mm),
         },
         within_before,
     };

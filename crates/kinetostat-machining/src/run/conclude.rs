@@ -34,7 +34,7 @@ pub struct Run {
 
 /// Everything that bends the machine along a program, in words: cutting load and own weight.
 #[must_use]
-pub fn load_in_words(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> String {
+pub fn load_description(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> String {
     let gravity = mechanism.gravity();
     let mass: f64 = mechanism
         .limbs()
@@ -46,10 +46,10 @@ pub fn load_in_words(mechanism: &Mechanism, load: &LoadAlongPath<'_>) -> String 
     if gravity.norm() > 0.0 && mass > 0.0 {
         format!(
             "{}; and the machine's own weight, {mass:.0} kg, everywhere",
-            load.in_words()
+            load.description()
         )
     } else {
-        format!("{}; no weight in the model", load.in_words())
+        format!("{}; no weight in the model", load.description())
     }
 }
 
@@ -102,7 +102,7 @@ fn question_of(
     let (box_min_mm, box_max_mm) = feed_box(points);
     let tools = task.tools.iter();
     Question {
-        load: load_in_words(task.mechanism, load),
+        load: load_description(task.mechanism, load),
         tolerance_mm: task.writing.tolerance_mm,
         chord_tolerance_mm: task.writing.chord_tolerance_mm,
         decimals: task.writing.decimals.unwrap_or(4),

@@ -104,7 +104,7 @@ impl Again {
     }
 
     /// What a person should know of it.
-    pub fn in_words(&self, allowed_mm: f64) -> Option<Warning> {
+    pub fn description(&self, allowed_mm: f64) -> Option<Warning> {
         let (line, worst) = self.worst?;
         let places: usize = self.breaks.values().map(Vec::len).sum();
         let blocks = self.breaks.values().filter(|list| !list.is_empty()).count();

@@ -5,7 +5,7 @@ use kinetostat::batch::BatchEquilibrium;
 use kinetostat::{Error, MechanismEquilibrium, MotionKind, Pose, Posture, Wrench};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::field::in_words;
+use crate::field::cause_and_advice;
 use crate::postures::neighbour::{Neighbour, in_chunks};
 use crate::postures::orientation::Orientation;
 use crate::result::point::{PointResult, size};
@@ -116,7 +116,7 @@ pub(crate) fn chunk(
             solved(i).map_err(|cause| RunError::Point {
                 line: sites[i].line,
                 position_mm: sites[i].desired.into(),
-                message: in_words(&cause),
+                message: cause_and_advice(&cause),
                 cause: Box::new(cause),
             })
         })

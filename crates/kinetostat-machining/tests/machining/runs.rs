@@ -287,7 +287,7 @@ fn a_program_on_which_the_machine_would_buckle_is_not_written() {
 }
 
 #[test]
-fn the_load_in_words_names_the_machine_s_own_weight() {
+fn the_load_description_names_the_machine_s_own_weight() {
     for (preset, words) in [
         ("heavy_6r", "own weight, 940 kg"),
         ("orthoglide", "no weight in the model"),
@@ -295,7 +295,7 @@ fn the_load_in_words_names_the_machine_s_own_weight() {
         let model = Model::preset(preset).expect("preset");
         let program = Program::read(GROOVE).expect("program");
         let path = interpret(&program, &ReadOptions::default()).expect("path");
-        let text = kinetostat_machining::load_in_words(
+        let text = kinetostat_machining::load_description(
             &model.mechanism,
             &LoadAlongPath::new(milling(), &path),
         );

@@ -309,7 +309,7 @@ fn the_claim_at_corners_is_told_by_both_readings() {
     let by_hand = 1e3 * (tool.translation.vector - wanted.translation.vector).norm();
     assert!(by_hand > 0.05 && by_hand <= told + 1e-6, "{by_hand} {told}");
     assert!(a.corner_steps > 3 && a.corner_points_percent > 0.0);
-    let words = turns.result.corners_in_words().expect("steps");
+    let words = turns.result.corners_text().expect("steps");
     assert!(
         words.contains(&format!("{} off there", largest_length(told)))
             && words.contains(&a.corner_steps.to_string()),
@@ -333,7 +333,7 @@ fn a_program_on_which_no_load_acts_comes_back_byte_for_byte() {
     let place = Placement::at(vector![0.0, 0.0, 0.1]);
     let (whole, _) = run(&machine, text, place, ProgramLoad::new(CuttingLoad::None));
     assert_eq!(whole.written.expect("written").bytes, text.as_bytes());
-    assert!(whole.result.summary.unchanged && whole.result.unchanged_in_words().is_some());
+    assert!(whole.result.summary.unchanged && whole.result.unchanged_text().is_some());
     assert_eq!(
         whole.result.summary.blocks_unchanged,
         whole.result.summary.blocks

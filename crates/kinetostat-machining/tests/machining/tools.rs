@@ -271,7 +271,7 @@ fn each_tool_has_its_own_reading_of_the_load_at_corners() {
         assert!((mixed.0 - other.0).abs() < 1e-7, "{mixed:?} {other:?}");
         assert!((mixed.1 - other.1).abs() < 1e-7, "{mixed:?} {other:?}");
     }
-    let words = mixed.result.corners_in_words().expect("steps");
+    let words = mixed.result.corners_text().expect("steps");
     assert!(
         words.contains(
             "turns evenly while the tool steps (tool 1), or follows the feed on the steps (tool 2)"

@@ -75,7 +75,7 @@ impl Controller {
 
     /// How an axis follows the model's joints, in words: `joint_3 - joint_2`, `-joint_1 + 90 deg`.
     #[must_use]
-    pub fn in_words(&self, axis: usize, joints: &[String]) -> String {
+    pub fn description(&self, axis: usize, joints: &[String]) -> String {
         let own = self.axes[axis].joint;
         let others = (0..self.map.ncols()).filter(|&j| j != own);
         let unit = self.axes[axis].unit;

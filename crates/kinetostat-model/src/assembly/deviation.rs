@@ -340,7 +340,7 @@ fn words(d: &Deviation) -> String {
 impl Deviation {
     /// What is wrong with the limb, as a sentence: `limb 'leg x': 'bar' is 0.2 mm longer`.
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         words(self)
     }
 }

@@ -224,7 +224,7 @@ pub(crate) fn three_digits(value: f64) -> String {
 }
 
 /// A pose as the line of a file: `home = { .. }`, with the digits that a machine can tell apart.
-pub(crate) fn in_words(pose: &Pose) -> String {
+pub(crate) fn written_pose(pose: &Pose) -> String {
     let list = |v: [f64; 3], decimals: i32| {
         let unit = 10_f64.powi(decimals);
         let parts = v.map(|x| format!("{}", (x * unit).round() / unit + 0.0));

@@ -50,7 +50,7 @@ pub trait End {
     fn written(&self) -> (&str, Option<[f64; 3]>, Option<[f64; 3]>);
 
     /// `'flange' at (1, 2, 3) mm`.
-    fn in_words(&self) -> String {
+    fn description(&self) -> String {
         let (name, mm, m) = self.written();
         let place = match name {
             "base" => "the base".to_owned(),
@@ -166,10 +166,10 @@ impl PlatformLoadTable {
 
     /// What it does, in a sentence without its name.
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         match self {
             Self::Wrench(l) => {
-                let wrench = wrench_in_words(l.force_n, l.moment_n_m, l.moment_n_mm);
+                let wrench = wrench_description(l.force_n, l.moment_n_m, l.moment_n_mm);
                 let axes = match l.axes {
                     PlatformAxes::Base => "in base axes, keeps its direction",
                     PlatformAxes::Platform => "in the axes of its platform, turns with it",
@@ -179,11 +179,11 @@ impl PlatformLoadTable {
                     position_mm: l.position_mm,
                     position_m: l.position_m,
                 };
-                format!("{wrench} on {} {axes}", at.in_words())
+                format!("{wrench} on {} {axes}", at.description())
             }
-            Self::Spring(l) => l.in_words(),
-            Self::GasSpring(l) => l.in_words(),
-            Self::ConstantTension(l) => l.in_words(),
+            Self::Spring(l) => l.description(),
+            Self::GasSpring(l) => l.description(),
+            Self::ConstantTension(l) => l.description(),
         }
     }
 
@@ -214,7 +214,7 @@ fn one(list: &[(Option<f64>, &str)]) -> String {
         .map_or_else(String::new, |(v, unit)| format!("{v} {unit}"))
 }
 
-fn wrench_in_words(
+fn wrench_description(
     force_n: Option<[f64; 3]>,
     moment_n_m: Option<[f64; 3]>,
     moment_n_mm: Option<[f64; 3]>,
@@ -229,7 +229,7 @@ fn wrench_in_words(
 }
 
 impl<A: End> SpringLoad<A> {
-    fn in_words(&self) -> String {
+    fn description(&self) -> String {
         let stiffness = one(&[
             (self.stiffness_n_per_m, "N/m"),
             (self.stiffness_n_per_mm, "N/mm"),
@@ -239,23 +239,23 @@ impl<A: End> SpringLoad<A> {
             None | Some(0.0) => format!("no force at {free}"),
             Some(pull) => format!("{pull} N at {free}"),
         };
-        let (from, to) = (self.from.in_words(), self.to.in_words());
+        let (from, to) = (self.from.description(), self.to.description());
         format!("spring of {stiffness} from {from} to {to}, {preload}")
     }
 }
 
 impl<A: End> GasSpringLoad<A> {
-    fn in_words(&self) -> String {
+    fn description(&self) -> String {
         let length = one(&[(self.length_mm, "mm"), (self.length_m, "m")]);
-        let (from, to) = (self.from.in_words(), self.to.in_words());
+        let (from, to) = (self.from.description(), self.to.description());
         let push = self.force_n;
         format!("gas spring from {from} to {to}, pushes with {push} N at {length}")
     }
 }
 
 impl<A: End> ConstantTensionLoad<A> {
-    fn in_words(&self) -> String {
-        let (from, to) = (self.from.in_words(), self.to.in_words());
+    fn description(&self) -> String {
+        let (from, to) = (self.from.description(), self.to.description());
         format!("pull of {} N between {from} and {to}", self.tension_n)
     }
 }
@@ -407,20 +407,20 @@ impl LoadTable {
 
     /// What it does, in a sentence without its name: `spring of 5 N/mm from the base at ...`.
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         match self {
             Self::Wrench(l) => {
-                let wrench = wrench_in_words(l.force_n, l.moment_n_m, l.moment_n_mm);
+                let wrench = wrench_description(l.force_n, l.moment_n_m, l.moment_n_mm);
                 let axes = match l.axes {
                     WrenchAxes::Base => "in base axes, keeps its direction",
                     WrenchAxes::Node => "in the axes of its node, turns with it",
                 };
                 format!("{wrench} on '{}' {axes}", l.node)
             }
-            Self::Spring(l) => l.in_words(),
-            Self::GasSpring(l) => l.in_words(),
-            Self::ConstantTension(l) => l.in_words(),
-            Self::Counterweight(l) => format!("{} kg at {}", l.mass_kg, l.at.in_words()),
+            Self::Spring(l) => l.description(),
+            Self::GasSpring(l) => l.description(),
+            Self::ConstantTension(l) => l.description(),
+            Self::Counterweight(l) => format!("{} kg at {}", l.mass_kg, l.at.description()),
         }
     }
 

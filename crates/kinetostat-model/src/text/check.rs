@@ -126,7 +126,7 @@ impl Checker {
         place: &Place,
         about: &str,
     ) {
-        let mut wanted: Vec<&str> = kinds.iter().map(|k| in_words(k)).collect();
+        let mut wanted: Vec<&str> = kinds.iter().map(|k| kind_description(k)).collect();
         wanted.dedup();
         let help = match (kinds, value.get_ref()) {
             (["array"], DeValue::Table(_)) => format!(
@@ -144,7 +144,7 @@ impl Checker {
             format!(
                 "'{place}' needs {}, but {} was found",
                 wanted.join(" or "),
-                in_words(value.get_ref().type_str())
+                kind_description(value.get_ref().type_str())
             ),
             help,
         );
@@ -458,7 +458,7 @@ fn stand_in(kind: &str) -> Option<String> {
     Some(value.to_owned())
 }
 
-fn in_words(kind: &str) -> &'static str {
+fn kind_description(kind: &str) -> &'static str {
     match kind {
         "object" | "table" => "a table",
         "array" => "a list",

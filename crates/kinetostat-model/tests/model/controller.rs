@@ -84,8 +84,8 @@ fn a_fanuc_shows_the_difference_of_its_third_and_second_joint() {
     assert!(controller.pendant(&joints[1..]).is_none());
     assert!(controller.joints(&shown[1..]).is_none());
     let names = model.mechanism.actuator_names();
-    assert_eq!(controller.in_words(2, &names), "joint_3 - joint_2");
-    assert_eq!(controller.in_words(5, &names), "-joint_6 + 180 deg");
+    assert_eq!(controller.description(2, &names), "joint_3 - joint_2");
+    assert_eq!(controller.description(5, &names), "-joint_6 + 180 deg");
     assert_eq!(controller.axes()[6].unit.word(), "mm");
 }
 

@@ -198,7 +198,7 @@ fn what_a_deviation_cannot_be_is_said() {
 }
 
 #[test]
-fn deviations_in_words() {
+fn deviation_descriptions() {
     let model = arm("length_mm = 250", "\"y\"", "");
     for (deviation, words) in [
         (
@@ -220,7 +220,7 @@ fn deviations_in_words() {
     ] {
         let text = format!("{}[[deviation]]\nlimb = \"arm\"\n{deviation}\n", model.text);
         let own = Model::from_toml(&text, "arm.toml").unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!(own.document.deviation[0].in_words(), words);
+        assert_eq!(own.document.deviation[0].description(), words);
         let again = Model::from_toml(&own.to_toml().expect("text"), "again").expect("reads");
         assert_eq!(again.mechanism, own.mechanism);
         // It can be computed with.

@@ -536,7 +536,12 @@ fn loads_on_platforms_are_the_core_s() {
     // Written again, it is the same machine.
     let again = model.to_toml().expect("a document");
     assert_eq!(self::model(&again).document, model.document);
-    let words: Vec<String> = model.document.load.iter().map(|l| l.in_words()).collect();
+    let words: Vec<String> = model
+        .document
+        .load
+        .iter()
+        .map(|l| l.description())
+        .collect();
     assert!(words[0].starts_with("spring of 4 N/mm from the base at (0, 0, 500) mm to 'tool'"));
     assert!(words[4].contains("turns with it"), "{}", words[4]);
 }

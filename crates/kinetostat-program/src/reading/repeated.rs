@@ -40,14 +40,14 @@ impl Repeated {
     pub(crate) fn finish(self) -> impl Iterator<Item = Warning> {
         self.all.into_iter().map(|lines| Warning {
             line: lines.named[0],
-            text: format!("{}{}", lines.text, lines.in_words()),
+            text: format!("{}{}", lines.text, lines.description()),
         })
     }
 }
 
 impl Lines {
     /// "; so on lines 4, 8 and 9"; nothing where there is one line only, which stands before the text.
-    fn in_words(&self) -> String {
+    fn description(&self) -> String {
         let named: Vec<String> = self.named.iter().map(ToString::to_string).collect();
         match (self.count - named.len(), named.split_last()) {
             (0, Some((last, rest))) if !rest.is_empty() => {

@@ -183,7 +183,7 @@ pub(crate) fn uncorrected(result: &Shown<'_>) -> Vec<Value> {
         format!(
             "Where the load turns at once, as at a sharp corner, the correction turns with it: the program makes a short \
              step there while the tool stays at its corner. {}",
-            result.corners_in_words().unwrap_or_default()
+            result.corners_text().unwrap_or_default()
         )
         .trim_end()
         .to_owned(),

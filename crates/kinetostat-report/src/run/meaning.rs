@@ -91,11 +91,11 @@ pub(crate) fn verdict(result: &RunResult) -> Verdict {
     } else {
         analysed(result)
     };
-    if let Some(own) = result.own_weight_in_words() {
+    if let Some(own) = result.own_weight_text() {
         meaning.sentence.push(' ');
         meaning.sentence.push_str(&own);
     }
-    if let Some(corners) = result.corners_in_words() {
+    if let Some(corners) = result.corners_text() {
         meaning.sentence.push(' ');
         meaning.sentence.push_str(&corners);
     }
@@ -137,7 +137,7 @@ fn compensated(result: &RunResult) -> Verdict {
     if !before.is_finite() || !after.is_finite() {
         return unknown();
     }
-    if let Some(unchanged) = result.unchanged_in_words() {
+    if let Some(unchanged) = result.unchanged_text() {
         return Verdict {
             level: Level::Unchanged,
             sentence: format!(

@@ -64,8 +64,8 @@ pub struct Direction {
 impl Direction {
     /// Kind, motion and what is behind it: `free: turns about z by q3`.
     #[must_use]
-    pub fn in_words(&self) -> String {
-        let motion = motion_in_words(&self.twist);
+    pub fn description(&self) -> String {
+        let motion = motion_description(&self.twist);
         let names: Vec<&str> = self.participation.iter().map(|s| s.name.as_str()).collect();
         let by = if names.is_empty() {
             String::new()
@@ -83,17 +83,17 @@ impl Direction {
 }
 
 /// `moves along x`, `turns about z`, with place and advance where they are not zero.
-pub(crate) fn motion_in_words(twist: &Twist) -> String {
+pub(crate) fn motion_description(twist: &Twist) -> String {
     let (linear, angular) = (twist.linear(), twist.angular());
     let turning = angular.norm();
     if turning <= 1e-9 * linear.norm() {
-        return format!("moves along {}", axis_in_words(&linear));
+        return format!("moves along {}", axis_description(&linear));
     }
     let axis = angular / turning;
     let advance = linear.dot(&axis) / turning;
     // Point of the axis nearest the reference point.
     let through = axis.cross(&linear) / turning;
-    let mut words = format!("turns about {}", axis_in_words(&axis));
+    let mut words = format!("turns about {}", axis_description(&axis));
     let p = through.map(|x| if x.abs() < 5e-5 { 0.0 } else { x });
     if p.norm() > 0.0 {
         words += &format!(
@@ -107,7 +107,7 @@ pub(crate) fn motion_in_words(twist: &Twist) -> String {
     words
 }
 
-pub(crate) fn axis_in_words(axis: &Vector3<f64>) -> String {
+pub(crate) fn axis_description(axis: &Vector3<f64>) -> String {
     let unit = axis.normalize();
     for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
         if unit[k].abs() > 1.0 - 1e-6 {

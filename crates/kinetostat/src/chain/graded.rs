@@ -260,7 +260,7 @@ const SAID: f64 = 1e9;
 /// What very different stiffnesses of principal directions mean for a 6 x 6 matrix, in a sentence; `None`
 /// where they differ by less than 1e9.
 #[must_use]
-pub fn uneven_in_words(directions: &[Direction]) -> Option<String> {
+pub fn uneven_stiffness(directions: &[Direction]) -> Option<String> {
     let spread = spread(directions);
     (spread > SAID).then(|| {
         let digits = (15.0 - spread.log10()).floor().max(0.0);
@@ -279,7 +279,7 @@ const COUPLED: f64 = 1e-7;
 /// is lost in rounding, a sentence for each. A diagonal matrix has no such motion, however different its
 /// entries are.
 #[must_use]
-pub fn uneven_springs_in_words(mechanism: &Mechanism) -> Vec<String> {
+pub fn uneven_springs(mechanism: &Mechanism) -> Vec<String> {
     let limbs = mechanism.limbs().iter();
     let blocks = limbs.flat_map(|l| l.actual.springs().iter().map(move |b| (l, b)));
     blocks

@@ -35,7 +35,7 @@ pub use compliance::CartesianCompliance;
 pub use directions::{Direction, DirectionKind, Share};
 pub use equilibrium::Equilibrium;
 pub use found_by::FoundBy;
-pub use graded::{uneven_in_words, uneven_springs_in_words};
+pub use graded::{uneven_springs, uneven_stiffness};
 pub use link_load::{LinkLoad, link_loads};
 pub use potential::{is_conservative, load_energy};
 pub use problem::{ChainProblem, EndCondition, Prescribed};

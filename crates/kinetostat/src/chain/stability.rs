@@ -92,7 +92,7 @@ impl ShapeStability {
 
     /// The verdict and how far it is from changing, for people.
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         let mu = self.share_to_buckling.unwrap_or(0.0);
         match self.verdict() {
             ShapeState::Singular => "stands at its critical load (mu 1)".into(),

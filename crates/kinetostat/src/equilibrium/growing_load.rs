@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::chain::directions::{Direction, DirectionKind, motion_in_words};
+use crate::chain::directions::{Direction, DirectionKind, motion_description};
 use crate::chain::found_by::FoundBy;
 use crate::chain::problem::EndCondition;
 use crate::chain::residual::Residual;
@@ -248,7 +248,7 @@ impl Posture {
             place: self.mechanism.place(),
             reason: format!(
                 "no force is needed where the tool {}, and the load pushes on as far as it could be followed",
-                motion_in_words(motion)
+                motion_description(motion)
             ),
             wrench: Box::new(*wrench),
         }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::chain::directions::{motion_in_words, scaled_twist};
+use crate::chain::directions::{motion_description, scaled_twist};
 use crate::chain::potential::prescribed_wrench;
 use crate::chain::problem::{ChainProblem, Prescribed};
 use crate::chain::system::System;
@@ -75,7 +75,7 @@ fn held_outside(problem: &ChainProblem<'_>) -> Option<Error> {
         off.fixed_rows::<3>(0).norm(),
         off.fixed_rows::<3>(3).norm() / length,
     );
-    let motion = motion_in_words(&scaled_twist(chain.scale(), &off));
+    let motion = motion_description(&scaled_twist(chain.scale(), &off));
     Some(Error::model(
         chain.place(),
         format!(

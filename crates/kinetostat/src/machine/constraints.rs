@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use crate::chain::directions::axis_in_words;
+use crate::chain::directions::axis_description;
 use crate::linalg::complement::complement;
 use crate::linalg::saddle::independent_columns;
 use crate::linalg::singular_values::range;
@@ -40,16 +40,16 @@ pub struct SelfStress {
 impl SelfStress {
     /// Which limbs fight, and how: `x: force along z and moment about x; y: ...`.
     #[must_use]
-    pub fn in_words(&self, posture: &Posture) -> String {
+    pub fn description(&self, posture: &Posture) -> String {
         let length = posture.mechanism.scale().length;
         let parts = self.wrenches.iter().map(|(limb, wrench)| {
             let (force, moment) = (wrench.force(), wrench.moment());
             let mut words = Vec::new();
             if force.norm() > 1e-6 {
-                words.push(format!("force along {}", axis_in_words(&force)));
+                words.push(format!("force along {}", axis_description(&force)));
             }
             if moment.norm() > 1e-6 * length {
-                words.push(format!("moment about {}", axis_in_words(&moment)));
+                words.push(format!("moment about {}", axis_description(&moment)));
             }
             let name = &posture.mechanism.limbs()[*limb].name;
             format!("{name}: {}", words.join(" and "))

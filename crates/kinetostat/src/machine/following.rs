@@ -9,7 +9,7 @@
 
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
-use crate::chain::directions::axis_in_words;
+use crate::chain::directions::axis_description;
 use crate::error::{Error, Result};
 use crate::linalg::largest::largest;
 use crate::machine::inverse::limb::wrap;
@@ -197,7 +197,7 @@ impl Mechanism {
         let place = match outside {
             Some(normal) => format!(
                 ", whose tool point stays in a surface (here square to {}) that the target lies outside of",
-                axis_in_words(&normal)
+                axis_description(&normal)
             ),
             None => " with whatever orientation of its tool".to_owned(),
         };

@@ -563,7 +563,7 @@ fn a_machine_names_the_joints_of_its_limbs() {
         .collect();
     assert_eq!(free.len(), 1);
     assert_eq!(
-        free[0].in_words(),
+        free[0].description(),
         "free: moves along y by left: slide, right: slide"
     );
     let participation = k.participation(&posture, &free[0].twist);

@@ -107,7 +107,7 @@ proptest! {
         }
         if expected > 1e-6 {
             let list = posture.near_singularities(0.99 * expected).unwrap();
-            prop_assert!(list.is_empty(), "{}", list[0].in_words());
+            prop_assert!(list.is_empty(), "{}", list[0].description());
         }
     }
 
@@ -202,7 +202,7 @@ fn a_wrist_beside_the_first_axis_is_as_far_from_the_shoulder_s_singularity() {
             off < 1e-7 * aside,
             "{aside}: {} {}",
             found.distance_m,
-            found.in_words()
+            found.description()
         );
         // Across the plane of the arm nothing moves there.
         assert!(found.way.linear().norm() > 0.999_999);
@@ -282,7 +282,7 @@ fn a_stretched_arm_is_singular_here_and_a_bent_one_is_not() {
     assert_eq!((found.distance_m, found.share), (0.0, 0.0));
     let out = (posture.target().translation.vector - frame.translation.vector).normalize();
     assert!(found.motion.linear().dot(&out).abs() > 0.999_99);
-    assert!(found.in_words().starts_with("singular posture"));
+    assert!(found.description().starts_with("singular posture"));
     // What a planar arm never does is no loss.
     let bent = arm(&frame, &parts, &[0.3, 1.5, 0.1]);
     assert!(at_home(&bent).near_singularities(0.3).unwrap().is_empty());

@@ -106,7 +106,7 @@ fn rigid_and_free_motions_are_told_along_the_axes_where_they_lie_there() {
         .directions
         .iter()
         .filter(|d| d.kind == DirectionKind::Rigid)
-        .map(kinetostat::Direction::in_words)
+        .map(kinetostat::Direction::description)
         .collect();
     assert_eq!(
         words,

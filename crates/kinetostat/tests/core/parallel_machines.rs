@@ -70,7 +70,7 @@ pub fn internal_wrenches() -> [f64; 2] {
     let over = posture.overconstraint();
     assert_eq!(over.degree, 3);
     for stress in &over.stresses {
-        assert!(stress.in_words(&posture).contains("moment about"));
+        assert!(stress.description(&posture).contains("moment about"));
         // In balance on the platform.
         let sum = stress
             .wrenches
@@ -648,7 +648,7 @@ fn a_posture_near_a_singular_one_says_how_far_and_where() {
             .iter()
             .find(|s| s.kind == SingularityKind::Gained)
             .unwrap();
-        assert!(first.in_words().contains("moves along z"));
+        assert!(first.description().contains("moves along z"));
         assert!(first.followed);
         assert!(
             (first.distance_m - z).abs() < 1e-6 * z,
@@ -667,9 +667,9 @@ fn a_posture_near_a_singular_one_says_how_far_and_where() {
     assert!(
         list[0].motion.linear().z.abs() > 0.99,
         "{}",
-        list[0].in_words()
+        list[0].description()
     );
-    assert!(list[0].in_words().starts_with("singular posture"));
+    assert!(list[0].description().starts_with("singular posture"));
 }
 
 /// By symmetry the way to the singular posture is straight up, where the rods are level: there the
@@ -689,14 +689,14 @@ fn a_delta_near_its_flat_posture_says_how_far_it_is() {
             .unwrap();
         // Very near, joints are not found any more where the way ends: first order it stays.
         let most = if first.followed { 1e-4 } else { 1e-2 };
-        assert!(first.followed || above < 0.01, "{}", first.in_words());
+        assert!(first.followed || above < 0.01, "{}", first.description());
         assert!(
             (first.distance_m - above).abs() < most * above,
             "{above}: {} {}",
             first.distance_m,
-            first.in_words()
+            first.description()
         );
-        assert!(first.way.linear().z > 0.999, "{}", first.in_words());
+        assert!(first.way.linear().z > 0.999, "{}", first.description());
     }
 }
 
@@ -733,7 +733,7 @@ fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
                 .iter()
                 .find(|s| s.kind == SingularityKind::Gained)
                 .unwrap();
-            assert!(first.followed, "{}", first.in_words());
+            assert!(first.followed, "{}", first.description());
             let expected = off * length;
             assert!(
                 (first.distance_m - expected).abs() < 1e-5 * expected,
@@ -743,9 +743,9 @@ fn a_3_rrr_near_its_singular_posture_says_how_far_it_turns() {
             // Back by a turn about the plane's axis.
             let axis = planar.plane.rotation * Vector3::z();
             let turn = first.way.angular().dot(&axis) * length;
-            assert!((turn + side).abs() < 1e-3, "{turn} {}", first.in_words());
+            assert!((turn + side).abs() < 1e-3, "{turn} {}", first.description());
             let gained = first.motion.angular().dot(&axis) * length;
-            assert!(gained.abs() > 0.99, "{}", first.in_words());
+            assert!(gained.abs() > 0.99, "{}", first.description());
         }
     }
 }
@@ -775,7 +775,7 @@ fn a_stretched_leg_of_a_3_rrr_says_how_far_the_platform_may_go() {
             (first.distance_m - off).abs() < 1e-6 * off + 1e-12,
             "{off}: {} {}",
             first.distance_m,
-            first.in_words()
+            first.description()
         );
         let away = planar.plane.rotation * -Vector3::x();
         assert!(first.way.linear().dot(&away) > 0.999_999);

@@ -164,7 +164,7 @@ fn platforms_in_series_are_not_singular_because_they_are_in_series() {
             }
             told += 1;
             let list = at_home(&machine).near_singularities(within).unwrap();
-            assert!(list.is_empty(), "{}", list[0].in_words());
+            assert!(list.is_empty(), "{}", list[0].description());
         }
     }
     assert!(told >= 5, "{told} stacks are far from a singular posture");
@@ -184,7 +184,7 @@ fn two_hexapods_in_series_are_far_from_singular() {
     let machine = builder.build().unwrap();
     let within = 0.05 * natural_length(&machine);
     let list = at_home(&machine).near_singularities(within).unwrap();
-    assert!(list.is_empty(), "{}", list[0].in_words());
+    assert!(list.is_empty(), "{}", list[0].description());
 }
 
 #[test]
@@ -206,13 +206,18 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
                 let posture = at_home(&machine);
                 let list = posture.near_singularities(0.05 * length).unwrap();
                 let found = list.first().expect("a singular posture");
-                assert_eq!(found.kind, SingularityKind::Gained, "{}", found.in_words());
+                assert_eq!(
+                    found.kind,
+                    SingularityKind::Gained,
+                    "{}",
+                    found.description()
+                );
                 told += 1;
                 if near == 0.0 {
-                    assert_eq!(found.distance_m, 0.0, "{}", found.in_words());
+                    assert_eq!(found.distance_m, 0.0, "{}", found.description());
                     continue;
                 }
-                assert!(found.followed, "{}", found.in_words());
+                assert!(found.followed, "{}", found.description());
                 // There the legs of that stage meet.
                 let target = moved(posture.target(), &Twist(found.way.0 * found.distance_m));
                 let there = machine

@@ -188,7 +188,7 @@ fn what_is_neutral_is_taken_out_beside_what_the_load_holds() {
 
 /// One word and one sentence for every state of a pressed column, up to its critical load and beyond.
 #[test]
-fn a_verdict_in_words_for_every_shape() {
+fn a_description_for_every_shape() {
     let chain = planar_column(3, 1.0, 1.0);
     let at = |p: f64| {
         let problem = pressed(&chain, 3.0, p);
@@ -204,7 +204,7 @@ fn a_verdict_in_words_for_every_shape() {
     ] {
         let s = at(p);
         assert_eq!(s.verdict(), verdict, "{p}: {s:?}");
-        assert!(s.in_words().contains(word), "{p}: {}", s.in_words());
+        assert!(s.description().contains(word), "{p}: {}", s.description());
     }
 }
 

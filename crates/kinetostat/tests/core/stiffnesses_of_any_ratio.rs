@@ -4,7 +4,7 @@
 //! three), so `M diag(d) M^T` of whole numbers is a matrix of whole numbers, held exactly up to 2^53, whose
 //! eigenvalues are exactly `9 d`.
 
-use kinetostat::{chain::uneven_springs_in_words, *};
+use kinetostat::{chain::uneven_springs, *};
 use kinetostat_testing::LargestEntry;
 use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, vector};
 
@@ -33,7 +33,7 @@ fn principal(chain: Chain) -> (Vec<f64>, Vec<String>) {
     assert_eq!(k.rank(), 6, "{:?}", k.directions);
     let mut values: Vec<f64> = k.directions.iter().map(|d| d.stiffness_n_per_m).collect();
     values.sort_by(f64::total_cmp);
-    (values, uneven_springs_in_words(&machine))
+    (values, uneven_springs(&machine))
 }
 
 /// Largest relative error.

@@ -181,8 +181,8 @@ fn directions_name_the_joints_behind_them() {
         .filter(|d| d.kind == DirectionKind::Free)
         .collect();
     assert_eq!(free.len(), 2);
-    assert_eq!(free[0].in_words(), "free: moves along y by q2");
-    assert_eq!(free[1].in_words(), "free: turns about z by q3");
+    assert_eq!(free[0].description(), "free: moves along y by q2");
+    assert_eq!(free[1].description(), "free: turns about z by q3");
     for (direction, joint) in free.iter().zip(["q2", "q3"]) {
         let [share] = &direction.participation[..] else {
             panic!("{direction:?}")
@@ -216,7 +216,7 @@ fn directions_name_the_joints_behind_them() {
         .directions
         .iter()
         .find(|d| d.participation.iter().any(|s| s.name == "lower.z"));
-    let words = lower.unwrap().in_words();
+    let words = lower.unwrap().description();
     assert!(
         words.starts_with("free: turns about z on an axis [-0.8000, 0.0000, 0.0000] m"),
         "{words}"

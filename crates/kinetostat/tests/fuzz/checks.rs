@@ -43,7 +43,7 @@ fn directions(list: &[Direction]) {
         all_finite("twist", d.twist.0.iter());
         all_finite("motion", d.participation.iter().map(|s| &s.motion));
         all_finite("share", d.participation.iter().map(|s| &s.share));
-        assert!(!d.in_words().contains("NaN"), "{}", d.in_words());
+        assert!(!d.description().contains("NaN"), "{}", d.description());
     }
 }
 

@@ -319,7 +319,7 @@ impl AssumptionsFinding {
         ];
         for (state, under_load) in states {
             let Some(state) = state else { continue };
-            let said = instability::in_words(state, under_load);
+            let said = instability::description(state, under_load);
             if state.is_near_buckling() {
                 self.warnings
                     .push(Warning::new(WarningCode::NearBuckling, said.clone()));
@@ -349,7 +349,7 @@ impl AssumptionsFinding {
 }
 
 /// The section about scale and assumptions.
-pub(crate) fn in_words(a: &AssumptionsFinding, force_given: bool) -> String {
+pub(crate) fn assumptions_text(a: &AssumptionsFinding, force_given: bool) -> String {
     let mut out = String::from("\nScale, and whether the method holds\n");
     let span = |[low, high]: [f64; 2]| {
         if high <= low * 1.001 {

@@ -11,9 +11,9 @@ use crate::check::model::frames::{Frames, frames};
 use crate::check::model::home::{HomeFinding, at_home};
 use crate::check::model::limbs::{LimbFinding, LoadFinding, limb, platform_loads};
 use crate::check::model::reach::{ReachFinding, reach_from};
-use crate::machine::model_warnings::{deviations_in_words, of_model};
+use crate::machine::model_warnings::{deviation_descriptions, of_model};
 use crate::machine::unstable_joints::load_names;
-use crate::ui::pose::pose_in_words;
+use crate::ui::pose::pose_text;
 
 /// Findings, stable names with units.
 #[derive(Serialize)]
@@ -67,7 +67,7 @@ pub(crate) fn findings(model: &Model, source: String, force: Option<Vector3<f64>
             } => format!(
                 "{place}: this home cannot be reached; the nearest that was found is {} away: {}",
                 apart(1e3 * distance_m, angle_rad.to_degrees()),
-                pose_in_words(nearest)
+                pose_text(nearest)
             ),
             other => other.to_string(),
         })
@@ -113,7 +113,7 @@ pub(crate) fn findings(model: &Model, source: String, force: Option<Vector3<f64>
         frames: frames(model),
         limbs,
         loads: platform_loads(model),
-        deviations: deviations_in_words(model),
+        deviations: deviation_descriptions(model),
         home,
         reach,
         assumptions,

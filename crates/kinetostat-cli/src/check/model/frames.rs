@@ -153,7 +153,7 @@ fn pendant(m: &Mechanism, controller: &kinetostat_model::Controller) -> Vec<Pend
     axes.map(|(i, axis)| PendantAxis {
         name: axis.name.clone(),
         unit: axis.unit.word(),
-        follows: controller.in_words(i, &names),
+        follows: controller.description(i, &names),
     })
     .collect()
 }
@@ -171,7 +171,7 @@ fn directions(m: &Mechanism, home: &Pose, commands: &[f64]) -> Vec<JointDirectio
             .and_then(|t| point_on_axis(home, t));
         JointDirection {
             in_words: match &twist {
-                Some(twist) => in_words_of(&senses, twist, through.as_ref()),
+                Some(twist) => motion_description(&senses, twist, through.as_ref()),
                 None => "cannot move alone: the other actuators hold it".to_owned(),
             },
             motion_mm: twist.as_ref().map(|t| (t.linear() * size * 1e3).into()),
@@ -187,7 +187,7 @@ fn directions(m: &Mechanism, home: &Pose, commands: &[f64]) -> Vec<JointDirectio
     .collect()
 }
 
-fn in_words_of(senses: &Senses, twist: &Twist, through: Option<&Vector3<f64>>) -> String {
+fn motion_description(senses: &Senses, twist: &Twist, through: Option<&Vector3<f64>>) -> String {
     let (v, w) = (twist.linear(), twist.angular());
     let mut parts = Vec::new();
     // Per rad or m: what is smaller than a micrometre is rounding.
@@ -221,7 +221,7 @@ fn pointing(axes: &[[f64; 3]; 3]) -> String {
 }
 
 /// The section of `check`, wrapped.
-pub(crate) fn in_words(f: &Frames) -> String {
+pub(crate) fn frames_text(f: &Frames) -> String {
     let mut out = String::from("\nFrames and directions\n");
     let place = |p: [f64; 3]| triple(p, |x| short(if x.abs() < 1e-9 { 0.0 } else { x }));
     out.push_str(&item(&format!(
@@ -263,7 +263,7 @@ pub(crate) fn in_words(f: &Frames) -> String {
                 axis.name, axis.follows, axis.unit
             )));
         }
-        out.push_str(&joints::in_words("  at home", &f.pendant_at_home));
+        out.push_str(&joints::values_text("  at home", &f.pendant_at_home));
     }
     out
 }

@@ -85,7 +85,7 @@ pub(crate) fn at_home(
         over_constraints: over
             .stresses
             .iter()
-            .map(|s| balance_in_words(&s.in_words(posture)))
+            .map(|s| self_stress_text(&s.description(posture)))
             .collect(),
         redundant_motions: posture.redundancy(),
         redundant_actuators: (0..limbs.len())
@@ -121,7 +121,7 @@ pub(crate) fn at_home(
 }
 
 /// A set of wrenches in balance: `leg x with a moment about x, against leg z with a moment about x`.
-fn balance_in_words(words: &str) -> String {
+fn self_stress_text(words: &str) -> String {
     let limbs = words.split("; ").map(|part| match part.split_once(": ") {
         Some((limb, wrench)) => {
             let wrench = wrench

@@ -11,7 +11,7 @@ use crate::machine::principal_directions::{Principal, principals, what_moves};
 use crate::ui::layout::item;
 use crate::ui::numbers::{fixed, triple};
 
-pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
+pub(crate) fn home_text(f: &Findings, h: &HomeFinding) -> String {
     let mut out = String::from("\nAt home\n");
     let over = match h.degrees_of_over_constraint {
         0 => "no over-constraint: deviations shift the tool without straining the limbs".to_owned(),
@@ -23,13 +23,13 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         h.mobility,
         counted(h.actuators, "actuator")
     )));
-    out.push_str(&over_constraints_in_words(&h.over_constraints));
+    out.push_str(&over_constraints_text(&h.over_constraints));
     out.push_str(&redundant(h));
     out.push_str(&held(h));
     out.push_str(&item(&at_rest(f, h)));
     out.push_str(&item(&stability(h)));
     for joint in &h.overcome_joints {
-        out.push_str(&item(&joint.in_words()));
+        out.push_str(&item(&joint.description()));
     }
     if !h.conservative {
         out.push_str(&item(
@@ -37,7 +37,7 @@ pub(crate) fn home_in_words(f: &Findings, h: &HomeFinding) -> String {
         ));
     }
     if let Some(reach) = &f.reach {
-        out.push_str(&reach::in_words(reach));
+        out.push_str(&reach::reach_text(reach));
     }
     if !f.deviations.is_empty() {
         out.push_str("\nDeviations\n");
@@ -171,7 +171,7 @@ fn stability(h: &HomeFinding) -> String {
 /// Most sets of wrenches shown; the JSON has all.
 const MOST_OVER_CONSTRAINTS: usize = 6;
 
-fn over_constraints_in_words(list: &[String]) -> String {
+fn over_constraints_text(list: &[String]) -> String {
     let mut out = String::new();
     for (i, one) in list.iter().take(MOST_OVER_CONSTRAINTS).enumerate() {
         out.push_str(&item(&format!("over-constraint {}: {one}", i + 1)));

@@ -145,7 +145,7 @@ fn loads(model: &Model, index: usize) -> Vec<LoadFinding> {
     both.map(|(written, load)| LoadFinding {
         name: written.name().to_owned(),
         kind: written.word(),
-        in_words: written.in_words(),
+        in_words: written.description(),
         conservative: m.load_conservative(index, load),
     })
     .collect()
@@ -158,13 +158,13 @@ pub(crate) fn platform_loads(model: &Model) -> Vec<LoadFinding> {
     both.map(|(written, load)| LoadFinding {
         name: written.name().to_owned(),
         kind: written.word(),
-        in_words: written.in_words(),
+        in_words: written.description(),
         conservative: load.conservative(),
     })
     .collect()
 }
 
-pub(crate) fn load_in_words(load: &LoadFinding) -> String {
+pub(crate) fn load_description(load: &LoadFinding) -> String {
     let flag = if load.conservative {
         ""
     } else {
@@ -173,7 +173,7 @@ pub(crate) fn load_in_words(load: &LoadFinding) -> String {
     format!("load '{}': {}{flag}", load.name, load.in_words)
 }
 
-pub(crate) fn limb_in_words(l: &LimbFinding) -> String {
+pub(crate) fn limb_text(l: &LimbFinding) -> String {
     let mut rows = Vec::new();
     for a in &l.actuators {
         rows.push(vec![
@@ -221,14 +221,14 @@ pub(crate) fn limb_in_words(l: &LimbFinding) -> String {
                 "link '{}': {} mm{pieces}, {}; Euler load {} N",
                 link.name,
                 short(link.length_mm),
-                convention_in_words(link.convention),
+                convention_description(link.convention),
                 number(link.euler_load_n, 4)
             ),
             2,
         ));
     }
     for load in &l.loads {
-        out.push_str(&wrapped(&load_in_words(load), 2));
+        out.push_str(&wrapped(&load_description(load), 2));
     }
     if l.mass_kg > 0.0 {
         out.push_str(&wrapped(
@@ -260,7 +260,7 @@ pub(crate) fn limb_in_words(l: &LimbFinding) -> String {
     out
 }
 
-fn convention_in_words(convention: Convention) -> &'static str {
+fn convention_description(convention: Convention) -> &'static str {
     match convention {
         Convention::Bowing => "bows",
         Convention::TranslationsFirst => "plain spring, translations first",

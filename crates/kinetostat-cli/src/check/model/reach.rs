@@ -98,7 +98,7 @@ fn along_axes(reach: &ReachAlongAxes) -> ReachFinding {
 }
 
 /// The reach in words.
-pub(crate) fn in_words(reach: &ReachFinding) -> String {
+pub(crate) fn reach_text(reach: &ReachFinding) -> String {
     let mut out = String::new();
     let rounded = |x: f64| short((10.0 * x).round() / 10.0);
     if let (Some(far), None) = (reach.from_base_mm, reach.along_axes_mm) {

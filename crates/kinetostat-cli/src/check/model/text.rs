@@ -5,12 +5,12 @@ use serde_json::Value;
 
 use crate::check::model::assumptions;
 use crate::check::model::findings::Findings;
-use crate::check::model::home_text::home_in_words;
-use crate::check::model::limbs::{LimbFinding, limb_in_words, load_in_words};
+use crate::check::model::home_text::home_text;
+use crate::check::model::limbs::{LimbFinding, limb_text, load_description};
 use crate::ui::layout::{item, wrapped};
 use crate::ui::numbers::{number, short, triple};
 
-pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String {
+pub(crate) fn answer_text(f: &Findings, model: &Model, force_given: bool) -> String {
     let mut out = wrapped(&format!("{} ({})", f.model, f.model_source), 0);
     if let Some(text) = &f.description {
         out.push_str(&wrapped(text, 0));
@@ -41,7 +41,7 @@ pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String
         }
         out.push_str(&item(&text));
     }
-    out.push_str(&crate::check::model::frames::in_words(&f.frames));
+    out.push_str(&crate::check::model::frames::frames_text(&f.frames));
     for group in alike(&f.limbs) {
         let [first, rest @ ..] = group.as_slice() else {
             continue;
@@ -62,12 +62,12 @@ pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String
             )
         };
         out.push_str(&format!("\n{}", wrapped(&heading, 0)));
-        out.push_str(&limb_in_words(first));
+        out.push_str(&limb_text(first));
     }
     if !f.loads.is_empty() {
         out.push_str("\nOn platforms\n");
         for load in &f.loads {
-            out.push_str(&wrapped(&load_in_words(load), 2));
+            out.push_str(&wrapped(&load_description(load), 2));
         }
     }
     if f.mass_kg > 0.0 {
@@ -84,10 +84,10 @@ pub(crate) fn in_words(f: &Findings, model: &Model, force_given: bool) -> String
         out.push_str("\nNo masses in the model: weight is left out.\n");
     }
     if let Some(home) = &f.home {
-        out.push_str(&home_in_words(f, home));
+        out.push_str(&home_text(f, home));
     }
     if let Some(assumptions) = &f.assumptions {
-        out.push_str(&assumptions::in_words(assumptions, force_given));
+        out.push_str(&assumptions::assumptions_text(assumptions, force_given));
     }
     if let Some(problem) = &f.home_problem {
         out.push_str("\nAt home\n");

@@ -18,7 +18,7 @@ use kinetostat_model::Model;
 
 use crate::check::poses::comparison::{axes, compare};
 use crate::check::poses::file::read;
-use crate::check::poses::text::in_words;
+use crate::check::poses::text::answer_text;
 use crate::files::input_files::InputFiles;
 use crate::ui::failure::{Answer, Failure};
 use crate::ui::json;
@@ -43,6 +43,6 @@ pub(crate) fn run(
         angle: (0.1 * tolerance_mm).to_radians(),
     };
     let answer = compare(model, source, file, &names, &rows, tolerance, tolerance_mm)?;
-    let text = in_words(&answer);
+    let text = answer_text(&answer);
     json::print_answer(&text, &answer, json)
 }

@@ -7,7 +7,7 @@ use crate::ui::numbers::{fixed, short, triple};
 /// Explanations shown where several fit.
 const SHOWN: usize = 6;
 
-pub(crate) fn in_words(a: &PoseComparison) -> String {
+pub(crate) fn answer_text(a: &PoseComparison) -> String {
     let mut out = wrapped(
         &format!(
             "{} ({}) against {} ({} {}), joint values {}",

@@ -21,7 +21,11 @@ fn each_limit_is_read_and_moved_by_its_name() {
 fn every_default_is_in_its_range_and_no_size_is_zero_or_less() {
     for limit in Limits::ALL {
         let value = Limits::default().get(limit);
-        assert!(limit.takes(value), "{limit:?}: {}", limit.range_in_words());
+        assert!(
+            limit.takes(value),
+            "{limit:?}: {}",
+            limit.range_description()
+        );
         let tool = limit.name.ends_with("tool_mm");
         for none in [0.0, -value, f64::MIN_POSITIVE] {
             assert_eq!(limit.takes(none), tool, "{limit:?} {none}");
@@ -30,7 +34,7 @@ fn every_default_is_in_its_range_and_no_size_is_zero_or_less() {
             assert!(!limit.takes(none), "{limit:?} {none}");
         }
     }
-    let named = |name: &str| Limits::named(name).expect("known").range_in_words();
+    let named = |name: &str| Limits::named(name).expect("known").range_description();
     assert_eq!(named("tilt_deg"), "0.000001 to 180 deg can be allowed");
     assert_eq!(named("share_of_rating"), "0.001 to 1000 can be allowed");
 }

@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
-use crate::chain::directions::motion_in_words;
+use crate::chain::directions::motion_description;
 use crate::error::Result;
 use crate::linalg::largest::largest;
 use crate::linalg::singular_values::SingularValues;
@@ -55,11 +55,11 @@ pub struct NearSingularity {
 impl NearSingularity {
     /// One sentence.
     #[must_use]
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         let motion = if self.motion.0.norm() == 0.0 {
             "moves platforms between base and tool".to_owned()
         } else {
-            motion_in_words(&mainly(&self.motion))
+            motion_description(&mainly(&self.motion))
         };
         let what = match (&self.kind, &self.limb) {
             (SingularityKind::Lost, Some(limb)) => {
@@ -70,7 +70,7 @@ impl NearSingularity {
         if self.distance_m == 0.0 {
             return format!("singular posture: {what}");
         }
-        let way = motion_in_words(&mainly(&self.way));
+        let way = motion_description(&mainly(&self.way));
         let how = if self.followed {
             "found by following that way"
         } else {

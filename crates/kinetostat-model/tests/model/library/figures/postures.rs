@@ -31,10 +31,14 @@ fn no_robot_is_at_home_in_a_singular_posture() {
         assert!(posture.limit_violations().is_empty(), "{name}");
         let directions = posture.stiffness().expect("a stiffness").directions;
         let free = directions.iter().find(|d| d.kind == DirectionKind::Free);
-        assert!(free.is_none(), "{name}: {}", free.unwrap().in_words());
+        assert!(free.is_none(), "{name}: {}", free.unwrap().description());
         let list = posture.near_singularities(within).expect("a list");
         if let Some(first) = list.first() {
-            assert!(first.distance_m >= CLEAR_M, "{name}: {}", first.in_words());
+            assert!(
+                first.distance_m >= CLEAR_M,
+                "{name}: {}",
+                first.description()
+            );
             if first.distance_m < nearest {
                 nearest = first.distance_m;
                 which = name.to_owned();

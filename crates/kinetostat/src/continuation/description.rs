@@ -6,7 +6,7 @@ use crate::continuation::curve_equilibrium::CurveEquilibrium;
 impl BranchEnd {
     /// Why the branch ends.
     #[must_use]
-    pub fn in_words(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             Self::Range => "leaves the range",
             Self::Angle => "a joint or a machine's tool has turned about half a turn",
@@ -42,7 +42,7 @@ impl<E: CurveEquilibrium> Special<E> {
 
     /// What happens here; `subject` is what the curve belongs to: "chain" or "machine".
     #[must_use]
-    pub fn in_words(&self, subject: &str) -> String {
+    pub fn description(&self, subject: &str) -> String {
         let text = match self.kind {
             SpecialKind::LoadLimit if self.stable_side => {
                 format!("the load has its extreme here: under a dead load the {subject} snaps")
