@@ -10,7 +10,7 @@ use crate::{Places, Task, Work, sample};
 
 /// A machine and where it is asked.
 #[derive(Clone, Copy, Debug)]
-pub struct Machine {
+pub struct BenchMachine {
     /// Name of its file, see [`path`].
     pub file: &'static str,
     /// What it is, in words.
@@ -25,7 +25,7 @@ pub struct Machine {
 }
 
 /// Of W1 and W3.
-pub const ARM: Machine = Machine {
+pub const ARM: BenchMachine = BenchMachine {
     file: "arm",
     what: "arm of six joints",
     springs: 42,
@@ -35,7 +35,7 @@ pub const ARM: Machine = Machine {
 };
 
 /// Of W2.
-pub const HEXAPOD: Machine = Machine {
+pub const HEXAPOD: BenchMachine = BenchMachine {
     file: "hexapod",
     what: "Stewart-Gough platform",
     springs: 42,
@@ -45,7 +45,7 @@ pub const HEXAPOD: Machine = Machine {
 };
 
 /// Of W4.
-pub const PUU3: Machine = Machine {
+pub const PUU3: BenchMachine = BenchMachine {
     file: "puu3",
     what: "3-PUU",
     springs: 39,
@@ -55,11 +55,11 @@ pub const PUU3: Machine = Machine {
 };
 
 /// All machines: those of the works, then shapes that no work has.
-pub const ALL: [Machine; 6] = [
+pub const ALL: [BenchMachine; 6] = [
     ARM,
     HEXAPOD,
     PUU3,
-    Machine {
+    BenchMachine {
         file: "seven",
         what: "arm of seven joints",
         springs: 49,
@@ -67,7 +67,7 @@ pub const ALL: [Machine; 6] = [
         places: |items| Places::Joints(sample::joints(items, 7, 1.0)),
         serial: true,
     },
-    Machine {
+    BenchMachine {
         file: "puu4",
         what: "4-PUU, over-constrained",
         springs: 52,
@@ -75,7 +75,7 @@ pub const ALL: [Machine; 6] = [
         places: |items| Places::Poses(sample::poses(items, [0.0; 3], 0.06, 0.0)),
         serial: false,
     },
-    Machine {
+    BenchMachine {
         file: "hybrid",
         what: "hexapod with a wrist, 9 drives",
         springs: 63,
@@ -115,7 +115,7 @@ pub fn path(file: &str) -> PathBuf {
     own.join(format!("../../benches/models/{file}.toml"))
 }
 
-impl Machine {
+impl BenchMachine {
     /// So many postures of this machine, or of its twin whose links have the default law.
     ///
     /// # Errors

@@ -250,7 +250,7 @@ fn the_rod_is_that_of_w5() {
 }
 
 /// Four legs on a platform that three could hold brace each other: their inner forces are known no
-/// better than a gap of rounding times their stiffness, and no lane may wait for more.
+/// better than a residual of rounding times their stiffness, and no lane may wait for more.
 #[test]
 fn legs_that_brace_each_other_are_found_together() {
     let count = 256;

@@ -8,7 +8,7 @@ pub type Result<T> = std::result::Result<T, Error>;
 /// A file, a line of it where one can be named, what is wrong there, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Error {
-    /// Name of the file, or of the question where no file is meant.
+    /// Name of the file, or of the request where no file is meant.
     pub file: String,
     /// Line, from 1.
     pub line: Option<usize>,
@@ -19,7 +19,7 @@ pub struct Error {
 }
 
 impl Error {
-    /// An error of a whole file or question.
+    /// An error of a whole file or request.
     pub fn new(
         file: impl Into<String>,
         message: impl Into<String>,

@@ -10,7 +10,7 @@
 //! | CSV or JSON with a 6 x 6 matrix | [`read_matrix`] |
 //! | displacements of the interface under six loads | [`read_displacements`], [`identify`] |
 //! | Nastran `DMIG`, CalculiX `.mtx` and `.sti`, Ansys Harwell-Boeing | [`read_superelement`], [`condense`] |
-//! | a section, straight or tapered | [`Shape`], [`cantilever`] |
+//! | a section, straight or tapered | [`SectionShape`], [`cantilever`] |
 //!
 //! SI units, translations before rotations, as in [`kinetostat`]; files say their units in keys or the
 //! caller says them. Memory is bounded: [`MOST_BYTES`], [`MOST_DOFS`], [`MOST_ENVELOPE`].
@@ -30,9 +30,9 @@ mod text;
 mod units;
 
 pub use beam::material::{MATERIALS, Material, material};
-pub use beam::section::{Properties, Shape};
+pub use beam::section::{Properties, SectionShape};
 pub use beam::taper::{Shear, cantilever, cantilever_by};
-pub use condensation::condense::{Condensed, Question, Tie, condense};
+pub use condensation::condense::{CondensationRequest, Condensed, Tie, condense};
 pub use condensation::envelope::MOST_ENVELOPE;
 pub use condensation::free_test::{FreeTest, free_test};
 pub use error::{Error, Result};

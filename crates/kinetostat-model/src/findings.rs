@@ -1,6 +1,6 @@
 //! What is found while a document becomes a machine: every mistake with its place, so that one run shows them all.
 
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 
 /// What went wrong and what looks wrong.
 #[derive(Default)]
@@ -15,7 +15,7 @@ pub(crate) struct Findings {
 impl Findings {
     pub(crate) fn error(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         message: impl Into<String>,
         help: impl Into<String>,
     ) {
@@ -33,7 +33,7 @@ impl Findings {
     }
 }
 
-pub(crate) fn name(place: &Place, text: &str, findings: &mut Findings) {
+pub(crate) fn name(place: &KeyPath, text: &str, findings: &mut Findings) {
     let reason = if text.trim().is_empty() {
         "the name is empty"
     } else if text.trim() != text {

@@ -5,7 +5,7 @@ use kinetostat::Pose;
 use nalgebra::{Unit, Vector3};
 
 use crate::elements::placement;
-use crate::problem::Place;
+use crate::problem::KeyPath;
 use crate::schema::{Axis, Placement};
 
 pub use crate::exact::wrong_length;
@@ -15,7 +15,7 @@ pub use crate::exact::wrong_length;
 /// # Errors
 /// What is wrong with it.
 pub fn pose(written: &Placement) -> Result<Pose, String> {
-    placement::pose(&Place::root(), written).map_err(|finding| finding.message)
+    placement::pose(&KeyPath::root(), written).map_err(|finding| finding.message)
 }
 
 /// The direction that a model file states.
@@ -23,5 +23,5 @@ pub fn pose(written: &Placement) -> Result<Pose, String> {
 /// # Errors
 /// What is wrong with it.
 pub fn direction(axis: &Axis) -> Result<Unit<Vector3<f64>>, String> {
-    placement::direction(&Place::root(), axis).map_err(|finding| finding.message)
+    placement::direction(&KeyPath::root(), axis).map_err(|finding| finding.message)
 }

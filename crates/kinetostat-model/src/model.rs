@@ -12,7 +12,7 @@ use crate::elements::placement::{three_digits, written, written_pose};
 use crate::elements::workspace::corners;
 use crate::findings::Findings;
 use crate::presets::{preset_text, unknown_preset};
-use crate::problem::{Finding, ModelError, Place, Problem, Severity};
+use crate::problem::{Finding, KeyPath, ModelError, Problem, Severity};
 use crate::schema::{Deviation, Document, Element};
 use crate::text::check::{check, schema};
 use crate::text::file::{MOST_BYTES, read_text};
@@ -87,7 +87,7 @@ impl Model {
         let Some(mechanism) = mechanism.filter(|_| findings.errors.is_empty()) else {
             if findings.errors.is_empty() {
                 findings.errors.push(Finding::new(
-                    &Place::root(),
+                    &KeyPath::root(),
                     "the machine could not be put together",
                     "please report this file: it should have had a better message",
                 ));
@@ -265,7 +265,7 @@ fn settle_home(mechanism: &mut Mechanism, findings: &mut Findings) {
     let home = mechanism.platforms()[tool].home;
     let off = kinetostat::spatial::pose_residual(&home, &written);
     // Platforms of the file are counted without the base.
-    let place = Place::root().key("platform").index(tool - 1).key("home");
+    let place = KeyPath::root().key("platform").index(tool - 1).key("home");
     findings.warnings.push(Finding::new(
         &place,
         format!(

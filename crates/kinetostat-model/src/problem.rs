@@ -7,40 +7,40 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 
 /// A step on the way from the root of a document to a value.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Step {
+pub(crate) enum PathStep {
     Key(String),
     Index(usize),
 }
 
 /// The way from the root of a document to a value; resolved to a line only where a message needs it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Place(pub(crate) Vec<Step>);
+pub(crate) struct KeyPath(pub(crate) Vec<PathStep>);
 
-impl Place {
+impl KeyPath {
     pub(crate) fn root() -> Self {
         Self::default()
     }
 
     pub(crate) fn key(&self, key: &str) -> Self {
         let mut place = self.clone();
-        place.0.push(Step::Key(key.to_owned()));
+        place.0.push(PathStep::Key(key.to_owned()));
         place
     }
 
     pub(crate) fn index(&self, index: usize) -> Self {
         let mut place = self.clone();
-        place.0.push(Step::Index(index));
+        place.0.push(PathStep::Index(index));
         place
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for KeyPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, step) in self.0.iter().enumerate() {
             match step {
-                Step::Key(key) if i == 0 => write!(f, "{key}")?,
-                Step::Key(key) => write!(f, ".{key}")?,
-                Step::Index(index) => write!(f, "[{}]", index + 1)?,
+                PathStep::Key(key) if i == 0 => write!(f, "{key}")?,
+                PathStep::Key(key) => write!(f, ".{key}")?,
+                PathStep::Index(index) => write!(f, "[{}]", index + 1)?,
             }
         }
         Ok(())
@@ -50,7 +50,7 @@ impl fmt::Display for Place {
 /// A finding before its line is known.
 #[derive(Clone, Debug)]
 pub(crate) struct Finding {
-    pub(crate) place: Place,
+    pub(crate) place: KeyPath,
     /// Overrides the place where the exact span is known (a key, a syntax error).
     pub(crate) span: Option<Range<usize>>,
     pub(crate) message: String,
@@ -69,7 +69,11 @@ pub(crate) struct Remedy {
 }
 
 impl Finding {
-    pub(crate) fn new(place: &Place, message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn new(
+        place: &KeyPath,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Self {
         Self {
             place: place.clone(),
             span: None,
@@ -133,7 +137,7 @@ impl Problem {
         path: &str,
         [message, help]: [String; 2],
     ) -> Self {
-        let finding = Finding::new(&Place::root(), message, help);
+        let finding = Finding::new(&KeyPath::root(), message, help);
         let mut problem = Self::in_text(severity, file, text, span, &finding);
         problem.path = shortened(path);
         problem

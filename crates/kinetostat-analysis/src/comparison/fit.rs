@@ -80,7 +80,7 @@ impl Fit<'_> {
         if let Some(plain) = plain.min_by_key(Mapping::changes) {
             return Some(plain);
         }
-        // Of those that miss by about the same, the one that reverses least.
+        // Of those with about the same residual, the one that reverses least.
         let least = others
             .iter()
             .map(|m| self.rank(m))
@@ -159,9 +159,9 @@ impl Fit<'_> {
         let mut all = Vec::with_capacity(6 * self.postures.len());
         for (q, a) in self.postures.iter().zip(&self.targets) {
             let b = m.base * (self.b)(&m.joints(q))? * m.tool;
-            let gap = pose_residual(a, &b);
-            all.extend(gap.linear().iter());
-            all.extend(gap.angular().iter().map(|x| self.length * x));
+            let difference = pose_residual(a, &b);
+            all.extend(difference.linear().iter());
+            all.extend(difference.angular().iter().map(|x| self.length * x));
         }
         Some(DVector::from_vec(all))
     }
@@ -173,10 +173,10 @@ impl Fit<'_> {
     fn with_difference(&self, mut m: Mapping) -> Option<Mapping> {
         let residual = self.residual(&m)?;
         let mut left = (0.0_f64, 0.0_f64);
-        for gap in residual.as_slice().chunks(6) {
+        for difference in residual.as_slice().chunks(6) {
             let size = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
-            left.0 = left.0.max(size(&gap[..3]));
-            left.1 = left.1.max(size(&gap[3..]) / self.length);
+            left.0 = left.0.max(size(&difference[..3]));
+            left.1 = left.1.max(size(&difference[3..]) / self.length);
         }
         m.largest_difference = left;
         Some(m)

@@ -101,7 +101,7 @@ fn going_away(a: &CurveAnswer) -> String {
     text
 }
 
-/// What the ends of a curve may miss by rounding.
+/// How far rounding may move the ends of a curve.
 fn slack(a: &CurveAnswer) -> f64 {
     1e-6 * (a.requested.1 - a.requested.0)
 }

@@ -23,7 +23,7 @@ impl From<Error> for Failure {
 
 /// The import, stable names with units.
 #[derive(Serialize)]
-struct Summary<'a> {
+struct LinkSummary<'a> {
     schema: u32,
     kinetostat_version: &'static str,
     source: String,
@@ -110,7 +110,7 @@ pub(crate) fn finish(
             let k = in_n_mm(k);
             std::array::from_fn(|i| std::array::from_fn(|j| k[(i, j)]))
         };
-        let summary = Summary {
+        let summary = LinkSummary {
             schema: 1,
             kinetostat_version: env!("CARGO_PKG_VERSION"),
             source: source.to_owned(),

@@ -1,8 +1,8 @@
 //! `kinetostat import matrix`: a stiffness or flexibility matrix, or a superelement, as the stiffness of a link.
 
 use kinetostat_links::{
-    Condensed, FreeTest, Nodes, Question, SYMMETRIC_TO, Superelement, Text, Tie, condense,
-    free_test, judge, read_matrix, read_nodes, read_superelement, symmetrised,
+    CondensationRequest, Condensed, FreeTest, Nodes, SYMMETRIC_TO, Superelement, Text, Tie,
+    condense, free_test, judge, read_matrix, read_nodes, read_superelement, symmetrised,
 };
 use kinetostat_machining::number as formatter;
 use nalgebra::Matrix6;
@@ -101,7 +101,7 @@ fn reduced(
         Some(path) => read_nodes(&Text::read(path)?, units)?,
         None => Nodes::default(),
     };
-    let question = Question {
+    let request = CondensationRequest {
         units,
         interface: nodes.named(interface)?,
         fixed: match &args.fixed {
@@ -125,14 +125,14 @@ fn reduced(
     }
     symmetry(share, args.symmetrise, remarks);
     let free = free_test(&element, &nodes, units);
-    if question.fixed.is_empty() && free.is_free() && free.resistance.iter().any(Option::is_some) {
+    if request.fixed.is_empty() && free.is_free() && free.resistance.iter().any(Option::is_some) {
         return Err(Failure::input(format!(
             "{}: the body is free: rigid motions meet no resistance, so its end has no stiffness; say which nodes are held at the other end: --fixed NODES",
             text.name()
         )));
     }
-    let found = condense(&element, &nodes, &question)?;
-    remark_reduction(&element, &found, &free, &question, remarks);
+    let found = condense(&element, &nodes, &request)?;
+    remark_reduction(&element, &found, &free, &request, remarks);
     let end = found.end * 1e3;
     let source = format!(
         "{} ({}), end at {:.3}, {:.3}, {:.3} mm of its mesh, interface {}",
@@ -141,7 +141,7 @@ fn reduced(
         end.x,
         end.y,
         end.z,
-        match question.tie {
+        match request.tie {
             Tie::Averaged => "averaged",
             Tie::Rigid => "rigid",
         }
@@ -153,7 +153,7 @@ fn remark_reduction(
     element: &Superelement,
     found: &Condensed,
     free: &FreeTest,
-    question: &Question,
+    request: &CondensationRequest,
     remarks: &mut Remarks,
 ) {
     let [tied, fixed, inside] = found.counts;
@@ -167,7 +167,7 @@ fn remark_reduction(
     );
     remarks.row(
         "condensed",
-        match question.tie {
+        match request.tie {
             Tie::Rigid => format!("{tied} tied to the end, {fixed} fixed, {inside} inside"),
             Tie::Averaged => {
                 format!("{tied} averaged at the end, {fixed} fixed, {inside} inside")
@@ -196,7 +196,7 @@ fn remark_reduction(
             .notices
             .push("the whole matrix has negative modes: was it taken under a load?".into());
     }
-    if !question.fixed.is_empty() && fixed > 0 && !free.is_free() {
+    if !request.fixed.is_empty() && fixed > 0 && !free.is_free() {
         remarks.notices.push(
             "the body is held by more than the fixed interface: a support was left in the model, or the program did not condense (ccx 2.20 writes its *SUBSTRUCTURE like that: take the .sti of *FREQUENCY, SOLVER=MATRIXSTORAGE)"
                 .into(),

@@ -18,7 +18,7 @@ use crate::ui::screen::{self, Stream};
 
 /// The import, stable names with units.
 #[derive(Serialize)]
-struct Summary<'a> {
+struct ImportSummary<'a> {
     schema: u32,
     kinetostat_version: &'static str,
     source: String,
@@ -163,9 +163,9 @@ fn mass(imported: &Imported) -> f64 {
     imported.bodies.iter().map(|b| b.1).sum()
 }
 
-fn summary<'a>(imported: &'a Imported, args: &UrdfArgs) -> Summary<'a> {
+fn summary<'a>(imported: &'a Imported, args: &UrdfArgs) -> ImportSummary<'a> {
     let document = &imported.model.document;
-    Summary {
+    ImportSummary {
         schema: 1,
         kinetostat_version: env!("CARGO_PKG_VERSION"),
         source: args.file.display().to_string(),

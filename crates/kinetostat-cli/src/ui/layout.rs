@@ -71,16 +71,16 @@ fn aligned(rows: &[Vec<String>], indent: usize, right: impl Fn(usize) -> bool) -
     for row in &rows {
         let mut line = " ".repeat(indent);
         for (column, cell) in row.iter().enumerate() {
-            let gap = " ".repeat(width[column] - cell.chars().count());
+            let padding = " ".repeat(width[column] - cell.chars().count());
             if column > 0 {
                 line.push_str("  ");
             }
             if right(column) {
-                line.push_str(&gap);
+                line.push_str(&padding);
                 line.push_str(cell);
             } else {
                 line.push_str(cell);
-                line.push_str(&gap);
+                line.push_str(&padding);
             }
         }
         out.push_str(line.trim_end());

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// A piece of a chapter that does something.
-enum Step {
+enum ChapterStep {
     File { name: String, text: String },
     Shell(Call),
 }
@@ -30,7 +30,7 @@ fn pages() -> PathBuf {
 }
 
 /// Steps of a chapter in their order.
-fn steps(text: &str) -> Vec<Step> {
+fn steps(text: &str) -> Vec<ChapterStep> {
     let (mut found, mut name) = (Vec::new(), None);
     let mut lines = text.lines().enumerate();
     while let Some((_, line)) = lines.next() {
@@ -43,9 +43,9 @@ fn steps(text: &str) -> Vec<Step> {
         let body: Vec<(usize, &str)> = lines.by_ref().take_while(|l| l.1 != "```").collect();
         if let Some(name) = name.take() {
             let text = body.iter().map(|l| format!("{}\n", l.1)).collect();
-            found.push(Step::File { name, text });
+            found.push(ChapterStep::File { name, text });
         } else if language == "console" {
-            found.extend(calls(&body).into_iter().map(Step::Shell));
+            found.extend(calls(&body).into_iter().map(ChapterStep::Shell));
         }
     }
     found
@@ -109,11 +109,11 @@ fn play(page: &Path) -> (usize, Vec<String>) {
     let (mut count, mut wrong) = (0, Vec::new());
     for step in steps(&text) {
         let call = match step {
-            Step::File { name, text } => {
+            ChapterStep::File { name, text } => {
                 std::fs::write(here.path().join(name), text).expect("a file");
                 continue;
             }
-            Step::Shell(call) => call,
+            ChapterStep::Shell(call) => call,
         };
         count += 1;
         let answer = Command::new("sh")

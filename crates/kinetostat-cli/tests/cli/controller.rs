@@ -157,12 +157,12 @@ fn a_place_is_given_by_joints_of_the_model_or_of_the_pendant() {
             let found = &json["place"]["position_mm"];
             let expected = tool(q).translation.vector;
             for i in 0..3 {
-                let gap = found[i].as_f64().expect("a number") - expected[i];
-                assert!(gap.abs() < 1e-9, "{flag}: {found} {expected}");
+                let difference = found[i].as_f64().expect("a number") - expected[i];
+                assert!(difference.abs() < 1e-9, "{flag}: {found} {expected}");
             }
             for (axis, value) in json["pendant"].as_array().expect("axes").iter().zip(shown) {
-                let gap = axis["value"].as_f64().expect("a number") - value;
-                assert!(gap.abs() < 1e-9 && axis["unit"] == "deg", "{axis}");
+                let difference = axis["value"].as_f64().expect("a number") - value;
+                assert!(difference.abs() < 1e-9 && axis["unit"] == "deg", "{axis}");
             }
             assert!(said.err.contains("J3 -33.342 deg"), "{}", said.err);
         }

@@ -14,7 +14,7 @@ use crate::stiffness::Stiffnesses;
 use crate::urdf::close::product;
 use crate::urdf::graph::Way;
 use crate::urdf::robot::{Origin, Robot};
-use crate::urdf::tree::{Follow, Step, Tree};
+use crate::urdf::tree::{Follow, Tree, TreeStep};
 
 /// A coordinate of the robot: a joint of the URDF that moves by itself, or one of a closing joint.
 #[derive(Clone, Debug)]
@@ -166,13 +166,13 @@ impl Plan<'_> {
         self.masses(here, &mut out, placed);
         for step in &way.steps {
             match step {
-                Step::Offset {
+                TreeStep::Offset {
                     joint,
                     origin,
                     inverse,
                 } => self.offset(&mut out, joint, origin, *inverse),
-                Step::Move { .. } => self.movement(&mut out, step),
-                Step::Arrive(link) => {
+                TreeStep::Move { .. } => self.movement(&mut out, step),
+                TreeStep::Arrive(link) => {
                     here = *link;
                     self.masses(here, &mut out, placed);
                 }
@@ -266,8 +266,8 @@ impl Plan<'_> {
         }
     }
 
-    fn movement(&self, out: &mut Written, step: &Step) {
-        let Step::Move {
+    fn movement(&self, out: &mut Written, step: &TreeStep) {
+        let TreeStep::Move {
             joint,
             kind,
             axis: along,
@@ -365,8 +365,8 @@ impl Plan<'_> {
             }
             placed[link] = true;
             let steps = self.tree.steps(self.robot, here, link);
-            let moving = |s: &Step| match s {
-                Step::Move { follow, .. } => self.still(follow).is_none(),
+            let moving = |s: &TreeStep| match s {
+                TreeStep::Move { follow, .. } => self.still(follow).is_none(),
                 _ => false,
             };
             match steps.iter().rposition(moving) {
@@ -380,22 +380,22 @@ impl Plan<'_> {
     }
 
     /// Out along the steps to a mass on a side branch, and back.
-    fn excursion(&self, out: &mut Written, link: usize, steps: &[Step], last: usize) {
+    fn excursion(&self, out: &mut Written, link: usize, steps: &[TreeStep], last: usize) {
         let name = &self.robot.links[link].name;
         out.comment = format!("side branch: out to {name} and back");
         for mesh in &self.robot.links[link].meshes {
             out.comment.push_str(&format!("\nmesh of {name}: {mesh}"));
         }
         let (out_there, rest) = steps.split_at(last + 1);
-        let rigidly = |out: &mut Written, step: &Step| {
+        let rigidly = |out: &mut Written, step: &TreeStep| {
             if let Some(placement) = placement(&step.pose(self.home)) {
                 out.push(rigid(placement, None), "");
             }
         };
-        let go = |out: &mut Written, step: &Step| match step {
-            Step::Move { .. } => self.movement(out, step),
-            Step::Offset { .. } => rigidly(out, step),
-            Step::Arrive(_) => {}
+        let go = |out: &mut Written, step: &TreeStep| match step {
+            TreeStep::Move { .. } => self.movement(out, step),
+            TreeStep::Offset { .. } => rigidly(out, step),
+            TreeStep::Arrive(_) => {}
         };
         for step in out_there {
             go(out, step);
@@ -407,8 +407,8 @@ impl Plan<'_> {
         for step in out_there.iter().rev() {
             match step {
                 // A constant and a coupled part of one motion commute.
-                Step::Move { .. } | Step::Offset { .. } => go(out, &step.reversed()),
-                Step::Arrive(_) => {}
+                TreeStep::Move { .. } | TreeStep::Offset { .. } => go(out, &step.reversed()),
+                TreeStep::Arrive(_) => {}
             }
         }
     }

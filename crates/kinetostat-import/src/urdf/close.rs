@@ -4,7 +4,7 @@ use kinetostat::{Pose, spatial::pose_residual};
 use nalgebra::{DMatrix, DVector};
 
 use crate::urdf::robot::Robot;
-use crate::urdf::tree::{Step, Tree};
+use crate::urdf::tree::{Tree, TreeStep};
 
 /// Poses of all links in the base link's frame for values of the variables (m, rad).
 pub(crate) fn frames(robot: &Robot, tree: &Tree, base: usize, values: &[f64]) -> Vec<Pose> {
@@ -26,7 +26,7 @@ pub(crate) fn frames(robot: &Robot, tree: &Tree, base: usize, values: &[f64]) ->
 }
 
 /// `start` times the factors.
-pub(crate) fn product(steps: &[Step], start: Pose, values: &[f64]) -> Pose {
+pub(crate) fn product(steps: &[TreeStep], start: Pose, values: &[f64]) -> Pose {
     steps
         .iter()
         .fold(start, |pose, step| pose * step.pose(values))
@@ -37,7 +37,7 @@ fn residuals(
     robot: &Robot,
     tree: &Tree,
     base: usize,
-    closings: &[([usize; 2], Vec<Step>)],
+    closings: &[([usize; 2], Vec<TreeStep>)],
     values: &[f64],
 ) -> DVector<f64> {
     let frames = frames(robot, tree, base, values);
@@ -73,7 +73,7 @@ pub(crate) fn close(
     robot: &Robot,
     tree: &Tree,
     base: usize,
-    closings: &[([usize; 2], Vec<Step>)],
+    closings: &[([usize; 2], Vec<TreeStep>)],
     free: &[Free],
     values: &mut [f64],
 ) -> (f64, f64) {
@@ -137,7 +137,7 @@ fn search(
     robot: &Robot,
     tree: &Tree,
     base: usize,
-    closings: &[([usize; 2], Vec<Step>)],
+    closings: &[([usize; 2], Vec<TreeStep>)],
     free: &[usize],
     values: &mut [f64],
 ) -> (f64, f64) {

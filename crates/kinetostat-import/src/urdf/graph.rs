@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use crate::log::Log;
 use crate::urdf::robot::{Closure, Constraint, JointType, Robot};
-use crate::urdf::tree::{Follow, Step, Tree};
+use crate::urdf::tree::{Follow, Tree, TreeStep};
 
 use kinetostat::MotionKind;
 
@@ -16,7 +16,7 @@ pub(crate) struct Way {
     pub(crate) from: usize,
     pub(crate) to: usize,
     /// From the frame of `from` to that of `to`.
-    pub(crate) steps: Vec<Step>,
+    pub(crate) steps: Vec<TreeStep>,
 }
 
 /// What the model is made of.
@@ -34,19 +34,19 @@ struct Edge {
     /// Links.
     links: [usize; 2],
     /// From the first link to the second, without its arrival.
-    steps: Vec<Step>,
+    steps: Vec<TreeStep>,
 }
 
 /// Coordinates of closing joints are numbered behind the joints of the tree.
-pub(crate) fn closing_steps(constraint: &Constraint, first_variable: usize) -> Vec<Step> {
+pub(crate) fn closing_steps(constraint: &Constraint, first_variable: usize) -> Vec<TreeStep> {
     let name = &constraint.name;
     let x = [1.0, 0.0, 0.0];
-    let offset = |origin, inverse| Step::Offset {
+    let offset = |origin, inverse| TreeStep::Offset {
         joint: name.clone(),
         origin,
         inverse,
     };
-    let single = |kind, joint: String, axis, k| Step::Move {
+    let single = |kind, joint: String, axis, k| TreeStep::Move {
         joint,
         kind,
         axis,
@@ -85,7 +85,7 @@ pub(crate) fn closing_steps(constraint: &Constraint, first_variable: usize) -> V
 pub(crate) fn graph(
     robot: &Robot,
     tree: &Tree,
-    closings: &[([usize; 2], Vec<Step>)],
+    closings: &[([usize; 2], Vec<TreeStep>)],
     [base, tip]: [usize; 2],
     log: &mut Log,
 ) -> Option<Graph> {
@@ -282,10 +282,10 @@ fn ways(
                 };
                 steps.extend(tree.steps(robot, link, near));
                 match backward {
-                    true => steps.extend(e.steps.iter().rev().map(Step::reversed)),
+                    true => steps.extend(e.steps.iter().rev().map(TreeStep::reversed)),
                     false => steps.extend(e.steps.iter().cloned()),
                 }
-                steps.push(Step::Arrive(far));
+                steps.push(TreeStep::Arrive(far));
                 (g, link) = (group[far], far);
                 if stands.contains_key(&g) {
                     break g;

@@ -21,7 +21,7 @@ use crate::urdf::request::{
     closed, closings, ends, followers, homes, known_stiffnesses, used, variables,
 };
 use crate::urdf::robot::Robot;
-use crate::urdf::tree::{Step, Tree, tree};
+use crate::urdf::tree::{Tree, TreeStep, tree};
 use crate::urdf::write::{Parts, text};
 use crate::urdf::{inertial, read, xml};
 
@@ -180,7 +180,7 @@ impl AtHome {
 
     /// Whether no joint that moves lies between the base and a link.
     fn is_fixed(&self, robot: &Robot, link: usize) -> bool {
-        let still = |s: &Step| s.variable().is_none_or(|v| !self.variables[v].moves);
+        let still = |s: &TreeStep| s.variable().is_none_or(|v| !self.variables[v].moves);
         self.tree.steps(robot, self.base, link).iter().all(still)
     }
 }

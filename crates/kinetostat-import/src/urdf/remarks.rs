@@ -11,7 +11,7 @@ use crate::urdf::close::product;
 use crate::urdf::graph::Graph;
 use crate::urdf::request::with_unit;
 use crate::urdf::robot::Robot;
-use crate::urdf::tree::{Step, Tree};
+use crate::urdf::tree::{Tree, TreeStep};
 
 /// A joint that moves parts of two limbs would be two drives.
 pub(crate) fn one_limb_each(
@@ -55,9 +55,9 @@ pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
                 if before.contains_key(&to) {
                     continue;
                 }
-                let mut step = |step: &Step| match step {
-                    Step::Move { .. } => joints += 1,
-                    Step::Offset { origin, .. } if joints >= 2 => {
+                let mut step = |step: &TreeStep| match step {
+                    TreeStep::Move { .. } => joints += 1,
+                    TreeStep::Offset { origin, .. } if joints >= 2 => {
                         sum += Vector3::from(origin.xyz).norm();
                     }
                     _ => {}
@@ -119,7 +119,7 @@ pub(crate) fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f
     let Some(way) = graph.ways.first() else {
         return;
     };
-    let mut moving: Vec<usize> = way.steps.iter().filter_map(Step::variable).collect();
+    let mut moving: Vec<usize> = way.steps.iter().filter_map(TreeStep::variable).collect();
     moving.sort_unstable();
     moving.dedup();
     if moving.len() < 6 || reach < 1e-3 {

@@ -15,7 +15,7 @@ use crate::urdf::graph::{Graph, closing_steps};
 use crate::urdf::loops::Loops;
 use crate::urdf::options::UrdfOptions;
 use crate::urdf::robot::{Closure, Joint, JointType, Robot};
-use crate::urdf::tree::{Step, Tree};
+use crate::urdf::tree::{Tree, TreeStep};
 
 /// Base and tip.
 pub(crate) fn ends(
@@ -139,7 +139,7 @@ pub(crate) fn variables(
 }
 
 /// Links and factors of the closing joints.
-pub(crate) fn closings(robot: &Robot, log: &mut Log) -> Vec<([usize; 2], Vec<Step>)> {
+pub(crate) fn closings(robot: &Robot, log: &mut Log) -> Vec<([usize; 2], Vec<TreeStep>)> {
     let mut closings = Vec::new();
     let mut first = robot.joints.len();
     let mut names: BTreeSet<&str> = robot.joints.iter().map(|j| j.name.as_str()).collect();
@@ -394,7 +394,7 @@ pub(crate) fn closed(
     robot: &Robot,
     tree: &Tree,
     base: usize,
-    closings: &[([usize; 2], Vec<Step>)],
+    closings: &[([usize; 2], Vec<TreeStep>)],
     variables: &[Variable],
     home: &mut [f64],
     log: &mut Log,

@@ -29,7 +29,7 @@ impl Follow {
 
 /// One factor on a way from link to link.
 #[derive(Clone, Debug)]
-pub(crate) enum Step {
+pub(crate) enum TreeStep {
     /// Offset of the joint of this name, or its inverse.
     Offset {
         joint: String,
@@ -48,7 +48,7 @@ pub(crate) enum Step {
     Arrive(usize),
 }
 
-impl Step {
+impl TreeStep {
     pub(crate) fn reversed(&self) -> Self {
         let mut step = self.clone();
         match &mut step {
@@ -122,7 +122,7 @@ pub(crate) struct Tree {
 impl Tree {
     /// The factors from one link to another along the tree, each joint followed by the link that it
     /// leads to.
-    pub(crate) fn steps(&self, robot: &Robot, from: usize, to: usize) -> Vec<Step> {
+    pub(crate) fn steps(&self, robot: &Robot, from: usize, to: usize) -> Vec<TreeStep> {
         let (mut a, mut b) = (from, to);
         let (mut up, mut down) = (Vec::new(), Vec::new());
         while a != b {
@@ -140,12 +140,12 @@ impl Tree {
         let mut steps = Vec::new();
         for joint in up {
             let forward = self.joint_steps(robot, joint);
-            steps.extend(forward.iter().rev().map(Step::reversed));
-            steps.push(Step::Arrive(self.ends[joint].0));
+            steps.extend(forward.iter().rev().map(TreeStep::reversed));
+            steps.push(TreeStep::Arrive(self.ends[joint].0));
         }
         for joint in down.into_iter().rev() {
             steps.extend(self.joint_steps(robot, joint));
-            steps.push(Step::Arrive(self.ends[joint].1));
+            steps.push(TreeStep::Arrive(self.ends[joint].1));
         }
         steps
     }
@@ -171,15 +171,15 @@ impl Tree {
     }
 
     /// Offset and motion of a joint, parent to child.
-    pub(crate) fn joint_steps(&self, robot: &Robot, index: usize) -> Vec<Step> {
+    pub(crate) fn joint_steps(&self, robot: &Robot, index: usize) -> Vec<TreeStep> {
         let joint = &robot.joints[index];
-        let mut steps = vec![Step::Offset {
+        let mut steps = vec![TreeStep::Offset {
             joint: joint.name.clone(),
             origin: joint.origin,
             inverse: false,
         }];
         if let JointType::Moving(kind) = joint.kind {
-            steps.push(Step::Move {
+            steps.push(TreeStep::Move {
                 joint: joint.name.clone(),
                 kind,
                 axis: joint.axis,

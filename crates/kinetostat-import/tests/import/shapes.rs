@@ -124,8 +124,8 @@ fn a_follower_before_its_source_leads() {
         &chain.home_coordinates(),
         &[-0.7, 0.2],
     );
-    let gap = (k.tip_pose().to_homogeneous() - wanted).largest_entry();
-    assert!(gap < 1e-12, "{gap}");
+    let difference = (k.tip_pose().to_homogeneous() - wanted).largest_entry();
+    assert!(difference < 1e-12, "{difference}");
 }
 
 #[test]

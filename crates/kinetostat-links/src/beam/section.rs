@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 
 /// Shape of a section; lengths in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
+pub enum SectionShape {
     /// Round tube; `inner = 0` is a solid bar.
     Tube {
         /// Outer diameter.
@@ -88,7 +88,7 @@ impl Properties {
     }
 }
 
-impl Shape {
+impl SectionShape {
     /// Name in messages.
     #[must_use]
     pub fn name(&self) -> &'static str {
@@ -104,7 +104,7 @@ impl Shape {
     /// The shape's properties; `poissons_ratio` enters the shear areas only.
     ///
     /// ```
-    /// let square = kinetostat_links::Shape::Rectangle { width: 0.1, height: 0.1 };
+    /// let square = kinetostat_links::SectionShape::Rectangle { width: 0.1, height: 0.1 };
     /// let p = square.properties(0.3)?;
     /// assert!((p.torsion_constant / 1e-4 - 0.140577).abs() < 1e-6); // known of the square
     /// # Ok::<(), kinetostat_links::Error>(())

@@ -7,7 +7,7 @@
 use kinetostat::spatial::shift_matrix;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::beam::section::Shape;
+use crate::beam::section::SectionShape;
 use crate::error::{Error, Result};
 use crate::interface::invert;
 
@@ -33,8 +33,8 @@ const GAUSS: [(f64, f64); 4] = [
 /// linearly: N/m, N/rad, N m/m, N m/rad, link axes, x along it. `length` in m, Young's modulus in Pa.
 ///
 /// ```
-/// use kinetostat_links::{Shape, Shear, cantilever};
-/// let (root, tip) = (Shape::Tube { outer: 0.2, inner: 0.0 }, Shape::Tube { outer: 0.1, inner: 0.0 });
+/// use kinetostat_links::{SectionShape, Shear, cantilever};
+/// let (root, tip) = (SectionShape::Tube { outer: 0.2, inner: 0.0 }, SectionShape::Tube { outer: 0.1, inner: 0.0 });
 /// let k = cantilever(&root, &tip, 1.0, 2.1e11, 0.3, Shear::None)?;
 /// let bends = k.try_inverse().ok_or("singular")?[(1, 1)];
 /// // A solid cone: P L^3 / (3 E I_root) times d_root / d_tip.
@@ -47,8 +47,8 @@ const GAUSS: [(f64, f64); 4] = [
 ///
 /// Sizes or moduli that are none; two kinds of shape.
 pub fn cantilever(
-    root: &Shape,
-    tip: &Shape,
+    root: &SectionShape,
+    tip: &SectionShape,
     length: f64,
     youngs_modulus: f64,
     poissons_ratio: f64,

@@ -32,9 +32,9 @@ pub enum Tie {
     Averaged,
 }
 
-/// What is asked of a superelement.
+/// The interfaces, units and axes to which a superelement is condensed.
 #[derive(Clone, Debug)]
-pub struct Question {
+pub struct CondensationRequest {
     /// Units of the file.
     pub units: Units,
     /// Nodes of the interface that moves.
@@ -70,11 +70,15 @@ pub struct Condensed {
 ///
 /// Nodes that the matrix does not have, an interface on one line, places that are needed but unknown,
 /// interior degrees of freedom that nothing holds, a matrix too large for a direct solution.
-pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> Result<Condensed> {
-    let fixed: BTreeSet<u64> = question.fixed.iter().copied().collect();
-    let interface = Interface::new(element, nodes, question, &fixed)?;
+pub fn condense(
+    element: &Superelement,
+    nodes: &Nodes,
+    request: &CondensationRequest,
+) -> Result<Condensed> {
+    let fixed: BTreeSet<u64> = request.fixed.iter().copied().collect();
+    let interface = Interface::new(element, nodes, request, &fixed)?;
     let parts = Parts::new(element, &interface, &fixed);
-    let blocks = Blocks::new(element, &parts, &units_of(element, question.units));
+    let blocks = Blocks::new(element, &parts, &units_of(element, request.units));
     let count = parts.count as usize;
     let (mut own, mut least_pivot) = (blocks.own, 1.0);
     if count > 0 {
@@ -88,7 +92,7 @@ pub fn condense(element: &Superelement, nodes: &Nodes, question: &Question) -> R
         }
     }
     let own = 0.5 * (own + own.transpose());
-    let turn = kinetostat::spatial::turn_matrix(&question.axes);
+    let turn = kinetostat::spatial::turn_matrix(&request.axes);
     Ok(Condensed {
         stiffness: turn.transpose() * own * turn,
         end: interface.end,
@@ -115,12 +119,12 @@ impl Interface {
     fn new(
         element: &Superelement,
         nodes: &Nodes,
-        question: &Question,
+        request: &CondensationRequest,
         fixed: &BTreeSet<u64>,
     ) -> Result<Self> {
-        let own: BTreeSet<u64> = question.interface.iter().copied().collect();
+        let own: BTreeSet<u64> = request.interface.iter().copied().collect();
         check_nodes(element, nodes, &own, fixed)?;
-        let places = places_of(element, nodes, &own, question.end)?;
+        let places = places_of(element, nodes, &own, request.end)?;
         #[allow(clippy::cast_precision_loss)]
         let middle = places.iter().sum::<Vector3<f64>>() / places.len() as f64;
         // Translations only where the program has no rotations: then the places must span.
@@ -129,7 +133,7 @@ impl Interface {
             .iter()
             .any(|d| own.contains(&d.node) && d.direction > 3);
         let rank = rigid_rank(&places);
-        let averaged = question.tie == Tie::Averaged;
+        let averaged = request.tie == Tie::Averaged;
         if (!turns || averaged) && rank.rank < 6 {
             return Err(Error::new(
                 &element.file,
@@ -148,7 +152,7 @@ impl Interface {
             index: own.into_iter().collect(),
             places,
             middle,
-            end: question.end.unwrap_or(middle),
+            end: request.end.unwrap_or(middle),
             rank,
             averaged,
         })

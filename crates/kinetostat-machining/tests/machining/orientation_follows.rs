@@ -28,7 +28,7 @@ fn home(m: &Mechanism) -> Pose {
 /// every ball stays in its plane (closed form: Lee and Shah 1988), the turn as the only unknown.
 fn turned(place: &Vector3<f64>) -> UnitQuaternion<f64> {
     const RADIUS: f64 = 0.25;
-    let gaps = |turn: &Vector3<f64>| {
+    let residual_at = |turn: &Vector3<f64>| {
         let q = UnitQuaternion::new(*turn);
         let m: Matrix3<f64> = *q.to_rotation_matrix().matrix();
         // From the tip up to the plane of the ball joints.
@@ -41,17 +41,17 @@ fn turned(place: &Vector3<f64>) -> UnitQuaternion<f64> {
     };
     let mut turn = Vector3::zeros();
     for _ in 0..50 {
-        let gap = gaps(&turn);
+        let residual = residual_at(&turn);
         let h = 1e-6;
         let columns = [0, 1, 2].map(|k| {
             let mut d = Vector3::zeros();
             d[k] = h;
-            (gaps(&(turn + d)) - gaps(&(turn - d))) / (2.0 * h)
+            (residual_at(&(turn + d)) - residual_at(&(turn - d))) / (2.0 * h)
         });
         let jacobian = Matrix3::from_columns(&columns);
-        turn -= jacobian.lu().solve(&gap).expect("a regular place");
+        turn -= jacobian.lu().solve(&residual).expect("a regular place");
     }
-    assert!(gaps(&turn).norm() < 1e-14);
+    assert!(residual_at(&turn).norm() < 1e-14);
     UnitQuaternion::new(turn)
 }
 

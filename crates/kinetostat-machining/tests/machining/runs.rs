@@ -119,8 +119,8 @@ fn the_written_groove_is_within_a_micrometre_also_between_its_points() {
         .deflected_by(&force)
         .expect("equilibrium")
         .tool;
-    let miss = tool.translation.vector - vector![0.025, 0.0, 0.098];
-    assert!(miss.norm() < 2e-7, "{miss}");
+    let error = tool.translation.vector - vector![0.025, 0.0, 0.098];
+    assert!(error.norm() < 2e-7, "{error}");
 }
 
 #[test]

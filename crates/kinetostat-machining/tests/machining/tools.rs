@@ -191,12 +191,12 @@ fn the_written_program_is_right_for_both_tools() {
             .deflected_by(&load)
             .expect("equilibrium")
             .tool;
-        let miss = tool.translation.vector - place.tool_pose(&motion.end).translation.vector;
+        let error = tool.translation.vector - place.tool_pose(&motion.end).translation.vector;
         assert!(
-            miss.norm() < 3e-6,
+            error.norm() < 3e-6,
             "line {}: {} m",
             motion.line,
-            miss.norm()
+            error.norm()
         );
         looked_at += 1;
     }

@@ -4,9 +4,9 @@ use kinetostat::{Mechanism, MotionKind};
 use nalgebra::{DMatrix, DVector};
 
 use crate::elements::quantity::by_kind;
-use crate::elements::quantity::{DEG, Found, MM, choice, forbid, need};
+use crate::elements::quantity::{DEG, MM, ReadResult, choice, forbid, need};
 use crate::findings::{Findings, name};
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{
     ControllerAxisTable, ControllerCoupling, ControllerTable, ControllerUnit, Document,
 };
@@ -118,7 +118,7 @@ pub(crate) fn controller(
     findings: &mut Findings,
 ) -> Option<Controller> {
     let table = document.controller.as_ref()?;
-    let place = Place::root().key("controller");
+    let place = KeyPath::root().key("controller");
     if let Some(text) = &table.name {
         name(&place.key("name"), text, findings);
     }
@@ -172,7 +172,7 @@ struct Rows {
 
 /// Reads every axis; `None` with errors in `findings`.
 fn rows(
-    place: &Place,
+    place: &KeyPath,
     table: &ControllerTable,
     mechanism: &Mechanism,
     names: &[String],
@@ -241,7 +241,7 @@ fn rows(
 
 /// Shares of other joints in the axis of row and joint `own`.
 fn couplings(
-    place: &Place,
+    place: &KeyPath,
     written: &[ControllerCoupling],
     (row, joint): (usize, usize),
     kinds: &[MotionKind],
@@ -271,7 +271,7 @@ fn couplings(
     }
 }
 
-fn actuator(place: &Place, given: &str, names: &[String]) -> Found<usize> {
+fn actuator(place: &KeyPath, given: &str, names: &[String]) -> ReadResult<usize> {
     names.iter().position(|n| n == given).ok_or_else(|| {
         let known: Vec<&str> = names.iter().map(String::as_str).collect();
         unknown(
@@ -291,7 +291,7 @@ struct Own {
 }
 
 /// The axis' own joint.
-fn own(place: &Place, axis: &ControllerAxisTable, kind: MotionKind) -> Found<Own> {
+fn own(place: &KeyPath, axis: &ControllerAxisTable, kind: MotionKind) -> ReadResult<Own> {
     let ratio = axis.ratio.unwrap_or(1.0);
     if ratio <= 0.0 {
         return Err(Finding::new(
@@ -343,11 +343,11 @@ fn own(place: &Place, axis: &ControllerAxisTable, kind: MotionKind) -> Found<Own
 
 /// The share of another joint in an axis, in m and rad.
 fn share(
-    place: &Place,
+    place: &KeyPath,
     coupling: &ControllerCoupling,
     axis: MotionKind,
     other: MotionKind,
-) -> Found<f64> {
+) -> ReadResult<f64> {
     let same = choice("ratio", coupling.ratio, 1.0);
     let slides = choice("ratio_mm_per_deg", coupling.ratio_mm_per_deg, MM / DEG);
     let turns = choice("ratio_deg_per_mm", coupling.ratio_deg_per_mm, DEG / MM);

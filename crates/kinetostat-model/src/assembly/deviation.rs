@@ -7,9 +7,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::elements::part::Part;
 use crate::elements::placement::{direction, pose};
-use crate::elements::quantity::{DEG, Found, MM};
+use crate::elements::quantity::{DEG, MM, ReadResult};
 use crate::findings::Findings;
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Deviation, Document};
 use crate::text::hints::unknown;
 
@@ -25,7 +25,7 @@ pub(crate) enum Misfit {
 }
 
 /// Deviations of one limb, by the name of their place.
-pub(crate) type Own<'d> = BTreeMap<&'d str, (Place, Misfit)>;
+pub(crate) type Own<'d> = BTreeMap<&'d str, (KeyPath, Misfit)>;
 
 /// How the actual chain differs from the nominal one.
 #[derive(Default)]
@@ -48,7 +48,7 @@ pub(crate) fn deviations<'d>(
         if findings.enough() {
             break;
         }
-        let place = Place::root().key("deviation").index(i);
+        let place = KeyPath::root().key("deviation").index(i);
         let misfit = findings.keep(misfit(&place, d));
         let Some(limb) = document.limb.iter().position(|l| l.name == d.limb) else {
             let known: Vec<&str> = document.limb.iter().map(|l| l.name.as_str()).collect();
@@ -78,7 +78,7 @@ pub(crate) fn deviations<'d>(
     found
 }
 
-fn misfit(place: &Place, d: &Deviation) -> Found<Misfit> {
+fn misfit(place: &KeyPath, d: &Deviation) -> ReadResult<Misfit> {
     if d.about.is_some() && d.tilted_by_deg.is_none() {
         return Err(Finding::new(
             &place.key("about"),
@@ -117,7 +117,7 @@ fn misfit(place: &Place, d: &Deviation) -> Found<Misfit> {
 }
 
 /// The deviations of a limb on the parts of its chain.
-pub(crate) fn as_built(own: &Own<'_>, parts: &[(usize, Part)]) -> Found<AsBuilt> {
+pub(crate) fn as_built(own: &Own<'_>, parts: &[(usize, Part)]) -> ReadResult<AsBuilt> {
     let mut built = AsBuilt::default();
     for (at, (place, misfit)) in own {
         let no_length = || {
@@ -244,7 +244,7 @@ fn instead(part: &Part, misfit: &Misfit) -> Option<Part> {
     }
 }
 
-fn nowhere(place: &Place, at: &str, misfit: &Misfit, parts: &[(usize, Part)]) -> Finding {
+fn nowhere(place: &KeyPath, at: &str, misfit: &Misfit, parts: &[(usize, Part)]) -> Finding {
     let mut known = vec!["start", "end"];
     if let Misfit::Longer(_) = misfit {
         known.clear();
@@ -291,7 +291,7 @@ fn words(d: &Deviation) -> String {
         let about = d
             .about
             .as_ref()
-            .and_then(|axis| direction(&Place::root(), axis).ok())
+            .and_then(|axis| direction(&KeyPath::root(), axis).ok())
             .map_or_else(String::new, |u| {
                 let letter = ["x", "y", "z"]
                     .iter()
@@ -317,7 +317,7 @@ fn words(d: &Deviation) -> String {
     let motion = d
         .moved_by
         .as_ref()
-        .and_then(|motion| pose(&Place::root(), motion).ok());
+        .and_then(|motion| pose(&KeyPath::root(), motion).ok());
     let Some(motion) = motion else {
         return format!("limb '{limb}' is out of place {place}");
     };

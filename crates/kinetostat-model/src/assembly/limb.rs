@@ -12,7 +12,7 @@ use crate::assembly::template::Template;
 use crate::elements::part::Part;
 use crate::elements::placement::pose;
 use crate::findings::{Findings, name};
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Document, LimbTable};
 use crate::text::hints::unknown;
 
@@ -29,7 +29,7 @@ pub(crate) fn limbs(
     let mut size = 0;
     let mut limbs = Vec::new();
     for (i, written) in document.limb.iter().enumerate() {
-        let place = Place::root().key("limb").index(i);
+        let place = KeyPath::root().key("limb").index(i);
         name(&place.key("name"), &written.name, findings);
         if !seen.insert(written.name.as_str()) {
             findings.error(
@@ -69,7 +69,7 @@ pub(crate) fn limbs(
 
 fn limb(
     document: &Document,
-    place: &Place,
+    place: &KeyPath,
     written: &LimbTable,
     template: Option<&Template>,
     own: &Own<'_>,
@@ -159,7 +159,7 @@ fn chain(
 /// A refusal of the core, at the element whose name it mentions.
 fn locate(error: &kinetostat::Error, chain: &str, document: &Document) -> Finding {
     let text = error.to_string();
-    let place = Place::root().key("chain").key(chain);
+    let place = KeyPath::root().key("chain").key(chain);
     let elements = document.chain.get(chain).map(|c| c.elements.as_slice());
     let index = elements.unwrap_or_default().iter().position(|e| {
         e.name()

@@ -8,9 +8,9 @@ use nalgebra::Vector3;
 use crate::assembly::platform::platform_index;
 use crate::assembly::template::Template;
 use crate::elements::part::Part;
-use crate::elements::quantity::{Found, MM, choice, need, positive, vector};
+use crate::elements::quantity::{MM, ReadResult, choice, need, positive, vector};
 use crate::findings::{Findings, name};
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::load::End;
 use crate::schema::{
     self, ChainTable, Document, Element, GasSpringLoad, LimbTable, LoadTable, PlatformAxes,
@@ -24,7 +24,7 @@ const BASE: &str = "base";
 /// Places of a chain that loads refer to by the name of an element: index of the element, name.
 /// Nodes and bodies need none. Names that do not exist are reported; `None` then.
 pub(crate) fn named_places(
-    place: &Place,
+    place: &KeyPath,
     written: &LimbTable,
     chain: &ChainTable,
     template: &Template,
@@ -108,7 +108,7 @@ pub(crate) fn named_places(
 
 /// The loads of a limb; what is wrong is reported.
 pub(crate) fn loads(
-    place: &Place,
+    place: &KeyPath,
     written: &LimbTable,
     chain: &Chain,
     gravity: Option<Vector3<f64>>,
@@ -127,7 +127,7 @@ pub(crate) fn platform_loads(document: &Document, findings: &mut Findings) -> Ve
     let mut seen = BTreeSet::new();
     let mut list = Vec::new();
     for (i, load) in document.load.iter().enumerate() {
-        let place = Place::root().key("load").index(i);
+        let place = KeyPath::root().key("load").index(i);
         name(&place.key(load.word()), load.name(), findings);
         if !seen.insert(load.name()) {
             findings.error(
@@ -174,7 +174,11 @@ pub(crate) fn platform_loads(document: &Document, findings: &mut Findings) -> Ve
 }
 
 /// The load between or on platforms of these indices.
-fn on_platforms(place: &Place, load: &PlatformLoadTable, own: &[usize]) -> Found<PlatformLoad> {
+fn on_platforms(
+    place: &KeyPath,
+    load: &PlatformLoadTable,
+    own: &[usize],
+) -> ReadResult<PlatformLoad> {
     let end = |k: usize, key: &str, written: &PlatformPoint| {
         Ok((own[k], point(&place.key(key), written)?))
     };
@@ -212,11 +216,11 @@ fn on_platforms(place: &Place, load: &PlatformLoadTable, own: &[usize]) -> Found
 }
 
 fn wrench(
-    place: &Place,
+    place: &KeyPath,
     force_n: Option<[f64; 3]>,
     moment_n_m: Option<[f64; 3]>,
     moment_n_mm: Option<[f64; 3]>,
-) -> Found<Wrench> {
+) -> ReadResult<Wrench> {
     let moment = vector(
         place,
         "moment",
@@ -236,7 +240,7 @@ fn wrench(
     Ok(Wrench::new(force, moment))
 }
 
-fn spring_law<A>(place: &Place, l: &SpringLoad<A>) -> Found<LengthLaw> {
+fn spring_law<A>(place: &KeyPath, l: &SpringLoad<A>) -> ReadResult<LengthLaw> {
     let stiffness = [
         choice("stiffness_n_per_m", l.stiffness_n_per_m, 1.0),
         choice("stiffness_n_per_mm", l.stiffness_n_per_mm, 1.0 / MM),
@@ -260,7 +264,7 @@ fn spring_law<A>(place: &Place, l: &SpringLoad<A>) -> Found<LengthLaw> {
     })
 }
 
-fn gas_law<A>(place: &Place, l: &GasSpringLoad<A>) -> Found<LengthLaw> {
+fn gas_law<A>(place: &KeyPath, l: &GasSpringLoad<A>) -> ReadResult<LengthLaw> {
     let length = [
         choice("length_mm", l.length_mm, MM),
         choice("length_m", l.length_m, 1.0),
@@ -279,11 +283,11 @@ fn gas_law<A>(place: &Place, l: &GasSpringLoad<A>) -> Found<LengthLaw> {
 }
 
 fn converted(
-    place: &Place,
+    place: &KeyPath,
     load: &LoadTable,
     chain: &Chain,
     gravity: Option<Vector3<f64>>,
-) -> Found<Load> {
+) -> ReadResult<Load> {
     let anchor = |key: &str, written: &schema::Anchor| anchor(&place.key(key), written, chain);
     let between = |from: &schema::Anchor, to: &schema::Anchor, law| {
         Ok(Load::strut(anchor("from", from)?, anchor("to", to)?, law))
@@ -322,20 +326,20 @@ fn converted(
     }
 }
 
-fn node(place: &Place, name: &str, chain: &Chain) -> Found<usize> {
+fn node(place: &KeyPath, name: &str, chain: &Chain) -> ReadResult<usize> {
     let unknown = |e: kinetostat::Error| {
         Finding::new(place, e.to_string(), "name a node of the limb's chain")
     };
     chain.node(name).map_err(unknown)
 }
 
-fn point(place: &Place, end: &impl End) -> Found<Vector3<f64>> {
+fn point(place: &KeyPath, end: &impl End) -> ReadResult<Vector3<f64>> {
     let (_, mm, m) = end.written();
     let written = [choice("position_mm", mm, MM), choice("position_m", m, 1.0)];
     vector(place, "position", &written)
 }
 
-fn anchor(place: &Place, written: &schema::Anchor, chain: &Chain) -> Found<Anchor> {
+fn anchor(place: &KeyPath, written: &schema::Anchor, chain: &Chain) -> ReadResult<Anchor> {
     let point = point(place, written)?;
     // A chain may have a node of that name; the limb's own comes first.
     if written.node == BASE && !chain.nodes().iter().any(|n| n == BASE) {

@@ -14,7 +14,7 @@ use crate::elements::elastic::Elastic;
 use crate::elements::workspace::corners;
 use crate::findings::{Findings, name};
 use crate::plausibility::home::check_plausibility;
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Document, Element, SCHEMA_VERSION, Spring6};
 
 /// What a machine's repeatability can be, mm: from that of stages for optics to what no machine is built for.
@@ -22,7 +22,7 @@ const REPEATABILITY_MM: [f64; 2] = [1e-5, 10.0];
 
 /// The mechanism, or `None` with errors in `findings`.
 pub(crate) fn assemble(document: &Document, findings: &mut Findings) -> Option<Mechanism> {
-    let root = Place::root();
+    let root = KeyPath::root();
     if document.schema != SCHEMA_VERSION {
         findings.error(
             &root.key("schema"),
@@ -94,7 +94,7 @@ fn workspace(document: &Document, findings: &mut Findings) {
         && (0..3).all(|i| from[i] == to[i])
     {
         findings.error(
-            &Place::root().key("workspace"),
+            &KeyPath::root().key("workspace"),
             "the workspace is a single point",
             "write two opposite corners",
         );
@@ -106,7 +106,7 @@ fn weights(document: &Document, findings: &mut Findings) {
     if document.mechanism.gravity_m_per_s2.is_some() {
         return;
     }
-    let root = Place::root();
+    let root = KeyPath::root();
     let on_platform = document
         .platform
         .iter()
@@ -165,7 +165,7 @@ fn unused(document: &Document, findings: &mut Findings) {
     for (table, keys, used) in tables {
         for key in keys.into_iter().filter(|k| !used.contains(k.as_str())) {
             findings.warnings.push(Finding::new(
-                &Place::root().key(table).key(key),
+                &KeyPath::root().key(table).key(key),
                 format!("nothing uses the {table} '{key}'"),
                 "remove it, or correct the name where it should be used",
             ));

@@ -8,7 +8,7 @@ use crate::elements::body::{inertia, mass};
 use crate::elements::placement::pose;
 use crate::elements::quantity::{MM, choice, vector};
 use crate::findings::{Findings, name};
-use crate::problem::Place;
+use crate::problem::KeyPath;
 use crate::schema::{Document, LimbTable};
 use crate::text::hints::unknown;
 
@@ -22,7 +22,7 @@ pub(crate) fn platforms(document: &Document, findings: &mut Findings) -> Vec<Pla
         .iter()
         .all(|l| exists(&l.to) && (l.from == "base" || exists(&l.from)));
     for (i, p) in document.platform.iter().enumerate() {
-        let place = Place::root().key("platform").index(i);
+        let place = KeyPath::root().key("platform").index(i);
         name(&place.key("name"), &p.name, findings);
         if !seen.insert(&p.name) {
             let help = match p.name.as_str() {
@@ -68,7 +68,7 @@ pub(crate) fn platforms(document: &Document, findings: &mut Findings) -> Vec<Pla
 
 pub(crate) fn platform_index(
     document: &Document,
-    place: &Place,
+    place: &KeyPath,
     name: &str,
     findings: &mut Findings,
 ) -> Option<usize> {

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::assembly::mechanism::assemble;
 use crate::findings::Findings;
-use crate::problem::{Finding, Place, Step};
+use crate::problem::{Finding, KeyPath, PathStep};
 use crate::schema::Document;
 use crate::text::source::Source;
 
@@ -21,7 +21,7 @@ pub(crate) fn others(source: &Source<'_>, findings: &[Finding]) -> Vec<Finding> 
 fn search(source: &Source<'_>, findings: &[Finding]) -> Option<Vec<Finding>> {
     let mut tree = DeTable::parse(source.text).ok()?;
     // Tables in which something of wrong form stands: what is missing there may be just that.
-    let mut around: Vec<Place> = Vec::new();
+    let mut around: Vec<KeyPath> = Vec::new();
     for finding in findings {
         around.push(take_out(tree.get_mut(), finding)?);
     }
@@ -32,7 +32,7 @@ fn search(source: &Source<'_>, findings: &[Finding]) -> Option<Vec<Finding>> {
         ..Findings::default()
     };
     assemble(&document, &mut more);
-    let near = |place: &Place| {
+    let near = |place: &KeyPath| {
         around
             .iter()
             .any(|a| place.0.starts_with(&a.0) || a.0.starts_with(&place.0))
@@ -43,7 +43,7 @@ fn search(source: &Source<'_>, findings: &[Finding]) -> Option<Vec<Finding>> {
 
 /// Takes what a finding is about out of the tree, or puts in what it misses; the place of the table
 /// where that is. `None` where the rest of the file cannot be understood without it.
-fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<Place> {
+fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<KeyPath> {
     let place = &finding.place;
     if let Some(missing) = &finding.remedy.missing {
         if place.0.is_empty() || BEARING.contains(&missing.as_str()) {
@@ -55,8 +55,11 @@ fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<Place> {
         return Some(place.clone());
     }
     // An entry of a list goes with its list, so that no other entry changes its place.
-    let last = place.0.iter().rposition(|s| matches!(s, Step::Key(_)))?;
-    let (inner, Step::Key(key)) = (&place.0[..last], &place.0[last]) else {
+    let last = place
+        .0
+        .iter()
+        .rposition(|s| matches!(s, PathStep::Key(_)))?;
+    let (inner, PathStep::Key(key)) = (&place.0[..last], &place.0[last]) else {
         return None;
     };
     if inner.is_empty() || BEARING.contains(&key.as_str()) {
@@ -80,20 +83,22 @@ fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<Place> {
             table.insert(found, DeValue::parse(text).ok()?);
         }
     }
-    Some(Place(inner.to_vec()))
+    Some(KeyPath(inner.to_vec()))
 }
 
 /// The table at the end of a way.
-fn table_at<'a, 't>(tree: &'a mut DeTable<'t>, way: &[Step]) -> Option<&'a mut DeTable<'t>> {
+fn table_at<'a, 't>(tree: &'a mut DeTable<'t>, way: &[PathStep]) -> Option<&'a mut DeTable<'t>> {
     let mut table = tree;
     let mut steps = way.iter().peekable();
     while let Some(step) = steps.next() {
-        let Step::Key(key) = step else { return None };
+        let PathStep::Key(key) = step else {
+            return None;
+        };
         let (_, value) = table
             .iter_mut()
             .find(|(k, _)| k.get_ref() == key.as_str())?;
         let mut value = value.get_mut();
-        while let Some(Step::Index(index)) = steps.peek() {
+        while let Some(PathStep::Index(index)) = steps.peek() {
             let DeValue::Array(list) = value else {
                 return None;
             };

@@ -6,7 +6,7 @@ use crate::elements::elastic::Elastic;
 use crate::elements::element::parts;
 use crate::elements::part::Part;
 use crate::findings::{Findings, name};
-use crate::problem::Place;
+use crate::problem::KeyPath;
 use crate::schema::{Document, Element};
 use crate::text::hints::unknown;
 
@@ -25,7 +25,7 @@ pub(crate) fn template(
     findings: &mut Findings,
 ) -> Option<Template> {
     let chain = document.chain.get(key)?;
-    let place = Place::root().key("chain").key(key);
+    let place = KeyPath::root().key("chain").key(key);
     name(&place, key, findings);
     let elements = place.key("elements");
     let mut template = Template { parts: Vec::new() };
@@ -75,7 +75,7 @@ struct Names {
 
 impl Names {
     /// False where the core would refuse the name.
-    fn take(&mut self, place: &Place, element: &Element, findings: &mut Findings) -> bool {
+    fn take(&mut self, place: &KeyPath, element: &Element, findings: &mut Findings) -> bool {
         let Some(given) = element.name() else {
             return true;
         };
@@ -104,7 +104,7 @@ impl Names {
     /// False where the core would refuse the part.
     fn coordinates(
         &mut self,
-        place: &Place,
+        place: &KeyPath,
         element: &Element,
         part: &Part,
         findings: &mut Findings,

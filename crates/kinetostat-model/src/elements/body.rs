@@ -3,11 +3,11 @@
 use nalgebra::Matrix3;
 
 use crate::elements::part::Part;
-use crate::elements::quantity::{Found, MM, choice, need, vector};
-use crate::problem::{Finding, Place};
+use crate::elements::quantity::{MM, ReadResult, choice, need, vector};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::BodyElement;
 
-pub(crate) fn body(place: &Place, e: &BodyElement) -> Found<Part> {
+pub(crate) fn body(place: &KeyPath, e: &BodyElement) -> ReadResult<Part> {
     let mass = mass(place, Some(e.mass_kg))?;
     let centre = vector(
         place,
@@ -21,7 +21,7 @@ pub(crate) fn body(place: &Place, e: &BodyElement) -> Found<Part> {
     Ok(Part::Body(e.body.clone(), mass, centre, inertia))
 }
 
-pub(crate) fn mass(place: &Place, mass: Option<f64>) -> Found<f64> {
+pub(crate) fn mass(place: &KeyPath, mass: Option<f64>) -> ReadResult<f64> {
     let given = need(place, "mass", &[choice("mass_kg", mass.or(Some(0.0)), 1.0)])?;
     if given.value < 0.0 {
         return Err(Finding::new(
@@ -36,7 +36,7 @@ pub(crate) fn mass(place: &Place, mass: Option<f64>) -> Found<f64> {
     Ok(given.value)
 }
 
-pub(crate) fn inertia(place: &Place, rows: Option<[[f64; 3]; 3]>) -> Found<Matrix3<f64>> {
+pub(crate) fn inertia(place: &KeyPath, rows: Option<[[f64; 3]; 3]>) -> ReadResult<Matrix3<f64>> {
     let Some(rows) = rows else {
         return Ok(Matrix3::zeros());
     };

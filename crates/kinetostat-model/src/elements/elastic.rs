@@ -7,8 +7,8 @@ use nalgebra::{Matrix6, Unit, Vector3};
 
 use crate::elements::elasticity::{Elasticity, elasticity};
 use crate::elements::placement::{direction, frame_along};
-use crate::elements::quantity::{Found, MM, choice, forbid, positive};
-use crate::problem::{Finding, Place};
+use crate::elements::quantity::{MM, ReadResult, choice, forbid, positive};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Document, Spring6, Stiffness};
 use crate::text::hints::unknown;
 
@@ -29,13 +29,13 @@ impl Elastic {
             sections: BTreeMap::new(),
             stiffnesses: BTreeMap::new(),
         };
-        let sections = Place::root().key("section");
+        let sections = KeyPath::root().key("section");
         for (name, written) in &document.section {
             let converted = elasticity(&sections.key(name), written, warnings);
             let entry = converted.map_err(|f| errors.push(f)).ok();
             this.sections.insert(name.clone(), entry);
         }
-        let stiffnesses = Place::root().key("stiffness");
+        let stiffnesses = KeyPath::root().key("stiffness");
         for (name, written) in &document.stiffness {
             let place = stiffnesses.key(name);
             if this.sections.contains_key(name) {
@@ -53,7 +53,7 @@ impl Elastic {
     }
 
     /// The section or stiffness of that name; `Err(None)` where it is known but was wrong.
-    pub(crate) fn named(&self, place: &Place, name: &str) -> Result<Elasticity, Option<Finding>> {
+    pub(crate) fn named(&self, place: &KeyPath, name: &str) -> Result<Elasticity, Option<Finding>> {
         if let Some(section) = self.sections.get(name) {
             return section.clone().ok_or(None);
         }
@@ -78,7 +78,7 @@ impl Elastic {
     /// The matrix of a six-dimensional spring.
     pub(crate) fn spring6(
         &self,
-        place: &Place,
+        place: &KeyPath,
         spring: &Spring6,
     ) -> Result<Matrix6<f64>, Option<Finding>> {
         match spring {
@@ -106,7 +106,7 @@ impl Elastic {
         }
     }
 
-    fn stiffness(&self, place: &Place, s: &Stiffness) -> Result<Matrix6<f64>, Option<Finding>> {
+    fn stiffness(&self, place: &KeyPath, s: &Stiffness) -> Result<Matrix6<f64>, Option<Finding>> {
         let matrix = self.unturned(place, s)?;
         let matrix = match &s.along {
             Some(axis) => along(&matrix, &direction(&place.key("along"), axis)?),
@@ -115,7 +115,7 @@ impl Elastic {
         Ok(matrix)
     }
 
-    fn unturned(&self, place: &Place, s: &Stiffness) -> Result<Matrix6<f64>, Option<Finding>> {
+    fn unturned(&self, place: &KeyPath, s: &Stiffness) -> Result<Matrix6<f64>, Option<Finding>> {
         let matrices = [
             choice("matrix_n_m_rad", s.matrix_n_m_rad, 1.0),
             choice("matrix_n_mm_rad", s.matrix_n_mm_rad, MM),
@@ -217,7 +217,7 @@ fn in_si(matrix: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
 const SINGULAR: f64 = 1e-12;
 
 /// Symmetric and positive definite, metres and radians balanced by the diagonal.
-fn check_definite(place: &Place, k: &Matrix6<f64>) -> Found<()> {
+fn check_definite(place: &KeyPath, k: &Matrix6<f64>) -> ReadResult<()> {
     const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
     if let Some(i) = (0..6).find(|&i| k[(i, i)] <= 0.0) {
         return Err(Finding::new(

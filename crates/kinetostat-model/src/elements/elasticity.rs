@@ -4,10 +4,10 @@ use kinetostat::BeamSection;
 use kinetostat_links::Shear;
 use nalgebra::Matrix6;
 
-use crate::elements::quantity::Found;
+use crate::elements::quantity::ReadResult;
 use crate::elements::section::section;
 use crate::elements::shape::{Beam, far_end, root};
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Section, ShearWord};
 
 /// What a link's name may stand for.
@@ -24,7 +24,7 @@ pub(crate) enum Elasticity {
 impl Elasticity {
     /// The stiffness of the far end of a link of this length, m: in its own axes for sections, as it
     /// is for a matrix.
-    pub(crate) fn cantilever(&self, place: &Place, length: f64) -> Found<Matrix6<f64>> {
+    pub(crate) fn cantilever(&self, place: &KeyPath, length: f64) -> ReadResult<Matrix6<f64>> {
         match self {
             Self::Section(section) => section.cantilever(length).map_err(|error| {
                 Finding::new(
@@ -41,10 +41,10 @@ impl Elasticity {
 
 /// What a section is for the links that name it.
 pub(crate) fn elasticity(
-    place: &Place,
+    place: &KeyPath,
     s: &Section,
     warnings: &mut Vec<Finding>,
-) -> Found<Elasticity> {
+) -> ReadResult<Elasticity> {
     let plain = section(place, s, warnings)?;
     let shear = match s.shear {
         Some(ShearWord::Timoshenko) => Shear::Timoshenko,

@@ -7,12 +7,12 @@ use crate::elements::link::{link, parallelogram};
 use crate::elements::part::Part;
 use crate::elements::placement::{direction, pose};
 use crate::elements::quantity::{DEG, MM, choice, vector};
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Element, Spring6Element};
 
 /// Everything an element turns into. `Err(None)` where the reason was reported elsewhere.
 pub(crate) fn parts(
-    place: &Place,
+    place: &KeyPath,
     number: usize,
     element: &Element,
     elastic: &Elastic,
@@ -49,7 +49,7 @@ pub(crate) fn parts(
 }
 
 fn spring6(
-    place: &Place,
+    place: &KeyPath,
     name: String,
     e: &Spring6Element,
     elastic: &Elastic,

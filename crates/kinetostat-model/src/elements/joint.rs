@@ -7,8 +7,10 @@ use nalgebra::{DMatrix, Vector3};
 use crate::elements::knee;
 use crate::elements::part::Part;
 use crate::elements::placement::direction;
-use crate::elements::quantity::{Choice, DEG, Found, Given, MM, by_kind, choice, forbid, need};
-use crate::problem::{Finding, Place};
+use crate::elements::quantity::{
+    Choice, DEG, Given, MM, ReadResult, by_kind, choice, forbid, need,
+};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{
     ActuatorElement, ActuatorKind, JointKind, PassiveElement, PassiveKind, SpringElement,
 };
@@ -21,11 +23,11 @@ pub(crate) fn kind(joint: JointKind) -> MotionKind {
 }
 
 fn stiffness_of(
-    place: &Place,
+    place: &KeyPath,
     kind: MotionKind,
     linear: [Option<f64>; 2],
     angular: [Option<f64>; 2],
-) -> Found<Option<f64>> {
+) -> ReadResult<Option<f64>> {
     let linear = [
         choice("stiffness_n_per_m", linear[0], 1.0),
         choice("stiffness_n_per_mm", linear[1], 1.0 / MM),
@@ -52,7 +54,7 @@ fn stiffness_of(
     }
 }
 
-pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec> {
+pub(crate) fn actuator(place: &KeyPath, e: &ActuatorElement) -> ReadResult<ActuatorSpec> {
     let kind = match e.actuator {
         ActuatorKind::Prismatic | ActuatorKind::Screw => MotionKind::Prismatic,
         ActuatorKind::Revolute => MotionKind::Revolute,
@@ -92,11 +94,11 @@ pub(crate) fn actuator(place: &Place, e: &ActuatorElement) -> Found<ActuatorSpec
 
 /// A drive is rigid or has a stiffness: neither is assumed.
 fn check_rigid_or_elastic(
-    place: &Place,
+    place: &KeyPath,
     kind: MotionKind,
     rigid: bool,
     stiffness: Option<f64>,
-) -> Found<()> {
+) -> ReadResult<()> {
     if rigid && stiffness.is_some() {
         return Err(Finding::new(
             &place.key("rigid_drive"),
@@ -118,7 +120,7 @@ fn check_rigid_or_elastic(
     Ok(())
 }
 
-fn check_rating(place: &Place, kind: MotionKind, e: &ActuatorElement) -> Found<()> {
+fn check_rating(place: &KeyPath, kind: MotionKind, e: &ActuatorElement) -> ReadResult<()> {
     let rating = by_kind(
         place,
         "rating",
@@ -138,11 +140,11 @@ fn check_rating(place: &Place, kind: MotionKind, e: &ActuatorElement) -> Found<(
 
 /// Limits of an actuator's command, m or rad, with its home between them.
 fn limits_around(
-    place: &Place,
+    place: &KeyPath,
     kind: MotionKind,
     e: &ActuatorElement,
     home: Option<Given<f64>>,
-) -> Found<Option<(f64, f64)>> {
+) -> ReadResult<Option<(f64, f64)>> {
     let limits = by_kind(
         place,
         "limits",
@@ -184,7 +186,7 @@ fn limits_around(
 }
 
 /// Lead of a screw, m per turn; `None` for another actuator.
-pub(crate) fn lead(place: &Place, e: &ActuatorElement) -> Found<Option<f64>> {
+pub(crate) fn lead(place: &KeyPath, e: &ActuatorElement) -> ReadResult<Option<f64>> {
     let leads = [
         choice("lead_mm_per_turn", e.lead_mm_per_turn, MM),
         choice("lead_m_per_turn", e.lead_m_per_turn, 1.0),
@@ -202,7 +204,7 @@ pub(crate) fn lead(place: &Place, e: &ActuatorElement) -> Found<Option<f64>> {
 }
 
 /// Deflection at rest from its four keys: mm, m, deg, rad.
-fn rest(place: &Place, kind: MotionKind, [mm, m, deg, rad]: [Option<f64>; 4]) -> Found<f64> {
+fn rest(place: &KeyPath, kind: MotionKind, [mm, m, deg, rad]: [Option<f64>; 4]) -> ReadResult<f64> {
     let lengths = [choice("rest_mm", mm, MM), choice("rest_m", m, 1.0)];
     let angles = [choice("rest_deg", deg, DEG), choice("rest_rad", rad, 1.0)];
     let given = by_kind(place, "deflection at rest", kind, &lengths, &angles)?;
@@ -210,7 +212,7 @@ fn rest(place: &Place, kind: MotionKind, [mm, m, deg, rad]: [Option<f64>; 4]) ->
 }
 
 /// A passive joint as joints of one degree of freedom each, in the order of the product.
-pub(crate) fn passive(place: &Place, name: String, e: &PassiveElement) -> Found<Vec<Part>> {
+pub(crate) fn passive(place: &KeyPath, name: String, e: &PassiveElement) -> ReadResult<Vec<Part>> {
     match e.passive {
         PassiveKind::Prismatic => one_axis(place, name, MotionKind::Prismatic, e),
         PassiveKind::Revolute => one_axis(place, name, MotionKind::Revolute, e),
@@ -240,7 +242,12 @@ fn homes_choices(e: &PassiveElement) -> [(&'static str, Option<&Vec<f64>>, f64);
     ]
 }
 
-fn one_axis(place: &Place, name: String, kind: MotionKind, e: &PassiveElement) -> Found<Vec<Part>> {
+fn one_axis(
+    place: &KeyPath,
+    name: String,
+    kind: MotionKind,
+    e: &PassiveElement,
+) -> ReadResult<Vec<Part>> {
     if e.axes.is_some() {
         return Err(Finding::new(
             &place.key("axes"),
@@ -269,7 +276,7 @@ fn one_axis(place: &Place, name: String, kind: MotionKind, e: &PassiveElement) -
     Ok(vec![Part::Passive(name, kind, axis, home)])
 }
 
-fn several_axes(place: &Place, name: &str, e: &PassiveElement) -> Found<Vec<Part>> {
+fn several_axes(place: &KeyPath, name: &str, e: &PassiveElement) -> ReadResult<Vec<Part>> {
     for choices in home_choices(e) {
         forbid(
             place,
@@ -295,7 +302,11 @@ fn several_axes(place: &Place, name: &str, e: &PassiveElement) -> Found<Vec<Part
 }
 
 /// Names and axes of the joints that a universal or spherical joint is the product of.
-fn named_axes(place: &Place, name: &str, e: &PassiveElement) -> Found<Vec<(String, Vector3<f64>)>> {
+fn named_axes(
+    place: &KeyPath,
+    name: &str,
+    e: &PassiveElement,
+) -> ReadResult<Vec<(String, Vector3<f64>)>> {
     Ok(match (e.passive, &e.axes) {
         (PassiveKind::Spherical, None) => ["x", "y", "z"]
             .into_iter()
@@ -333,7 +344,7 @@ fn named_axes(place: &Place, name: &str, e: &PassiveElement) -> Found<Vec<(Strin
 }
 
 /// Angles of a joint of several axes at home, rad; zero where none are written.
-fn homes(place: &Place, count: usize, e: &PassiveElement) -> Found<Vec<f64>> {
+fn homes(place: &KeyPath, count: usize, e: &PassiveElement) -> ReadResult<Vec<f64>> {
     let given = homes_choices(e);
     if let [(_, Some(_), _), (key, Some(_), _)] = given {
         return Err(Finding::new(
@@ -358,7 +369,7 @@ fn homes(place: &Place, count: usize, e: &PassiveElement) -> Found<Vec<f64>> {
     Ok(values.iter().map(|v| v * factor).collect())
 }
 
-pub(crate) fn spring(place: &Place, name: String, e: &SpringElement) -> Found<Part> {
+pub(crate) fn spring(place: &KeyPath, name: String, e: &SpringElement) -> ReadResult<Part> {
     let kind = kind(e.spring);
     let axis = direction(&place.key("axis"), &e.axis)?.into_inner();
     let stiffness = stiffness_of(

@@ -6,17 +6,17 @@ use kinetostat::{
 };
 
 use crate::elements::quantity::by_kind;
-use crate::elements::quantity::{Choice, DEG, Found, MM, choice};
-use crate::problem::{Finding, Place};
+use crate::elements::quantity::{Choice, DEG, MM, ReadResult, choice};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::Knee;
 
 /// The law of a spring of this stiffness (SI) up to its knee.
 pub(crate) fn law(
-    place: &Place,
+    place: &KeyPath,
     kind: MotionKind,
     stiffness: f64,
     knee: &Knee,
-) -> Found<SpringLaw> {
+) -> ReadResult<SpringLaw> {
     let positive = |what: &str, lengths: &[Choice<f64>], angles: &[Choice<f64>]| {
         let keys = |choices: &[Choice<f64>]| {
             let keys: Vec<&str> = choices.iter().map(|c| c.key).collect();

@@ -8,14 +8,14 @@ use crate::elements::elasticity::Elasticity;
 use crate::elements::part::Part;
 use crate::elements::placement::frame_along;
 use crate::elements::quantity::{DEG, MM, choice, forbid, pick, positive};
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Convention, LinkElement, ParallelogramElement};
 
 /// More pieces of one link are a typing error.
 const MOST_SEGMENTS: u32 = 100;
 
 pub(crate) fn link(
-    place: &Place,
+    place: &KeyPath,
     name: String,
     e: &LinkElement,
     elastic: &Elastic,
@@ -82,7 +82,7 @@ pub(crate) fn link(
 }
 
 /// From the near to the far end of a link, m: along x, or as a vector.
-fn offset(place: &Place, e: &LinkElement) -> Result<Vector3<f64>, Option<Finding>> {
+fn offset(place: &KeyPath, e: &LinkElement) -> Result<Vector3<f64>, Option<Finding>> {
     let lengths = [
         choice("length_mm", e.length_mm, MM),
         choice("length_m", e.length_m, 1.0),
@@ -133,7 +133,7 @@ fn convention(written: Convention) -> LinkConvention {
 }
 
 pub(crate) fn parallelogram(
-    place: &Place,
+    place: &KeyPath,
     name: String,
     e: &ParallelogramElement,
     elastic: &Elastic,

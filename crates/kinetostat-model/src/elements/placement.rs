@@ -3,8 +3,8 @@
 use kinetostat::Pose;
 use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use crate::elements::quantity::{DEG, Found, Given, MM, choice, pick, vector};
-use crate::problem::{Finding, Place};
+use crate::elements::quantity::{DEG, Given, MM, ReadResult, choice, pick, vector};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Axis, AxisName, Placement};
 
 /// Angles of an orientation are within a hundred full turns, rad. Degrees that are taken for rad are: an imported
@@ -12,7 +12,7 @@ use crate::schema::{Axis, AxisName, Placement};
 const MOST_TURNED: f64 = 100.0 * std::f64::consts::TAU;
 
 /// Unit vector of a direction.
-pub(crate) fn direction(place: &Place, axis: &Axis) -> Found<Unit<Vector3<f64>>> {
+pub(crate) fn direction(place: &KeyPath, axis: &Axis) -> ReadResult<Unit<Vector3<f64>>> {
     let v = match axis {
         Axis::Named(AxisName::X) => Vector3::x(),
         Axis::Named(AxisName::Y) => Vector3::y(),
@@ -53,12 +53,12 @@ impl Placement {
     /// # Errors
     /// What is wrong, and what to do: two orientations, a number that is too large, axes without direction.
     pub fn pose(&self) -> Result<Pose, (String, String)> {
-        pose(&Place::root(), self).map_err(|found| (found.message, found.help))
+        pose(&KeyPath::root(), self).map_err(|found| (found.message, found.help))
     }
 }
 
 /// The pose; what is not given is zero.
-pub(crate) fn pose(place: &Place, p: &Placement) -> Found<Pose> {
+pub(crate) fn pose(place: &KeyPath, p: &Placement) -> ReadResult<Pose> {
     let translation = vector(
         place,
         "position",
@@ -82,7 +82,7 @@ pub(crate) fn pose(place: &Place, p: &Placement) -> Found<Pose> {
 }
 
 /// The orientation that a placement means: at most one of the conventions is written.
-fn orientation(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
+fn orientation(place: &KeyPath, p: &Placement) -> ReadResult<UnitQuaternion<f64>> {
     let angles = pick(
         place,
         "orientation",
@@ -131,7 +131,7 @@ fn orientation(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
 }
 
 /// Three numbers, whose key names the convention.
-fn from_angles(place: &Place, given: &Given<[f64; 3]>) -> Found<UnitQuaternion<f64>> {
+fn from_angles(place: &KeyPath, given: &Given<[f64; 3]>) -> ReadResult<UnitQuaternion<f64>> {
     let [a, b, c] = given.value;
     if given.value.iter().any(|angle| angle.abs() > MOST_TURNED) {
         return Err(Finding::new(
@@ -153,7 +153,7 @@ fn from_angles(place: &Place, given: &Given<[f64; 3]>) -> Found<UnitQuaternion<f
 }
 
 /// Four numbers, whose key names their order.
-fn from_quaternion(place: &Place, given: &Given<[f64; 4]>) -> Found<UnitQuaternion<f64>> {
+fn from_quaternion(place: &KeyPath, given: &Given<[f64; 4]>) -> ReadResult<UnitQuaternion<f64>> {
     let [a, b, c, d] = given.value;
     let q = match given.key {
         "quaternion_wxyz" => Quaternion::new(a, b, c, d),
@@ -171,7 +171,7 @@ fn from_quaternion(place: &Place, given: &Given<[f64; 4]>) -> Found<UnitQuaterni
 }
 
 /// Directions of the new axes; the turn about x is that of a link where y is not given.
-fn from_axes(place: &Place, p: &Placement) -> Found<UnitQuaternion<f64>> {
+fn from_axes(place: &KeyPath, p: &Placement) -> ReadResult<UnitQuaternion<f64>> {
     match (&p.x_axis, &p.y_axis) {
         (None, None) => Ok(UnitQuaternion::identity()),
         (None, Some(_)) => Err(Finding::new(

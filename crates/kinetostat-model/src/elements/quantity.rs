@@ -3,9 +3,9 @@
 use kinetostat::MotionKind;
 use nalgebra::Vector3;
 
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 
-pub(crate) type Found<T> = Result<T, Finding>;
+pub(crate) type ReadResult<T> = Result<T, Finding>;
 
 pub(crate) const MM: f64 = 1e-3;
 pub(crate) const DEG: f64 = std::f64::consts::PI / 180.0;
@@ -63,10 +63,10 @@ fn keys<T>(choices: &[Choice<T>]) -> String {
 
 /// At most one of the keys.
 pub(crate) fn pick<T: Scaled>(
-    place: &Place,
+    place: &KeyPath,
     what: &str,
     choices: &[Choice<T>],
-) -> Found<Option<Given<T>>> {
+) -> ReadResult<Option<Given<T>>> {
     let mut given = choices
         .iter()
         .filter_map(|c| Some((c.key, c.value?, c.factor)));
@@ -93,7 +93,11 @@ pub(crate) fn pick<T: Scaled>(
 }
 
 /// Exactly one of the keys.
-pub(crate) fn need<T: Scaled>(place: &Place, what: &str, choices: &[Choice<T>]) -> Found<Given<T>> {
+pub(crate) fn need<T: Scaled>(
+    place: &KeyPath,
+    what: &str,
+    choices: &[Choice<T>],
+) -> ReadResult<Given<T>> {
     pick(place, what, choices)?.ok_or_else(|| {
         Finding::new(
             place,
@@ -104,7 +108,11 @@ pub(crate) fn need<T: Scaled>(place: &Place, what: &str, choices: &[Choice<T>]) 
 }
 
 /// Exactly one of the keys, above zero.
-pub(crate) fn positive(place: &Place, what: &str, choices: &[Choice<f64>]) -> Found<Given<f64>> {
+pub(crate) fn positive(
+    place: &KeyPath,
+    what: &str,
+    choices: &[Choice<f64>],
+) -> ReadResult<Given<f64>> {
     let given = need(place, what, choices)?;
     if given.value > 0.0 {
         return Ok(given);
@@ -123,11 +131,11 @@ pub(crate) fn positive(place: &Place, what: &str, choices: &[Choice<f64>]) -> Fo
 
 /// Keys of another dimension: a length where an angle is meant, and the like.
 pub(crate) fn forbid<T>(
-    place: &Place,
+    place: &KeyPath,
     choices: &[Choice<T>],
     reason: &str,
     help: &str,
-) -> Found<()> {
+) -> ReadResult<()> {
     match choices.iter().find(|c| c.value.is_some()) {
         Some(c) => Err(Finding::new(
             &place.key(c.key),
@@ -140,21 +148,21 @@ pub(crate) fn forbid<T>(
 
 /// A vector, zero where it is not given.
 pub(crate) fn vector(
-    place: &Place,
+    place: &KeyPath,
     what: &str,
     choices: &[Choice<[f64; 3]>],
-) -> Found<Vector3<f64>> {
+) -> ReadResult<Vector3<f64>> {
     Ok(pick(place, what, choices)?.map_or_else(Vector3::zeros, |g| Vector3::from(g.value)))
 }
 
 /// Keys for a length and for an angle: the ones of the joint's kind count, the others are refused.
 pub(crate) fn by_kind<T: Scaled>(
-    place: &Place,
+    place: &KeyPath,
     what: &str,
     kind: MotionKind,
     lengths: &[Choice<T>],
     angles: &[Choice<T>],
-) -> Found<Option<Given<T>>> {
+) -> ReadResult<Option<Given<T>>> {
     let (right, wrong, reason) = match kind {
         MotionKind::Prismatic => (
             lengths,

@@ -3,17 +3,17 @@
 use kinetostat::BeamSection;
 use kinetostat::number::short;
 
-use crate::elements::quantity::{Choice, Found, MM, choice, forbid, pick, positive};
+use crate::elements::quantity::{Choice, MM, ReadResult, choice, forbid, pick, positive};
 use crate::elements::shape::{material_of, root};
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Rigidities, Section, Values};
 
 fn modulus(
-    place: &Place,
+    place: &KeyPath,
     what: &str,
     choices: &[Choice<f64>],
     warnings: &mut Vec<Finding>,
-) -> Found<f64> {
+) -> ReadResult<f64> {
     let given = positive(place, what, choices)?;
     if !(5e8..=2e12).contains(&given.value) {
         warnings.push(Finding::new(
@@ -50,7 +50,7 @@ impl Moduli {
     }
 
     /// None may be given: something else holds the material already.
-    fn forbidden(&self, place: &Place, reason: &str, help: &str) -> Found<()> {
+    fn forbidden(&self, place: &KeyPath, reason: &str, help: &str) -> ReadResult<()> {
         for moduli in [&self.young[..], &self.shear[..], &self.poisson[..]] {
             forbid(place, moduli, reason, help)?;
         }
@@ -58,7 +58,7 @@ impl Moduli {
     }
 
     /// Young's and the shear modulus, Pa; for an isotropic solid `G = E / (2 (1 + nu))`.
-    fn read(&self, place: &Place, warnings: &mut Vec<Finding>) -> Found<(f64, f64)> {
+    fn read(&self, place: &KeyPath, warnings: &mut Vec<Finding>) -> ReadResult<(f64, f64)> {
         let e = modulus(place, "Young's modulus", &self.young, warnings)?;
         let g = match pick(place, "Poisson's ratio", &self.poisson)? {
             Some(ratio) => {
@@ -90,10 +90,10 @@ impl Moduli {
 
 /// The section of a straight link: one shape, and a material or its moduli.
 pub(crate) fn section(
-    place: &Place,
+    place: &KeyPath,
     s: &Section,
     warnings: &mut Vec<Finding>,
-) -> Found<BeamSection> {
+) -> ReadResult<BeamSection> {
     check_one_shape(place, s)?;
     let moduli = Moduli::new(s);
     if let Some(r) = &s.rigidities {
@@ -116,7 +116,7 @@ pub(crate) fn section(
     shape_of(place, s, e, g)
 }
 
-fn check_one_shape(place: &Place, s: &Section) -> Found<()> {
+fn check_one_shape(place: &KeyPath, s: &Section) -> ReadResult<()> {
     let mut shapes = [
         s.tube.as_ref().map(|_| "tube"),
         s.round.as_ref().map(|_| "round"),
@@ -146,7 +146,7 @@ fn check_one_shape(place: &Place, s: &Section) -> Found<()> {
 }
 
 /// A section by its rigidities: moduli of one, so that area and second moments are `EA`, `EI` and `GJ`.
-fn by_rigidities(place: &Place, r: &Rigidities) -> Found<BeamSection> {
+fn by_rigidities(place: &KeyPath, r: &Rigidities) -> ReadResult<BeamSection> {
     let bending_y = [
         choice("bending_y_n_mm2", r.bending_y_n_mm2, MM * MM),
         choice("bending_y_n_m2", r.bending_y_n_m2, 1.0),
@@ -174,7 +174,7 @@ fn by_rigidities(place: &Place, r: &Rigidities) -> Found<BeamSection> {
     })
 }
 
-fn shape_of(place: &Place, s: &Section, e: f64, g: f64) -> Found<BeamSection> {
+fn shape_of(place: &KeyPath, s: &Section, e: f64, g: f64) -> ReadResult<BeamSection> {
     if let Some(t) = &s.tube {
         let place = place.key("tube");
         let outer = [

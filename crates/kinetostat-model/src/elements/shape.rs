@@ -2,19 +2,19 @@
 //! bend by shear too; and materials by name. The formulas are those of `kinetostat-links`.
 
 use kinetostat::BeamSection;
-use kinetostat_links::{Material, Properties, Shape, Shear, cantilever, material};
+use kinetostat_links::{Material, Properties, SectionShape, Shear, cantilever, material};
 use nalgebra::Matrix6;
 
-use crate::elements::quantity::{Found, MM, choice, positive};
-use crate::problem::{Finding, Place};
+use crate::elements::quantity::{MM, ReadResult, choice, positive};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{HollowBox, IBeam, Rectangle, Round, Section, Tip, Tube};
 use crate::text::hints::unknown;
 
 /// A tapered beam, or one that bends by shear too.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beam {
-    root: Shape,
-    tip: Shape,
+    root: SectionShape,
+    tip: SectionShape,
     youngs_modulus: f64,
     poissons_ratio: f64,
     shear: Shear,
@@ -22,7 +22,12 @@ pub(crate) struct Beam {
 
 impl Beam {
     /// A beam between two shapes; its moduli are those of the section without taper and shear.
-    pub(crate) fn new(root: Shape, tip: Shape, plain: &BeamSection, shear: Shear) -> Self {
+    pub(crate) fn new(
+        root: SectionShape,
+        tip: SectionShape,
+        plain: &BeamSection,
+        shear: Shear,
+    ) -> Self {
         Self {
             root,
             tip,
@@ -32,7 +37,7 @@ impl Beam {
         }
     }
 
-    pub(crate) fn cantilever(&self, place: &Place, length: f64) -> Found<Matrix6<f64>> {
+    pub(crate) fn cantilever(&self, place: &KeyPath, length: f64) -> ReadResult<Matrix6<f64>> {
         cantilever(
             &self.root,
             &self.tip,
@@ -47,10 +52,10 @@ impl Beam {
     /// Stiffnesses of equal pieces from the root on, each at its far end; none where all are alike.
     pub(crate) fn pieces(
         &self,
-        place: &Place,
+        place: &KeyPath,
         length: f64,
         segments: u32,
-    ) -> Found<Option<Vec<Matrix6<f64>>>> {
+    ) -> ReadResult<Option<Vec<Matrix6<f64>>>> {
         if segments == 1 || self.root == self.tip {
             return Ok(None);
         }
@@ -66,12 +71,15 @@ impl Beam {
             };
             own.cantilever(place, length / f64::from(segments))
         };
-        (0..segments).map(piece).collect::<Found<_>>().map(Some)
+        (0..segments)
+            .map(piece)
+            .collect::<ReadResult<_>>()
+            .map(Some)
     }
 }
 
 /// The material that a section names.
-pub(crate) fn material_of(place: &Place, s: &Section) -> Found<Option<&'static Material>> {
+pub(crate) fn material_of(place: &KeyPath, s: &Section) -> ReadResult<Option<&'static Material>> {
     let Some(name) = &s.material else {
         return Ok(None);
     };
@@ -86,7 +94,7 @@ pub(crate) fn material_of(place: &Place, s: &Section) -> Found<Option<&'static M
 }
 
 /// The shape of a section, if it has one in sizes.
-pub(crate) fn root(place: &Place, s: &Section) -> Found<Option<Shape>> {
+pub(crate) fn root(place: &KeyPath, s: &Section) -> ReadResult<Option<SectionShape>> {
     one(
         place,
         &s.tube,
@@ -97,7 +105,7 @@ pub(crate) fn root(place: &Place, s: &Section) -> Found<Option<Shape>> {
     )
 }
 
-pub(crate) fn far_end(place: &Place, t: &Tip) -> Found<Shape> {
+pub(crate) fn far_end(place: &KeyPath, t: &Tip) -> ReadResult<SectionShape> {
     let given = [
         t.tube.is_some(),
         t.round.is_some(),
@@ -124,13 +132,13 @@ pub(crate) fn far_end(place: &Place, t: &Tip) -> Found<Shape> {
 }
 
 fn one(
-    place: &Place,
+    place: &KeyPath,
     tube: &Option<Tube>,
     round: &Option<Round>,
     rectangle: &Option<Rectangle>,
     i_beam: &Option<IBeam>,
     hollow_box: &Option<HollowBox>,
-) -> Found<Option<Shape>> {
+) -> ReadResult<Option<SectionShape>> {
     let shape = if let Some(t) = tube {
         let place = place.key("tube");
         let outer = [
@@ -141,7 +149,7 @@ fn one(
             choice("inner_diameter_mm", t.inner_diameter_mm, MM),
             choice("inner_diameter_m", t.inner_diameter_m, 1.0),
         ];
-        Shape::Tube {
+        SectionShape::Tube {
             outer: positive(&place, "outer diameter", &outer)?.value,
             inner: positive(&place, "inner diameter", &inner)?.value,
         }
@@ -150,7 +158,7 @@ fn one(
             choice("diameter_mm", r.diameter_mm, MM),
             choice("diameter_m", r.diameter_m, 1.0),
         ];
-        Shape::Tube {
+        SectionShape::Tube {
             outer: positive(&place.key("round"), "diameter", &diameter)?.value,
             inner: 0.0,
         }
@@ -164,16 +172,16 @@ fn one(
             choice("height_mm", r.height_mm, MM),
             choice("height_m", r.height_m, 1.0),
         ];
-        Shape::Rectangle {
+        SectionShape::Rectangle {
             width: positive(&place, "width", &width)?.value,
             height: positive(&place, "height", &height)?.value,
         }
     } else if let Some(i) = i_beam {
         let place = place.key("i_beam");
-        let size = |what: &str, key: &'static str, value| -> Found<f64> {
+        let size = |what: &str, key: &'static str, value| -> ReadResult<f64> {
             Ok(positive(&place, what, &[choice(key, value, MM)])?.value)
         };
-        Shape::IBeam {
+        SectionShape::IBeam {
             width: size("width", "width_mm", i.width_mm)?,
             height: size("height", "height_mm", i.height_mm)?,
             flange: size("flange", "flange_mm", i.flange_mm)?,
@@ -181,13 +189,13 @@ fn one(
         }
     } else if let Some(b) = hollow_box {
         let place = place.key("hollow_box");
-        let size = |what: &str, choices: &[crate::elements::quantity::Choice<f64>]| -> Found<f64> {
-            Ok(positive(&place, what, choices)?.value)
-        };
+        let size = |what: &str,
+                    choices: &[crate::elements::quantity::Choice<f64>]|
+         -> ReadResult<f64> { Ok(positive(&place, what, choices)?.value) };
         let wall = |key: &'static str, own: Option<f64>| {
             [choice("wall_mm", b.wall_mm, MM), choice(key, own, MM)]
         };
-        Shape::HollowBox {
+        SectionShape::HollowBox {
             width: size("width", &[choice("width_mm", b.width_mm, MM)])?,
             height: size("height", &[choice("height_mm", b.height_mm, MM)])?,
             side_wall: size("wall", &wall("side_wall_mm", b.side_wall_mm))?,

@@ -2,16 +2,16 @@
 
 use nalgebra::Vector3;
 
-use crate::elements::quantity::{Found, MM, choice, need};
-use crate::problem::Place;
+use crate::elements::quantity::{MM, ReadResult, choice, need};
+use crate::problem::KeyPath;
 use crate::schema::Document;
 
 /// The workspace's corners.
-pub(crate) fn corners(document: &Document) -> Found<Option<Corners>> {
+pub(crate) fn corners(document: &Document) -> ReadResult<Option<Corners>> {
     let Some(w) = &document.workspace else {
         return Ok(None);
     };
-    let place = Place::root().key("workspace");
+    let place = KeyPath::root().key("workspace");
     let from = [
         choice("corner_mm", w.corner_mm, MM),
         choice("corner_m", w.corner_m, 1.0),

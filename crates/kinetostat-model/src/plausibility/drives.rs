@@ -6,7 +6,7 @@ use kinetostat::number::short;
 use kinetostat::{MotionKind, model::SpringLaw};
 
 use crate::plausibility::limb::LimbCheck;
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::Element;
 
 impl LimbCheck<'_> {
@@ -155,7 +155,7 @@ impl LimbCheck<'_> {
         let Some(table) = self.document.chain.get(chain) else {
             return;
         };
-        let place = Place::root().key("chain").key(chain).key("elements");
+        let place = KeyPath::root().key("chain").key(chain).key("elements");
         for (i, element) in table.elements.iter().enumerate() {
             let Element::Actuator(actuator) = element else {
                 continue;

@@ -8,7 +8,7 @@ use crate::plausibility::at_home::frames;
 use crate::plausibility::link_matrix::check as check_link_matrices;
 use crate::plausibility::machine::of_machine;
 use crate::plausibility::numbers::of_numbers;
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::Document;
 
 /// Pose of a chain's tip in its base at home, and how far (m) any of its frames lies from its first
@@ -33,8 +33,8 @@ pub(crate) fn check_plausibility(
     of_numbers(document, warnings);
     of_machine(document, mechanism, warnings);
     check_link_matrices(document, warnings);
-    let root = Place::root();
-    let mut warn = |place: &Place, message: String, help: &str| {
+    let root = KeyPath::root();
+    let mut warn = |place: &KeyPath, message: String, help: &str| {
         warnings.push(Finding::new(place, message, help));
     };
     let gravity = mechanism.gravity();

@@ -2,7 +2,7 @@
 
 use kinetostat::Mechanism;
 
-use crate::problem::Place;
+use crate::problem::KeyPath;
 use crate::schema::{Document, Element};
 
 /// One limb of a machine.
@@ -16,7 +16,7 @@ pub(crate) struct LimbCheck<'a> {
 
 impl LimbCheck<'_> {
     /// An element of the limb's chain and its place in the file, by its name.
-    pub(crate) fn element(&self, name: &str) -> Option<(&Element, Place)> {
+    pub(crate) fn element(&self, name: &str) -> Option<(&Element, KeyPath)> {
         let chain = &self.document.limb[self.limb].chain;
         let elements = &self.document.chain.get(chain)?.elements;
         let own = |e: &Element, i: usize| match e.name() {
@@ -24,11 +24,11 @@ impl LimbCheck<'_> {
             None => format!("{} {}", e.word(), i + 1) == name,
         };
         let index = (0..elements.len()).find(|&i| own(&elements[i], i))?;
-        let place = Place::root().key("chain").key(chain);
+        let place = KeyPath::root().key("chain").key(chain);
         Some((&elements[index], place.key("elements").index(index)))
     }
 
-    pub(crate) fn place(&self, name: &str, keys: &[&str]) -> Place {
+    pub(crate) fn place(&self, name: &str, keys: &[&str]) -> KeyPath {
         match self.element(name) {
             Some((element, place)) => {
                 let written = serde_json::to_value(element).unwrap_or_default();
@@ -37,7 +37,7 @@ impl LimbCheck<'_> {
                     .find(has)
                     .map_or(place.clone(), |k| place.key(k))
             }
-            None => Place::root().key("limb").index(self.limb),
+            None => KeyPath::root().key("limb").index(self.limb),
         }
     }
 }

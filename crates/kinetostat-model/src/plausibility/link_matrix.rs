@@ -5,7 +5,7 @@ use kinetostat::number::larger;
 use kinetostat::number::short;
 use nalgebra::{Matrix6, Vector6};
 
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::{Document, Element, Stiffness};
 
 const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -187,7 +187,7 @@ pub(crate) fn check(document: &Document, warnings: &mut Vec<Finding>) {
             .or(link.length_mm.map(|l| l * 1e-3))
             .or(link.vector_m.map(norm))
             .or(link.vector_mm.map(|v| norm(v) * 1e-3));
-        let place = Place::root().key("stiffness").key(&link.link);
+        let place = KeyPath::root().key("stiffness").key(&link.link);
         if let Some((message, help)) = nearly_free(&k, length) {
             warnings.push(Finding::new(&place, message, help));
         }

@@ -8,7 +8,7 @@ use crate::elements::workspace::corners;
 use crate::plausibility::at_home::machine_size;
 use crate::plausibility::limb::LimbCheck;
 use crate::plausibility::tree::numbers;
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 use crate::schema::Document;
 
 /// Looks at figures beside the rest of the machine.
@@ -54,7 +54,7 @@ fn workspace(document: &Document, mechanism: &Mechanism, size: f64, warnings: &m
     let extent = (a - b).norm();
     if far > 5.0 * size || extent < 5e-3 * size {
         warnings.push(Finding::new(
-            &Place::root().key("workspace"),
+            &KeyPath::root().key("workspace"),
             format!(
                 "the workspace is {} m large and lies up to {} m from the tool's home, in a machine of {} m",
                 short(extent),
@@ -68,7 +68,7 @@ fn workspace(document: &Document, mechanism: &Mechanism, size: f64, warnings: &m
 
 fn deviations(document: &Document, size: f64, warnings: &mut Vec<Finding>) {
     for (i, deviation) in document.deviation.iter().enumerate() {
-        let table = Place::root().key("deviation").index(i);
+        let table = KeyPath::root().key("deviation").index(i);
         let moved =
             (deviation.moved_by.as_ref()).and_then(|m| pose(&table.key("moved_by"), m).ok());
         let (shift, turn, key) = match (moved, deviation.longer_by_mm, deviation.tilted_by_deg) {

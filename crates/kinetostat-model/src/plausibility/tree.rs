@@ -5,7 +5,7 @@ use serde_json::Value;
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
-use crate::problem::Place;
+use crate::problem::KeyPath;
 
 /// A value of a document or of a text.
 pub(crate) trait Tree: Sized {
@@ -56,7 +56,7 @@ pub(crate) struct Number<'t, T> {
     /// Its key, or that of the list in which it stands.
     pub(crate) key: &'t str,
     /// The way to it from the root.
-    pub(crate) place: Place,
+    pub(crate) place: KeyPath,
     /// The value that holds it.
     pub(crate) node: &'t T,
     pub(crate) value: f64,
@@ -65,11 +65,16 @@ pub(crate) struct Number<'t, T> {
 /// All numbers of a tree, in the order of its tables and lists.
 pub(crate) fn numbers<T: Tree>(root: &T) -> Vec<Number<'_, T>> {
     let mut found = Vec::new();
-    collect(root, "", &Place::root(), &mut found);
+    collect(root, "", &KeyPath::root(), &mut found);
     found
 }
 
-fn collect<'t, T: Tree>(node: &'t T, key: &'t str, place: &Place, found: &mut Vec<Number<'t, T>>) {
+fn collect<'t, T: Tree>(
+    node: &'t T,
+    key: &'t str,
+    place: &KeyPath,
+    found: &mut Vec<Number<'t, T>>,
+) {
     if let Some(value) = node.number() {
         found.push(Number {
             key,

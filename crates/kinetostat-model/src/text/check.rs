@@ -9,7 +9,7 @@ use serde_json::Value;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::problem::{Finding, Place, Step};
+use crate::problem::{Finding, KeyPath, PathStep};
 use crate::schema::Document;
 use crate::text::hints;
 
@@ -57,7 +57,7 @@ pub(crate) fn check(tree: &DeTable<'_>) -> Vec<Finding> {
         root: schema(),
         findings: Vec::new(),
     };
-    checker.table(checker.root, tree, 0..0, &Place::root());
+    checker.table(checker.root, tree, 0..0, &KeyPath::root());
     checker.findings
 }
 
@@ -70,7 +70,7 @@ struct Checker {
 }
 
 impl Checker {
-    fn report(&mut self, place: &Place, span: Range<usize>, message: String, help: String) {
+    fn report(&mut self, place: &KeyPath, span: Range<usize>, message: String, help: String) {
         // Descriptions of several lines become one.
         let help = help.replace('\n', " ");
         self.findings
@@ -95,7 +95,7 @@ impl Checker {
         &mut self,
         schema: &'static Value,
         value: &Spanned<DeValue<'_>>,
-        place: &Place,
+        place: &KeyPath,
         about: &str,
     ) {
         if self.findings.len() >= ENOUGH {
@@ -123,7 +123,7 @@ impl Checker {
         &mut self,
         kinds: &[&str],
         value: &Spanned<DeValue<'_>>,
-        place: &Place,
+        place: &KeyPath,
         about: &str,
     ) {
         let mut wanted: Vec<&str> = kinds.iter().map(|k| kind_description(k)).collect();
@@ -155,7 +155,7 @@ impl Checker {
         &mut self,
         variants: &'static [Value],
         value: &Spanned<DeValue<'_>>,
-        place: &Place,
+        place: &KeyPath,
         about: &str,
     ) {
         let resolved: Vec<&'static Value> = variants.iter().map(|v| self.resolve(v)).collect();
@@ -203,11 +203,11 @@ impl Checker {
         words: &[&'static str],
         table: &DeTable<'_>,
         span: Range<usize>,
-        place: &Place,
+        place: &KeyPath,
     ) {
         let (noun, a_noun) = match place.0.iter().rev().find_map(|step| match step {
-            Step::Key(key) => Some(key.as_str()),
-            Step::Index(_) => None,
+            PathStep::Key(key) => Some(key.as_str()),
+            PathStep::Index(_) => None,
         }) {
             Some("load") => ("load", "A load"),
             _ => ("element", "An element"),
@@ -264,7 +264,7 @@ impl Checker {
         schema: &'static Value,
         table: &DeTable<'_>,
         span: Range<usize>,
-        place: &Place,
+        place: &KeyPath,
     ) {
         let Some(properties) = schema.get("properties").and_then(Value::as_object) else {
             return self.map(schema, table, place);
@@ -318,7 +318,7 @@ impl Checker {
         }
     }
 
-    fn map(&mut self, schema: &'static Value, table: &DeTable<'_>, place: &Place) {
+    fn map(&mut self, schema: &'static Value, table: &DeTable<'_>, place: &KeyPath) {
         let most = schema.get("maxProperties").and_then(Value::as_u64);
         if let Some(most) = most.filter(|&m| table.len() as u64 > m) {
             let span = table.keys().next().map_or(0..0, |k| k.span());
@@ -344,7 +344,7 @@ impl Checker {
         &mut self,
         schema: &'static Value,
         value: &Spanned<DeValue<'_>>,
-        place: &Place,
+        place: &KeyPath,
         about: &str,
     ) {
         let DeValue::Array(list) = value.get_ref() else {
@@ -376,7 +376,7 @@ impl Checker {
         }
     }
 
-    fn number(&mut self, kind: &str, value: &Spanned<DeValue<'_>>, place: &Place) {
+    fn number(&mut self, kind: &str, value: &Spanned<DeValue<'_>>, place: &KeyPath) {
         let (fits, text) = match value.get_ref() {
             DeValue::Integer(i) => {
                 let number = i64::from_str_radix(i.as_str(), i.radix()).ok();
@@ -415,7 +415,7 @@ impl Checker {
         schema: &'static Value,
         text: &str,
         value: &Spanned<DeValue<'_>>,
-        place: &Place,
+        place: &KeyPath,
     ) {
         let Some(list) = schema.get("enum").and_then(Value::as_array) else {
             return;
@@ -424,7 +424,13 @@ impl Checker {
         self.one_of(&words, text, value, place);
     }
 
-    fn one_of(&mut self, words: &[&str], text: &str, value: &Spanned<DeValue<'_>>, place: &Place) {
+    fn one_of(
+        &mut self,
+        words: &[&str],
+        text: &str,
+        value: &Spanned<DeValue<'_>>,
+        place: &KeyPath,
+    ) {
         if words.contains(&text) {
             return;
         }

@@ -1,6 +1,6 @@
 //! The nearest thing that would have been right.
 
-use crate::problem::{Finding, Place};
+use crate::problem::{Finding, KeyPath};
 
 /// The closest of `known` to `given`, if it is close enough to be a slip of the pen.
 pub(crate) fn nearest<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
@@ -164,7 +164,7 @@ pub(crate) fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
 
 /// A name that refers to nothing.
 pub(crate) fn unknown(
-    place: &Place,
+    place: &KeyPath,
     what: &str,
     name: &str,
     known: &[&str],

@@ -5,7 +5,7 @@ use std::ops::Range;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::problem::{Finding, ModelError, Place, Problem, Severity, Step};
+use crate::problem::{Finding, KeyPath, ModelError, PathStep, Problem, Severity};
 
 /// A text and the tree of its values.
 pub(crate) struct Source<'t> {
@@ -42,15 +42,19 @@ impl<'t> Source<'t> {
         } else {
             "a value is written as  key = 1.5,  key = \"text\",  key = [1, 2, 3];  a table begins with [name], a list of tables with [[name]]"
         };
-        Finding::new(&Place::root(), format!("this is not TOML: {reason}"), help)
-            .at(error.span().unwrap_or(0..0))
+        Finding::new(
+            &KeyPath::root(),
+            format!("this is not TOML: {reason}"),
+            help,
+        )
+        .at(error.span().unwrap_or(0..0))
     }
 
     /// Where a value is written; for one that is missing, the table that should hold it.
-    pub(crate) fn span(&self, place: &Place) -> Range<usize> {
+    pub(crate) fn span(&self, place: &KeyPath) -> Range<usize> {
         let mut span = 0..0;
         let mut steps = place.0.iter();
-        let Some(Step::Key(first)) = steps.next() else {
+        let Some(PathStep::Key(first)) = steps.next() else {
             return span;
         };
         let Some((key, mut value)) = entry(&self.tree, first) else {
@@ -60,10 +64,10 @@ impl<'t> Source<'t> {
         span = shown(key.span(), value);
         for step in steps {
             let next = match (step, value.get_ref()) {
-                (Step::Key(k), DeValue::Table(table)) => {
+                (PathStep::Key(k), DeValue::Table(table)) => {
                     entry(table, k).map(|(key, v)| (shown(key.span(), v), v))
                 }
-                (Step::Index(i), DeValue::Array(list)) => list.get(*i).map(|v| (v.span(), v)),
+                (PathStep::Index(i), DeValue::Array(list)) => list.get(*i).map(|v| (v.span(), v)),
                 _ => None,
             };
             let Some((found, inner)) = next else {

@@ -5,7 +5,7 @@ use kinetostat::{
     ChainProblem, CurveSettings, EndCondition, Pose, Prescribed, Wrench, continuation::LoadPattern,
     critical_load_factor, equilibrium::StabilityOf,
 };
-use kinetostat_links::{Shape, Shear, cantilever, in_n_mm};
+use kinetostat_links::{SectionShape, Shear, cantilever, in_n_mm};
 use kinetostat_model::Model;
 use nalgebra::{Matrix6, Vector3};
 
@@ -39,14 +39,15 @@ const BOOM: &str = "link = \"boom\", name = \"boom\", length_mm = 500";
 #[test]
 fn shapes_shear_taper_and_materials() {
     let section = |keys: &str| stiffness(BOOM, &format!("[section.boom]\n{keys}"));
-    let i = Shape::IBeam {
+    let i = SectionShape::IBeam {
         width: 0.06,
         height: 0.1,
         flange: 0.008,
         web: 0.005,
     };
-    let wanted =
-        |a: &Shape, b: &Shape, shear| cantilever(a, b, 0.5, 210e9, 0.3, shear).expect("beam");
+    let wanted = |a: &SectionShape, b: &SectionShape, shear| {
+        cantilever(a, b, 0.5, 210e9, 0.3, shear).expect("beam")
+    };
     let i_keys = "i_beam = { width_mm = 60, height_mm = 100, flange_mm = 8, web_mm = 5 }\n";
     same(
         &section(&format!("{i_keys}material = \"steel\"")),
@@ -58,13 +59,13 @@ fn shapes_shear_taper_and_materials() {
         )),
         &wanted(&i, &i, Shear::Timoshenko),
     );
-    let root = Shape::HollowBox {
+    let root = SectionShape::HollowBox {
         width: 0.08,
         height: 0.12,
         side_wall: 0.005,
         top_wall: 0.005,
     };
-    let tip = Shape::HollowBox {
+    let tip = SectionShape::HollowBox {
         width: 0.05,
         height: 0.06,
         side_wall: 0.004,
@@ -105,7 +106,7 @@ fn shapes_shear_taper_and_materials() {
 /// What `kinetostat import matrix` writes is read as it was meant.
 #[test]
 fn an_imported_table_is_read() {
-    let shape = Shape::Rectangle {
+    let shape = SectionShape::Rectangle {
         width: 0.04,
         height: 0.06,
     };

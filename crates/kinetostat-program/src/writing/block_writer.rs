@@ -10,7 +10,7 @@ use crate::reading::moment::is_written_last;
 use crate::text::line::{Line, Word};
 use crate::text::program::Program;
 use crate::writing::options::WriteOptions;
-use crate::writing::output_state::{OutputState, Step, motion_of};
+use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 
 /// Relative error of the feed in force from which a new F word is written.
 const FEED_TOLERANCE: f64 = 5e-4;
@@ -110,7 +110,7 @@ impl<'a> BlockWriter<'a> {
     pub fn first_line(
         &mut self,
         state: &mut OutputState,
-        steps: &[Step],
+        steps: &[OutputMove],
     ) -> Result<Vec<u8>, WriteError> {
         let step = &steps[0];
         let from = state.position;
@@ -169,7 +169,7 @@ impl<'a> BlockWriter<'a> {
     pub fn further_line(
         &mut self,
         state: &mut OutputState,
-        steps: &[Step],
+        steps: &[OutputMove],
         index: usize,
     ) -> Result<Vec<u8>, WriteError> {
         let step = &steps[index];
@@ -217,7 +217,7 @@ impl<'a> BlockWriter<'a> {
 
     /// The block's own line where it stays an arc: its bytes, with the motion and the feed named where
     /// the output has others in force.
-    pub fn arc_line(&mut self, state: &mut OutputState, step: &Step) -> Vec<u8> {
+    pub fn arc_line(&mut self, state: &mut OutputState, step: &OutputMove) -> Vec<u8> {
         let own = arc_motion(self.motion);
         let mut edits: Edits = Vec::new();
         let mut added = String::new();
@@ -375,7 +375,7 @@ impl<'a> BlockWriter<'a> {
         }
     }
 
-    fn edit_extra_axes(&self, steps: &[Step], edits: &mut Edits) -> Result<(), WriteError> {
+    fn edit_extra_axes(&self, steps: &[OutputMove], edits: &mut Edits) -> Result<(), WriteError> {
         if steps.len() == 1 {
             return Ok(());
         }
@@ -388,7 +388,11 @@ impl<'a> BlockWriter<'a> {
     }
 
     /// Words of other axes on a further line: those that change.
-    fn extra_words(&self, steps: &[Step], index: usize) -> Result<Vec<(char, String)>, WriteError> {
+    fn extra_words(
+        &self,
+        steps: &[OutputMove],
+        index: usize,
+    ) -> Result<Vec<(char, String)>, WriteError> {
         if self.motion.extra.is_empty() || steps[index].corner_step {
             return Ok(Vec::new());
         }
@@ -403,7 +407,7 @@ impl<'a> BlockWriter<'a> {
     }
 
     /// The share of each extra axis' word in a piece.
-    fn extra_numbers(&self, steps: &[Step], index: usize) -> Result<Vec<String>, WriteError> {
+    fn extra_numbers(&self, steps: &[OutputMove], index: usize) -> Result<Vec<String>, WriteError> {
         let mut numbers = Vec::with_capacity(self.motion.extra.len());
         for extra in &self.motion.extra {
             let refuse = |reason: &str| WriteError::ExtraAxis {
@@ -446,7 +450,7 @@ impl<'a> BlockWriter<'a> {
     fn feed(
         &self,
         state: &mut OutputState,
-        step: &Step,
+        step: &OutputMove,
         pieces: usize,
         written_mm: f64,
     ) -> Option<String> {

@@ -63,7 +63,7 @@ pub fn departure(values: &Values, chord: [Vector3<f64>; 2]) -> f64 {
     on_grid + between
 }
 
-/// Upper bound of what the polynomial through three (or five) evenly spaced values may miss of a
+/// Upper bound of what the polynomial through three (or five) evenly spaced values may be off from a
 /// correction that can be continued analytically `radius` farther to every side (also into the complex
 /// plane) and is there at most twice as large as `size`.
 ///

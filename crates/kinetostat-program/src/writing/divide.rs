@@ -11,7 +11,7 @@
 //!
 //! - the polynomial through these values stays within the tolerance ([`crate::writing::departure`], a bound and
 //!   no sample);
-//! - what that polynomial may miss is below a tenth of the tolerance: nothing for a field of third
+//! - the error of that polynomial is below a tenth of the tolerance: nothing for a field of third
 //!   degree, Hermite's remainder for a smooth one;
 //! - at the irregular place the polynomial agrees with the field.
 //!

@@ -17,7 +17,7 @@ use crate::writing::header::{header, lines_above};
 use crate::writing::jump::{Jump, Turn};
 use crate::writing::node::{Node, is_corrected_at_end, is_divided};
 use crate::writing::options::WriteOptions;
-use crate::writing::output_state::{OutputState, Step, motion_of};
+use crate::writing::output_state::{OutputMove, OutputState, motion_of};
 use crate::writing::written::{Corrected, Piece};
 
 pub(crate) struct Emitter<'a> {
@@ -315,7 +315,7 @@ impl<'a> Emitter<'a> {
             && self.is_uncorrected(motion, nodes)
             && block.words_still_hold(&self.state);
         if kept_arc {
-            steps = vec![Step {
+            steps = vec![OutputMove {
                 share_from: 0.0,
                 share_to: 1.0,
                 target: motion.end,
@@ -369,7 +369,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// The pieces of a move.
-    fn steps(&mut self, move_index: usize, motion: &Move) -> Vec<Step> {
+    fn steps(&mut self, move_index: usize, motion: &Move) -> Vec<OutputMove> {
         let first = self.next_node;
         while self
             .nodes
@@ -379,7 +379,7 @@ impl<'a> Emitter<'a> {
             self.next_node += 1;
         }
         let nodes = &self.nodes[first..self.next_node];
-        let whole = |target, corrected| Step {
+        let whole = |target, corrected| OutputMove {
             share_from: 0.0,
             share_to: 1.0,
             target,
@@ -399,7 +399,7 @@ impl<'a> Emitter<'a> {
         let mut reached = self.state.target;
         let mut go =
             |target: Vector3<f64>, share_to: f64, corner_step: bool, turn: Option<Turn>| {
-                steps.push(Step {
+                steps.push(OutputMove {
                     share_from,
                     share_to,
                     target,
@@ -445,7 +445,7 @@ impl<'a> Emitter<'a> {
         &mut self,
         move_index: usize,
         motion: &Move,
-        step: &Step,
+        step: &OutputMove,
         from: &Vector3<f64>,
         kept_arc: bool,
     ) {
@@ -498,7 +498,7 @@ impl<'a> Emitter<'a> {
         &mut self,
         move_index: usize,
         motion: &Move,
-        step: &Step,
+        step: &OutputMove,
         from: &Vector3<f64>,
     ) {
         let began = match (step.corner_step, self.jump_from) {

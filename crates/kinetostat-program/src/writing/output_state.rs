@@ -22,7 +22,7 @@ pub(crate) struct OutputState {
 
 /// One piece to be written.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Step {
+pub(crate) struct OutputMove {
     pub share_from: f64,
     pub share_to: f64,
     /// Where to go, before rounding, in mm.

@@ -347,7 +347,7 @@ fn the_book_has_the_table_of_moments() {
 /// The generator of `cargo xtask fuzz`, for a moment.
 #[test]
 fn random_programs_with_every_code_keep_each_in_its_place() {
-    let mut all = crate::code_programs::Found::default();
+    let mut all = crate::code_programs::CaseOutcome::default();
     let mut taken = 0;
     for seed in 0..1500 {
         let found = crate::code_programs::check(seed).unwrap_or_else(|what| panic!("{what}"));

@@ -52,7 +52,7 @@ impl Beside {
 }
 
 /// A place for a name.
-struct Place {
+struct LabelPlace {
     area: Frame,
     anchor: Anchor,
     gap: f64,
@@ -143,8 +143,8 @@ impl Names {
     }
 
     /// The cheapest place on rings about the point.
-    fn near(&self, beside: &Beside, width: f64) -> Option<Place> {
-        let mut best: Option<(f64, Place)> = None;
+    fn near(&self, beside: &Beside, width: f64) -> Option<LabelPlace> {
+        let mut best: Option<(f64, LabelPlace)> = None;
         for (ring, gap) in GAPS.into_iter().enumerate() {
             for turn in 0..TURNS {
                 let angle = std::f64::consts::TAU * turn as f64 / TURNS as f64;
@@ -171,7 +171,7 @@ impl Names {
                         s if s < 0.0 => Anchor::End,
                         _ => Anchor::Middle,
                     };
-                    best = Some((cost, Place { area, anchor, gap }));
+                    best = Some((cost, LabelPlace { area, anchor, gap }));
                 }
             }
         }
@@ -179,7 +179,7 @@ impl Names {
     }
 
     /// The free place that is nearest, wherever it is.
-    fn anywhere(&self, beside: &Beside, width: f64) -> Option<Place> {
+    fn anywhere(&self, beside: &Beside, width: f64) -> Option<LabelPlace> {
         let mut best: Option<(f64, Frame)> = None;
         let (columns, rows) = (self.frame.width / 8.0, self.frame.height / 8.0);
         for column in 0..columns.clamp(0.0, 200.0) as usize {
@@ -199,7 +199,7 @@ impl Names {
                 }
             }
         }
-        best.map(|(_, area)| Place {
+        best.map(|(_, area)| LabelPlace {
             area,
             anchor: Anchor::Middle,
             gap: f64::INFINITY,

@@ -462,7 +462,7 @@ pub(crate) fn caption(result: &Shown<'_>) -> Option<String> {
     let missing = result
         .points
         .iter()
-        .filter(|point| lacks_numbers(point))
+        .filter(|point| has_missing_numbers(point))
         .count();
     if missing > 0 {
         let missing = number::count(missing);
@@ -473,7 +473,7 @@ pub(crate) fn caption(result: &Shown<'_>) -> Option<String> {
     (!sentences.is_empty()).then(|| sentences.join(" "))
 }
 
-fn lacks_numbers(point: &PointResult) -> bool {
+fn has_missing_numbers(point: &PointResult) -> bool {
     let vectors = [
         point.position_mm,
         point.error_before_mm,

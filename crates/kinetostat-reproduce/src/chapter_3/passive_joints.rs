@@ -29,7 +29,7 @@ const INPUT: &str = "E = 2.1e11 Pa, G = 8e10 Pa, L = 0.7 m, A = 6e-4 m2, Iy = 3e
 
 /// The link, and where its passive joint is.
 #[derive(Clone, Copy)]
-enum Place {
+enum JointPlace {
     None,
     Root(MotionKind, Axis),
     End(MotionKind, Axis),
@@ -44,13 +44,13 @@ fn unit(axis: Axis) -> Vector3<f64> {
 }
 
 /// Stiffness and its rank by general elimination on a chain of the link and its joint.
-fn by_elimination(place: Place) -> Result<(Matrix6<f64>, usize), Error> {
+fn by_elimination(place: JointPlace) -> Result<(Matrix6<f64>, usize), Error> {
     let mut b = Chain::builder("link");
-    if let Place::Root(kind, axis) = place {
+    if let JointPlace::Root(kind, axis) = place {
         b = b.passive("q", kind, unit(axis), 0.0);
     }
     b = b.link("link", &SECTION, LENGTH);
-    if let Place::End(kind, axis) = place {
+    if let JointPlace::End(kind, axis) = place {
         b = b.passive("q", kind, unit(axis), 0.0);
     }
     let chain = b.build()?;
@@ -73,7 +73,7 @@ fn difference(one: &Matrix6<f64>, other: &Matrix6<f64>) -> Result<f64, Cause> {
 }
 
 pub(crate) fn eq_3_26() -> Result<Contents, Cause> {
-    let (k, _) = by_elimination(Place::None)?;
+    let (k, _) = by_elimination(JointPlace::None)?;
     let (e, l) = (SECTION.youngs_modulus, LENGTH);
     let (y, z) = (SECTION.second_moment_y, SECTION.second_moment_z);
     let at = |i: usize, j: usize| k[(i - 1, j - 1)];
@@ -143,10 +143,10 @@ type Factor = (&'static str, f64, usize, usize);
 type Rule = fn(&Matrix3<f64>) -> Result<Matrix3<f64>, Error>;
 
 /// A row of Table 3.1: the joint, the rule, the eliminated direction, the chain, the print.
-type PlanarRow = (&'static str, Rule, Option<usize>, Place, [Factor; 4]);
+type PlanarRow = (&'static str, Rule, Option<usize>, JointPlace, [Factor; 4]);
 
 /// A row of Tables 3.2 and 3.3: the joint, the rule's matrix and the chain, what is left of ENTRIES.
-type SpatialRow = (&'static str, (Matrix6<f64>, Place), [&'static str; 8]);
+type SpatialRow = (&'static str, (Matrix6<f64>, JointPlace), [&'static str; 8]);
 
 /// Rows of Table 3.1: the joint, the named rule on any matrix and on the beam, and what is printed of the beam
 /// in units of EA/L, EI/L^3, EI/L^2, EI/L.
@@ -155,7 +155,7 @@ const PLANAR_ROWS: [PlanarRow; 4] = [
         "no joint",
         |k| Ok(*k),
         None,
-        Place::None,
+        JointPlace::None,
         [
             ("1", 1.0, 1, 1),
             ("12", 12.0, 2, 2),
@@ -167,7 +167,7 @@ const PLANAR_ROWS: [PlanarRow; 4] = [
         "slide along x",
         planar_with_slide_along_x,
         Some(0),
-        Place::End(MotionKind::Prismatic, Axis::X),
+        JointPlace::End(MotionKind::Prismatic, Axis::X),
         [
             ("0", 0.0, 1, 1),
             ("12", 12.0, 2, 2),
@@ -179,7 +179,7 @@ const PLANAR_ROWS: [PlanarRow; 4] = [
         "slide along y",
         planar_with_slide_along_y,
         Some(1),
-        Place::End(MotionKind::Prismatic, Axis::Y),
+        JointPlace::End(MotionKind::Prismatic, Axis::Y),
         [
             ("1", 1.0, 1, 1),
             ("0", 0.0, 2, 2),
@@ -191,7 +191,7 @@ const PLANAR_ROWS: [PlanarRow; 4] = [
         "hinge about z",
         planar_with_hinge_at_end,
         Some(2),
-        Place::End(MotionKind::Revolute, Axis::Z),
+        JointPlace::End(MotionKind::Revolute, Axis::Z),
         [
             ("1", 1.0, 1, 1),
             ("3", 3.0, 2, 2),
@@ -317,7 +317,7 @@ fn value(fraction: &str) -> f64 {
 }
 
 fn compare_table(
-    rows: &[(&str, Matrix6<f64>, Place, [&'static str; 8])],
+    rows: &[(&str, Matrix6<f64>, JointPlace, [&'static str; 8])],
 ) -> Result<Contents, Cause> {
     let link = SECTION.cantilever(LENGTH)?;
     let mut items = Vec::new();
@@ -370,13 +370,13 @@ pub(crate) fn table_3_2() -> Result<Contents, Cause> {
     let slide = |axis| -> Result<_, Cause> {
         Ok((
             with_slide(&k, axis)?,
-            Place::End(MotionKind::Prismatic, axis),
+            JointPlace::End(MotionKind::Prismatic, axis),
         ))
     };
     let hinge = |axis| -> Result<_, Cause> {
         Ok((
             with_hinge_at_end(&k, axis)?,
-            Place::End(MotionKind::Revolute, axis),
+            JointPlace::End(MotionKind::Revolute, axis),
         ))
     };
     // In the order of ENTRIES: K11 K22 K33 K44 K55 K66 K26 K35.
@@ -420,7 +420,7 @@ pub(crate) fn table_3_3() -> Result<Contents, Cause> {
     let root = |axis| -> Result<_, Cause> {
         Ok((
             with_hinge_at_root(&k, axis, LENGTH)?,
-            Place::Root(MotionKind::Revolute, axis),
+            JointPlace::Root(MotionKind::Revolute, axis),
         ))
     };
     let rows: [SpatialRow; 2] = [

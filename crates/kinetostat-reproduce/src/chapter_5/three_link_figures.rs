@@ -12,7 +12,7 @@ use kinetostat::{
 use kinetostat_report::{Plot, PlotLine, PlotMark};
 use nalgebra::{Vector3, vector};
 
-use crate::chapter_5::three_links::{Shape, pick, shapes};
+use crate::chapter_5::three_links::{ThreeLinkShape, pick, shapes};
 use crate::shared::curves::{Drawn, lines, marks, of_kind, unstable_entry};
 use crate::shared::models::{
     along_x, displacement_controlled, linked, s_chain, z_at_rest, z_chain,
@@ -131,7 +131,7 @@ pub(crate) fn outline(chain: &Chain, angles: &[f64], joints: &[&str]) -> Vec<(f6
 }
 
 /// The same from the angles alone: links of unit length.
-fn links(e: &Shape) -> Vec<(f64, f64)> {
+fn links(e: &ThreeLinkShape) -> Vec<(f64, f64)> {
     let mut at = (0.0, 0.0);
     let mut turned = 0.0;
     let mut points = vec![at];
@@ -143,7 +143,7 @@ fn links(e: &Shape) -> Vec<(f64, f64)> {
     points
 }
 
-fn shape_items(items: &mut Vec<Item>, label: &str, e: &Shape) {
+fn shape_items(items: &mut Vec<Item>, label: &str, e: &ThreeLinkShape) {
     for (what, value, unit) in [
         ("q", e.angles[0].to_degrees(), "deg"),
         ("theta1", e.angles[1].to_degrees(), "deg"),

@@ -27,7 +27,7 @@ pub(crate) fn all(chain: &Chain, x: f64) -> Result<Equilibria, Cause> {
 
 /// What Table 5.1 lists of one equilibrium, K = l = 1.
 #[derive(Clone, Debug)]
-pub(crate) struct Shape {
+pub(crate) struct ThreeLinkShape {
     /// q, theta1, theta2 and the end hinge, rad.
     pub(crate) angles: Vec<f64>,
     pub(crate) force: f64,
@@ -37,9 +37,9 @@ pub(crate) struct Shape {
     pub(crate) stable: bool,
 }
 
-pub(crate) fn shape(problem: &ChainProblem<'_>, e: &Equilibrium) -> Result<Shape, Cause> {
+pub(crate) fn shape(problem: &ChainProblem<'_>, e: &Equilibrium) -> Result<ThreeLinkShape, Cause> {
     let criterion = shape_criterion(problem, e, 1.0)?;
-    Ok(Shape {
+    Ok(ThreeLinkShape {
         angles: e.coordinates.clone(),
         force: e.wrench.0[0],
         stiffness: e.stiffness.cartesian.matrix[(0, 0)],
@@ -51,7 +51,7 @@ pub(crate) fn shape(problem: &ChainProblem<'_>, e: &Equilibrium) -> Result<Shape
 }
 
 /// All shapes with the end held at x, by rising energy.
-pub(crate) fn shapes(chain: &Chain, x: f64) -> Result<Vec<Shape>, Cause> {
+pub(crate) fn shapes(chain: &Chain, x: f64) -> Result<Vec<ThreeLinkShape>, Cause> {
     let problem = displacement_controlled(chain, x);
     let all = all(chain, x)?;
     let one = |f: &kinetostat::equilibrium::FoundEquilibrium| shape(&problem, &f.equilibrium);
@@ -60,10 +60,10 @@ pub(crate) fn shapes(chain: &Chain, x: f64) -> Result<Vec<Shape>, Cause> {
 
 /// The first shape that is wanted.
 pub(crate) fn pick(
-    shapes: &[Shape],
+    shapes: &[ThreeLinkShape],
     what: &str,
-    wanted: impl Fn(&Shape) -> bool,
-) -> Result<Shape, Cause> {
+    wanted: impl Fn(&ThreeLinkShape) -> bool,
+) -> Result<ThreeLinkShape, Cause> {
     let found = shapes.iter().find(|s| wanted(s)).cloned();
     found.ok_or_else(|| Cause::Missing(what.to_owned()))
 }
@@ -151,7 +151,7 @@ fn triple(
     items: &mut Vec<Item>,
     cell: &str,
     printed: Option<Cell>,
-    shape: &Shape,
+    shape: &ThreeLinkShape,
     make: impl Fn(String, &str, f64, &str) -> Item,
 ) {
     let values = [
@@ -254,8 +254,8 @@ pub(crate) fn table_5_1() -> Result<Contents, Cause> {
 }
 
 /// The cell that cannot be reproduced, beside the two equilibria that exist.
-fn z_unstable(items: &mut Vec<Item>, pushed: &[Shape]) -> Result<(), Cause> {
-    let unstable: Vec<&Shape> = pushed.iter().filter(|e| !e.stable).collect();
+fn z_unstable(items: &mut Vec<Item>, pushed: &[ThreeLinkShape]) -> Result<(), Cause> {
+    let unstable: Vec<&ThreeLinkShape> = pushed.iter().filter(|e| !e.stable).collect();
     let [near, far] = unstable[..] else {
         return Err(Cause::Missing("the two unstable Z shapes".into()));
     };
@@ -278,7 +278,7 @@ fn z_unstable(items: &mut Vec<Item>, pushed: &[Shape]) -> Result<(), Cause> {
 }
 
 /// The S chain's equilibrium at Delta: arch (stable) or zigzag.
-fn bent(chain: &Chain, delta: f64, stable: bool) -> Result<Shape, Cause> {
+fn bent(chain: &Chain, delta: f64, stable: bool) -> Result<ThreeLinkShape, Cause> {
     let mut problem = displacement_controlled(chain, 3.0 - delta);
     let a = (1.0 - 0.5 * delta).acos();
     problem.posture = if stable {

@@ -182,11 +182,11 @@ fn fixed_point(machine: &Mechanism, desired: &Pose, wrench: &Wrench) -> Result<u
     let mut command = *desired;
     for step in 0..40 {
         let tool = machine.posture(&command)?.deflected_by(wrench)?.tool;
-        let miss = pose_residual(desired, &tool).linear();
-        if miss.norm() < 1e-12 {
+        let residual = pose_residual(desired, &tool).linear();
+        if residual.norm() < 1e-12 {
             return Ok(step);
         }
-        command.translation.vector += miss;
+        command.translation.vector += residual;
     }
     Err(Cause::Missing("the end of iteration (7.13)".to_owned()))
 }

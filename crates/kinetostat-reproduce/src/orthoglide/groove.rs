@@ -93,10 +93,10 @@ fn load() -> Vec<Item> {
 }
 
 /// How a path is drawn: its name and its place from the centre.
-type Path = (&'static str, fn(&At) -> Vector3<f64>);
+type DrawnPath = (&'static str, fn(&At) -> Vector3<f64>);
 
 /// Paths in the plane, mm, drawn to about the same scale along x and y.
-fn plan(title: String, circle: &Circle, paths: &[Path]) -> Plot {
+fn plan(title: String, circle: &Circle, paths: &[DrawnPath]) -> Plot {
     let mut lines: Vec<PlotLine> = paths
         .iter()
         .enumerate()
@@ -187,7 +187,7 @@ fn small_circle() -> Result<Circle, Cause> {
 
 pub(crate) fn fig_7_5() -> Result<Contents, Cause> {
     let circle = small_circle()?;
-    let paths: [Path; 5] = [
+    let paths: [DrawnPath; 5] = [
         ("(1) target", |p| p.desired),
         ("(2) errors of the legs", |p| p.desired + p.sources.errors),
         ("(3) cutting force", |p| p.desired + p.sources.force),
@@ -250,7 +250,7 @@ pub(crate) fn fig_7_5() -> Result<Contents, Cause> {
 
 pub(crate) fn fig_7_6() -> Result<Contents, Cause> {
     let circle = small_circle()?;
-    let paths: [Path; 4] = [
+    let paths: [DrawnPath; 4] = [
         ("(1) target", |p| p.desired),
         ("(2) errors of the legs", |p| p.desired + p.sources.errors),
         ("(3) sum of both alone", |p| {
@@ -363,7 +363,7 @@ pub(crate) fn fig_7_7() -> Result<Contents, Cause> {
     let title = |what: &str| format!("Circle of 50 mm about Q1: {what}");
     let actuators = ["actuator x", "actuator y", "actuator z"];
     let axes = ["along x", "along y", "along z"];
-    let paths: [Path; 3] = [
+    let paths: [DrawnPath; 3] = [
         ("(1) target", |p| p.desired),
         ("(4) not compensated, 5 times", |p| {
             p.desired + 5.0 * p.sources.both

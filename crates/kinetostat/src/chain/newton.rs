@@ -9,7 +9,7 @@ use crate::chain::residual::Balance;
 use crate::chain::scaling::{balance, natural, step_limit};
 use crate::chain::sweep::end_spring::STEP_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndRows};
-use crate::chain::sweep::stages::{Form, Path, Sweep, turned_rows};
+use crate::chain::sweep::stages::{ChainMethod, Form, Sweep, turned_rows};
 use crate::chain::system::{System, rounding};
 use crate::linalg::saddle::Saddle;
 use crate::number::larger;
@@ -40,18 +40,22 @@ pub(crate) struct Attempt<'p, 'a> {
     spare: Option<Box<Sweep>>,
     /// How the end is led to its prescribed pose while the load grows.
     pub way: Way,
-    /// Rotation (vector, rad) that the end lacks.
+    /// Rotation residual of the end (vector, rad).
     turned: Vector3<f64>,
     /// Norms of the last two corrections, balanced, the last one first.
     corrections: [f64; 2],
 }
 
 impl<'p, 'a> Attempt<'p, 'a> {
-    pub fn new(problem: &'p ChainProblem<'a>, settings: &'p Settings, path: Option<Path>) -> Self {
+    pub fn new(
+        problem: &'p ChainProblem<'a>,
+        settings: &'p Settings,
+        method: Option<ChainMethod>,
+    ) -> Self {
         let chain = problem.chain;
         let factors = balance(chain, &problem.posture);
         let (posture, commands) = (&problem.posture, &problem.commands);
-        let system = System::of_chain(chain, &problem.base, posture, commands, &factors, path);
+        let system = System::of_chain(chain, &problem.base, posture, commands, &factors, method);
         Self {
             problem,
             settings,
@@ -85,18 +89,21 @@ impl<'p, 'a> Attempt<'p, 'a> {
             Way::Screw(_) => (p.end.pose, Twist::zero()),
             Way::Straight(offset) => (p.end.pose, Twist(offset.0 * (1.0 - share))),
         };
-        let miss = pose_residual(&target, &tip);
-        self.turned = miss.angular();
-        let closure = Twist(miss.0 - offset.0);
-        let lack = Wrench(p.end.wrench.0 * share - wrench.0);
-        (closure, lack)
+        let residual = pose_residual(&target, &tip);
+        self.turned = residual.angular();
+        let closure = Twist(residual.0 - offset.0);
+        let wrench_residual = Wrench(p.end.wrench.0 * share - wrench.0);
+        (closure, wrench_residual)
     }
 
-    /// Rows of the end condition: closure or missing wrench per direction, balanced.
-    pub fn end_rows(&self, closure: &Twist, lack: &Wrench) -> Vector6<f64> {
+    /// Rows of the end condition: the residual of the closure or of the wrench per direction, scaled.
+    pub fn end_rows(&self, closure: &Twist, wrench_residual: &Wrench) -> Vector6<f64> {
         let end = &self.problem.end;
         let inverse = end.axes.inverse();
-        let (e, f) = (closure.rotated(&inverse).0, lack.rotated(&inverse).0);
+        let (e, f) = (
+            closure.rotated(&inverse).0,
+            wrench_residual.rotated(&inverse).0,
+        );
         Vector6::from_fn(|k, _| match end.prescribed[k] {
             Prescribed::Pose => e[k],
             Prescribed::Wrench => f[k],
@@ -165,7 +172,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
         held
     }
 
-    /// Correction by one linearisation for what lacks at the state evaluated last: wrench (6) and
+    /// Correction by one linearisation of the residual at the state evaluated last: wrench (6) and
     /// coordinates (n). `None` if a sweep lost a pivot.
     fn correction(&self, tangent: &Tangent<'_>, rows: &Vector6<f64>) -> Option<Vec<f64>> {
         let n = self.system.spring_torque.len();
@@ -284,7 +291,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
     /// Steps are judged by motion, not by residual: after a share `l` of the step `d`, the same
     /// linearisation wants `(1 - l) d` more if it still holds. What it wants otherwise may be at
     /// most `l / 2` of `d` (Deuflhard, Newton Methods for Nonlinear Problems, 3.3: restricted natural
-    /// monotonicity). Residuals mislead: a load that lacks is weighed against the chain's natural
+    /// monotonicity). Residuals mislead: a residual of the load is weighed against the chain's natural
     /// stiffness, which grows with the number of segments, what bending changes to second order is
     /// not. So the more segments, the shorter the steps would be.
     pub fn newton(
@@ -294,8 +301,8 @@ impl<'p, 'a> Attempt<'p, 'a> {
         share: f64,
         mut picard: usize,
     ) -> std::result::Result<(usize, Balance), (usize, Balance)> {
-        let (mut closure, mut lack) = self.evaluate(x, wrench, share);
-        let mut rows = self.end_rows(&closure, &lack);
+        let (mut closure, mut wrench_residual) = self.evaluate(x, wrench, share);
+        let mut rows = self.end_rows(&closure, &wrench_residual);
         let mut now = self.measure(&rows, wrench);
         self.corrections = [0.0; 2];
         for iteration in 0..self.settings.iterations {
@@ -325,8 +332,8 @@ impl<'p, 'a> Attempt<'p, 'a> {
                     block.follow(&x0, share, x);
                 }
                 wrench.0 = w0.0 + length * Vector6::from_column_slice(&step[..6]);
-                (closure, lack) = self.evaluate(x, wrench, share);
-                rows = self.end_rows(&closure, &lack);
+                (closure, wrench_residual) = self.evaluate(x, wrench, share);
+                rows = self.end_rows(&closure, &wrench_residual);
                 now = self.measure(&rows, wrench);
                 // The report's own steps are taken as they are, but for the last one, which leads
                 // over to Newton.
@@ -358,8 +365,8 @@ impl<'p, 'a> Attempt<'p, 'a> {
                     picard = 0;
                     x.copy_from_slice(&x0);
                     *wrench = w0;
-                    (closure, lack) = self.evaluate(x, wrench, share);
-                    rows = self.end_rows(&closure, &lack);
+                    (closure, wrench_residual) = self.evaluate(x, wrench, share);
+                    rows = self.end_rows(&closure, &wrench_residual);
                     now = self.measure(&rows, wrench);
                     break;
                 }
@@ -381,7 +388,7 @@ impl Attempt<'_, '_> {
         wrench: Wrench,
         iterations: usize,
         balance: &Balance,
-    ) -> (Equilibrium, Path) {
+    ) -> (Equilibrium, ChainMethod) {
         self.evaluate_system(&x, &wrench, 1.0);
         let (chain, factors) = (self.problem.chain, &self.factors);
         let conservative = is_conservative(self.problem);
@@ -408,6 +415,6 @@ impl Attempt<'_, '_> {
         );
         let [last, before] = self.corrections;
         equilibrium.residual.rate = (before > 0.0).then(|| last / before);
-        (equilibrium, self.system.path())
+        (equilibrium, self.system.method())
     }
 }

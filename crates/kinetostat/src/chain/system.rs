@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, Matrix6, Matrix6xX};
 
 use crate::chain::problem::ChainProblem;
 use crate::chain::scaling::disparate;
-use crate::chain::sweep::stages::{Path, SWEEP_FROM, Sweep};
+use crate::chain::sweep::stages::{ChainMethod, SWEEP_FROM, Sweep};
 use crate::model::chain::Chain;
 use crate::model::kinematics::{Kinematics, NodeTangent};
 use crate::model::loads::load::Load;
@@ -70,17 +70,17 @@ impl System {
     }
 
     /// A chain on a base that does not move: with sweeps where it is long enough and a sequence of
-    /// stages. `factors` are those of [`balance`]; `path` overrides the choice, for comparisons.
+    /// stages. `factors` are those of [`balance`]; `method` overrides the choice, for comparisons.
     pub fn of_chain(
         chain: &Chain,
         base: &Pose,
         posture: &[f64],
         commands: &[f64],
         factors: &[f64],
-        path: Option<Path>,
+        method: Option<ChainMethod>,
     ) -> Self {
         let long = chain.coordinate_count() >= SWEEP_FROM || disparate(factors, chain);
-        let wanted = path.map_or(long, |path| path == Path::Sweep);
+        let wanted = method.map_or(long, |method| method == ChainMethod::Sweep);
         let Some(sweep) = wanted
             .then(|| Sweep::new(chain, posture, factors))
             .flatten()
@@ -115,10 +115,10 @@ impl System {
     }
 
     /// Which of the two paths solves this system.
-    pub fn path(&self) -> Path {
+    pub fn method(&self) -> ChainMethod {
         match self.sweep {
-            Some(_) => Path::Sweep,
-            None => Path::Dense,
+            Some(_) => ChainMethod::Sweep,
+            None => ChainMethod::Dense,
         }
     }
 

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::chain::equilibrium::{disparate, rounding};
 use crate::chain::material::{MaterialUnits, material_springs};
 use crate::chain::residual::Balance;
-use crate::chain::sweep::stages::{Path, turned_rows};
+use crate::chain::sweep::stages::{ChainMethod, turned_rows};
 use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::curve_sweep::CurveSweep;
@@ -20,10 +20,10 @@ impl ChainSystem<'_, '_> {
     /// Takes the system that serves: dense where a family is followed or where it is wanted.
     pub(super) fn choose(&mut self) {
         let wanted = match self.dense || self.family.is_some() {
-            true => Path::Dense,
-            false => Path::Sweep,
+            true => ChainMethod::Dense,
+            false => ChainMethod::Sweep,
         };
-        if self.equations.path() != wanted
+        if self.equations.method() != wanted
             && let Some(other) = &mut self.other
         {
             std::mem::swap(&mut self.equations, other);

@@ -6,7 +6,7 @@ use crate::chain::equilibrium::{System, balance};
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::{ChainProblem, Prescribed, check_numbers, check_problem};
 use crate::chain::scaling::{natural, nudged};
-use crate::chain::sweep::stages::Path;
+use crate::chain::sweep::stages::ChainMethod;
 use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::parameter::Parameter;
 use crate::error::{Error, Result};
@@ -117,7 +117,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
         let (posture, commands) = (&p.posture, &p.commands);
         let factors = &self.scaling;
         let mut swept = System::of_chain(p.chain, &p.base, posture, commands, factors, None);
-        if swept.path() == Path::Sweep {
+        if swept.method() == ChainMethod::Sweep {
             swept.pattern.0.clone_from(&self.equations.pattern.0);
             self.other = Some(Box::new(swept));
         }

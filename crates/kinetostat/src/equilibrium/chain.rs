@@ -7,7 +7,7 @@ use crate::chain::newton::{Attempt, Way};
 use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
 use crate::chain::residual::Balance;
 use crate::chain::scaling::{FAR, LEAST_LOAD, SHORT_STEP, aside, gone, natural, nudged};
-use crate::chain::sweep::stages::Path;
+use crate::chain::sweep::stages::ChainMethod;
 use crate::continuation::chain_stability::stability_as_prescribed;
 use crate::error::{Error, Result};
 use crate::model::kinematics::Kinematics;
@@ -45,12 +45,12 @@ pub fn solve_chain(problem: &ChainProblem<'_>, settings: &Settings) -> Result<Eq
 pub fn solve_along(
     problem: &ChainProblem<'_>,
     settings: &Settings,
-    path: Option<Path>,
-) -> Result<(Equilibrium, Path)> {
+    method: Option<ChainMethod>,
+) -> Result<(Equilibrium, ChainMethod)> {
     check_problem(problem)?;
     let chain = problem.chain;
     settings.check(&chain.place())?;
-    let mut attempt = Attempt::new(problem, settings, path);
+    let mut attempt = Attempt::new(problem, settings, method);
     let mut spent = 0;
     let mut direct = |attempt: &mut Attempt<'_, '_>, nudge: f64| {
         let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
@@ -72,7 +72,7 @@ pub fn solve_along(
         if nudge != 0.0 {
             found.0.found_by = FoundBy::OutOfLine;
         }
-        return Ok(led_by_growing_load(problem, settings, path, &found.0).unwrap_or(found));
+        return Ok(led_by_growing_load(problem, settings, method, &found.0).unwrap_or(found));
     }
     let mut failure = match grow_load(&mut attempt, false, 1.0) {
         Ok((x, wrench, iterations, balance)) => {
@@ -122,7 +122,7 @@ pub fn solve_along(
 }
 
 /// The same, and how it was found.
-fn found_by(mut found: (Equilibrium, Path), by: FoundBy) -> (Equilibrium, Path) {
+fn found_by(mut found: (Equilibrium, ChainMethod), by: FoundBy) -> (Equilibrium, ChainMethod) {
     found.0.found_by = by;
     found
 }
@@ -143,14 +143,14 @@ struct Failure {
 fn led_by_growing_load(
     problem: &ChainProblem<'_>,
     settings: &Settings,
-    path: Option<Path>,
+    method: Option<ChainMethod>,
     found: &Equilibrium,
-) -> Option<(Equilibrium, Path)> {
+) -> Option<(Equilibrium, ChainMethod)> {
     let near = gone(problem.chain, &problem.posture, &found.coordinates) <= FAR;
     if near || stays(problem, settings, found) {
         return None;
     }
-    let mut attempt = Attempt::new(problem, settings, path);
+    let mut attempt = Attempt::new(problem, settings, method);
     let (x, wrench, iterations, balance) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
     let spent = found.residual.iterations + iterations;
     let grown = attempt.finish(x, wrench, spent, &balance);

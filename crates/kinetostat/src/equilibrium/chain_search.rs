@@ -17,7 +17,7 @@ use crate::continuation::state_distance::wrapped;
 use crate::continuation::system::Corrected;
 use crate::equilibrium::bounds::Bounds;
 use crate::equilibrium::chain_starts::{around, spread, structured};
-use crate::equilibrium::search::{Entry, Found, Searched};
+use crate::equilibrium::search::{Entry, SearchOutcome, Searched};
 use crate::error::Result;
 use crate::linalg::saddle::{Saddle, pseudo_inverse};
 use crate::linalg::singular_values::SingularValues;
@@ -308,7 +308,7 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
     }
 
     /// Without full turns of passive joints, and with those that turn for nothing where the posture has them.
-    fn normalised(&mut self, mut c: Corrected) -> Found<Candidate> {
+    fn normalised(&mut self, mut c: Corrected) -> SearchOutcome<Candidate> {
         let offset = self.system.reactions();
         let turns = self.balanced_turns();
         // Full turns of passive joints out.
@@ -337,9 +337,9 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
             c.balance = self.system.evaluate(&c.z).1;
         }
         if !self.bounds.hold(&self.system.coordinates(&c.z)) {
-            return Found::Outside;
+            return SearchOutcome::Outside;
         }
-        Found::Equilibrium(Candidate {
+        SearchOutcome::Equilibrium(Candidate {
             energy: self.system.equations.energy,
             residual: c.balance.torque / c.balance.loads.max(f64::MIN_POSITIVE),
             stability: self.system.stability(&c, false),
@@ -348,8 +348,8 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
         })
     }
 
-    fn converged_to(&mut self, c: Option<Corrected>) -> Found<Candidate> {
-        c.map_or(Found::Nothing, |c| self.normalised(c))
+    fn converged_to(&mut self, c: Option<Corrected>) -> SearchOutcome<Candidate> {
+        c.map_or(SearchOutcome::Nothing, |c| self.normalised(c))
     }
 }
 
@@ -388,7 +388,7 @@ impl Searched for ChainSearch<'_, '_, '_> {
         4
     }
 
-    fn solve(&mut self, starts: &[Vec<f64>]) -> Vec<Found<Candidate>> {
+    fn solve(&mut self, starts: &[Vec<f64>]) -> Vec<SearchOutcome<Candidate>> {
         let solved = starts.iter().map(|x| {
             let z = self.state_of(x);
             let c = z.and_then(|z| self.newton(&z, None));
@@ -397,7 +397,7 @@ impl Searched for ChainSearch<'_, '_, '_> {
         solved.collect()
     }
 
-    fn deflated(&mut self, start: &Vec<f64>, known: &[Entry<Known>]) -> Found<Candidate> {
+    fn deflated(&mut self, start: &Vec<f64>, known: &[Entry<Known>]) -> SearchOutcome<Candidate> {
         let z = self.state_of(start);
         let c = z.and_then(|z| self.newton(&z, Some(known)));
         self.converged_to(c)
@@ -483,7 +483,7 @@ impl Searched for ChainSearch<'_, '_, '_> {
     }
 
     /// Where the curve through it comes back to the problem's own conditions.
-    fn connected(&mut self, from: Option<&Known>) -> Vec<Found<Candidate>> {
+    fn connected(&mut self, from: Option<&Known>) -> Vec<SearchOutcome<Candidate>> {
         let (Some(parameter), Some(known)) = (self.along.clone(), from) else {
             return Vec::new();
         };

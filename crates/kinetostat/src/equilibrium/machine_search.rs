@@ -9,7 +9,7 @@ use crate::chain::directions::DirectionKind;
 use crate::continuation::settings::CurveSettings;
 use crate::continuation::tool_conditions::ToolConditions;
 use crate::equilibrium::bounds::Bounds;
-use crate::equilibrium::search::{Entry, Found, Searched};
+use crate::equilibrium::search::{Entry, SearchOutcome, Searched};
 use crate::machine::equilibrium::{MechanismEquilibrium, conclude};
 use crate::machine::platforms::parts::Unknowns;
 use crate::machine::state::MechanismState;
@@ -51,9 +51,9 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
-    fn of(equilibrium: Option<MechanismEquilibrium>) -> Found<Self> {
-        equilibrium.map_or(Found::Nothing, |equilibrium| {
-            Found::Equilibrium(Self {
+    fn of(equilibrium: Option<MechanismEquilibrium>) -> SearchOutcome<Self> {
+        equilibrium.map_or(SearchOutcome::Nothing, |equilibrium| {
+            SearchOutcome::Equilibrium(Self {
                 equilibrium,
                 on_curve: None,
             })
@@ -168,7 +168,7 @@ impl<'p> MachineSearch<'p> {
 
     /// Drives the tool along each of its free motions that was not followed yet, in both directions, from an equilibrium or
     /// (`None`) from the commanded place.
-    fn driven(&self, known: Option<&Known>) -> Vec<Found<Candidate>> {
+    fn driven(&self, known: Option<&Known>) -> Vec<SearchOutcome<Candidate>> {
         let path = &self.conditions;
         let from = known.map(|k| &k.equilibrium);
         let reach = FOLLOWED_SIZES * path.posture.mechanism.size();
@@ -190,7 +190,7 @@ impl<'p> MachineSearch<'p> {
                     continue;
                 };
                 let apart = path.balanced(&pose_residual(&equilibrium.tool, &there).0);
-                list.push(Found::Equilibrium(Candidate {
+                list.push(SearchOutcome::Equilibrium(Candidate {
                     on_curve: (apart.norm() < 1e-3 * path.length).then_some(i),
                     equilibrium,
                 }));
@@ -202,7 +202,7 @@ impl<'p> MachineSearch<'p> {
     }
 
     /// Lets the machine go from beside an unstable equilibrium.
-    fn let_go_beside(&self, known: &Known) -> Vec<Found<Candidate>> {
+    fn let_go_beside(&self, known: &Known) -> Vec<SearchOutcome<Candidate>> {
         if known.stable {
             return Vec::new();
         }
@@ -240,14 +240,14 @@ impl Searched for MachineSearch<'_> {
         1
     }
 
-    fn solve(&mut self, starts: &[usize]) -> Vec<Found<Candidate>> {
+    fn solve(&mut self, starts: &[usize]) -> Vec<SearchOutcome<Candidate>> {
         let ended = parallel::map(starts.to_vec(), |k| self.let_go(k));
         ended.into_iter().map(Candidate::of).collect()
     }
 
     /// Descents do not repel each other.
-    fn deflated(&mut self, _start: &usize, _known: &[Entry<Known>]) -> Found<Candidate> {
-        Found::Nothing
+    fn deflated(&mut self, _start: &usize, _known: &[Entry<Known>]) -> SearchOutcome<Candidate> {
+        SearchOutcome::Nothing
     }
 
     fn same(&self, known: &Known, candidate: &Candidate) -> bool {
@@ -276,7 +276,7 @@ impl Searched for MachineSearch<'_> {
         FOLLOWED
     }
 
-    fn connected(&mut self, from: Option<&Known>) -> Vec<Found<Candidate>> {
+    fn connected(&mut self, from: Option<&Known>) -> Vec<SearchOutcome<Candidate>> {
         let mut list = self.driven(from);
         list.extend(from.into_iter().flat_map(|known| self.let_go_beside(known)));
         list

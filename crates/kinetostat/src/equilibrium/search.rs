@@ -31,13 +31,13 @@ pub(crate) trait Searched {
     fn patience(&self) -> usize;
 
     /// An equilibrium from every start whose iteration converges, in the form in which equilibria are compared.
-    fn solve(&mut self, starts: &[Self::Start]) -> Vec<Found<Self::Candidate>>;
+    fn solve(&mut self, starts: &[Self::Start]) -> Vec<SearchOutcome<Self::Candidate>>;
     /// The same from one start, repelled by what is known (deflation).
     fn deflated(
         &mut self,
         start: &Self::Start,
         known: &[Entry<Self::Known>],
-    ) -> Found<Self::Candidate>;
+    ) -> SearchOutcome<Self::Candidate>;
     /// Whether a candidate is an equilibrium that is known.
     fn same(&self, known: &Self::Known, candidate: &Self::Candidate) -> bool;
     /// A candidate was recognised as this one.
@@ -50,11 +50,11 @@ pub(crate) trait Searched {
     /// Curves are followed through so many equilibria at most.
     fn most_curves(&self) -> usize;
     /// What curves through a known equilibrium connect with it, or (`None`) through the commanded place.
-    fn connected(&mut self, from: Option<&Self::Known>) -> Vec<Found<Self::Candidate>>;
+    fn connected(&mut self, from: Option<&Self::Known>) -> Vec<SearchOutcome<Self::Candidate>>;
 }
 
 /// How an iteration ended.
-pub(crate) enum Found<C> {
+pub(crate) enum SearchOutcome<C> {
     /// At an equilibrium.
     Equilibrium(C),
     /// At an equilibrium outside of what counts.
@@ -109,7 +109,7 @@ pub(crate) fn search<S: Searched>(
     limits: &Limits,
 ) -> (Vec<Entry<S::Known>>, Coverage) {
     let mut queue = system.structured();
-    let mut search = Search {
+    let mut search = EquilibriumSearch {
         system,
         known: Vec::new(),
         outside: 0,
@@ -141,7 +141,7 @@ pub(crate) fn search<S: Searched>(
     search.finish(limits)
 }
 
-struct Search<'s, S: Searched> {
+struct EquilibriumSearch<'s, S: Searched> {
     system: &'s mut S,
     known: Vec<Entry<S::Known>>,
     outside: usize,
@@ -149,7 +149,7 @@ struct Search<'s, S: Searched> {
     fruitless: usize,
 }
 
-impl<S: Searched> Search<'_, S> {
+impl<S: Searched> EquilibriumSearch<'_, S> {
     /// Nothing new for long enough; longer while some equilibrium was hit only once.
     fn enough(&self, limits: &Limits) -> bool {
         let rare = self.known.iter().any(|k| k.hits <= 1);
@@ -179,7 +179,7 @@ impl<S: Searched> Search<'_, S> {
     }
 
     /// Books what a start found; once more with deflation where it is known.
-    fn take(&mut self, start: &S::Start, found: Found<S::Candidate>, counted: bool) {
+    fn take(&mut self, start: &S::Start, found: SearchOutcome<S::Candidate>, counted: bool) {
         if self.note(found, counted) {
             let other = self.system.deflated(start, &self.known);
             self.note(other, false);
@@ -194,14 +194,14 @@ impl<S: Searched> Search<'_, S> {
     }
 
     /// Books an equilibrium; true if it was known.
-    fn note(&mut self, found: Found<S::Candidate>, counted: bool) -> bool {
+    fn note(&mut self, found: SearchOutcome<S::Candidate>, counted: bool) -> bool {
         let candidate = match found {
-            Found::Equilibrium(candidate) => candidate,
-            Found::Outside => {
+            SearchOutcome::Equilibrium(candidate) => candidate,
+            SearchOutcome::Outside => {
                 self.outside += usize::from(counted);
                 return false;
             }
-            Found::Nothing => return false,
+            SearchOutcome::Nothing => return false,
         };
         for entry in &mut self.known {
             if self.system.same(&entry.known, &candidate) {

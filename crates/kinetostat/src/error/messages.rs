@@ -46,7 +46,7 @@ pub(super) fn not_converged(
         ),
         None => format!(
             "{place}: no equilibrium found in {iterations} iterations (the largest share of the load with an equilibrium: {share:.3}; the last try left a gap of {} m, and torques of {} times the largest without balance)",
-            // Below this a gap is the rounding of its arithmetic.
+            // A smaller residual is the rounding of its arithmetic.
             number::short(if closure < 1e-12 { 0.0 } else { closure }),
             number::short(torque)
         ),

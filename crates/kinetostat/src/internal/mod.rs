@@ -23,7 +23,7 @@ pub use crate::chain::stability::stability_within;
 pub use crate::chain::stiffness::{chain_stiffness, swept_stiffness};
 pub use crate::chain::sweep::end_spring::END_SPRINGS;
 pub use crate::chain::sweep::solve::{Bordered, EndMotions, EndRows, shape};
-pub use crate::chain::sweep::stages::{Form, Path, SWEEP_FROM};
+pub use crate::chain::sweep::stages::{ChainMethod, Form, SWEEP_FROM};
 pub use crate::chain::system::System;
 pub use crate::equilibrium::chain::solve_along;
 pub use crate::linalg::block_elimination::{BlockFactors, Pivots};

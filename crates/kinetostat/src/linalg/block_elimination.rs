@@ -26,7 +26,7 @@ pub enum Pivots {
 /// An elimination may magnify rounding this much; one step of refinement takes it out.
 const GROWTH: f64 = 1e4;
 
-struct Step {
+struct EliminationStep {
     own: Vec<usize>,
     outer: Vec<usize>,
     pivot: DMatrix<f64>,
@@ -42,7 +42,7 @@ pub struct BlockFactors {
     units: Vec<f64>,
     /// Balanced.
     matrix: Sparse,
-    steps: Vec<Step>,
+    steps: Vec<EliminationStep>,
 }
 
 /// Blocks not yet eliminated.
@@ -113,7 +113,7 @@ impl Active {
     }
 
     /// Factors of a block, or none if it must wait.
-    fn step(&self, node: usize, pivots: Pivots, most: f64) -> Option<Step> {
+    fn step(&self, node: usize, pivots: Pivots, most: f64) -> Option<EliminationStep> {
         let neighbours = self.neighbours(node);
         let own = self.members[node].clone();
         let outer: Vec<usize> = neighbours
@@ -147,7 +147,7 @@ impl Active {
             return None;
         }
         let sound = pivots == Pivots::Definite || upper.is_empty() || upper.amax() <= GROWTH;
-        sound.then_some(Step {
+        sound.then_some(EliminationStep {
             own,
             outer,
             pivot,
@@ -158,7 +158,7 @@ impl Active {
     }
 
     /// Takes a factorised block out.
-    fn eliminate(&mut self, node: usize, step: &Step) {
+    fn eliminate(&mut self, node: usize, step: &EliminationStep) {
         let neighbours = self.neighbours(node);
         let update = &step.lower * &step.upper;
         let mut row = 0;
@@ -259,7 +259,7 @@ impl BlockFactors {
             *value *= units[*i] * units[*j];
         }
         let mut active = Active::new(&matrix, nodes);
-        let mut steps: Vec<Step> = Vec::new();
+        let mut steps: Vec<EliminationStep> = Vec::new();
         let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
         while let Some((_, node)) = active.queue.pop_first() {
             match active.step(node, pivots, most) {

@@ -12,7 +12,7 @@ use crate::linalg::largest::largest;
 const SMALL: usize = 96;
 /// Motions in a block: eigenvalues of this multiplicity are found.
 const BLOCK: usize = 4;
-/// What a vector may miss of being an eigenvector, as a share of the matrix.
+/// Largest residual of an eigenvector, as a share of the matrix.
 const RESIDUAL: f64 = 1e-10;
 
 /// The largest eigenvalues of a symmetric matrix, from the largest, and their orthonormal vectors.
@@ -69,8 +69,8 @@ fn in_krylov_space(a: &DMatrix<f64>, count: usize) -> Option<(DVector<f64>, DMat
             let within = space.transpose() * &image;
             let (values, chosen) = of_the_whole(0.5 * (&within + within.transpose()), count);
             let vectors = &space * &chosen;
-            let missed = &image * &chosen - &vectors * DMatrix::from_diagonal(&values);
-            if largest(&missed) <= RESIDUAL * a.amax() {
+            let residual = &image * &chosen - &vectors * DMatrix::from_diagonal(&values);
+            if largest(&residual) <= RESIDUAL * a.amax() {
                 return Some((values, vectors));
             }
         }

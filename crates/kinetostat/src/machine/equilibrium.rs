@@ -199,7 +199,7 @@ pub(crate) fn conclude(
             value,
         });
     }
-    // What a held tool lacks is what its holder must apply.
+    // The unbalanced wrench of a tool under displacement control is what its holder must apply.
     let wrench = match solver.unknowns {
         Unknowns::Held => Wrench(-unbalanced[m.tool()].0),
         _ => solver.wrench,

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::linalg::largest::largest;
 use crate::machine::inverse::limb::wrap;
 use crate::machine::posture::Posture;
-use crate::machine::singular::lost_motion::{Search, solve};
+use crate::machine::singular::lost_motion::{LostMotionSearch, solve};
 use crate::model::mechanism::Mechanism;
 
 /// Motions of unit length that move less than this (balanced) do not move.
@@ -53,10 +53,10 @@ fn surface_normal(at: &Posture) -> Option<Vector3<f64>> {
     let mechanism = &at.mechanism;
     let home = mechanism.posture_at_pose(&mechanism.platforms()[mechanism.tool()].home, None);
     let home = home.ok()?;
-    let mut beside = Search::new(&home);
+    let mut beside = LostMotionSearch::new(&home);
     beside.beside(0.05, 0)?;
     let (_, elsewhere) = beside.freedoms()?;
-    let (_, here) = Search::new(at).freedoms()?;
+    let (_, here) = LostMotionSearch::new(at).freedoms()?;
     if rank(&elsewhere.position) != 2 || rank(&here.position) != 2 {
         return None;
     }
@@ -73,10 +73,10 @@ fn rank(rows: &DMatrix<f64>) -> usize {
     values.iter().filter(|v| **v > COUNTED * COUNTED).count()
 }
 
-impl Search<'_> {
+impl LostMotionSearch<'_> {
     fn freedoms(&self) -> Option<(DVector<f64>, Freedoms)> {
-        let (closure, gaps) = self.closure();
-        let (closing, all) = solve(&closure, &gaps)?;
+        let (closure, residuals) = self.closure();
+        let (closing, all) = solve(&closure, &residuals)?;
         let tool = self.tool();
         let position = all.rows(tool, 3).into_owned();
         let rotation = all.rows(tool + 3, 3).into_owned();
@@ -88,8 +88,8 @@ impl Search<'_> {
         Some((closing, freedoms))
     }
 
-    /// Largest gap of the limbs, balanced.
-    fn gap(&self) -> f64 {
+    /// Largest closure residual of the limbs, scaled.
+    fn largest_residual(&self) -> f64 {
         self.closure().1.amax()
     }
 
@@ -122,7 +122,7 @@ impl Search<'_> {
             }
             before = size;
         }
-        let closed = self.gap() <= 1e-10 * length;
+        let closed = self.largest_residual() <= 1e-10 * length;
         let left = (position - self.at.target.translation.vector).norm();
         closed.then_some(left)
     }
@@ -141,7 +141,7 @@ impl Search<'_> {
                 break;
             }
         }
-        (self.gap() <= 1e-10 * self.length).then_some(())
+        (self.largest_residual() <= 1e-10 * self.length).then_some(())
     }
 }
 
@@ -191,9 +191,9 @@ impl Mechanism {
         position: &Vector3<f64>,
         wanted: &UnitQuaternion<f64>,
     ) -> Error {
-        let miss = position - found.target.translation.vector;
-        let left = miss.norm();
-        let outside = surface_normal(found).filter(|n| miss.dot(n).abs() > 0.99 * left);
+        let away = position - found.target.translation.vector;
+        let left = away.norm();
+        let outside = surface_normal(found).filter(|n| away.dot(n).abs() > 0.99 * left);
         let place = match outside {
             Some(normal) => format!(
                 ", whose tool point stays in a surface (here square to {}) that the target lies outside of",
@@ -249,7 +249,7 @@ impl Mechanism {
         // Straight there in small steps; and where a singular start hides the way, from beside it.
         let first = walk(&start, position, wanted);
         let beside = (0..6).filter_map(|round| {
-            let mut search = Search::new(&start);
+            let mut search = LostMotionSearch::new(&start);
             search.beside(0.1 * (1 + round) as f64, round)?;
             let beside = search.at;
             walk(&beside, position, wanted)
@@ -299,7 +299,7 @@ impl Mechanism {
             return false;
         };
         let turns = |round: usize| {
-            let mut search = Search::new(&home);
+            let mut search = LostMotionSearch::new(&home);
             search.beside(0.05, round)?;
             let (_, free) = search.freedoms()?;
             let (_, pure) = nearest(&free.rotation, &DVector::zeros(3))?;
@@ -328,7 +328,7 @@ fn walk(
         } else {
             from + way * next
         };
-        let mut search = Search::new(&at);
+        let mut search = LostMotionSearch::new(&at);
         let left = search.follow(&place, wanted);
         let found = search.at;
         if left.is_some_and(|left| left <= 1e-10 * length) {
@@ -340,14 +340,14 @@ fn walk(
         step *= 0.5;
         if step * steps < 0.1 {
             // What is nearest to the position from here on.
-            let mut search = Search::new(&at);
+            let mut search = LostMotionSearch::new(&at);
             let left = search.follow(position, wanted)?;
             return Some((search.at, left));
         }
     }
     if answer.is_none() {
         // No way at all.
-        let mut search = Search::new(&at);
+        let mut search = LostMotionSearch::new(&at);
         let left = search.follow(position, wanted)?;
         return Some((search.at, left));
     }
@@ -357,7 +357,7 @@ fn walk(
 impl Posture {
     /// Directions in which the machine can move the tool's reference point (columns, base axes).
     pub(crate) fn position_freedoms(&self) -> DMatrix<f64> {
-        let search = Search::new(self);
+        let search = LostMotionSearch::new(self);
         let Some((_, free)) = search.freedoms() else {
             return DMatrix::zeros(3, 0);
         };

@@ -21,7 +21,7 @@ const STRIDE: f64 = 0.2;
 
 /// Platforms and joints on the way.
 #[derive(Clone)]
-struct Shape {
+struct ClosedShape {
     platforms: Vec<Pose>,
     limbs: Vec<LimbPosture>,
 }
@@ -88,7 +88,7 @@ impl Mechanism {
             return self.open(limb.nominal.home_coordinates(), wanted[0].to_vec());
         }
         let home = self.posture(&self.platforms()[self.tool()].home)?;
-        let mut at = Shape {
+        let mut at = ClosedShape {
             platforms: home.platforms().to_vec(),
             limbs: home.limbs().to_vec(),
         };
@@ -163,8 +163,8 @@ impl Mechanism {
         self.posture_from_joints(&target, vec![joints])
     }
 
-    /// Moves platforms and passive joints until every loop closes; `Err` holds the gap.
-    fn close(&self, mut at: Shape) -> std::result::Result<Shape, (f64, f64)> {
+    /// Moves platforms and passive joints until every loop closes; `Err` holds the closure residual.
+    fn close(&self, mut at: ClosedShape) -> std::result::Result<ClosedShape, (f64, f64)> {
         let length = self.scale().length;
         let moving = 6 * (self.platforms().len() - 1);
         let passive: Vec<Vec<usize>> = self
@@ -174,13 +174,13 @@ impl Mechanism {
             .collect();
         let columns = moving + passive.iter().map(Vec::len).sum::<usize>();
         let goal = 1e-14 * length;
-        let mut gap = (f64::INFINITY, f64::INFINITY);
+        let mut residual = (f64::INFINITY, f64::INFINITY);
         let mut last = f64::INFINITY;
         for _ in 0..30 {
             let mut matrix = DMatrix::zeros(6 * self.limbs().len(), columns);
             let mut closure = DVector::zeros(6 * self.limbs().len());
             let mut first = moving;
-            gap = (0.0, 0.0);
+            residual = (0.0, 0.0);
             for (i, limb) in self.limbs().iter().enumerate() {
                 let joints = &at.limbs[i];
                 let (from, to) = (&at.platforms[limb.from], &at.platforms[limb.to]);
@@ -189,7 +189,10 @@ impl Mechanism {
                     Kinematics::new(&limb.nominal, from, &joints.coordinates, &joints.commands);
                 let tip = kinematics.tip_pose();
                 let c = pose_residual(&target, &tip);
-                gap = (gap.0.max(c.linear().norm()), gap.1.max(c.angular().norm()));
+                residual = (
+                    residual.0.max(c.linear().norm()),
+                    residual.1.max(c.angular().norm()),
+                );
                 let arm = target.translation.vector - to.translation.vector;
                 let lever = tip.translation.vector - from.translation.vector;
                 for (platform, block) in [
@@ -257,6 +260,6 @@ impl Mechanism {
                 first += own.len();
             }
         }
-        Err(gap)
+        Err(residual)
     }
 }

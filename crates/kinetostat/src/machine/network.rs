@@ -142,7 +142,7 @@ impl Network {
     }
 
     /// Wrenches of all limbs on their tips for motions of the platforms (base included), with
-    /// `errors` by which the tips miss and what the limbs carry rigidly (in the order of
+    /// `errors` of the tips and what the limbs carry rigidly (in the order of
     /// [`Self::rows`]).
     pub fn wrenches(&self, motions: &[Twist], errors: &[Twist], carried: &[f64]) -> Vec<Wrench> {
         let mut at = 0;

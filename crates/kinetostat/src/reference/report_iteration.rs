@@ -276,18 +276,18 @@ fn iterate(
 
 /// One full step; `None` without a finite solution.
 fn step(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>, exact: bool) -> Option<DVector<f64>> {
-    let (lack, _) = system.evaluate(z);
+    let (residual, _) = system.evaluate(z);
     let m = system.count();
     let matrix = if exact {
         system.matrix()
     } else {
         system.lagged_matrix()
     };
-    if !matrix.iter().chain(lack.iter()).all(|x| x.is_finite()) {
+    if !matrix.iter().chain(residual.iter()).all(|x| x.is_finite()) {
         return None;
     }
     let ones = vec![1.0; m];
-    let mut b = DMatrix::from_fn(m, 1, |i, _| -lack[i]);
+    let mut b = DMatrix::from_fn(m, 1, |i, _| -residual[i]);
     Saddle::new(matrix, &ones, &ones).solve(&mut b);
     let step = DVector::from_fn(m + 1, |i, _| if i < m { b[(i, 0)] } else { 0.0 });
     step.iter().all(|x| x.is_finite()).then_some(step)

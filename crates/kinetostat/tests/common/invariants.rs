@@ -82,37 +82,37 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
     assert!(finite, "a number is not finite");
     let frames = Frames::new(chain, &problem.base, &e.coordinates, &problem.commands);
     let scale = chain.scale();
-    let tip = frames.miss(frames.tip(), &e.tip);
+    let tip = frames.pose_residual(frames.tip(), &e.tip);
     assert!(tip.norm() < 1e-12 * scale.length.max(1.0), "tip: {tip}");
     for (node, pose) in e.nodes.iter().enumerate() {
         assert!(
-            frames.miss(node, pose).norm() < 1e-12 * scale.length.max(1.0),
+            frames.pose_residual(node, pose).norm() < 1e-12 * scale.length.max(1.0),
             "node {node}"
         );
     }
 
     // End condition, per direction.
-    let miss = frames.miss(frames.tip(), &problem.end.pose);
+    let tip_residual = frames.pose_residual(frames.tip(), &problem.end.pose);
     let back = problem.end.axes.inverse();
     let (d, w) = (
-        back * miss.fixed_rows::<3>(0),
-        back * miss.fixed_rows::<3>(3),
+        back * tip_residual.fixed_rows::<3>(0),
+        back * tip_residual.fixed_rows::<3>(3),
     );
-    let lack = Wrench(problem.end.wrench.0 - e.wrench.0).rotated(&back);
+    let wrench_residual = Wrench(problem.end.wrench.0 - e.wrench.0).rotated(&back);
     let forces = e.wrench.0.largest_entry().max(1e-6);
     for k in 0..6 {
         match problem.end.prescribed[k] {
             Prescribed::Pose => {
-                let gap = if k < 3 { d[k] } else { w[k - 3] * scale.length };
+                let off = if k < 3 { d[k] } else { w[k - 3] * scale.length };
                 assert!(
-                    gap.abs() <= 1e-11 * scale.length,
-                    "direction {k} misses by {gap:.2e} m"
+                    off.abs() <= 1e-11 * scale.length,
+                    "direction {k} misses by {off:.2e} m"
                 );
             }
             Prescribed::Wrench => assert!(
-                lack.0[k].abs() <= 1e-8 * forces,
+                wrench_residual.0[k].abs() <= 1e-8 * forces,
                 "direction {k} lacks {:.2e} of {forces:.2e}",
-                lack.0[k]
+                wrench_residual.0[k]
             ),
         }
     }
@@ -207,10 +207,10 @@ pub fn assert_equilibrium(posture: &Posture, e: &MechanismEquilibrium) {
         let n = e.state.coordinates[i].len();
         let own = limb.actual.scale().length;
         for k in 0..6 {
-            let gap = rows[at + k] * if k < 3 { 1.0 } else { own };
+            let off = rows[at + k] * if k < 3 { 1.0 } else { own };
             assert!(
-                gap.abs() <= 1e-11 * own,
-                "limb {i} misses by {gap:.2e} m in direction {k}"
+                off.abs() <= 1e-11 * own,
+                "limb {i} misses by {off:.2e} m in direction {k}"
             );
         }
         let (spring, k, energy) = springs(

@@ -167,8 +167,8 @@ fn another_tool_point_sees_the_same_machine() {
         let arm = e.tool.rotation * tool.translation.vector;
         let o = there.deflected_by(&wrench.shifted(&arm)).unwrap();
         assert_equilibrium(&there, &o);
-        let miss = kinetostat::spatial::pose_residual(&(e.tool * tool), &o.tool);
-        assert!(miss.0.norm() < 1e-12, "{index}: {miss:?}");
+        let residual = kinetostat::spatial::pose_residual(&(e.tool * tool), &o.tool);
+        assert!(residual.0.norm() < 1e-12, "{index}: {residual:?}");
         let k = CartesianStiffness {
             matrix: e.stiffness.matrix,
         }
@@ -217,8 +217,8 @@ pub fn reordered() -> Reordered {
             );
             assert_equilibrium(&p, &e);
             assert_equilibrium(&q, &o);
-            let miss = kinetostat::spatial::pose_residual(&e.tool, &o.tool);
-            tool.add(miss.0.norm());
+            let residual = kinetostat::spatial::pose_residual(&e.tool, &o.tool);
+            tool.add(residual.0.norm());
             let k = balanced_error(&e.stiffness.matrix, &o.stiffness.matrix);
             stiffness.add(k);
             for (k, &i) in order.iter().enumerate() {

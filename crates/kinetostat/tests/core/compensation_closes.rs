@@ -67,10 +67,10 @@ fn an_arm_corrects_all_six_directions_under_weight_and_force() {
         );
         let again = c.posture.deflected_by(&wrench).unwrap();
         assert_equilibrium(&c.posture, &again);
-        let miss = pose_residual(&again.tool, &desired);
+        let residual = pose_residual(&again.tool, &desired);
         assert!(
-            miss.linear().norm() < 5e-12 && miss.angular().norm() < 5e-12,
-            "pose {pose}: {miss:?}"
+            residual.linear().norm() < 5e-12 && residual.angular().norm() < 5e-12,
+            "pose {pose}: {residual:?}"
         );
         // To first order the correction is minus the deflection.
         let sum = c.correction.0 + before.displacement.0;
@@ -82,8 +82,11 @@ fn an_arm_corrects_all_six_directions_under_weight_and_force() {
         let mut flat = Flat::at_rest(&c.posture);
         flat.load = wrench.0;
         flat.solve(false);
-        let miss = pose_residual(&flat.platforms[machine.tool()], &desired);
-        assert!(miss.0.norm() < 1e-10, "pose {pose}: oracle {miss:?}");
+        let residual = pose_residual(&flat.platforms[machine.tool()], &desired);
+        assert!(
+            residual.0.norm() < 1e-10,
+            "pose {pose}: oracle {residual:?}"
+        );
         // The commands are those of the modified target.
         let target = *c.posture.target();
         let tip = kinetostat::model::unloaded_tip(
@@ -206,8 +209,8 @@ fn a_tool_far_from_the_platform_is_corrected_at_its_own_tip() {
         let c = compensate(&machine, &desired, &wrench, POSITION, &Settings::default()).unwrap();
         assert_equilibrium(&c.posture, &c.equilibrium);
         let again = c.posture.deflected_by(&wrench).unwrap();
-        let miss = pose_residual(&again.tool, &desired).linear().norm();
-        assert!(miss < 1e-12, "{index}: {miss:e}");
+        let residual = pose_residual(&again.tool, &desired).linear().norm();
+        assert!(residual < 1e-12, "{index}: {residual:e}");
         assert_eq!(c.posture.correctable(), POSITION);
     }
 }

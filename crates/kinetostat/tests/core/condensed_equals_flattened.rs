@@ -305,8 +305,8 @@ proptest! {
         let b = parts.deflected_by(&wrench).unwrap();
         assert_equilibrium(&whole, &a);
         assert_equilibrium(&parts, &b);
-        let miss = pose_residual(&a.tool, &b.tool);
-        prop_assert!(miss.0.norm() < 1e-10, "{miss:?}");
+        let residual = pose_residual(&a.tool, &b.tool);
+        prop_assert!(residual.0.norm() < 1e-10, "{residual:?}");
         let error = balanced_error(&b.stiffness.matrix, &a.stiffness.matrix);
         prop_assert!(error < 1e-8, "stiffness {error:e}");
         let (stored, again) = (a.limbs[0].energy, b.limbs.iter().map(|l| l.energy).sum::<f64>());
@@ -384,8 +384,11 @@ fn compensation_of_several_platforms_closes_or_is_refused() {
     }
     if let Ok(found) = found {
         let again = found.posture.deflected_by(&wrench).unwrap();
-        let miss = pose_residual(&again.tool, &c.target).linear().norm();
-        assert!(miss < 1e-10, "misses by {miss:e} m and reports success");
+        let residual = pose_residual(&again.tool, &c.target).linear().norm();
+        assert!(
+            residual < 1e-10,
+            "misses by {residual:e} m and reports success"
+        );
     }
 }
 
@@ -435,6 +438,6 @@ fn another_tool_point_keeps_limbs_that_start_at_the_tool() {
         .posture(PostureRequest::joints(&(home * tip), joints()))
         .unwrap();
     let o = there.deflected_by(&Wrench::zero()).unwrap();
-    let miss = pose_residual(&(e.tool * tip), &o.tool);
-    assert!(miss.0.norm() < 1e-10, "{miss:?}");
+    let residual = pose_residual(&(e.tool * tip), &o.tool);
+    assert!(residual.0.norm() < 1e-10, "{residual:?}");
 }

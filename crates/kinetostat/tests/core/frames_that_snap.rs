@@ -170,9 +170,9 @@ impl<'f> Shot<'f> {
         }
     }
 
-    /// What the far end lacks, in natural units, for `(R_x, R_y, angle or moment, load)` in natural
+    /// Residual of the far end, in natural units, for `(R_x, R_y, angle or moment, load)` in natural
     /// units.
-    fn miss(&self, u: &Vector4<f64>) -> Vector3<f64> {
+    fn residual(&self, u: &Vector4<f64>) -> Vector3<f64> {
         let f = self.frame;
         let (rx, ry) = (u[0] * self.force, u[1] * self.force);
         let mut state = Vector4::zeros(); // x, y, angle, moment
@@ -229,7 +229,7 @@ impl<'f> Shot<'f> {
             let at = |s: f64| {
                 let mut near = *u;
                 near[k] += s * 1e-4;
-                self.miss(&near)
+                self.residual(&near)
             };
             let column = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / 12e-4;
             slope.set_column(k, &column);
@@ -254,9 +254,14 @@ impl<'f> Shot<'f> {
         let guess = u + t * size;
         let mut u = guess;
         for _ in 0..10 {
-            let (miss, s) = (self.miss(&u), self.slope(&u));
+            let (residual, s) = (self.residual(&u), self.slope(&u));
             let a = Matrix4::from_fn(|r, c| if r < 3 { s[(r, c)] } else { t[c] });
-            let b = Vector4::new(-miss[0], -miss[1], -miss[2], t.dot(&(guess - u)));
+            let b = Vector4::new(
+                -residual[0],
+                -residual[1],
+                -residual[2],
+                t.dot(&(guess - u)),
+            );
             let step = a.lu().solve(&b)?;
             u += step;
             if step.norm() < 1e-9 * (1.0 + u.norm()) {
@@ -293,11 +298,11 @@ impl<'f> Shot<'f> {
                         high = middle;
                     }
                 }
-                self.miss(&at);
+                self.residual(&at);
                 found.push((at[3] * self.force, self.drop.get()));
             }
             (u, t, size) = (next, ahead, 1.3 * size);
-            self.miss(&u);
+            self.residual(&u);
             if self.drop.get() > most {
                 return found;
             }

@@ -232,8 +232,8 @@ fn legs_that_spin_change_nothing_for_the_platform() {
         crate::common::assert_equilibrium(&p, &e);
         crate::common::assert_equilibrium(&q, &o);
         assert!(e.stable() && o.stable());
-        let miss = kinetostat::spatial::pose_residual(&e.tool, &o.tool);
-        assert!(miss.0.norm() < 1e-11, "{miss:?}");
+        let residual = kinetostat::spatial::pose_residual(&e.tool, &o.tool);
+        assert!(residual.0.norm() < 1e-11, "{residual:?}");
         crate::common::same_stiffness("loaded", &o.stiffness.matrix, &e.stiffness.matrix, 1e-8);
     }
 }

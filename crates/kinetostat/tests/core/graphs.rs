@@ -176,11 +176,16 @@ pub fn assert_closes(posture: &Posture) {
     for (limb, joints) in m.limbs().iter().zip(posture.limbs()) {
         let base = posture.platforms()[limb.from];
         let tip = unloaded_tip(&limb.nominal, &base, &joints.coordinates, &joints.commands);
-        let miss = pose_residual(
+        let residual = pose_residual(
             &(posture.platforms()[limb.to] * limb.platform_from_tip),
             &tip,
         );
-        assert!(miss.0.norm() < 1e-11, "{}: {:e}", limb.name, miss.0.norm());
+        assert!(
+            residual.0.norm() < 1e-11,
+            "{}: {:e}",
+            limb.name,
+            residual.0.norm()
+        );
     }
     assert_eq!(posture.platforms()[m.tool()], *posture.target());
 }
@@ -333,8 +338,8 @@ fn hybrids_are_compensated() {
         let all = Directions::ALL;
         let found = compensate(&machine, &home, &wrench, all, &Settings::default()).unwrap();
         let again = found.posture.deflected_by(&wrench).unwrap();
-        let miss = pose_residual(&again.tool, &home).0.norm();
-        assert!(miss < 1e-10, "{}: {miss:e}", machine.name());
+        let residual = pose_residual(&again.tool, &home).0.norm();
+        assert!(residual < 1e-10, "{}: {residual:e}", machine.name());
     }
 }
 

@@ -30,8 +30,8 @@ fn with(machine: &Mechanism, error: f64, limbs: Vec<Limb>, loads: Vec<PlatformLo
         builder.platform(platform.clone());
     }
     for own in machine.limbs().iter().cloned().chain(limbs) {
-        let miss = rng.pose(error, error);
-        let actual = misplaced(&own.actual, &miss);
+        let error_pose = rng.pose(error, error);
+        let actual = misplaced(&own.actual, &error_pose);
         builder = builder.limb(own.with_actual(actual));
     }
     for load in loads {

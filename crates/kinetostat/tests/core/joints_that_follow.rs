@@ -45,14 +45,14 @@ fn commands_move_the_followers_too() {
     let (turn, slide) = (0.4, 0.25);
     let rigid = chain(None);
     let k = Kinematics::new(&rigid, &base, &[], &[turn, slide]);
-    let gap = |pose: &Pose| {
+    let difference = |pose: &Pose| {
         (pose.to_homogeneous() - by_hand(turn, slide).to_homogeneous()).largest_entry()
     };
-    assert!(gap(&k.tip_pose()) < 1e-14);
+    assert!(difference(&k.tip_pose()) < 1e-14);
     // Command and deflection add up, whatever their shares.
     let elastic = chain(Some(1e5));
     let k = Kinematics::new(&elastic, &base, &[0.3, -0.05], &[turn - 0.3, slide + 0.05]);
-    assert!(gap(&k.tip_pose()) < 1e-14);
+    assert!(difference(&k.tip_pose()) < 1e-14);
     // The Jacobian against differences of the product by hand.
     let jacobian = k.jacobian(elastic.tip());
     let h = 1e-6;

@@ -444,16 +444,16 @@ fn arc_by_shooting(stretch: Vector3<f64>, bend: Vector3<f64>, f: Vector3<f64>) -
     };
     let mut end = vector![70.0, 29.0, 0.0];
     for load in 0..60 {
-        let miss = reached(&end) - end;
-        if load > 3 && miss.norm() < 1e-11 {
+        let residual = reached(&end) - end;
+        if load > 3 && residual.norm() < 1e-11 {
             return end;
         }
         let slope = Matrix3::from_columns(&[0, 1, 2].map(|k| {
             let mut moved = end;
             moved[k] += 1e-5;
-            (reached(&moved) - moved - miss) / 1e-5
+            (reached(&moved) - moved - residual) / 1e-5
         }));
-        let step = -(slope.try_inverse().unwrap() * miss);
+        let step = -(slope.try_inverse().unwrap() * residual);
         end += step * (5.0 / step.norm()).min(1.0);
     }
     panic!("shooting: no convergence")

@@ -62,7 +62,7 @@ fn slender_links_bend_alike_in_chains_and_machines() {
                 machine.share_to_buckling().unwrap(),
             );
             assert!((a - b).abs() <= 1e-6 * (1.0 + a.abs()), "{case}: {a}, {b}");
-            // StabilityOf by motion, not by what lacks, which grows with the axial stiffness.
+            // Compared by motion, not by the residual, which grows with the axial stiffness.
             let (few, own) = (alone.residual.iterations, machine.residual.iterations);
             assert!(own <= 2 * few + 4, "{case}: {few}, {own} iterations");
         }

@@ -233,8 +233,8 @@ proptest! {
             .deflected_by(&wrench)
             .unwrap();
         let before = near.deflected_by(&wrench).unwrap();
-        let miss = |tool: &Pose| frame.rotation.inverse() * (tool.translation.vector - position);
-        let (after, before) = (miss(&again.tool), miss(&before.tool));
+        let residual = |tool: &Pose| frame.rotation.inverse() * (tool.translation.vector - position);
+        let (after, before) = (residual(&again.tool), residual(&before.tool));
         prop_assert!(before.xy().norm() > 1e-7, "{before}");
         prop_assert!(after.xy().norm() < 1e-11, "{after}");
         // What it cannot correct is said.

@@ -407,9 +407,9 @@ fn a_compensated_target_brings_the_tool_to_every_reference_point() {
         assert!(c.left_over.linear().norm() < 1e-12, "{:?}", c.left_over);
         // Three drives: the rotation is what it is, and it is reported.
         let again = c.posture.deflected_by(&wrench).unwrap();
-        let miss = kinetostat::spatial::pose_residual(&again.tool, &desired);
-        assert!(miss.linear().norm() < 1e-12, "{miss:?}");
-        assert!((miss.angular() - c.left_over.angular()).norm() < 1e-11);
+        let residual = kinetostat::spatial::pose_residual(&again.tool, &desired);
+        assert!(residual.linear().norm() < 1e-12, "{residual:?}");
+        assert!((residual.angular() - c.left_over.angular()).norm() < 1e-11);
         assert!(c.left_over.angular().norm() > 1e-4);
         assert!(c.correction.angular().norm() < 1e-14);
     }

@@ -633,8 +633,8 @@ fn a_delta_is_compensated_in_its_three_directions() {
     assert!(found.left_over.linear().norm() < 1e-12);
     assert!(found.equilibrium.residual.iterations <= 8);
     let again = found.posture.deflected_by(&pull).unwrap();
-    let miss = (again.tool.translation.vector - home.translation.vector).norm();
-    assert!(miss < 1e-11, "{miss:e}");
+    let residual = (again.tool.translation.vector - home.translation.vector).norm();
+    assert!(residual < 1e-11, "{residual:e}");
 }
 
 #[test]

@@ -126,7 +126,7 @@ fn third_order_energy(posture: &Posture, t: &Vector6<f64>) -> f64 {
         .sum()
 }
 
-/// What the lumped link's wrench lacks, to leading order: the gradient of the difference of the
+/// Error of the lumped link's wrench, to leading order: the gradient of the difference of the
 /// third-order energies (differences of fourth order are exact for a cubic).
 fn predicted(a: &Posture, b: &Posture, t: &Vector6<f64>) -> Vector6<f64> {
     let energy = |t: &Vector6<f64>| third_order_energy(b, t) - third_order_energy(a, t);

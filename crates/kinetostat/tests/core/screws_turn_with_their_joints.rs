@@ -128,8 +128,8 @@ pub fn stiffness_apart() -> f64 {
             for r in 0..6 {
                 for c in 0..6 {
                     let size = (dense[(r, r)] * dense[(c, c)]).sqrt();
-                    let gap = k.cartesian.matrix[(r, c)] - dense[(r, c)];
-                    worst.add((gap / size).abs());
+                    let difference = k.cartesian.matrix[(r, c)] - dense[(r, c)];
+                    worst.add((difference / size).abs());
                 }
             }
         }
@@ -248,8 +248,8 @@ fn forward_kinematics_undoes_inverse_kinematics() {
         let back = machine
             .posture(PostureRequest::commands(&posture.commands()))
             .unwrap();
-        let gap = pose_residual(&tool, back.target()).0.norm();
-        assert!(gap < 1e-12, "{gap:e}");
+        let difference = pose_residual(&tool, back.target()).0.norm();
+        assert!(difference < 1e-12, "{difference:e}");
         for (a, b) in back.limbs().iter().zip(posture.limbs()) {
             for (x, y) in a.coordinates.iter().zip(&b.coordinates) {
                 assert!((x - y).abs() < 1e-11, "{x} {y}");
@@ -263,13 +263,13 @@ fn forward_kinematics_undoes_inverse_kinematics() {
         let back = machine
             .posture(PostureRequest::commands(&posture.commands()))
             .unwrap();
-        let gap = pose_residual(&tool, back.target()).0.norm();
-        assert!(gap < 1e-12, "{gap:e}");
+        let difference = pose_residual(&tool, back.target()).0.norm();
+        assert!(difference < 1e-12, "{difference:e}");
     }
 }
 
 #[test]
-fn commands_that_tear_the_machine_are_refused_with_the_gap() {
+fn commands_that_tear_the_machine_are_refused_with_the_closure_residual() {
     let machine = hexapod(Rod::Plain);
     let mut commands = machine.posture(&places()[0]).unwrap().commands();
     commands[2] += 1.0;

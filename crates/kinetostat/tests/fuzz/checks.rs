@@ -281,17 +281,17 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
             |a, b| a + b,
         );
     let target = &problem.end.pose;
-    let mut miss = frames.miss(frames.tip(), target);
+    let mut tip_residual = frames.pose_residual(frames.tip(), target);
     // The oracle's logarithm ends below pi.
     let turn = target.rotation * frames_rotation(&e.tip).inverse();
     let turn = turn.scaled_axis();
     for k in 0..3 {
-        miss[3 + k] = turn[k];
+        tip_residual[3 + k] = turn[k];
     }
     let back: Rotation3<f64> = problem.end.axes.inverse();
-    let d = back * miss.fixed_rows::<3>(0);
-    let w = back * miss.fixed_rows::<3>(3);
-    let lack = Wrench(problem.end.wrench.0 - e.wrench.0).rotated(&back);
+    let d = back * tip_residual.fixed_rows::<3>(0);
+    let w = back * tip_residual.fixed_rows::<3>(3);
+    let wrench_residual = Wrench(problem.end.wrench.0 - e.wrench.0).rotated(&back);
     let unit = scale.stiffness.sqrt();
     let natural = unit * scale.length;
     let mut loads = Worst::new();
@@ -299,7 +299,10 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
     for k in 0..6 {
         loads.add(e.wrench.0[k].abs() / if k < 3 { unit } else { natural });
     }
-    let kinetostat_tip = frames.miss(frames.tip(), &e.tip).fixed_rows::<3>(0).norm();
+    let kinetostat_tip = frames
+        .pose_residual(frames.tip(), &e.tip)
+        .fixed_rows::<3>(0)
+        .norm();
     assert!(kinetostat_tip <= 1e-11 * reach, "tip: {kinetostat_tip:e}");
 
     // Torques.
@@ -378,14 +381,14 @@ pub fn equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium, slack: f64) {
     for k in 0..6 {
         match problem.end.prescribed[k] {
             Prescribed::Pose => {
-                let gap = if k < 3 { d[k] } else { w[k - 3] * scale.length };
+                let off = if k < 3 { d[k] } else { w[k - 3] * scale.length };
                 assert!(
-                    gap.abs() <= 1e-9 * reach,
-                    "direction {k} misses by {gap:e} of {reach:e}"
+                    off.abs() <= 1e-9 * reach,
+                    "direction {k} misses by {off:e} of {reach:e}"
                 );
             }
             Prescribed::Wrench => {
-                let size = lack.0[k].abs() / if k < 3 { unit } else { natural };
+                let size = wrench_residual.0[k].abs() / if k < 3 { unit } else { natural };
                 assert!(
                     size <= slack * loads + floor,
                     "direction {k} lacks {size:e} of {loads:e}"

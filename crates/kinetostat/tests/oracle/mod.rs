@@ -113,7 +113,7 @@ impl Frames {
     }
 
     /// `[p* - p; log(R* R^T)]` at a node.
-    pub fn miss(&self, node: usize, target: &Pose) -> Vector6<f64> {
+    pub fn pose_residual(&self, node: usize, target: &Pose) -> Vector6<f64> {
         let (r, p, _) = self.nodes[node];
         let d = target.translation.vector - p;
         let w = log_rotation(&(target.rotation.to_rotation_matrix().matrix() * r.transpose()));
@@ -358,7 +358,8 @@ impl<'m> Flat<'m> {
             loads.push((tip, f));
             let target = self.platforms[limb.to] * limb.platform_from_tip;
             let torque = frames.torque(&loads) - springs(chain, x, &self.posture[i]).0;
-            rows.rows_mut(at, 6).copy_from(&frames.miss(tip, &target));
+            rows.rows_mut(at, 6)
+                .copy_from(&frames.pose_residual(tip, &target));
             rows.rows_mut(at + 6, x.len()).copy_from(&torque);
             at += 6 + x.len();
             let arm = target.translation.vector - self.platforms[limb.to].translation.vector;

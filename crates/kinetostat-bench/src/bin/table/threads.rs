@@ -6,13 +6,13 @@ use anyhow::Result;
 use kinetostat_bench::{Results, Work};
 
 use crate::{BLOCK, at_least, at_most, median, pass};
-use kinetostat_bench::machines::{ARM, HEXAPOD, Machine, PUU3};
+use kinetostat_bench::machines::{ARM, BenchMachine, HEXAPOD, PUU3};
 
 /// What a call for two threads takes about, us: long against waking a thread, short enough that
 /// other programs leave both cores alone now and then.
 const PASS: f64 = 4000.0;
 
-const WORKS: [(&str, Machine, Work); 5] = [
+const WORKS: [(&str, BenchMachine, Work); 5] = [
     ("W1", ARM, Work::StiffnessAndJacobian),
     ("W2", HEXAPOD, Work::Stiffness),
     ("W3", ARM, Work::Equilibrium),

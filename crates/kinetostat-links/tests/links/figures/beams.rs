@@ -1,6 +1,6 @@
 //! Straight and tapered links against closed forms, quadrature in 30 digits, and fine segmentation.
 
-use kinetostat_links::{Properties, Shape, Shear, cantilever, cantilever_by};
+use kinetostat_links::{Properties, SectionShape, Shear, cantilever, cantilever_by};
 use kinetostat_testing::Worst;
 use nalgebra::{Matrix6, Vector3, Vector6};
 use serde_json::Value;
@@ -17,7 +17,7 @@ fn golden() -> Value {
 
 #[test]
 fn a_prismatic_link_without_shear_is_the_core_s_cantilever() {
-    let shape = Shape::HollowBox {
+    let shape = SectionShape::HollowBox {
         width: 0.08,
         height: 0.12,
         side_wall: 0.004,
@@ -40,7 +40,7 @@ fn a_prismatic_link_without_shear_is_the_core_s_cantilever() {
 /// [Przemieniecki1968], the 12 x 12 of a beam with shear: its last block, `phi = 12 E I / G A_s L^2`.
 #[test]
 fn timoshenko_s_cantilever_is_the_textbook_s() {
-    let shape = Shape::Rectangle {
+    let shape = SectionShape::Rectangle {
         width: 0.05,
         height: 0.09,
     };
@@ -74,11 +74,11 @@ fn timoshenko_s_cantilever_is_the_textbook_s() {
 #[test]
 fn a_tapered_rectangle_agrees_with_quadrature_in_thirty_digits() {
     let golden = &golden()["tapered_rectangle_compliance_si"];
-    let root = Shape::Rectangle {
+    let root = SectionShape::Rectangle {
         width: 0.06,
         height: 0.10,
     };
-    let tip = Shape::Rectangle {
+    let tip = SectionShape::Rectangle {
         width: 0.03,
         height: 0.04,
     };
@@ -109,13 +109,13 @@ fn a_tapered_rectangle_agrees_with_quadrature_in_thirty_digits() {
 /// Series of 4000 short prismatic pieces by compositions of compliances, not by quadrature.
 #[test]
 fn a_tapered_link_agrees_with_fine_segmentation() {
-    let root = Shape::IBeam {
+    let root = SectionShape::IBeam {
         width: 0.12,
         height: 0.2,
         flange: 0.012,
         web: 0.008,
     };
-    let tip = Shape::IBeam {
+    let tip = SectionShape::IBeam {
         width: 0.06,
         height: 0.1,
         flange: 0.008,
@@ -185,8 +185,8 @@ fn any_change_along_the_link_by_a_function() {
         shear_area_z: f64::INFINITY,
     };
     let (a, b) = (
-        Shape::Custom(custom),
-        Shape::Tube {
+        SectionShape::Custom(custom),
+        SectionShape::Tube {
             outer: 0.1,
             inner: 0.08,
         },

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use kinetostat_links::{
-    Nodes, Question, Result, Text, Tie, Units, condense, identify, read_displacements, read_loads,
-    read_matrix, read_nodes, read_superelement, unit_loads,
+    CondensationRequest, Nodes, Result, Text, Tie, Units, condense, identify, read_displacements,
+    read_loads, read_matrix, read_nodes, read_superelement, unit_loads,
 };
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
@@ -184,7 +184,7 @@ fn questions_that_the_matrix_cannot_answer() {
     let body = "1,1,1,1,5.0\n1,2,1,2,5.0\n1,3,1,3,5.0\n2,1,2,1,5.0\n2,2,2,2,5.0\n2,3,2,3,5.0\n3,1,3,1,-1.0\n";
     let k = read_superelement(&Text::new("k", body).expect("text"), None, None).expect("matrix");
     let ask = |interface: &[u64], fixed: &[u64]| {
-        let question = Question {
+        let request = CondensationRequest {
             units: n_mm(),
             interface: interface.to_vec(),
             fixed: fixed.to_vec(),
@@ -192,7 +192,7 @@ fn questions_that_the_matrix_cannot_answer() {
             axes: Rotation3::identity(),
             tie: Tie::Rigid,
         };
-        condense(&k, &Nodes::default(), &question)
+        condense(&k, &Nodes::default(), &request)
             .expect_err("refused")
             .to_string()
     };
@@ -221,7 +221,7 @@ fn questions_that_the_matrix_cannot_answer() {
             None,
         )
         .expect("matrix");
-        let question = Question {
+        let request = CondensationRequest {
             units: n_mm(),
             interface: vec![1],
             fixed: vec![],
@@ -229,7 +229,7 @@ fn questions_that_the_matrix_cannot_answer() {
             axes: Rotation3::identity(),
             tie: Tie::Rigid,
         };
-        let words = condense(&k, &Nodes::default(), &question)
+        let words = condense(&k, &Nodes::default(), &request)
             .expect_err("refused")
             .to_string();
         assert!(words.contains(wanted), "'{wanted}' is not in: {words}");
@@ -301,8 +301,8 @@ proptest! {
             for companion in [None, Some(&dofs)] {
                 if let Ok(k) = read_superelement(&text, companion, None) {
                     let _ = kinetostat_links::free_test(&k, &Nodes::default(), n_mm());
-                    let question = Question { units: n_mm(), interface: vec![5], fixed: vec![6], end: None, axes: Rotation3::identity(), tie: Tie::Rigid };
-                    let _ = condense(&k, &Nodes::default(), &question);
+                    let request = CondensationRequest { units: n_mm(), interface: vec![5], fixed: vec![6], end: None, axes: Rotation3::identity(), tie: Tie::Rigid };
+                    let _ = condense(&k, &Nodes::default(), &request);
                 }
             }
         }

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use kinetostat_links::{
-    Dof, Nodes, Question, SYMMETRIC_TO, Shape, Shear, Superelement, Text, Tie, Units, cantilever,
-    condense, free_test, identify, judge, read_displacements, read_nodes, read_superelement,
-    unit_loads,
+    CondensationRequest, Dof, Nodes, SYMMETRIC_TO, SectionShape, Shear, Superelement, Text, Tie,
+    Units, cantilever, condense, free_test, identify, judge, read_displacements, read_nodes,
+    read_superelement, unit_loads,
 };
 use kinetostat_testing::{largest, largest_size};
 use nalgebra::{Matrix6, Rotation3, Vector3};
@@ -96,7 +96,7 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
     )
     .expect("displacements");
     let by_loads = identify("loads.dat", &cases, &end).expect("identified");
-    let question = Question {
+    let request = CondensationRequest {
         units,
         interface: nodes.named("TIP").expect("set"),
         fixed: nodes.named("ROOT").expect("set"),
@@ -106,9 +106,9 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
     };
     let whole =
         read_superelement(&read("matrix.sti"), Some(&read("matrix.dof")), None).expect("matrix");
-    let by_matrix = condense(&whole, &nodes, &question).expect("condensed");
+    let by_matrix = condense(&whole, &nodes, &request).expect("condensed");
     let tip = read_superelement(&read("condensed.mtx"), None, None).expect("substructure");
-    let by_substructure = condense(&tip, &nodes, &question).expect("condensed");
+    let by_substructure = condense(&tip, &nodes, &request).expect("condensed");
     // Debian's ccx 2.20 writes the retained rows of the matrix as they are, without condensing what is
     // behind them; a later one may do better. Nothing else passes.
     if condensed_by_ccx(&whole, &tip) {
@@ -145,9 +145,9 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
         "% of the diagonal",
     );
     // An end that may warp, with the load on its nodes alike, is softer in every direction.
-    let averaged = Question {
+    let averaged = CondensationRequest {
         tie: Tie::Averaged,
-        ..question.clone()
+        ..request.clone()
     };
     let averaged = condense(&whole, &nodes, &averaged)
         .expect("condensed")
@@ -170,7 +170,7 @@ fn a_meshed_beam_through_calculix_agrees_with_beam_theory() {
     call(&folder.0, "ccx", &["matrix"]);
     let plain =
         read_superelement(&read("matrix.sti"), Some(&read("matrix.dof")), None).expect("matrix");
-    let plain = condense(&plain, &nodes, &question)
+    let plain = condense(&plain, &nodes, &request)
         .expect("condensed")
         .stiffness;
     let share = |i: usize| (plain[(i, i)] / beam(0.0)[(i, i)] - 1.0).abs();
@@ -209,7 +209,7 @@ fn condensed_by_ccx(whole: &Superelement, part: &Superelement) -> bool {
 }
 
 fn beam(poissons_ratio: f64) -> Matrix6<f64> {
-    let shape = Shape::Rectangle {
+    let shape = SectionShape::Rectangle {
         width: 0.04,
         height: 0.06,
     };

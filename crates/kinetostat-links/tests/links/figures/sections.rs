@@ -1,6 +1,6 @@
 //! Sections against independent numbers: integration over the area, shear flow, series.
 
-use kinetostat_links::{MATERIALS, Shape, material};
+use kinetostat_links::{MATERIALS, SectionShape, material};
 use serde_json::Value;
 
 use crate::at_most;
@@ -34,9 +34,9 @@ fn areas_and_second_moments_are_those_of_the_shape() {
     let (w, h) = (0.12_f64, 0.24_f64);
     let within = |y: f64, z: f64, a: f64, b: f64| y.abs() < 0.5 * a && z.abs() < 0.5 * b;
     type Inside = Box<dyn Fn(f64, f64) -> bool>;
-    let cases: [(Shape, Inside, f64); 4] = [
+    let cases: [(SectionShape, Inside, f64); 4] = [
         (
-            Shape::IBeam {
+            SectionShape::IBeam {
                 width: w,
                 height: h,
                 flange: 0.012,
@@ -46,7 +46,7 @@ fn areas_and_second_moments_are_those_of_the_shape() {
             1e-9,
         ),
         (
-            Shape::HollowBox {
+            SectionShape::HollowBox {
                 width: w,
                 height: h,
                 side_wall: 0.006,
@@ -56,7 +56,7 @@ fn areas_and_second_moments_are_those_of_the_shape() {
             1e-9,
         ),
         (
-            Shape::Rectangle {
+            SectionShape::Rectangle {
                 width: w,
                 height: h,
             },
@@ -64,7 +64,7 @@ fn areas_and_second_moments_are_those_of_the_shape() {
             1e-9,
         ),
         (
-            Shape::Tube {
+            SectionShape::Tube {
                 outer: 0.12,
                 inner: 0.09,
             },
@@ -73,7 +73,7 @@ fn areas_and_second_moments_are_those_of_the_shape() {
         ),
     ];
     for (shape, inside, tolerance) in cases {
-        let height = if matches!(shape, Shape::Tube { .. }) {
+        let height = if matches!(shape, SectionShape::Tube { .. }) {
             w
         } else {
             h
@@ -91,7 +91,7 @@ fn torsion_and_shear_against_series_and_shear_flow() {
     let golden: Value =
         serde_json::from_str(include_str!("../../data/sections.json")).expect("golden");
     let number = |name: &str| golden[name].as_f64().expect("number");
-    let rectangle = Shape::Rectangle {
+    let rectangle = SectionShape::Rectangle {
         width: 0.03,
         height: 0.1,
     }
@@ -104,7 +104,7 @@ fn torsion_and_shear_against_series_and_shear_flow() {
         "relative",
     );
     assert!((rectangle.shear_area_z / rectangle.area - 5.0 / 6.0).abs() < 1e-14);
-    let i = Shape::IBeam {
+    let i = SectionShape::IBeam {
         width: 0.08,
         height: 0.12,
         flange: 0.006,
@@ -112,7 +112,7 @@ fn torsion_and_shear_against_series_and_shear_flow() {
     }
     .properties(0.0)
     .expect("section");
-    let b = Shape::HollowBox {
+    let b = SectionShape::HollowBox {
         width: 0.08,
         height: 0.12,
         side_wall: 0.004,
@@ -134,7 +134,7 @@ fn torsion_and_shear_against_series_and_shear_flow() {
         "relative",
     );
     // Turned by a right angle, a box is a box.
-    let t = Shape::HollowBox {
+    let t = SectionShape::HollowBox {
         width: 0.12,
         height: 0.08,
         side_wall: 0.006,
@@ -142,7 +142,7 @@ fn torsion_and_shear_against_series_and_shear_flow() {
     }
     .properties(0.3)
     .expect("section");
-    let b = Shape::HollowBox {
+    let b = SectionShape::HollowBox {
         width: 0.08,
         height: 0.12,
         side_wall: 0.004,
@@ -155,7 +155,7 @@ fn torsion_and_shear_against_series_and_shear_flow() {
             && (t.torsion_constant / b.torsion_constant - 1.0).abs() < 1e-14
     );
     // Bredt for a thin square tube: side^3 t. Cowper for a thin round tube: 2 (1 + nu) / (4 + 3 nu).
-    let thin = Shape::HollowBox {
+    let thin = SectionShape::HollowBox {
         width: 0.1001,
         height: 0.1001,
         side_wall: 1e-4,
@@ -164,7 +164,7 @@ fn torsion_and_shear_against_series_and_shear_flow() {
     .properties(0.3)
     .expect("section");
     assert!((thin.torsion_constant / (0.1_f64.powi(3) * 1e-4) - 1.0).abs() < 1e-12);
-    let tube = Shape::Tube {
+    let tube = SectionShape::Tube {
         outer: 0.1,
         inner: 0.0999,
     }
@@ -177,28 +177,28 @@ fn torsion_and_shear_against_series_and_shear_flow() {
 fn sections_that_are_none_are_refused_in_words() {
     for (shape, word) in [
         (
-            Shape::Tube {
+            SectionShape::Tube {
                 outer: 0.05,
                 inner: 0.06,
             },
             "inner diameter",
         ),
         (
-            Shape::Tube {
+            SectionShape::Tube {
                 outer: f64::NAN,
                 inner: 0.0,
             },
             "outer",
         ),
         (
-            Shape::Rectangle {
+            SectionShape::Rectangle {
                 width: 0.0,
                 height: 0.1,
             },
             "width is 0",
         ),
         (
-            Shape::IBeam {
+            SectionShape::IBeam {
                 width: 0.1,
                 height: 0.1,
                 flange: 0.05,
@@ -207,7 +207,7 @@ fn sections_that_are_none_are_refused_in_words() {
             "flanges",
         ),
         (
-            Shape::HollowBox {
+            SectionShape::HollowBox {
                 width: 0.1,
                 height: 0.1,
                 side_wall: 0.05,
@@ -216,7 +216,7 @@ fn sections_that_are_none_are_refused_in_words() {
             "walls",
         ),
         (
-            Shape::HollowBox {
+            SectionShape::HollowBox {
                 width: 0.1,
                 height: 0.1,
                 side_wall: -0.01,

@@ -2,8 +2,8 @@
 
 use kinetostat::BeamSection;
 use kinetostat_links::{
-    Nodes, Question, SYMMETRIC_TO, Superelement, Text, Tie, Units, condense, free_test, judge,
-    read_nodes, read_superelement,
+    CondensationRequest, Nodes, SYMMETRIC_TO, Superelement, Text, Tie, Units, condense, free_test,
+    judge, read_nodes, read_superelement,
 };
 use kinetostat_testing::Worst;
 use nalgebra::{DMatrix, Matrix3, Matrix6, Rotation3, Vector3};
@@ -15,8 +15,8 @@ fn n_mm() -> Units {
     Units::named("n_mm").expect("known")
 }
 
-fn question(interface: &[u64], fixed: &[u64]) -> Question {
-    Question {
+fn condensation(interface: &[u64], fixed: &[u64]) -> CondensationRequest {
+    CondensationRequest {
         units: n_mm(),
         interface: interface.to_vec(),
         fixed: fixed.to_vec(),
@@ -75,10 +75,10 @@ fn a_space_frame_from_dmig_agrees_with_numpy() {
     let axes = rows("axes");
     let axes = Rotation3::from_matrix_unchecked(Matrix3::from_fn(|i, j| axes[i][j]));
     let end: Vec<f64> = serde_json::from_value(golden["end_mm"].clone()).expect("end");
-    let mut asked = question(&[5, 6, 7], &[1, 2]);
-    asked.axes = axes;
-    asked.end = Some(Vector3::from_column_slice(&end) * 1e-3);
-    let found = condense(&element, &nodes, &asked).expect("condensed");
+    let mut request = condensation(&[5, 6, 7], &[1, 2]);
+    request.axes = axes;
+    request.end = Some(Vector3::from_column_slice(&end) * 1e-3);
+    let found = condense(&element, &nodes, &request).expect("condensed");
     assert_eq!(found.counts, [18, 12, 12]);
     at_most(
         "space frame of 7 nodes by DMIG, rigid spider, against numpy",
@@ -86,9 +86,9 @@ fn a_space_frame_from_dmig_agrees_with_numpy() {
         1e-9,
         "of the diagonal",
     );
-    let mut asked = question(&[5], &[1, 2]);
-    asked.axes = axes;
-    let found = condense(&element, &nodes, &asked).expect("condensed");
+    let mut request = condensation(&[5], &[1, 2]);
+    request.axes = axes;
+    let found = condense(&element, &nodes, &request).expect("condensed");
     assert!(apart(&found.stiffness, &matrix("node_5_n_mm_rad")) < 1e-9);
     assert!(judge(&found.stiffness, SYMMETRIC_TO).findings.is_empty());
 }
@@ -249,7 +249,7 @@ fn every_format_says_the_same_of_a_beam() {
         let element = read_superelement(&text(name, body), companion, None)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(element.dofs.len(), 12);
-        let found = condense(&element, &Nodes::default(), &question(&[2], &[1]))
+        let found = condense(&element, &Nodes::default(), &condensation(&[2], &[1]))
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         assert!(
             apart(&found.stiffness, &si) < tolerance,
@@ -265,7 +265,8 @@ fn every_format_says_the_same_of_a_beam() {
         "of the diagonal",
     );
     let element = read_superelement(&text("small DMIG", &small), None, None).expect("small fields");
-    let found = condense(&element, &Nodes::default(), &question(&[2], &[1])).expect("condensed");
+    let found =
+        condense(&element, &Nodes::default(), &condensation(&[2], &[1])).expect("condensed");
     assert!(
         apart(&found.stiffness, &si) < 6e-3,
         "three digits: {}",
@@ -305,12 +306,12 @@ fn a_spider_over_translations_is_the_sum_of_its_springs() {
     }
     let nodes = read_nodes(&text("mesh.csv", &mesh), n_mm()).expect("nodes");
     let element = read_superelement(&text("k.mtx", &pairs), None, None).expect("matrix");
-    let mut asked = question(&[1, 2, 3, 4], &[]);
-    asked.end = Some(end * 1e-3);
-    let found = condense(&element, &nodes, &asked).expect("condensed");
+    let mut request = condensation(&[1, 2, 3, 4], &[]);
+    request.end = Some(end * 1e-3);
+    let found = condense(&element, &nodes, &request).expect("condensed");
     assert!(apart(&found.stiffness, &n_mm().stiffness_to_si(&wanted)) < 1e-13);
     // Two nodes hold five motions: named.
-    let error = condense(&element, &nodes, &question(&[1, 2], &[3]))
+    let error = condense(&element, &nodes, &condensation(&[1, 2], &[3]))
         .expect_err("a line")
         .to_string();
     assert!(
@@ -344,10 +345,10 @@ fn an_averaged_interface_averages_compliances() {
             }
         }
         let element = read_superelement(&text("k.mtx", &pairs), None, None).expect("matrix");
-        let mut asked = question(&[1, 2, 3, 4], &[]);
-        asked.end = Some(end);
-        asked.tie = tie;
-        condense(&element, &nodes, &asked)
+        let mut request = condensation(&[1, 2, 3, 4], &[]);
+        request.end = Some(end);
+        request.tie = tie;
+        condense(&element, &nodes, &request)
             .expect("condensed")
             .stiffness
     };
@@ -389,9 +390,9 @@ fn an_averaged_interface_averages_compliances() {
     // Two nodes have no average rotation about their line.
     let pairs = "1,1,1,1,1\n1,2,1,2,1\n1,3,1,3,1\n2,1,2,1,1\n2,2,2,2,1\n2,3,2,3,1\n";
     let element = read_superelement(&text("k.mtx", pairs), None, None).expect("matrix");
-    let mut asked = question(&[1, 2], &[]);
-    asked.tie = Tie::Averaged;
-    let error = condense(&element, &nodes, &asked)
+    let mut request = condensation(&[1, 2], &[]);
+    request.tie = Tie::Averaged;
+    let error = condense(&element, &nodes, &request)
         .expect_err("a line")
         .to_string();
     assert!(error.contains("average needs three nodes"), "{error}");

@@ -28,16 +28,16 @@ struct Joint {
 }
 
 /// A machine in a posture.
-pub struct Machine {
+pub struct PostureGraph {
     pub structure: Structure,
     /// Node of the tool.
     pub tool: usize,
     /// Where the joints lead minus where the platforms are: the worst limb, m and rad.
-    pub gap: f64,
+    pub closure_residual: f64,
 }
 
 /// The machine in a posture, from its file and the values of its joints.
-pub fn structure(model: &Model, posture: &Posture) -> Machine {
+pub fn structure(model: &Model, posture: &Posture) -> PostureGraph {
     let mechanism = &model.mechanism;
     let mut s = Structure::new();
     let mut nodes = vec![BASE];
@@ -71,22 +71,25 @@ pub fn structure(model: &Model, posture: &Posture) -> Machine {
         let end = reader.at;
         let to = posture.platforms()[limb.to];
         let tip = to * written.end.as_ref().map_or(Pose::identity(), placement);
-        let gap = (tip.translation.vector - end.pose.translation.vector).norm();
+        let closure_residual = (tip.translation.vector - end.pose.translation.vector).norm();
         let turns = (tip.rotation * end.pose.rotation.inverse()).to_rotation_matrix();
-        let gap = largest([gap, (turns.matrix() - Matrix3::identity()).largest_entry()]);
+        let closure_residual = largest([
+            closure_residual,
+            (turns.matrix() - Matrix3::identity()).largest_entry(),
+        ]);
         assert!(
-            gap < 1e-9,
-            "{}: the limb '{}' does not close: {gap:e}",
+            closure_residual < 1e-9,
+            "{}: the limb '{}' does not close: {closure_residual:e}",
             model.name(),
             written.name
         );
-        worst.add(gap);
+        worst.add(closure_residual);
         s.joint(nodes[limb.to], end.node, &tip.translation.vector, &[], &[]);
     }
-    Machine {
+    PostureGraph {
         structure: s,
         tool: nodes[mechanism.tool()],
-        gap: worst.of(mechanism.limbs().len()),
+        closure_residual: worst.of(mechanism.limbs().len()),
     }
 }
 

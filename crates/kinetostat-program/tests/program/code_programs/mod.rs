@@ -40,7 +40,7 @@ pub fn exclude_each_other(a: u32, b: u32) -> bool {
 
 /// What a case found.
 #[derive(Debug, Default, Clone, Copy)]
-pub struct Found {
+pub struct CaseOutcome {
     /// Whether the program was taken.
     pub taken: bool,
     /// Lines refused.
@@ -188,7 +188,7 @@ fn bend(request: &Request) -> Result<Vector3<f64>, FieldFailure> {
 }
 
 /// Checks one program.
-pub fn check(seed: u64) -> Result<Found, String> {
+pub fn check(seed: u64) -> Result<CaseOutcome, String> {
     let mut random = Random(seed);
     let wild = random.once_in(2);
     let lines: Vec<Line> = (0..1 + random.below(12))
@@ -213,9 +213,9 @@ pub fn check(seed: u64) -> Result<Found, String> {
             ));
         }
     }
-    let mut found = Found {
+    let mut found = CaseOutcome {
         refused: refused.len(),
-        ..Found::default()
+        ..CaseOutcome::default()
     };
     let read = Program::read(text.as_bytes()).and_then(|program| {
         let path = interpret(&program, &reading)?;

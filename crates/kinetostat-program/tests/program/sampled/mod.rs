@@ -319,7 +319,7 @@ fn read(text: &str) -> Vec<Written> {
 
 /// What a case came to.
 #[derive(Debug, Default, Clone)]
-pub struct Found {
+pub struct SampledOutcome {
     pub places: usize,
     pub pieces: usize,
     /// Largest distance as a share of what is allowed.
@@ -331,7 +331,7 @@ pub struct Found {
 /// # Errors
 ///
 /// What is wrong, in words.
-pub fn check(seed: u64) -> Result<Found, String> {
+pub fn check(seed: u64) -> Result<SampledOutcome, String> {
     let mut random = Random::new(seed);
     let table = table(&mut random);
     let (text, truths) = program(&mut random);
@@ -366,9 +366,9 @@ pub fn check(seed: u64) -> Result<Found, String> {
             &"the generator and the reader count motions differently",
         ));
     }
-    let mut found = Found {
+    let mut found = SampledOutcome {
         pieces: reached.len(),
-        ..Found::default()
+        ..SampledOutcome::default()
     };
     let mut from = Vector3::zeros();
     for (motion, piece) in reached.iter().zip(&written.pieces) {

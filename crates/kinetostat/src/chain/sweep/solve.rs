@@ -338,7 +338,7 @@ impl<'s> Shifted<'s> {
 }
 
 /// What [`crate::chain::stability::ShapeStability`] says, in balanced coordinates.
-pub struct Shape {
+pub struct SweptStability {
     pub inertia: Inertia,
     /// Largest eigenvalue of the pencil.
     pub share_to_buckling: f64,
@@ -465,12 +465,12 @@ fn lanczos(sweep: &Sweep, ends: &EndMotions) -> Option<(Trial, f64)> {
 /// Largest eigenvalue of the pencil while motions of the end are held. Rayleigh quotients bound
 /// it from below, the count of eigenvalues above a shift from above; each shift costs one sweep, and
 /// inverse iteration at the shift improves the quotient. `None` where a sweep loses a pivot.
-pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
+pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<SweptStability> {
     let judged = Shifted::new(sweep, ends, Form::Pencil(1.0))?;
     let inertia = judged.inertia;
     let (mut best, mut off) = lanczos(sweep, ends)?;
     if sweep.unloaded() {
-        return Some(Shape {
+        return Some(SweptStability {
             inertia,
             share_to_buckling: 0.0,
             mode: best.v,
@@ -537,7 +537,7 @@ pub fn shape(sweep: &Sweep, ends: &EndMotions) -> Option<Shape> {
         let below = Form::Pencil(best.quotient - share * size);
         Shifted::new(sweep, ends, below).is_some_and(|shifted| shifted.above > 0)
     });
-    reached.then_some(Shape {
+    reached.then_some(SweptStability {
         inertia,
         share_to_buckling: best.quotient,
         mode: best.v,

@@ -511,9 +511,9 @@ impl Sweep {
     }
 }
 
-/// Which of two paths solves a chain.
+/// How the linear systems of a chain are solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Path {
+pub enum ChainMethod {
     /// Dense matrices: any chain.
     Dense,
     /// Sweeps along the chain, cost O(n).

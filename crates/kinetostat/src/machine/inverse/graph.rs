@@ -1,7 +1,7 @@
 //! Inverse kinematics of a graph: commands, passive joints and poses of all platforms for a pose of
 //! the tool, from nominal geometry with springs at rest.
 //!
-//! The unknowns are eliminated limb by limb. With `c_i` what the tip of limb `i` lacks, `A_i` how
+//! The unknowns are eliminated limb by limb. With `c_i` the residual of the closure of limb `i`, `A_i` how
 //! the motions `dP` of the platforms change that and `J_i` its motion by its own joints, the least
 //! motion of joints that closes it is `J_i^T M_i s_i`, `M_i = (J_i J_i^T + damping)^-1`, `s_i = c_i +
 //! A_i dP`. So a limb is a spring of matrix `M_i`, and the platforms find their places in a network
@@ -135,7 +135,7 @@ struct Linked {
     /// Change of the closure with the motions of `to` and `from`.
     by_to: Matrix6<f64>,
     by_from: Matrix6<f64>,
-    /// What the tip lacks, less what the pull to home closes.
+    /// Closure residual of the tip, less what the pull to home closes.
     closure: Vector6<f64>,
     /// Pull to home, weighted joints.
     pull: DVector<f64>,
@@ -144,7 +144,7 @@ struct Linked {
     kinds: Vec<MotionKind>,
 }
 
-/// A network solved for any lack.
+/// A network factorised for any residual.
 struct Factorised<'n> {
     network: &'n [Linked],
     /// First unknown of every platform that is sought.
@@ -217,11 +217,11 @@ impl<'m> GraphSearch<'m> {
     }
 
     fn unreachable(&self, target: &Pose, nearest: &Pose) -> Error {
-        let miss = pose_residual(target, nearest);
+        let residual = pose_residual(target, nearest);
         Error::Unreachable {
             place: self.mechanism.place(),
-            distance_m: miss.linear().norm(),
-            angle_rad: miss.angular().norm(),
+            distance_m: residual.linear().norm(),
+            angle_rad: residual.angular().norm(),
             nearest: Box::new(*nearest),
         }
     }
@@ -291,8 +291,8 @@ impl<'m> GraphSearch<'m> {
                 });
                 let tip = kinematics.tip_pose();
                 let target = at.platforms[limb.to] * limb.platform_from_tip;
-                let miss = pose_residual(&target, &tip).0;
-                let mut closure = Vector6::from_fn(|k, _| miss[k] * units[k]);
+                let residual = pose_residual(&target, &tip).0;
+                let mut closure = Vector6::from_fn(|k, _| residual[k] * units[k]);
                 let mut pull = DVector::zeros(columns.len());
                 if let Some(home) = home {
                     let there = &home.limbs[i];
@@ -387,13 +387,13 @@ impl<'m> GraphSearch<'m> {
     }
 
     /// Motions of all platforms (balanced; base and tool do not move, or the tool by `tool_motion`
-    /// while nothing lacks) and of all weighted joints.
+    /// with all closures at zero) and of all weighted joints.
     fn solve(&self, own: &Factorised<'_>, tool_motion: Option<&Vector6<f64>>) -> Option<Moves> {
         let m = self.mechanism;
         let (network, place) = (own.network, &own.place);
         let count = m.platforms().len();
         let mut b = DMatrix::zeros(6 * place.iter().flatten().count(), 1);
-        let lack = |limb: usize| match tool_motion {
+        let closure_of = |limb: usize| match tool_motion {
             None => network[limb].closure,
             Some(motion) => {
                 let (description, own) = (&m.limbs()[limb], &network[limb]);
@@ -408,7 +408,7 @@ impl<'m> GraphSearch<'m> {
             }
         };
         for (i, (limb, own)) in m.limbs().iter().zip(network).enumerate() {
-            let pull = own.matrix * lack(i);
+            let pull = own.matrix * closure_of(i);
             for (row, by_row) in [
                 (place[limb.to], &own.by_to),
                 (place[limb.from], &own.by_from),
@@ -435,7 +435,8 @@ impl<'m> GraphSearch<'m> {
             .zip(network)
             .enumerate()
             .map(|(i, (limb, own))| {
-                let s = lack(i) + own.by_to * motions[limb.to] + own.by_from * motions[limb.from];
+                let s =
+                    closure_of(i) + own.by_to * motions[limb.to] + own.by_from * motions[limb.from];
                 let pull = if tool_motion.is_some() { 0.0 } else { 1.0 };
                 own.jacobian.transpose() * (own.matrix * s) + &own.pull * pull
             })
@@ -499,7 +500,7 @@ impl<'m> GraphSearch<'m> {
         length
     }
 
-    fn gap(network: &[Linked]) -> f64 {
+    fn closure_residual(network: &[Linked]) -> f64 {
         network
             .iter()
             .map(|l| l.closure.norm_squared())
@@ -515,8 +516,8 @@ impl<'m> GraphSearch<'m> {
         let goal = 1e-13 * self.length * (network.len() as f64).sqrt();
         let mut polished = false;
         for _ in 0..100 {
-            let gap = Self::gap(&network);
-            if gap <= goal || (polished && gap <= 100.0 * goal) {
+            let closure_residual = Self::closure_residual(&network);
+            if closure_residual <= goal || (polished && closure_residual <= 100.0 * goal) {
                 return Ok(at);
             }
             let Some((motions, joints)) = self.step(&network) else {
@@ -525,9 +526,9 @@ impl<'m> GraphSearch<'m> {
             let length = self.limit(&network, &motions, &joints);
             let trial = self.moved_by(&at, &network, &motions, &joints, length);
             let next = self.network(&trial, damping, None);
-            let left = Self::gap(&next);
-            if left < gap {
-                polished = left > 0.5 * gap;
+            let left = Self::closure_residual(&next);
+            if left < closure_residual {
+                polished = left > 0.5 * closure_residual;
                 at = trial;
                 network = next;
                 if damping > LEAST_DAMPING {
@@ -535,7 +536,7 @@ impl<'m> GraphSearch<'m> {
                     network = self.network(&at, damping, None);
                 }
             } else {
-                if gap <= 1e3 * goal {
+                if closure_residual <= 1e3 * goal {
                     return Ok(at);
                 }
                 damping = (10.0 * damping).max(1e-8);

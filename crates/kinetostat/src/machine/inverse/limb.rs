@@ -38,7 +38,7 @@ pub fn inverse_kinematics(
     if let Some(start) = start {
         chain.check(&start.coordinates, &start.commands)?;
     }
-    let mut search = Search::new(chain, base, target);
+    let mut search = JointSearch::new(chain, base, target);
     let home = LimbPosture {
         commands: chain.home_commands(),
         coordinates: chain.home_coordinates(),
@@ -73,11 +73,11 @@ pub fn inverse_kinematics(
         }
     }
     let (_, pose) = nearest;
-    let miss = pose_residual(target, &pose);
+    let residual = pose_residual(target, &pose);
     Err(Error::Unreachable {
         place,
-        distance_m: miss.linear().norm(),
-        angle_rad: miss.angular().norm(),
+        distance_m: residual.linear().norm(),
+        angle_rad: residual.angular().norm(),
         nearest: Box::new(pose),
     })
 }
@@ -86,7 +86,7 @@ pub fn inverse_kinematics(
 /// limb can move in), at a posture.
 #[must_use]
 pub(crate) fn command_rates(chain: &Chain, base: &Pose, posture: &LimbPosture) -> DMatrix<f64> {
-    let search = Search::new(chain, base, &Pose::identity());
+    let search = JointSearch::new(chain, base, &Pose::identity());
     let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands);
     let jacobian = search.jacobian(&kinematics);
     // Least squares by the normal equations where the joints are certainly independent.
@@ -108,14 +108,14 @@ pub(crate) fn command_rates(chain: &Chain, base: &Pose, posture: &LimbPosture) -
 /// Motions that the unloaded limb can make at a posture: orthogonal projector on the twists that it
 /// cannot make, 6 x 6, in balanced units (rotations times the natural length).
 pub(crate) fn blocked_motions(chain: &Chain, base: &Pose, posture: &LimbPosture) -> DMatrix<f64> {
-    let search = Search::new(chain, base, &Pose::identity());
+    let search = JointSearch::new(chain, base, &Pose::identity());
     let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands);
     let jacobian = search.jacobian(&kinematics);
     let (inverse, _) = pseudo_inverse(&jacobian);
     DMatrix::identity(6, 6) - jacobian * inverse
 }
 
-struct Search<'a> {
+struct JointSearch<'a> {
     chain: &'a Chain,
     base: &'a Pose,
     target: Pose,
@@ -123,7 +123,7 @@ struct Search<'a> {
     length: f64,
 }
 
-impl<'a> Search<'a> {
+impl<'a> JointSearch<'a> {
     fn new(chain: &'a Chain, base: &'a Pose, target: &Pose) -> Self {
         Self {
             chain,
@@ -156,7 +156,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    fn miss(&self, kinematics: &Kinematics) -> DVector<f64> {
+    fn pose_residual(&self, kinematics: &Kinematics) -> DVector<f64> {
         let e = pose_residual(&self.target, &kinematics.tip_pose()).0;
         let weights = self.weights();
         DVector::from_fn(6, |i, _| e[i] * weights[i])
@@ -165,18 +165,18 @@ impl<'a> Search<'a> {
     /// Levenberg-Marquardt from `at`; `Err` holds the remaining distance and pose.
     fn run(&mut self, mut at: LimbPosture) -> std::result::Result<LimbPosture, (f64, Pose)> {
         let mut kinematics = Kinematics::new(self.chain, self.base, &at.coordinates, &at.commands);
-        let mut miss = self.miss(&kinematics);
+        let mut residual = self.pose_residual(&kinematics);
         let mut damping = 0.0_f64;
         let goal = 1e-13 * self.length;
         let mut polished = false;
         for _ in 0..100 {
-            let size = miss.norm();
+            let size = residual.norm();
             if size <= goal || (polished && size <= 100.0 * goal) {
                 return Ok(self.wrapped(at));
             }
             let jacobian = self.jacobian(&kinematics);
             let normal = jacobian.transpose() * &jacobian;
-            let gradient = jacobian.transpose() * &miss;
+            let gradient = jacobian.transpose() * &residual;
             if gradient.norm() <= 1e-15 * size * jacobian.norm() {
                 break;
             }
@@ -189,7 +189,7 @@ impl<'a> Search<'a> {
                         d.min() > 1e-5 * d.max()
                     })
                     .map_or_else(
-                        || pseudo_inverse(&jacobian).0 * &miss,
+                        || pseudo_inverse(&jacobian).0 * &residual,
                         |c| c.solve(&gradient),
                     )
             } else {
@@ -211,10 +211,10 @@ impl<'a> Search<'a> {
                 *c += length * step[self.passive.len() + k];
             }
             kinematics.update(self.chain, self.base, &trial.coordinates, &trial.commands);
-            let next = self.miss(&kinematics);
+            let next = self.pose_residual(&kinematics);
             if next.norm() < size {
                 polished = next.norm() > 0.5 * size;
-                (at, miss) = (trial, next);
+                (at, residual) = (trial, next);
                 damping *= 0.1;
                 if damping < 1e-9 {
                     damping = 0.0;
@@ -230,7 +230,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        Err((miss.norm(), kinematics.tip_pose()))
+        Err((residual.norm(), kinematics.tip_pose()))
     }
 
     /// Follows the straight way from home to the target in small steps.

@@ -14,7 +14,7 @@ const STEPS: usize = 12;
 
 impl Mechanism {
     /// The pose next to `target` that every limb can reach, if it lies within `limit` (m; rotations
-    /// at the natural length) and `target` misses it only along motions that the machine does not
+    /// at the natural length) and `target` differs from it only along motions that the machine does not
     /// have; `target` itself where it can be reached.
     #[must_use]
     pub fn nearest_reachable(&self, target: &Pose, limit: f64) -> Option<Pose> {
@@ -26,14 +26,14 @@ impl Mechanism {
         }
         let mut pose = *target;
         for _ in 0..STEPS {
-            // What every limb lacks, and the motions that it cannot make: rows in the tool's twist.
+            // Closure residual of every limb, and the motions that it cannot make: rows in the tool's twist.
             let mut rows = DMatrix::zeros(6 * self.limbs().len(), 6);
-            let mut lacks = DVector::zeros(6 * self.limbs().len());
+            let mut residuals = DVector::zeros(6 * self.limbs().len());
             let (mut all_reach, mut most) = (true, 0.0_f64);
             for (i, limb) in self.limbs().iter().enumerate() {
                 let base = &self.platforms()[limb.from].home;
                 let tip = pose * limb.platform_from_tip;
-                let (joints, lack) = match inverse_kinematics(&limb.nominal, base, &tip, None) {
+                let (joints, residual) = match inverse_kinematics(&limb.nominal, base, &tip, None) {
                     Ok(joints) => (joints, Twist::zero()),
                     Err(Error::Unreachable { nearest, .. }) => {
                         all_reach = false;
@@ -42,23 +42,23 @@ impl Mechanism {
                     }
                     Err(_) => return None,
                 };
-                if size(&lack) > limit {
+                if size(&residual) > limit {
                     return None;
                 }
-                most = larger(most, size(&lack) / length);
+                most = larger(most, size(&residual) / length);
                 let own = limb.nominal.scale().length;
                 let unit = |k: usize| if k < 3 { 1.0 } else { own };
                 let blocked = blocked_motions(&limb.nominal, base, &joints);
                 let arm = pose.rotation * limb.platform_from_tip.translation.vector;
                 let by_tip = DMatrix::from_fn(6, 6, |a, b| blocked[(a, b)] * unit(b));
                 let by_tool = by_tip * shift_matrix(&arm);
-                let balanced = Vector6::from_fn(|k, _| lack.0[k] * unit(k));
+                let balanced = Vector6::from_fn(|k, _| residual.0[k] * unit(k));
                 for a in 0..6 {
                     for b in 0..6 {
                         let turned = if b < 3 { 1.0 } else { 1.0 / length };
                         rows[(6 * i + a, b)] = by_tool[(a, b)] * turned;
                     }
-                    lacks[6 * i + a] = balanced[a];
+                    residuals[6 * i + a] = balanced[a];
                 }
             }
             if all_reach {
@@ -67,7 +67,7 @@ impl Mechanism {
             }
             // Rows that repeat each other differ by as much as the pose is off.
             let own = crate::linalg::singular_values::SingularValues::of(&rows);
-            let step = own.shortest(&lacks, own.largest() * (10.0 * most).max(1e-9));
+            let step = own.shortest(&residuals, own.largest() * (10.0 * most).max(1e-9));
             let step = Twist(Vector6::from_fn(|k, _| {
                 if k < 3 { step[k] } else { step[k] / length }
             }));

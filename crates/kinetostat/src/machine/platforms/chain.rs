@@ -95,7 +95,7 @@ impl PlatformSolver<'_> {
     /// See [`Self::newton`].
     pub fn step_of_chain(
         &mut self,
-        lack: &[Wrench],
+        unbalanced: &[Wrench],
         tangents: Tangents,
     ) -> Option<(PlatformStep, Vec<DVector<f64>>)> {
         let mut new = None;
@@ -109,9 +109,9 @@ impl PlatformSolver<'_> {
         let balance = self.balance.as_ref()?;
         let missing = match k {
             0 => DVector::zeros(0),
-            _ => self.guide.lack(pose),
+            _ => self.guide.residual(pose),
         };
-        let own = &balance.across * lack[tool].0;
+        let own = &balance.across * unbalanced[tool].0;
         let right = Vector6::from_fn(|i, _| {
             let given = if i < 6 - k {
                 own[i]
@@ -142,7 +142,7 @@ impl PlatformSolver<'_> {
         let mut push = Wrench::zero();
         if k > 0 {
             // What the hands do besides: the balance once more.
-            let left = balance.wrench * wrench + balance.motion * tip - lack[tool].0;
+            let left = balance.wrench * wrench + balance.motion * tip - unbalanced[tool].0;
             let unit = |i: usize| self.factors[0][i];
             let hands = DMatrix::from_fn(6, k, |i, j| self.guide.hands[(i, j)] / unit(i));
             let left = DVector::from_fn(6, |i, _| left[i] / unit(i));

@@ -1,4 +1,4 @@
-//! A limb of a mechanism linearised about a state: wrench and coordinates by what lacks and by the
+//! A limb of a mechanism linearised about a state: wrench and coordinates by the residual and by the
 //! motions of its ends.
 //!
 //! Long limbs from the base are solved by sweeps along them, as chains are: cost and memory grow with
@@ -92,7 +92,8 @@ impl Linear {
                 let rows = EndRows::held(&range);
                 let bordered = Bordered::new(sweep.clone(), form, rows, spring)?;
                 let units = unit_motions_of(&bordered, &range)?;
-                let own = self.swept_residual(&bordered, &self.gap(&range, factors), factors)?;
+                let own =
+                    self.swept_residual(&bordered, &self.free_closure(&range, factors), factors)?;
                 Some((bordered, own, units))
             });
             let Some((bordered, own, units)) = swept else {
@@ -143,7 +144,7 @@ impl Linear {
 
     /// As [`Self::linearise`], while six conditions (balanced) say what the tip does: no solution for
     /// motions of the tip, which may be worlds stiffer in one direction than in another. `right` is what
-    /// these conditions lack now.
+    /// these conditions are off by now.
     pub fn linearise_loaded(
         &mut self,
         with_hessian: bool,
@@ -185,7 +186,7 @@ impl Linear {
         true
     }
 
-    /// Change of wrench and coordinates that removes what lacks now, with the right-hand sides of
+    /// Change of wrench and coordinates that removes the residual, with the right-hand sides of
     /// the conditions at the tip (balanced), 6 + n. `None` if the tangent does not serve.
     pub fn loaded(&self, right: &Vector6<f64>, factors: &[f64]) -> Option<DMatrix<f64>> {
         let (tangent, _) = self.tangent.as_ref()?;
@@ -202,14 +203,14 @@ impl Linear {
         Some(DMatrix::from_column_slice(own.len(), 1, &own))
     }
 
-    /// What the tip lacks of its closure in the motions that it can make, balanced.
-    fn gap(&self, range: &DMatrix<f64>, factors: &[f64]) -> Vector6<f64> {
-        let gap = Vector6::from_fn(|k, _| self.closure.0[k] * factors[k]);
-        let moved = range.transpose() * gap;
+    /// Residual of the tip's closure in the motions that it can make, scaled.
+    fn free_closure(&self, range: &DMatrix<f64>, factors: &[f64]) -> Vector6<f64> {
+        let closure = Vector6::from_fn(|k, _| self.closure.0[k] * factors[k]);
+        let moved = range.transpose() * closure;
         Vector6::from_fn(|k, _| if k < moved.len() { moved[k] } else { 0.0 })
     }
 
-    /// Wrench and coordinates that remove what lacks now, by sweeps, 6 + n; `right` of the
+    /// Wrench and coordinates that remove the residual, by sweeps, 6 + n; `right` of the
     /// conditions at the tip, balanced.
     fn swept_residual(
         &self,
@@ -225,12 +226,13 @@ impl Linear {
         Some(balanced.map(|(value, factor)| value * factor).collect())
     }
 
-    /// Wrench and coordinates that remove what lacks now, by the tangent as it is; `None` if it
+    /// Wrench and coordinates that remove the residual, by the tangent as it is; `None` if it
     /// cannot.
     pub fn residual(&self, factors: &[f64]) -> Option<DMatrix<f64>> {
         match self.tangent.as_ref()? {
             (Tangent::Swept(bordered), Tip::Held(range)) => {
-                let own = self.swept_residual(bordered, &self.gap(range, factors), factors)?;
+                let own =
+                    self.swept_residual(bordered, &self.free_closure(range, factors), factors)?;
                 Some(DMatrix::from_column_slice(own.len(), 1, &own))
             }
             (Tangent::Dense(saddle), Tip::Held(_)) => {

@@ -121,7 +121,7 @@ impl PlatformSolver<'_> {
     fn rated(
         &mut self,
         trial: &Trial,
-        start: &Place,
+        start: &Iterate,
         steps: &[DVector<f64>],
         next: &MechanismBalance,
         missing: &[Wrench],
@@ -203,8 +203,8 @@ impl PlatformSolver<'_> {
             .sqrt()
     }
 
-    fn place(&self) -> Place {
-        Place {
+    fn place(&self) -> Iterate {
+        Iterate {
             state: self.state.clone(),
             posture: self.posture.clone(),
             nominal: self.nominal.clone(),
@@ -213,7 +213,7 @@ impl PlatformSolver<'_> {
         }
     }
 
-    fn put(&mut self, place: Place) {
+    fn put(&mut self, place: Iterate) {
         self.state = place.state;
         self.posture = place.posture;
         self.nominal = place.nominal;
@@ -224,7 +224,7 @@ impl PlatformSolver<'_> {
     /// Goes a share of a step from a place; `false` where the commands cannot follow.
     fn go(
         &mut self,
-        from: &Place,
+        from: &Iterate,
         step: &PlatformStep,
         steps: &[DVector<f64>],
         length: f64,
@@ -273,8 +273,8 @@ impl PlatformSolver<'_> {
         }
     }
 
-    /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is what one step
-    /// lacked.
+    /// Loads and closures grow from the limbs at rest, in steps up to the `longest` share; `first` is the residual after
+    /// one step.
     pub fn grow_load(
         &mut self,
         first: &MechanismBalance,
@@ -351,7 +351,7 @@ impl PlatformSolver<'_> {
 }
 
 /// Where an iteration is.
-struct Place {
+struct Iterate {
     state: MechanismState,
     posture: Vec<LimbPosture>,
     nominal: Vec<Pose>,

@@ -43,8 +43,8 @@ impl Guide {
         }
     }
 
-    /// What the motion to `pose` lacks of the goals.
-    pub fn lack(&self, pose: &Pose) -> DVector<f64> {
+    /// Residual of the goals at `pose`.
+    pub fn residual(&self, pose: &Pose) -> DVector<f64> {
         &self.goals - &self.rows * pose_residual(pose, &self.from).0
     }
 
@@ -85,7 +85,7 @@ pub(crate) struct PlatformStep {
     pub push: Wrench,
 }
 
-/// Balance of the tool, `T^T dF + A dt - hands * dh = lack`, over wrench and motion of the tip, with
+/// Balance of the tool, `T^T dF + A dt - hands * dh = unbalanced`, over wrench and motion of the tip, with
 /// the unknown hands taken out, and the conditions of the guide.
 pub(crate) struct ToolBalance {
     /// The first rows: combinations of the balance across the hands, (6 - k) x 6.

@@ -58,7 +58,7 @@ pub(crate) struct PlatformSolver<'m> {
     /// What acts on every limb between its ends: gravity and its loads.
     pub loads: Vec<Vec<Load>>,
     pub linear: Vec<Linear>,
-    /// Of a machine that is one chain: what its tool lacks, as it was linearised.
+    /// Of a machine that is one chain: the unbalanced wrench of its tool, as it was linearised.
     pub balance: Option<ToolBalance>,
     /// Closure at the start, kept while the load grows.
     pub offsets: Vec<Twist>,
@@ -217,7 +217,7 @@ impl<'m> PlatformSolver<'m> {
             (0.0, 0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
         let mut exceeding = 0.0_f64;
         // Wrench still missing on each platform, about its origin.
-        let mut lack: Vec<Wrench> = m
+        let mut unbalanced: Vec<Wrench> = m
             .platforms()
             .iter()
             .zip(&self.state.platforms)
@@ -226,13 +226,13 @@ impl<'m> PlatformSolver<'m> {
                 Wrench::new(weight, (pose.rotation * p.centre_of_mass).cross(&weight))
             })
             .collect();
-        lack[m.tool()] = lack[m.tool()] + self.wrench * self.share;
+        unbalanced[m.tool()] = unbalanced[m.tool()] + self.wrench * self.share;
         let mut others = self.others.clone();
         for load in m.platform_loads() {
             load.wrenches(&self.state.platforms, &mut others);
         }
         for (platform, wrench) in others {
-            lack[platform] += wrench * self.share;
+            unbalanced[platform] += wrench * self.share;
         }
         let root = self.stiffness.sqrt();
         let unit = [
@@ -250,7 +250,7 @@ impl<'m> PlatformSolver<'m> {
                 .sum::<f64>()
                 .sqrt()
         };
-        forces = lack.iter().skip(1).map(size).fold(forces, larger);
+        forces = unbalanced.iter().skip(1).map(size).fold(forces, larger);
         for (i, limb) in m.limbs().iter().enumerate() {
             let arm = self.arm(i, &self.state);
             let (x, f) = (&self.state.coordinates[i], &self.state.wrenches[i]);
@@ -271,23 +271,23 @@ impl<'m> PlatformSolver<'m> {
             torque = larger(torque, b.torque);
             loads = larger(loads, b.loads);
             exceeding = larger(exceeding, b.exceeding());
-            lack[limb.to] += Wrench(-(shift_matrix(&arm).transpose() * f.0));
+            unbalanced[limb.to] += Wrench(-(shift_matrix(&arm).transpose() * f.0));
             if limb.from != 0 {
                 let n = x.len() + limb.actual.actuators().len();
                 let reaction = Vector6::from_fn(|k, _| linear.system.torque[n + k]);
-                lack[limb.from] += Wrench(reaction);
+                unbalanced[limb.from] += Wrench(reaction);
             }
             forces = larger(forces, size(f));
         }
         let mut force = 0.0_f64;
         if self.unknowns == Unknowns::Guided {
-            let missing = self.guide.lack(&self.state.platforms[m.tool()]);
-            let missing = largest(&missing);
-            merit += (missing * root).powi(2);
-            closure_m = larger(closure_m, missing);
+            let guide_residual = self.guide.residual(&self.state.platforms[m.tool()]);
+            let guide_residual = largest(&guide_residual);
+            merit += (guide_residual * root).powi(2);
+            closure_m = larger(closure_m, guide_residual);
         }
-        for (k, w) in lack.iter().enumerate().skip(1) {
-            // Whoever holds the tool supplies what it lacks.
+        for (k, w) in unbalanced.iter().enumerate().skip(1) {
+            // Under displacement control, the holder of the tool supplies its unbalanced wrench.
             if self.unknowns != Unknowns::Held || k != m.tool() {
                 force = larger(force, size(w));
                 merit += size(w).powi(2);
@@ -303,7 +303,7 @@ impl<'m> PlatformSolver<'m> {
             least: LEAST_LOAD * root * self.length,
             exceeding,
         };
-        (balance, lack)
+        (balance, unbalanced)
     }
 
     pub fn converged(&self, b: &MechanismBalance) -> bool {
@@ -350,7 +350,7 @@ impl<'m> PlatformSolver<'m> {
     /// 6P x 6P, together with the limbs' own systems for stiffness and stability.
     pub fn finish(&mut self) -> (Sparse, Vec<Wrench>) {
         self.share = 1.0;
-        let (_, lack) = self.evaluate();
+        let (_, unbalanced) = self.evaluate();
         self.linearise(true);
         for (linear, (limb, factors)) in self
             .linear
@@ -365,7 +365,7 @@ impl<'m> PlatformSolver<'m> {
                 linear.solution.columns_mut(1, 6).copy_from(&answer);
             }
         }
-        (self.tangents(&self.state).0, lack)
+        (self.tangents(&self.state).0, unbalanced)
     }
 
     /// The moment of the wrench on the tool without the reactions of what guides it.
@@ -459,13 +459,13 @@ fn measure(
     factors: &[f64],
 ) -> Balance {
     let (torque, mut loads) = system.unbalanced_torques(factors);
-    let mut gap = 0.0;
+    let mut closure_squared = 0.0;
     for k in 0..6 {
-        gap += (closure.0[k] * factors[k]).powi(2);
+        closure_squared += (closure.0[k] * factors[k]).powi(2);
         loads = larger(loads, (wrench.0[k] / factors[k]).abs());
     }
     Balance {
-        closure: gap.sqrt(),
+        closure: closure_squared.sqrt(),
         torque: torque.sqrt(),
         loads,
         rounding: rounding(chain, system, factors),

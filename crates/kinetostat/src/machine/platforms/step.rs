@@ -57,17 +57,17 @@ impl PlatformSolver<'_> {
             })
     }
 
-    /// A Newton step for what lacks: of the platforms, and of wrench and coordinates of all limbs.
+    /// A Newton step for the residual: of the platforms, and of wrench and coordinates of all limbs.
     /// With new tangents, or with those at a state where the limbs were linearised before; `None` if
     /// there is no step, or the old tangents do not serve.
     pub fn newton(
         &mut self,
-        lack: &[Wrench],
+        unbalanced: &[Wrench],
         at: &MechanismState,
         tangents: Tangents,
     ) -> Option<(PlatformStep, Vec<DVector<f64>>)> {
         if self.is_one_chain() {
-            return self.step_of_chain(lack, tangents);
+            return self.step_of_chain(unbalanced, tangents);
         }
         match tangents {
             Tangents::New { with_hessian } => {
@@ -82,7 +82,7 @@ impl PlatformSolver<'_> {
                 }
             }
         }
-        let step = self.platform_step(lack, at)?;
+        let step = self.platform_step(unbalanced, at)?;
         let limbs = self.limb_steps(&step, at);
         Some((step, limbs))
     }
@@ -235,7 +235,7 @@ impl PlatformSolver<'_> {
     }
 
     /// One Newton step, arms and loads as at a state: the present one, or the one where the limbs
-    /// were linearised. `unbalanced` is the wrench that every platform lacks.
+    /// were linearised. `unbalanced` is the residual wrench of every platform.
     pub fn platform_step(
         &self,
         unbalanced: &[Wrench],
@@ -299,7 +299,7 @@ impl PlatformSolver<'_> {
         }
     }
 
-    /// What the platforms lack once every limb has closed its own residuals, 6P x 1.
+    /// Unbalanced wrenches of the platforms once every limb has closed its own residuals, 6P x 1.
     fn condensed_residuals(&self, unbalanced: &[Wrench], at: &MechanismState) -> DMatrix<f64> {
         let m = self.mechanism;
         let mut b = DMatrix::zeros(6 * (m.platforms().len() - 1), 1);
@@ -341,7 +341,7 @@ impl PlatformSolver<'_> {
             needed = needed.resize_vertically(first + guided, 0.0);
             needed
                 .rows_mut(first, guided)
-                .copy_from(&(self.guide.lack(pose) * root));
+                .copy_from(&(self.guide.residual(pose) * root));
         }
         let (mut rigid, mut reactions) = (sizes.clone(), sizes.matrix.clone());
         reactions.entries.retain(|(i, _, _)| *i < first);

@@ -86,7 +86,7 @@ fn step_joints(chain: &Chain, joints: &mut LimbPosture, by: &[f64], length: f64)
 }
 
 /// A search on all joints of the machine.
-pub(crate) struct Search<'p> {
+pub(crate) struct LostMotionSearch<'p> {
     pub(crate) at: Posture,
     start: &'p Posture,
     pub(crate) length: f64,
@@ -97,7 +97,7 @@ pub(crate) struct Search<'p> {
     idle: DMatrix<f64>,
 }
 
-impl<'p> Search<'p> {
+impl<'p> LostMotionSearch<'p> {
     pub(crate) fn new(start: &'p Posture) -> Self {
         let m = &start.mechanism;
         let length = m.scale().length;
@@ -141,13 +141,13 @@ impl<'p> Search<'p> {
         pose_residual(&self.at.platforms[tool], &self.start.platforms[tool])
     }
 
-    /// Gaps between limbs and platforms, and how they change.
+    /// Jacobian and residuals of the closures of all limbs.
     pub(crate) fn closure(&self) -> (DMatrix<f64>, DVector<f64>) {
         let m = &self.at.mechanism;
         let moving = m.platforms().len() - 1;
         let unit = |i: usize| if i % 6 < 3 { 1.0 } else { self.length };
         let mut rows = DMatrix::zeros(6 * m.limbs().len() + self.idle.nrows(), self.count);
-        let mut gaps = DVector::zeros(rows.nrows());
+        let mut residuals = DVector::zeros(rows.nrows());
         for (i, limb) in m.limbs().iter().enumerate() {
             let own = limb_motions(&self.at, i, true, self.length);
             rows.view_mut((6 * i, self.first[i]), own.shape())
@@ -165,12 +165,12 @@ impl<'p> Search<'p> {
                 &joints.commands,
             );
             let held: Pose = self.at.platforms[limb.to] * limb.platform_from_tip;
-            let gap = self.balanced(&pose_residual(&held, &tip));
-            gaps.rows_mut(6 * i, 6).copy_from(&gap);
+            let residual = self.balanced(&pose_residual(&held, &tip));
+            residuals.rows_mut(6 * i, 6).copy_from(&residual);
         }
         rows.rows_mut(6 * m.limbs().len(), self.idle.nrows())
             .copy_from(&self.idle);
-        (rows, gaps)
+        (rows, residuals)
     }
 
     fn axes(&self, limb: usize) -> Option<Axes> {
@@ -228,15 +228,17 @@ impl<'p> Search<'p> {
     /// Least motion of the tool from the start on the conditions, linearised: motion of all to the
     /// conditions, and motion on them.
     fn step(&self, condition: &DMatrix<f64>, value: &DVector<f64>) -> Option<[DVector<f64>; 2]> {
-        let (closure, gaps) = self.closure();
+        let (closure, residuals) = self.closure();
         let count = closure.nrows() + condition.nrows();
         let mut rows = DMatrix::zeros(count, self.count);
         rows.rows_mut(0, closure.nrows()).copy_from(&closure);
         rows.rows_mut(closure.nrows(), condition.nrows())
             .copy_from(condition);
         let mut wanted = DVector::zeros(count);
-        wanted.rows_mut(0, gaps.len()).copy_from(&gaps);
-        wanted.rows_mut(gaps.len(), value.len()).copy_from(&-value);
+        wanted.rows_mut(0, residuals.len()).copy_from(&residuals);
+        wanted
+            .rows_mut(residuals.len(), value.len())
+            .copy_from(&-value);
         let (particular, free) = solve(&rows, &wanted)?;
         let tool = self.tool();
         let left = self.balanced(&self.gone()) + particular.rows(tool, 6);
@@ -325,11 +327,11 @@ impl Posture {
     /// For every limb the nearest posture at most `within_m` away (balanced) where it loses a motion
     /// that its joints have in general.
     pub(crate) fn lost_motions(&self, within_m: f64) -> Vec<LostMotion> {
-        let mut search = Search::new(self);
+        let mut search = LostMotionSearch::new(self);
         let length = search.length;
-        let motions = |search: &Search<'_>| {
-            let (closure, gaps) = search.closure();
-            let free = solve(&closure, &DVector::zeros(gaps.len()))?.1;
+        let motions = |search: &LostMotionSearch<'_>| {
+            let (closure, residuals) = search.closure();
+            let free = solve(&closure, &DVector::zeros(residuals.len()))?.1;
             let moves = free.rows(search.tool(), 6).into_owned();
             Some((free, moves))
         };
@@ -445,7 +447,7 @@ impl Posture {
         around.fold(rank(self), usize::max)
     }
 
-    /// Motion of the tip that a limb at a singular posture lacks and has nearby.
+    /// Motion of the tip that a limb cannot make at a singular posture and can make nearby.
     fn lost(&self, limb: usize, rank: usize) -> Vector6<f64> {
         let length = self.mechanism.scale().length;
         let near = self.beside(limb, 1e-6, 0);

@@ -13,7 +13,7 @@ use crate::linalg::largest::largest;
 use crate::linalg::singular_values::SingularValues;
 use crate::machine::constraints::Constraints;
 use crate::machine::posture::Posture;
-use crate::machine::singular::lost_motion::{Search, solve};
+use crate::machine::singular::lost_motion::{LostMotionSearch, solve};
 use crate::number;
 use crate::number::smaller;
 use crate::spatial::{Pose, Twist, moved, pose_residual};
@@ -96,7 +96,7 @@ fn mainly(motion: &Twist) -> Twist {
 
 /// Postures beside one, along motions of its joints: of machines whose tool cannot move straight on.
 struct Beside<'p> {
-    start: Search<'p>,
+    start: LostMotionSearch<'p>,
     /// Free motions of all joints and platforms, and what they do to the tool, balanced.
     free: DMatrix<f64>,
     moves: SingularValues,
@@ -107,9 +107,9 @@ const CLOSING_STEPS: usize = 30;
 
 impl<'p> Beside<'p> {
     fn of(posture: &'p Posture) -> Option<Self> {
-        let start = Search::new(posture);
-        let (closure, gaps) = start.closure();
-        let (_, free) = solve(&closure, &DVector::zeros(gaps.len()))?;
+        let start = LostMotionSearch::new(posture);
+        let (closure, residuals) = start.closure();
+        let (_, free) = solve(&closure, &DVector::zeros(residuals.len()))?;
         let moves = free.rows(start.tool(), 6).into_owned();
         let moves = (!moves.is_empty()).then(|| SingularValues::of(&moves))?;
         Some(Self { start, free, moves })
@@ -125,13 +125,13 @@ impl<'p> Beside<'p> {
         let small = 1e-6 * self.moves.largest();
         search.go(&(&self.free * self.moves.shortest(&wanted, small)));
         for _ in 0..CLOSING_STEPS {
-            let (closure, gaps) = search.closure();
-            if largest(&gaps) <= 1e-12 * length {
+            let (closure, residuals) = search.closure();
+            if largest(&residuals) <= 1e-12 * length {
                 let gone = pose_residual(&search.at.target, &self.start.at.target);
                 let off = (balanced(&gone.0) - &wanted).norm();
                 return (off <= 0.5 * wanted.norm()).then_some(search.at);
             }
-            let (closing, _) = solve(&closure, &gaps)?;
+            let (closing, _) = solve(&closure, &residuals)?;
             if closing.iter().any(|x| !x.is_finite()) || closing.amax() > length {
                 return None;
             }

@@ -125,9 +125,9 @@ fn compensation_closes() {
         let start = posture.rest_state();
         let c = compensate_from(&posture, &desired, &wrench, Directions::ALL, start).unwrap();
         let again = c.posture.deflected_by(&wrench).unwrap();
-        let miss = pose_residual(&again.tool, &desired);
-        arm_p.add(miss.linear().norm());
-        arm_r.add(miss.angular().norm());
+        let residual = pose_residual(&again.tool, &desired);
+        arm_p.add(residual.linear().norm());
+        arm_r.add(residual.angular().norm());
     }
     let mut f = Figures::new();
     let (m, rad) = ("m (test's tolerance)", "rad (test's tolerance)");

@@ -5,7 +5,7 @@
 //! where it answers, every number is compared, and a number that is none fails the comparison.
 
 use kinetostat::batch::{Batch, Details, Status};
-use kinetostat::internal::{InstructionSet, Path, solve_along};
+use kinetostat::internal::{ChainMethod, InstructionSet, solve_along};
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Limb, LinkSpec,
     Load, Mechanism, MotionKind, Platform, Pose, PostureRequest, Settings, Wrench,
@@ -53,7 +53,7 @@ trait Engine {
 }
 
 /// One of the two algorithms of a chain.
-struct ChainBy(Path);
+struct ChainBy(ChainMethod);
 
 impl Engine for ChainBy {
     fn name(&self) -> String {
@@ -67,11 +67,11 @@ impl Engine for ChainBy {
         problem.commands.clone_from(&case.commands);
         problem.loads = vec![Load::gravity(case.machine.gravity())];
         let found = solve_along(&problem, &Settings::default(), Some(self.0));
-        let (found, path) = found
+        let (found, method) = found
             .map_err(|e| eprintln!("{}: {:?}: {e}", case.name, self.0))
             .ok()?;
         // Sweeps answer stable states, dense matrices the rest.
-        assert!(path == self.0 || !found.stability.stable, "{}", case.name);
+        assert!(method == self.0 || !found.stability.stable, "{}", case.name);
         let matrix = &found.stiffness.cartesian.matrix;
         Some(Answer {
             stable: found.stability.stable,
@@ -257,7 +257,7 @@ fn cases() -> Vec<Case> {
 #[test]
 fn every_engine_finds_the_same_equilibrium() {
     let kernels = kernels();
-    let (dense, sweep) = (ChainBy(Path::Dense), ChainBy(Path::Sweep));
+    let (dense, sweep) = (ChainBy(ChainMethod::Dense), ChainBy(ChainMethod::Sweep));
     let (mut refused, mut missing) = (0, Vec::new());
     for case in cases() {
         let Some(general) = General.answer(&case) else {
@@ -326,8 +326,8 @@ fn no_engine_answers_numbers_that_are_none() {
             assert!(engine.answer(&case).is_none(), "{i}: {}", engine.name());
         }
         assert!(General.answer(&case).is_none(), "{i}");
-        for path in [Path::Dense, Path::Sweep] {
-            assert!(ChainBy(path).answer(&case).is_none(), "{i}: {path:?}");
+        for method in [ChainMethod::Dense, ChainMethod::Sweep] {
+            assert!(ChainBy(method).answer(&case).is_none(), "{i}: {method:?}");
         }
     }
 }

@@ -102,13 +102,13 @@ fn an_elastica_is_found_together() {
         let at = Kinematics::new(chain, &Pose::identity(), &own, &[]);
         let torque = at.jacobian(chain.tip()).transpose() * load.0;
         let k = segment(1.0 / segments as f64);
-        let mut lacks = torque.clone();
+        let mut unbalanced = torque.clone();
         for i in 0..segments {
             let theta = DVector::from_column_slice(&own[6 * i..6 * i + 6]);
-            let mut rows = lacks.rows_mut(6 * i, 6);
+            let mut rows = unbalanced.rows_mut(6 * i, 6);
             rows -= k * theta;
         }
-        let residual = lacks.norm() / torque.norm();
+        let residual = unbalanced.norm() / torque.norm();
         assert!(residual < 1e-10, "{residual:e}");
         let alone = machine.posture(&home).expect("home");
         let alone = alone.deflected_by(&load).expect("an equilibrium");

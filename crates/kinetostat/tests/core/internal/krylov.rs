@@ -29,11 +29,11 @@ fn the_largest_are_found_also_where_they_are_equal() {
                 let asked = if k < equal { 1.25 } else { 1.1 };
                 assert!((values[k] - asked).abs() < 1e-12, "{n} {equal}: {values}");
             }
-            let missed = &a * &vectors - &vectors * DMatrix::from_diagonal(&values);
+            let residual = &a * &vectors - &vectors * DMatrix::from_diagonal(&values);
             assert!(
-                missed.largest_entry() < 1e-9,
+                residual.largest_entry() < 1e-9,
                 "{n} {equal}: {}",
-                missed.largest_entry()
+                residual.largest_entry()
             );
             let gram = vectors.transpose() * &vectors;
             assert!(gram.is_identity(1e-12), "{n} {equal}: {gram}");

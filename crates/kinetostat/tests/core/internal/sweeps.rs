@@ -5,9 +5,9 @@ use kinetostat_testing::{LargestEntry, Worst, largest_size};
 use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
 use kinetostat::internal::{
-    Bordered, ChainCurve, CurveState, END_SPRINGS, EndMotions, EndRows, Form, Path, SWEEP_FROM,
-    System, balance, balanced_jacobian, chain_stiffness, column_space, shape, solve_along,
-    stability_within, swept_stiffness,
+    Bordered, ChainCurve, ChainMethod, CurveState, END_SPRINGS, EndMotions, EndRows, Form,
+    SWEEP_FROM, System, balance, balanced_jacobian, chain_stiffness, column_space, shape,
+    solve_along, stability_within, swept_stiffness,
 };
 use kinetostat::{
     continuation::LoadPattern,
@@ -123,10 +123,13 @@ fn two(rng: &mut Rng, chain: &Chain, loads: &[Load], size: f64) -> (System, Syst
         })
         .collect();
     let wrench = rng.wrench(400.0, 60.0);
-    let mut systems = [Path::Dense, Path::Sweep]
-        .map(|path| System::of_chain(chain, &base, &posture, &commands, &factors, Some(path)));
-    for (system, path) in systems.iter_mut().zip([Path::Dense, Path::Sweep]) {
-        assert_eq!(system.path(), path);
+    let mut systems = [ChainMethod::Dense, ChainMethod::Sweep]
+        .map(|method| System::of_chain(chain, &base, &posture, &commands, &factors, Some(method)));
+    for (system, method) in systems
+        .iter_mut()
+        .zip([ChainMethod::Dense, ChainMethod::Sweep])
+    {
+        assert_eq!(system.method(), method);
         system.evaluate(chain, &base, &posture, &commands, loads, &x, &wrench, 1.0);
     }
     let [dense, swept] = systems;
@@ -200,7 +203,7 @@ fn products_torques_and_energy_are_those_of_dense_matrices() {
 }
 
 #[test]
-fn the_product_is_the_derivative_of_what_equilibrium_lacks() {
+fn the_product_is_the_derivative_of_the_residual() {
     let mut rng = Rng(2);
     let base = Pose::new(vector![0.1, -0.2, 0.3], vector![0.4, -0.3, 0.2]);
     for case in 0..10 {
@@ -216,9 +219,9 @@ fn the_product_is_the_derivative_of_what_equilibrium_lacks() {
             &posture,
             &commands,
             &factors,
-            Some(Path::Sweep),
+            Some(ChainMethod::Sweep),
         );
-        let mut lack = |x: &[f64]| {
+        let mut residual = |x: &[f64]| {
             system.evaluate(&chain, &base, &posture, &commands, &loads, x, &wrench, 1.0);
             let balanced = (0..n).map(|i| system.unbalanced(i) * factors[6 + i]);
             DVector::from_iterator(n, balanced)
@@ -231,10 +234,10 @@ fn the_product_is_the_derivative_of_what_equilibrium_lacks() {
                 .collect()
         };
         let step = 2e-3;
-        let slope = (8.0 * (lack(&at(step)) - lack(&at(-step)))
-            - (lack(&at(2.0 * step)) - lack(&at(-2.0 * step))))
+        let slope = (8.0 * (residual(&at(step)) - residual(&at(-step)))
+            - (residual(&at(2.0 * step)) - residual(&at(-2.0 * step))))
             / (12.0 * step);
-        lack(&x);
+        residual(&x);
         let mut exact = vec![0.0; n];
         let sweep = system.sweep.as_ref().expect("stages");
         sweep.product(Form::Exact, &along, &mut Vec::new(), &mut exact);
@@ -372,12 +375,12 @@ fn equilibria_and_verdicts_are_those_of_the_dense_path() {
         }
         let mut problem = ChainProblem::new(&chain, end);
         problem.loads = loads(&mut rng, &chain, case % 2 == 0);
-        let both = [Path::Dense, Path::Sweep]
-            .map(|path| solve_along(&problem, &Settings::default(), Some(path)));
-        let [Ok((dense, _)), Ok((swept, path))] = both else {
+        let both = [ChainMethod::Dense, ChainMethod::Sweep]
+            .map(|method| solve_along(&problem, &Settings::default(), Some(method)));
+        let [Ok((dense, _)), Ok((swept, method))] = both else {
             continue;
         };
-        assert_eq!(path, Path::Sweep, "{case}");
+        assert_eq!(method, ChainMethod::Sweep, "{case}");
         assert_same(&dense, &swept, &chain, &format!("case {case}"));
         let factors = balance(&chain, &problem.posture);
         let cosine = alignment(&dense.stability.mode, &swept.stability.mode, &factors);
@@ -424,10 +427,10 @@ fn buckled_and_straight_columns_get_the_same_verdict() {
         let euler = std::f64::consts::PI.powi(2) * 0.01_f64.powi(2) / 12.0;
         let (chain, end) = column(segments, share * euler);
         let problem = ChainProblem::new(&chain, end);
-        let [dense, swept] = [Path::Dense, Path::Sweep].map(|path| {
-            solve_along(&problem, &Settings::default(), Some(path)).expect("equilibrium")
+        let [dense, swept] = [ChainMethod::Dense, ChainMethod::Sweep].map(|method| {
+            solve_along(&problem, &Settings::default(), Some(method)).expect("equilibrium")
         });
-        assert_eq!(swept.1, Path::Sweep);
+        assert_eq!(swept.1, ChainMethod::Sweep);
         assert_same(&dense.0, &swept.0, &chain, &format!("{segments} {share}"));
         assert_eq!(swept.0.stability.stable, share < 1.0, "{share}");
         println!(
@@ -489,23 +492,26 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
 #[test]
 fn what_a_sweep_cannot_do_is_done_densely() {
     let mut rng = Rng(6);
-    let path = |chain: &Chain, loads: Vec<Load>| {
+    let method = |chain: &Chain, loads: Vec<Load>| {
         let mut problem = ChainProblem::new(chain, EndCondition::wrench(Wrench::zero()));
         problem.end.wrench = Wrench::new(vector![1.0, 2.0, 3.0], Vector3::zeros());
         problem.loads = loads;
-        let (e, path) = solve_along(&problem, &Settings::default(), None).expect("equilibrium");
+        let (e, method) = solve_along(&problem, &Settings::default(), None).expect("equilibrium");
         assert!(e.stiffness.cartesian.matrix.iter().all(|x| x.is_finite()));
-        path
+        method
     };
     let long = random(&mut rng, 8, 0, 0.0);
-    assert_eq!(path(&long, Vec::new()), Path::Sweep);
-    assert_eq!(path(&random(&mut rng, 2, 0, 0.0), Vec::new()), Path::Dense);
+    assert_eq!(method(&long, Vec::new()), ChainMethod::Sweep);
+    assert_eq!(
+        method(&random(&mut rng, 2, 0, 0.0), Vec::new()),
+        ChainMethod::Dense
+    );
     let nodes = [
         long.node("n1").expect("node"),
         long.node("n5").expect("node"),
     ];
     let across = Load::spring_between(Anchor::node(nodes[0]), Anchor::node(nodes[1]), 1e3, 0.1);
-    assert_eq!(path(&long, vec![across]), Path::Dense);
+    assert_eq!(method(&long, vec![across]), ChainMethod::Dense);
     // One coordinate, two motions.
     let bar = BeamSection::tube(2.1e11, 8.0e10, 0.03, 0.024);
     let coupled = Chain::builder("coupled")
@@ -515,7 +521,7 @@ fn what_a_sweep_cannot_do_is_done_densely() {
         .coupled("c", MotionKind::Revolute, Vector3::z(), -1.0)
         .build()
         .expect("chain");
-    assert_eq!(path(&coupled, Vec::new()), Path::Dense);
+    assert_eq!(method(&coupled, Vec::new()), ChainMethod::Dense);
     // A strut that spins between its balls.
     let strut = Chain::builder("strut")
         .passive_spherical("foot")
@@ -528,8 +534,8 @@ fn what_a_sweep_cannot_do_is_done_densely() {
         EndCondition::pose(Pose::translation(1.0 - 1e-5, 0.0, 0.0)),
     );
     problem.posture[0] = 0.0;
-    let (e, path) = solve_along(&problem, &Settings::default(), None).expect("equilibrium");
-    assert_eq!(path, Path::Dense);
+    let (e, method) = solve_along(&problem, &Settings::default(), None).expect("equilibrium");
+    assert_eq!(method, ChainMethod::Dense);
     assert_eq!(e.stability.neutral.len(), 2, "{:?}", e.stability.neutral);
 }
 
@@ -555,10 +561,10 @@ fn planar_chains_of_joints_have_rigid_directions_on_both_paths() {
             problem.end =
                 EndCondition::pose(Pose::new(vector![0.8, 0.2, 0.0], vector![0.0, 0.0, 0.6]));
         }
-        let [dense, swept] = [Path::Dense, Path::Sweep].map(|path| {
-            solve_along(&problem, &Settings::default(), Some(path)).expect("equilibrium")
+        let [dense, swept] = [ChainMethod::Dense, ChainMethod::Sweep].map(|method| {
+            solve_along(&problem, &Settings::default(), Some(method)).expect("equilibrium")
         });
-        assert_eq!(swept.1, Path::Sweep);
+        assert_eq!(swept.1, ChainMethod::Sweep);
         assert_same(&dense.0, &swept.0, &chain, &format!("planar, held {held}"));
         assert_eq!(swept.0.stiffness.count(DirectionKind::Rigid), 3);
     }
@@ -600,8 +606,8 @@ fn curves_are_alike_by_sweeps_and_dense() {
             let v = DVector::from_fn(m + 1, |_, _| rng.next());
             v.normalize()
         };
-        let (z, guide, lack) = (direction() * 4.0, direction(), direction());
-        let right = lack.rows(0, m).into_owned();
+        let (z, guide, residual) = (direction() * 4.0, direction(), direction());
+        let right = residual.rows(0, m).into_owned();
         let (x, y) = (dense.linearised(&z), swept.linearised(&z));
         assert!(y.is_swept(), "{case}");
         assert!((&x.residual - &y.residual).norm() < 1e-12, "{case}");
@@ -687,9 +693,9 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             let force = Wrench::new(Vector3::from(push), Vector3::zeros());
             let problem = ChainProblem::new(&chain, EndCondition::wrench(force));
             let here = solve_chain(&problem, &Settings::default()).expect("equilibrium");
-            let [dense, swept] = [Path::Dense, Path::Sweep].map(|path| {
+            let [dense, swept] = [ChainMethod::Dense, ChainMethod::Sweep].map(|method| {
                 let mut system =
-                    System::of_chain(&chain, &problem.base, &posture, &[], &factors, Some(path));
+                    System::of_chain(&chain, &problem.base, &posture, &[], &factors, Some(method));
                 system.evaluate_problem(&problem, &here.coordinates, &here.wrench, 1.0);
                 system
             });

@@ -155,7 +155,7 @@ fn commands_of_arms_come_back() {
 /// commands again when the search starts elsewhere.
 #[test]
 fn commands_of_hybrids_come_back() {
-    let (mut gap, mut twice, mut count) = (Worst::new(), Worst::new(), 0);
+    let (mut closure_residual, mut twice, mut count) = (Worst::new(), Worst::new(), 0);
     for (name, shift, turn) in [
         ("fanuc_m900ib_like", 0.25, 0.3),
         ("counterweight_arm", 0.25, 0.25),
@@ -185,7 +185,7 @@ fn commands_of_hybrids_come_back() {
             }
             .unwrap_or_else(|e| panic!("{name} at {asked}: {e}"));
             assert!(posture.limit_violations().is_empty(), "{name} at {asked}");
-            gap.add(machine::structure(&model, &posture).gap);
+            closure_residual.add(machine::structure(&model, &posture).closure_residual);
             if let Some(last) = &last {
                 let again = mechanism
                     .posture(PostureRequest::pose(posture.target()).near(last))
@@ -198,13 +198,13 @@ fn commands_of_hybrids_come_back() {
             count += 1;
         }
     }
-    let (gap, twice) = (gap.of(count), twice.value());
+    let (closure_residual, twice) = (closure_residual.of(count), twice.value());
     figure(
         &format!("Library: commands of hybrids to pose, off the pose asked for, at {count} places"),
-        json!(gap),
+        json!(closure_residual),
         "at most 1e-9",
         "m",
-        gap <= 1e-9,
+        closure_residual <= 1e-9,
     );
     figure(
         "Library: commands of hybrids from home minus those from the last place",

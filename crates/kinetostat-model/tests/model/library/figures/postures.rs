@@ -57,7 +57,7 @@ fn no_robot_is_at_home_in_a_singular_posture() {
 /// Or a cube of 200 mm about home where none is stated.
 #[test]
 fn every_robot_reaches_its_stated_workspace() {
-    let (mut gap, mut count) = (Worst::new(), 0);
+    let (mut closure_residual, mut count) = (Worst::new(), 0);
     for name in robots() {
         let model = preset(name);
         let mechanism = &model.mechanism;
@@ -90,16 +90,16 @@ fn every_robot_reaches_its_stated_workspace() {
             let outside = posture.limit_violations();
             assert!(outside.is_empty(), "{name} at {at}: {outside:?}");
             // Where the joints lead, by the file read a second time.
-            gap.add(machine::structure(&model, &posture).gap);
+            closure_residual.add(machine::structure(&model, &posture).closure_residual);
             count += 1;
         }
     }
-    let gap = gap.of(count);
+    let closure_residual = closure_residual.of(count);
     figure(
         &format!("Library: inverse kinematics there and back at {count} random places"),
-        json!(gap),
+        json!(closure_residual),
         "at most 1e-9",
         "m",
-        gap <= 1e-9,
+        closure_residual <= 1e-9,
     );
 }
