@@ -39,7 +39,7 @@ pub struct Identified {
     pub stiffness: Matrix6<f64>,
     /// Standard deviations of the entries of `stiffness`.
     pub stiffness_deviation: Matrix6<f64>,
-    /// `|C - C^T| / |C + C^T|`, balanced by the diagonal.
+    /// `|C - C^T| / |C + C^T|`, scaled by the diagonal.
     pub antisymmetric_share: f64,
     /// The same share that the residuals explain (expected root mean square).
     pub explained_share: f64,
@@ -87,7 +87,7 @@ pub fn identify(file: &str, cases: &[LoadCase], end: &Vector3<f64>) -> Result<Id
     let compliance = Matrix6::from_fn(|i, j| c[(i, j)]);
     let left = &moved - &c * &wrenches;
     let not_linear = if cases.len() > 6 && moved.norm() > 0.0 {
-        balanced_ratio(&left, &moved, size)
+        scaled_ratio(&left, &moved, size)
     } else {
         0.0
     };
@@ -267,7 +267,7 @@ fn right_inverse(file: &str, wrenches: &DMatrix<f64>, size: f64) -> Result<DMatr
     Ok(right)
 }
 
-fn balanced_ratio(left: &DMatrix<f64>, whole: &DMatrix<f64>, size: f64) -> f64 {
+fn scaled_ratio(left: &DMatrix<f64>, whole: &DMatrix<f64>, size: f64) -> f64 {
     let scale = |m: &DMatrix<f64>| {
         let mut m = m.clone();
         for i in 3..6 {

@@ -195,10 +195,10 @@ pub(crate) fn invert(c: &Matrix6<f64>) -> Option<Matrix6<f64>> {
         return None;
     }
     let scale = Matrix6::from_diagonal(&c.diagonal().map(|d| 1.0 / d.sqrt()));
-    let balanced = scale * c * scale;
-    let singular = kinetostat::linalg::SingularValues::of(&balanced);
+    let scaled = scale * c * scale;
+    let singular = kinetostat::linalg::SingularValues::of(&scaled);
     if singular.least() < 1e-12 * singular.largest() {
         return None;
     }
-    Some(scale * balanced.try_inverse()? * scale)
+    Some(scale * scaled.try_inverse()? * scale)
 }

@@ -8,9 +8,9 @@ use nalgebra::{Matrix6, Vector6};
 /// Names of the six directions.
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// Asymmetry (share of the balanced matrix) that rounding in a text file explains.
+/// Asymmetry (share of the scaled matrix) that rounding in a text file explains.
 pub const SYMMETRIC_TO: f64 = 1e-6;
-/// Eigenvalues of the balanced matrix below this are zero.
+/// Eigenvalues of the scaled matrix below this are zero.
 const ZERO: f64 = 1e-9;
 
 /// How bad a finding is.
@@ -90,11 +90,8 @@ pub fn judge(k: &Matrix6<f64>, symmetric_to: f64) -> Judgement {
         };
     }
     let mut findings = negative_diagonal(k);
-    let (balanced, scale) = balance(k);
-    let (sum, difference) = (
-        balanced + balanced.transpose(),
-        balanced - balanced.transpose(),
-    );
+    let (scaled, scale) = scaled_by_diagonal(k);
+    let (sum, difference) = (scaled + scaled.transpose(), scaled - scaled.transpose());
     let share = if sum.norm() > 0.0 {
         difference.norm() / sum.norm()
     } else {
@@ -148,7 +145,7 @@ fn negative_diagonal(k: &Matrix6<f64>) -> Vec<Finding> {
         .collect()
 }
 
-/// The largest difference of two entries that should be equal, of the balanced matrix.
+/// The largest difference of two entries that should be equal, of the scaled matrix.
 fn asymmetry(k: &Matrix6<f64>, difference: &Matrix6<f64>, share: f64) -> Finding {
     let (mut worst, mut at) = (0.0, (0, 0));
     for i in 0..6 {
@@ -174,7 +171,7 @@ fn asymmetry(k: &Matrix6<f64>, difference: &Matrix6<f64>, share: f64) -> Finding
     )
 }
 
-/// A motion that gives energy back, or that nothing holds. `symmetric` is balanced by `scale`; `least` is its smallest
+/// A motion that gives energy back, or that nothing holds. `symmetric` is scaled by `scale`; `least` is its smallest
 /// eigenvalue.
 fn not_definite(
     k: &Matrix6<f64>,
@@ -214,7 +211,7 @@ fn not_definite(
 }
 
 /// `K` with its own diagonal as unit (1 where that is not positive), and the roots of the units.
-fn balance(k: &Matrix6<f64>) -> (Matrix6<f64>, Vector6<f64>) {
+fn scaled_by_diagonal(k: &Matrix6<f64>) -> (Matrix6<f64>, Vector6<f64>) {
     let scale = Vector6::from_fn(|i, _| {
         let d = k[(i, i)];
         if d > 0.0 {
@@ -231,8 +228,8 @@ fn balance(k: &Matrix6<f64>) -> (Matrix6<f64>, Vector6<f64>) {
 }
 
 /// The motion of the lowest eigenvalue, by its largest parts.
-fn softest(balanced: &Matrix6<f64>, scale: &Vector6<f64>) -> String {
-    let eigen = balanced.symmetric_eigen();
+fn softest(scaled: &Matrix6<f64>, scale: &Vector6<f64>) -> String {
+    let eigen = scaled.symmetric_eigen();
     let at = eigen.eigenvalues.imin();
     let motion: Vector6<f64> = eigen.eigenvectors.column(at).component_div(scale);
     let (moves, turns) = (

@@ -36,7 +36,7 @@ pub struct Superelement {
     pub dofs: Vec<Dof>,
     /// Lower half: (row, column, value) with row >= column, sorted, each pair once.
     pub entries: Vec<(u32, u32, f64)>,
-    /// `|K - K^T| / |K + K^T|` of what was written, balanced by the diagonal; 0 where only one half is.
+    /// `|K - K^T| / |K + K^T|` of what was written, scaled by the diagonal; 0 where only one half is.
     pub antisymmetric_share: f64,
 }
 

@@ -295,17 +295,17 @@ impl MapPlace {
         }
         // Rotations at the natural length.
         let unit = |k: usize| if k < 3 { 1.0 } else { length };
-        let balanced =
+        let scaled =
             Matrix6::from_fn(|r, c| found.stiffness.get(i, 6 * r + c) / (unit(r) * unit(c)));
-        let Some(factors) = balanced.cholesky() else {
+        let Some(factors) = scaled.cholesky() else {
             return false;
         };
         let least = factors.l_dirty().diagonal().min();
-        if least * least < REGULAR * balanced.diagonal().max() {
+        if least * least < REGULAR * scaled.diagonal().max() {
             return false;
         }
-        let balanced = factors.inverse();
-        let compliance = Matrix6::from_fn(|r, c| balanced[(r, c)] / (unit(r) * unit(c)));
+        let scaled = factors.inverse();
+        let compliance = Matrix6::from_fn(|r, c| scaled[(r, c)] / (unit(r) * unit(c)));
         self.state = PlaceState::Regular;
         self.stiffness_n_per_mm = along(&compliance);
         self.smallest_stiffness_n_per_mm = softest(&compliance);

@@ -154,7 +154,7 @@ impl Fit<'_> {
         m
     }
 
-    /// Differences over all postures, balanced.
+    /// Differences over all postures, scaled.
     fn residual(&self, m: &Mapping) -> Option<DVector<f64>> {
         let mut all = Vec::with_capacity(6 * self.postures.len());
         for (q, a) in self.postures.iter().zip(&self.targets) {

@@ -54,7 +54,7 @@ pub(crate) struct StressAnswer {
     limbs: Vec<StressOfLimb>,
 }
 
-/// Of one set of wrenches in balance with itself: shares only, the largest has size 1 N.
+/// Of one set of wrenches in equilibrium with itself: shares only, the largest has size 1 N.
 #[derive(Serialize)]
 struct StressOfLimb {
     name: String,

@@ -324,7 +324,7 @@ impl Reader<'_> {
             );
             return false;
         }
-        // Balanced first: extreme numbers can keep the iteration busy.
+        // Scaled first: extreme numbers can keep the iteration busy.
         let unit = most.max(1e-300);
         let eigenvalues = (m / unit).symmetric_eigenvalues() * unit;
         let mut principal: Vec<f64> = eigenvalues.iter().copied().collect();

@@ -12,7 +12,7 @@ pub struct FreeTest {
     /// `|K r| / (|K| |r|)` for the rigid motions x, y, z, rx, ry, rz: 0 for a body that nothing holds;
     /// `None` where the places of nodes are unknown (rotations) .
     pub resistance: [Option<f64>; 6],
-    /// Number of eigenvalues that are zero, of the matrix balanced by its diagonal; `None` for matrices
+    /// Number of eigenvalues that are zero, of the matrix scaled by its diagonal; `None` for matrices
     /// of more than 600 rows.
     pub zero_modes: Option<usize>,
     /// Number of negative ones.
@@ -137,8 +137,8 @@ pub fn free_test(element: &Superelement, nodes: &Nodes, units: Units) -> FreeTes
                 }
             })
             .collect();
-        let balanced = DMatrix::from_fn(n, n, |i, j| dense[(i, j)] / unit[i] / unit[j]);
-        let eigen = balanced.symmetric_eigenvalues();
+        let scaled = DMatrix::from_fn(n, n, |i, j| dense[(i, j)] / unit[i] / unit[j]);
+        let eigen = scaled.symmetric_eigenvalues();
         let largest = eigen.amax();
         zero_modes = Some(eigen.iter().filter(|e| e.abs() < 1e-7 * largest).count());
         negative_modes = Some(eigen.iter().filter(|e| **e < -1e-7 * largest).count());

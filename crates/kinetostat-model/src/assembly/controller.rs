@@ -374,14 +374,14 @@ fn inverse(map: &DMatrix<f64>) -> Result<DMatrix<f64>, DVector<f64>> {
     // Units and ratios of very different size are no loss of rank.
     let size = |v: f64| if v > 0.0 { v } else { 1.0 };
     let rows: Vec<f64> = map.row_iter().map(|r| size(r.amax())).collect();
-    let mut balanced = DMatrix::from_fn(map.nrows(), map.ncols(), |i, j| map[(i, j)] / rows[i]);
-    let columns: Vec<f64> = balanced.column_iter().map(|c| size(c.amax())).collect();
-    for (mut column, by) in balanced.column_iter_mut().zip(&columns) {
+    let mut scaled = DMatrix::from_fn(map.nrows(), map.ncols(), |i, j| map[(i, j)] / rows[i]);
+    let columns: Vec<f64> = scaled.column_iter().map(|c| size(c.amax())).collect();
+    for (mut column, by) in scaled.column_iter_mut().zip(&columns) {
         column /= *by;
     }
-    let singular = kinetostat::linalg::SingularValues::of(&balanced);
+    let singular = kinetostat::linalg::SingularValues::of(&scaled);
     let inverse = (singular.least() > 1e-9 * singular.largest())
-        .then(|| balanced.try_inverse())
+        .then(|| scaled.try_inverse())
         .flatten()
         .filter(|m| m.iter().all(|x| x.is_finite()));
     match inverse {

@@ -213,10 +213,10 @@ fn in_si(matrix: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
     })
 }
 
-/// Smallest eigenvalue of a balanced stiffness matrix that is distinct from rounding.
+/// Smallest eigenvalue of a scaled stiffness matrix that is distinct from rounding.
 const SINGULAR: f64 = 1e-12;
 
-/// Symmetric and positive definite, metres and radians balanced by the diagonal.
+/// Symmetric and positive definite, metres and radians scaled by the diagonal.
 fn check_definite(place: &KeyPath, k: &Matrix6<f64>) -> ReadResult<()> {
     const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
     if let Some(i) = (0..6).find(|&i| k[(i, i)] <= 0.0) {
@@ -232,10 +232,10 @@ fn check_definite(place: &KeyPath, k: &Matrix6<f64>) -> ReadResult<()> {
         ));
     }
     let scale: Vec<f64> = (0..6).map(|i| k[(i, i)].sqrt()).collect();
-    let balanced = Matrix6::from_fn(|i, j| k[(i, j)] / scale[i] / scale[j]);
+    let scaled = Matrix6::from_fn(|i, j| k[(i, j)] / scale[i] / scale[j]);
     for i in 0..6 {
         for j in 0..i {
-            if (balanced[(i, j)] - balanced[(j, i)]).abs() > 1e-9 {
+            if (scaled[(i, j)] - scaled[(j, i)]).abs() > 1e-9 {
                 return Err(Finding::new(
                     &place.index(i),
                     format!(
@@ -254,10 +254,10 @@ fn check_definite(place: &KeyPath, k: &Matrix6<f64>) -> ReadResult<()> {
     }
     // An entry above 1 makes a 2 x 2 minor singular; leaving it here keeps the search for
     // eigenvalues among numbers of order one.
-    let crossed = (0..6).any(|i| (0..i).any(|j| balanced[(i, j)].abs() > 1.0 + SINGULAR));
+    let crossed = (0..6).any(|i| (0..i).any(|j| scaled[(i, j)].abs() > 1.0 + SINGULAR));
     let least = match crossed {
         true => -1.0,
-        false => balanced.symmetric_eigenvalues().min(),
+        false => scaled.symmetric_eigenvalues().min(),
     };
     if least.abs() <= SINGULAR {
         return Err(Finding::new(

@@ -83,10 +83,10 @@ impl CartesianCompliance {
             }
         } else if !held.is_empty() {
             let n = column_space(&DMatrix::from_columns(&held));
-            let balanced = DMatrix::from_fn(6, 6, |i, j| stiffness[(i, j)] / (unit(i) * unit(j)));
-            if let Some(inverse) = (n.transpose() * balanced * &n).try_inverse() {
-                let balanced = &n * inverse * n.transpose();
-                springs = Matrix6::from_fn(|i, j| balanced[(i, j)] / (unit(i) * unit(j)));
+            let scaled = DMatrix::from_fn(6, 6, |i, j| stiffness[(i, j)] / (unit(i) * unit(j)));
+            if let Some(inverse) = (n.transpose() * scaled * &n).try_inverse() {
+                let scaled = &n * inverse * n.transpose();
+                springs = Matrix6::from_fn(|i, j| scaled[(i, j)] / (unit(i) * unit(j)));
             }
         }
         Self {

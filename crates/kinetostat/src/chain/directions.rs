@@ -157,17 +157,17 @@ pub(crate) fn largest(mut list: Vec<Share>) -> Vec<Share> {
     list
 }
 
-/// Principal directions of a balanced stiffness within the motions that exist (`range`).
+/// Principal directions of a scaled stiffness within the motions that exist (`range`).
 pub(crate) fn directions(
     scale: Scale,
-    balanced: &Matrix6<f64>,
+    scaled: &Matrix6<f64>,
     range: &DMatrix<f64>,
 ) -> Vec<Direction> {
     let mut list = rigid_directions(scale, range);
     if range.ncols() == 0 {
         return list; // a chain that cannot move at all
     }
-    let symmetric = 0.5 * (balanced + balanced.transpose());
+    let symmetric = 0.5 * (scaled + scaled.transpose());
     let within = range.transpose() * symmetric * range;
     let eigen = within.symmetric_eigen();
     let most = eigen.eigenvalues.amax();
@@ -188,7 +188,7 @@ pub(crate) fn directions(
     list
 }
 
-/// A direction of a balanced motion; nothing is known yet of what is behind it.
+/// A direction of a scaled motion; nothing is known yet of what is behind it.
 pub(crate) fn direction(
     scale: Scale,
     kind: DirectionKind,
@@ -203,7 +203,7 @@ pub(crate) fn direction(
     }
 }
 
-/// Motions outside the balanced `range`, which do not exist; with room for those inside.
+/// Motions outside the scaled `range`, which do not exist; with room for those inside.
 pub(crate) fn rigid_directions(scale: Scale, range: &DMatrix<f64>) -> Vec<Direction> {
     let mut list = Vec::with_capacity(6);
     for column in complement(range).column_iter() {
@@ -218,13 +218,13 @@ pub(crate) fn rigid_directions(scale: Scale, range: &DMatrix<f64>) -> Vec<Direct
     list
 }
 
-/// A balanced motion as a twist whose longest part is 1 m.
-pub(crate) fn scaled_twist(scale: Scale, balanced: &Vector6<f64>) -> Twist {
+/// A scaled motion as a twist whose longest part is 1 m.
+pub(crate) fn scaled_twist(scale: Scale, scaled: &Vector6<f64>) -> Twist {
     let v = Vector6::from_fn(|i, _| {
         if i < 3 {
-            balanced[i]
+            scaled[i]
         } else {
-            balanced[i] / scale.length
+            scaled[i] / scale.length
         }
     });
     let linear = v.fixed_rows::<3>(0).norm();
@@ -233,7 +233,7 @@ pub(crate) fn scaled_twist(scale: Scale, balanced: &Vector6<f64>) -> Twist {
 }
 
 /// Several free directions are a space without a basis of its own: where single passive joints
-/// (columns of the balanced Jacobian) span it, these are shown instead of eigenvectors.
+/// (columns of the scaled Jacobian) span it, these are shown instead of eigenvectors.
 pub(crate) fn free_by_joints(chain: &Chain, jacobian: &DMatrix<f64>, list: &mut [Direction]) {
     let scale = chain.scale();
     let unit = |i: usize| if i < 3 { 1.0 } else { scale.length };

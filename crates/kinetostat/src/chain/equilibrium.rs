@@ -16,9 +16,9 @@
 use nalgebra::DMatrix;
 
 use crate::chain::found_by::FoundBy;
-use crate::chain::residual::{Balance, Residual};
+use crate::chain::residual::{Residual, ResidualNorms};
 use crate::chain::scaling::{LEAST_LOAD, natural};
-pub(crate) use crate::chain::scaling::{balance, disparate};
+pub(crate) use crate::chain::scaling::{disparate, scales_of};
 use crate::chain::stability::{ShapeStability, shape_stability, swept_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, swept_stiffness};
 pub(crate) use crate::chain::system::{System, rounding};
@@ -60,23 +60,23 @@ impl System {
     pub fn swept_verdicts(
         &self,
         chain: &Chain,
-        factors: &[f64],
+        scales: &[f64],
         solved: Option<&DMatrix<f64>>,
     ) -> Option<(ChainStiffness, ShapeStability)> {
         let sweep = self.sweep.as_ref()?;
-        let stiffness = swept_stiffness(chain, self, sweep, factors, solved)?;
-        let stability = swept_stability(self, sweep, factors)?;
+        let stiffness = swept_stiffness(chain, self, sweep, scales, solved)?;
+        let stability = swept_stability(self, sweep, scales)?;
         Some((stiffness, stability))
     }
 
     pub(crate) fn dense_verdicts(
         &self,
         chain: &Chain,
-        factors: &[f64],
+        scales: &[f64],
         conservative: bool,
     ) -> (ChainStiffness, ShapeStability) {
-        let stiffness = chain_stiffness(chain, self, factors, None);
-        let stability = shape_stability(chain, self, factors, conservative);
+        let stiffness = chain_stiffness(chain, self, scales, None);
+        let stability = shape_stability(chain, self, scales, conservative);
         (stiffness, stability)
     }
 
@@ -86,25 +86,16 @@ impl System {
     pub(crate) fn equilibrium(
         &self,
         chain: &Chain,
-        factors: &[f64],
+        scales: &[f64],
         x: Vec<f64>,
         wrench: Wrench,
         conservative: bool,
         iterations: usize,
-        balance: &Balance,
+        norms: &ResidualNorms,
         verdicts: Option<(ChainStiffness, ShapeStability)>,
     ) -> Equilibrium {
-        let verdicts =
-            verdicts.unwrap_or_else(|| self.dense_verdicts(chain, factors, conservative));
-        self.described(
-            chain,
-            x,
-            wrench,
-            conservative,
-            iterations,
-            balance,
-            verdicts,
-        )
+        let verdicts = verdicts.unwrap_or_else(|| self.dense_verdicts(chain, scales, conservative));
+        self.described(chain, x, wrench, conservative, iterations, norms, verdicts)
     }
 
     #[allow(clippy::too_many_arguments)] // one internal kernel, called from two places
@@ -115,7 +106,7 @@ impl System {
         wrench: Wrench,
         conservative: bool,
         iterations: usize,
-        balance: &Balance,
+        norms: &ResidualNorms,
         (stiffness, stability): (ChainStiffness, ShapeStability),
     ) -> Equilibrium {
         Equilibrium {
@@ -131,8 +122,8 @@ impl System {
             stiffness,
             stability,
             residual: Residual {
-                closure_m: balance.closure / chain.scale().stiffness.sqrt(),
-                torque: balance.torque / balance.loads.max(LEAST_LOAD * natural(chain)),
+                closure_m: norms.closure / chain.scale().stiffness.sqrt(),
+                torque: norms.torque / norms.loads.max(LEAST_LOAD * natural(chain)),
                 iterations,
                 rate: None,
             },

@@ -18,7 +18,7 @@ use crate::linalg::saddle::{RANK_TOLERANCE, Saddle};
 use crate::linalg::singular_values::SingularValues;
 use crate::model::chain::{Chain, Scale};
 use crate::model::mechanism::Mechanism;
-use crate::model::springs::block::balanced;
+use crate::model::springs::block::scaled;
 use crate::number::short;
 use crate::number::{larger, smaller};
 
@@ -27,7 +27,7 @@ const UNEVEN: f64 = 1e3;
 
 /// Motions of a chain's end sorted by how stiff they are.
 pub(crate) struct Graded {
-    /// `U`, orthonormal, balanced, 6 x r.
+    /// `U`, orthonormal, scaled, 6 x r.
     pub range: DMatrix<f64>,
     /// Wrench and coordinates per unit motion of the tip, (6 + n) x 6.
     pub answer: DMatrix<f64>,
@@ -59,16 +59,16 @@ impl Graded {
     pub fn of(
         chain: &Chain,
         system: &System,
-        factors: &[f64],
+        scales: &[f64],
         jacobian: &DMatrix<f64>,
     ) -> Option<Self> {
         let n = jacobian.ncols();
         // Springs' own stiffness only: with what loads take from it a block may not be positive definite.
-        let units = MaterialUnits::of(chain, &material_springs(system, factors));
+        let units = MaterialUnits::of(chain, &material_springs(system, scales));
         let mut turned = jacobian.transpose();
         units.gather(&mut turned);
         let turned = turned.transpose();
-        if !disparate(factors, chain) && !Self::uneven(&turned) {
+        if !disparate(scales, chain) && !Self::uneven(&turned) {
             return None;
         }
         let own = SingularValues::of(&turned);
@@ -76,7 +76,7 @@ impl Graded {
         let right = own.right.columns(0, r);
         let bordered = system.bordered(true);
         let torques = DMatrix::from_fn(n, n, |i, j| {
-            bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j]
+            bordered[(6 + i, 6 + j)] * scales[6 + i] * scales[6 + j]
         });
         let torques = units.both(torques);
         let size = match torques.amax() {
@@ -92,12 +92,12 @@ impl Graded {
         Saddle::new(a, &ones, &ones).solve(&mut b);
         let inner = b.rows(0, r) * size;
         let moved = units.motions(b.rows(r, n).into_owned());
-        Some(Self::from_motions(factors, &own, r, inner, &moved))
+        Some(Self::from_motions(scales, &own, r, inner, &moved))
     }
 
     /// The same of a long chain by sweeps, `turned` by [`Sweep::by_spring_roots`]; `None` where they
     /// lose a pivot.
-    pub fn swept(sweep: &Sweep, factors: &[f64], turned: &DMatrix<f64>) -> Option<Self> {
+    pub fn swept(sweep: &Sweep, scales: &[f64], turned: &DMatrix<f64>) -> Option<Self> {
         let n = turned.ncols();
         let own = SingularValues::of(turned);
         let r = own.rank(RANK_TOLERANCE);
@@ -115,13 +115,13 @@ impl Graded {
                 }
                 moved.column_mut(j).copy_from_slice(&x);
             }
-            Some(Self::from_motions(factors, &own, r, inner, &moved))
+            Some(Self::from_motions(scales, &own, r, inner, &moved))
         })
     }
 
-    /// From `G` and the coordinates (balanced, n x r) while the tip moves by `U S`.
+    /// From `G` and the coordinates (scaled, n x r) while the tip moves by `U S`.
     fn from_motions(
-        factors: &[f64],
+        scales: &[f64],
         own: &SingularValues,
         r: usize,
         inner: DMatrix<f64>,
@@ -135,11 +135,11 @@ impl Graded {
         let wrench = back.transpose() * &inner * &back;
         let moved = moved * &back;
         let answer = DMatrix::from_fn(6 + moved.nrows(), 6, |i, j| {
-            let balanced = match i < 6 {
+            let scaled = match i < 6 {
                 true => wrench[(i, j)],
                 false => moved[(i - 6, j)],
             };
-            balanced * factors[i] * factors[j]
+            scaled * scales[i] * scales[j]
         });
         Self {
             range,
@@ -175,7 +175,7 @@ impl Graded {
 /// Principal stiffnesses below this share of the stiffest are computed again without the stiffer ones.
 const LEVEL: f64 = 1e-4;
 
-/// Principal directions of `back^T inner back` (balanced, in coordinates of the range).
+/// Principal directions of `back^T inner back` (scaled, in coordinates of the range).
 pub(crate) fn principal(
     scale: Scale,
     back: &DMatrix<f64>,
@@ -225,7 +225,7 @@ pub(crate) fn levels(back: &DMatrix<f64>, inner: &DMatrix<f64>) -> Vec<(f64, DVe
     found
 }
 
-/// Principal directions of `root^T root` (balanced) within a range; `rank` of them are not free.
+/// Principal directions of `root^T root` (scaled) within a range; `rank` of them are not free.
 fn by_root(scale: Scale, root: &DMatrix<f64>, range: &DMatrix<f64>, rank: usize) -> Vec<Direction> {
     let mut list = rigid_directions(scale, range);
     let own = SingularValues::of(root);
@@ -285,7 +285,7 @@ pub fn uneven_springs(mechanism: &Mechanism) -> Vec<String> {
     blocks
         .filter_map(|(limb, block)| {
             let k = block.stiffness_at(&limb.actual.home_coordinates());
-            let least = balanced(&k).symmetric_eigenvalues().min();
+            let least = scaled(&k).symmetric_eigenvalues().min();
             let digits = (16.0 + least.log10()).floor().max(0.0);
             (least < COUPLED).then(|| {
                 format!(
@@ -305,9 +305,9 @@ pub(crate) fn root_rows(list: &[Direction], length: f64) -> Vec<(f64, Vector6<f6
         .filter(|d| matches!(d.kind, DirectionKind::Finite | DirectionKind::Negative));
     finite
         .map(|d| {
-            let balanced = Vector6::from_fn(|i, _| d.twist.0[i] * unit(i));
-            let size = d.stiffness_n_per_m.abs().sqrt() / balanced.norm();
-            let row = Vector6::from_fn(|i, _| balanced[i] * unit(i) * size);
+            let scaled = Vector6::from_fn(|i, _| d.twist.0[i] * unit(i));
+            let size = d.stiffness_n_per_m.abs().sqrt() / scaled.norm();
+            let row = Vector6::from_fn(|i, _| scaled[i] * unit(i) * size);
             (d.stiffness_n_per_m.signum(), row)
         })
         .collect()

@@ -5,23 +5,23 @@ use nalgebra::DMatrix;
 use crate::chain::system::System;
 use crate::model::chain::Chain;
 
-/// The springs' own stiffness, without what their loads add to it as they move (geometric), balanced, n x n.
-pub(crate) fn material_springs(system: &System, factors: &[f64]) -> DMatrix<f64> {
+/// The springs' own stiffness, without what their loads add to it as they move (geometric), scaled, n x n.
+pub(crate) fn material_springs(system: &System, scales: &[f64]) -> DMatrix<f64> {
     let n = system.spring_torque.len();
     let mut springs = DMatrix::from_fn(n, n, |i, j| {
-        system.spring_tangent[(i, j)] * factors[6 + i] * factors[6 + j]
+        system.spring_tangent[(i, j)] * scales[6 + i] * scales[6 + j]
     });
-    without_geometric(system, factors, &mut springs);
+    without_geometric(system, scales, &mut springs);
     springs
 }
 
-/// Takes the geometric stiffness of springs out of a balanced matrix, n x n.
-pub(crate) fn without_geometric(system: &System, factors: &[f64], a: &mut DMatrix<f64>) {
+/// Takes the geometric stiffness of springs out of a scaled matrix, n x n.
+pub(crate) fn without_geometric(system: &System, scales: &[f64], a: &mut DMatrix<f64>) {
     for &(first, matrix) in &system.spring_geometric {
         for i in 0..6 {
             for j in 0..6 {
                 let (row, column) = (first + i, first + j);
-                a[(row, column)] -= matrix[(i, j)] * factors[6 + row] * factors[6 + column];
+                a[(row, column)] -= matrix[(i, j)] * scales[6 + row] * scales[6 + column];
             }
         }
     }

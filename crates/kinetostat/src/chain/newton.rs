@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::{ChainProblem, Prescribed};
-use crate::chain::residual::Balance;
-use crate::chain::scaling::{balance, natural, step_limit};
+use crate::chain::residual::ResidualNorms;
+use crate::chain::scaling::{natural, scales_of, step_limit};
 use crate::chain::sweep::end_spring::STEP_SPRINGS;
 use crate::chain::sweep::solve::{Bordered, EndRows};
 use crate::chain::sweep::stages::{ChainMethod, Form, Sweep, turned_rows};
@@ -34,7 +34,7 @@ pub(crate) enum Way {
 pub(crate) struct Attempt<'p, 'a> {
     pub problem: &'p ChainProblem<'a>,
     pub settings: &'p Settings,
-    factors: Vec<f64>,
+    scales: Vec<f64>,
     system: System,
     /// Stages that are not needed at the moment.
     spare: Option<Box<Sweep>>,
@@ -42,7 +42,7 @@ pub(crate) struct Attempt<'p, 'a> {
     pub way: Way,
     /// Rotation residual of the end (vector, rad).
     turned: Vector3<f64>,
-    /// Norms of the last two corrections, balanced, the last one first.
+    /// Norms of the last two corrections, scaled, the last one first.
     corrections: [f64; 2],
 }
 
@@ -53,14 +53,14 @@ impl<'p, 'a> Attempt<'p, 'a> {
         method: Option<ChainMethod>,
     ) -> Self {
         let chain = problem.chain;
-        let factors = balance(chain, &problem.posture);
+        let scales = scales_of(chain, &problem.posture);
         let (posture, commands) = (&problem.posture, &problem.commands);
-        let system = System::of_chain(chain, &problem.base, posture, commands, &factors, method);
+        let system = System::of_chain(chain, &problem.base, posture, commands, &scales, method);
         Self {
             problem,
             settings,
             system,
-            factors,
+            scales,
             spare: None,
             way: Way::Straight(Twist::zero()),
             turned: Vector3::zeros(),
@@ -110,12 +110,12 @@ impl<'p, 'a> Attempt<'p, 'a> {
         })
     }
 
-    pub fn measure(&self, rows: &Vector6<f64>, wrench: &Wrench) -> Balance {
+    pub fn measure(&self, rows: &Vector6<f64>, wrench: &Wrench) -> ResidualNorms {
         let mut closure = 0.0;
-        let (mut torque, mut loads) = self.system.unbalanced_torques(&self.factors);
+        let (mut torque, mut loads) = self.system.unbalanced_torques(&self.scales);
         for k in 0..6 {
             let (s, pose) = (
-                self.factors[k],
+                self.scales[k],
                 self.problem.end.prescribed[k] == Prescribed::Pose,
             );
             if pose {
@@ -125,15 +125,15 @@ impl<'p, 'a> Attempt<'p, 'a> {
             }
             loads = larger(loads, (wrench.0[k] / s).abs());
         }
-        Balance {
+        ResidualNorms {
             closure: closure.sqrt(),
             torque: torque.sqrt(),
             loads,
-            rounding: rounding(self.problem.chain, &self.system, &self.factors),
+            rounding: rounding(self.problem.chain, &self.system, &self.scales),
         }
     }
 
-    fn converged(&self, b: &Balance) -> bool {
+    fn converged(&self, b: &ResidualNorms) -> bool {
         let unit = natural(self.problem.chain);
         // Of numbers beyond all sense the squares are infinite, on either side.
         b.torque.is_finite()
@@ -161,7 +161,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
             motion: Matrix6::zeros(),
             wrench: Matrix6::zeros(),
         };
-        // Three directions of one kind have one unit, so that turned axes stay balanced.
+        // Three directions of one kind have one unit, so that turned axes stay scaled.
         for k in 0..6 {
             if end.prescribed[k] == Prescribed::Pose {
                 held.motion.set_row(k, &motion.row(k));
@@ -179,15 +179,15 @@ impl<'p, 'a> Attempt<'p, 'a> {
         match tangent {
             Tangent::Swept(bordered) => {
                 let right = Vector6::from_fn(|k, _| match self.problem.end.prescribed[k] {
-                    Prescribed::Pose => rows[k] * self.factors[k],
-                    Prescribed::Wrench => rows[k] / self.factors[k],
+                    Prescribed::Pose => rows[k] * self.scales[k],
+                    Prescribed::Wrench => rows[k] / self.scales[k],
                 });
                 let torque: Vec<f64> = (0..n)
-                    .map(|i| -self.system.unbalanced(i) * self.factors[6 + i])
+                    .map(|i| -self.system.unbalanced(i) * self.scales[6 + i])
                     .collect();
                 let (wrench, x) = bordered.solve(&torque, &right)?;
-                let balanced = wrench.iter().chain(&x);
-                Some(balanced.zip(&self.factors).map(|(v, f)| v * f).collect())
+                let scaled = wrench.iter().chain(&x);
+                Some(scaled.zip(&self.scales).map(|(v, f)| v * f).collect())
             }
             Tangent::Dense(saddle) => Some(self.dense_correction(saddle, rows)),
         }
@@ -250,7 +250,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
             Some(rate) => turn.transpose() * (rate * &self.system.jacobian),
             None => turn.transpose() * &self.system.jacobian,
         };
-        let mut row_scale = self.factors.clone();
+        let mut row_scale = self.scales.clone();
         for k in 0..6 {
             match end.prescribed[k] {
                 Prescribed::Pose => {
@@ -259,7 +259,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
                     }
                 }
                 Prescribed::Wrench => {
-                    row_scale[k] = 1.0 / self.factors[k];
+                    row_scale[k] = 1.0 / self.scales[k];
                     for j in 0..n {
                         a[(k, 6 + j)] = 0.0;
                     }
@@ -269,7 +269,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
                 }
             }
         }
-        Saddle::new(a, &row_scale, &self.factors)
+        Saddle::new(a, &row_scale, &self.scales)
     }
 
     /// Size of the motion in a correction: root of the sum of squares of turns (rad) and slides (in
@@ -300,7 +300,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
         wrench: &mut Wrench,
         share: f64,
         mut picard: usize,
-    ) -> std::result::Result<(usize, Balance), (usize, Balance)> {
+    ) -> std::result::Result<(usize, ResidualNorms), (usize, ResidualNorms)> {
         let (mut closure, mut wrench_residual) = self.evaluate(x, wrench, share);
         let mut rows = self.end_rows(&closure, &wrench_residual);
         let mut now = self.measure(&rows, wrench);
@@ -318,7 +318,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
                 return Err((iteration, now));
             }
             let extent = self.extent(step.iter().copied());
-            let own = step.iter().zip(&self.factors).skip(6);
+            let own = step.iter().zip(&self.scales).skip(6);
             let size = own.map(|(v, f)| (v / f).powi(2)).sum::<f64>().sqrt();
             self.corrections = [size, self.corrections[0]];
             let mut length = step_limit(self.problem.chain, step[6..].iter().copied());
@@ -387,12 +387,12 @@ impl Attempt<'_, '_> {
         x: Vec<f64>,
         wrench: Wrench,
         iterations: usize,
-        balance: &Balance,
+        norms: &ResidualNorms,
     ) -> (Equilibrium, ChainMethod) {
         self.evaluate_system(&x, &wrench, 1.0);
-        let (chain, factors) = (self.problem.chain, &self.factors);
+        let (chain, scales) = (self.problem.chain, &self.scales);
         let conservative = is_conservative(self.problem);
-        let swept = self.system.swept_verdicts(chain, factors, None);
+        let swept = self.system.swept_verdicts(chain, scales, None);
         let verdicts = match swept.filter(|(_, s)| conservative || s.stable) {
             Some(verdicts) => verdicts,
             None => {
@@ -401,18 +401,12 @@ impl Attempt<'_, '_> {
                     self.evaluate_system(&x, &wrench, 1.0);
                 }
                 self.system
-                    .dense_verdicts(chain, &self.factors, conservative)
+                    .dense_verdicts(chain, &self.scales, conservative)
             }
         };
-        let mut equilibrium = self.system.described(
-            chain,
-            x,
-            wrench,
-            conservative,
-            iterations,
-            balance,
-            verdicts,
-        );
+        let mut equilibrium =
+            self.system
+                .described(chain, x, wrench, conservative, iterations, norms, verdicts);
         let [last, before] = self.corrections;
         equilibrium.residual.rate = (before > 0.0).then(|| last / before);
         (equilibrium, self.system.method())

@@ -7,16 +7,16 @@ use crate::linalg::complement::complement;
 use crate::linalg::saddle::{column_space, rows_certainly_independent};
 use crate::model::chain::{Chain, Role};
 
-/// Balanced Jacobian of the `n` coordinates, 6 x n.
-pub fn balanced_jacobian(system: &System, factors: &[f64]) -> DMatrix<f64> {
+/// Scaled Jacobian of the `n` coordinates, 6 x n.
+pub fn scaled_jacobian(system: &System, scales: &[f64]) -> DMatrix<f64> {
     let n = system.spring_torque.len();
     DMatrix::from_fn(6, n, |i, j| {
-        system.jacobian[(i, j)] * factors[i] * factors[6 + j]
+        system.jacobian[(i, j)] * scales[i] * scales[6 + j]
     })
 }
 
 /// Basis of the coordinates' motions that move only passive joints and leave the tip where it is,
-/// n x k, balanced.
+/// n x k, scaled.
 pub(crate) fn passive_null_space(chain: &Chain, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
     let passive = chain.indices_of(Role::Passive);
     let n = jacobian.ncols();

@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::scaling::beyond;
 
-/// Residuals of a system in balanced units (square root of energy).
+/// Residuals of a system in scaled units (square root of energy).
 #[derive(Clone, Copy)]
-pub(crate) struct Balance {
+pub(crate) struct ResidualNorms {
     pub closure: f64,
     pub torque: f64,
     /// What torques are measured against.
@@ -19,7 +19,7 @@ pub(crate) struct Balance {
 /// Share of the loads beyond which no unbalanced torque is taken for rounding.
 const MOST_ROUNDING: f64 = 1e-3;
 
-impl Balance {
+impl ResidualNorms {
     /// What is unbalanced and no rounding: a state that has run away may have coordinates whose digits are worth more
     /// than all loads, and balances nothing.
     pub fn exceeding(&self) -> f64 {
@@ -38,7 +38,7 @@ pub struct Residual {
     pub torque: f64,
     /// Iterations spent.
     pub iterations: usize,
-    /// Rate observed: norm of the last correction by that of the one before, in balanced units
+    /// Rate observed: norm of the last correction by that of the one before, in scaled units
     /// (square root of energy). A linear iteration settles at its rate, exact Newton falls towards
     /// 0 from step to step. `None` with fewer than two corrections, and where nobody measured it.
     #[cfg_attr(feature = "serde", serde(default))]

@@ -13,9 +13,9 @@ pub(crate) fn beyond(whole: f64, part: f64) -> f64 {
 const DISPARATE: f64 = 1e7;
 
 /// Whether the springs' stiffnesses (rotations at the natural length) differ by more than [`DISPARATE`].
-pub(crate) fn disparate(factors: &[f64], chain: &Chain) -> bool {
+pub(crate) fn disparate(scales: &[f64], chain: &Chain) -> bool {
     let length = chain.scale().length;
-    let own = chain.coordinates().iter().zip(&factors[6..]);
+    let own = chain.coordinates().iter().zip(&scales[6..]);
     let stiffnesses = own
         .filter(|(c, _)| c.role == Role::Spring)
         .map(|(c, factor)| match c.kind {
@@ -28,14 +28,14 @@ pub(crate) fn disparate(factors: &[f64], chain: &Chain) -> bool {
     most > DISPARATE * least
 }
 
-/// Factors that make all unknowns of a bordered system comparable: six for the wrench, `n` for
+/// Scales that make all unknowns of a bordered system comparable: six for the wrench, `n` for
 /// the coordinates; each has the unit of its unknown per square root of energy.
-pub fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
+pub fn scales_of(chain: &Chain, posture: &[f64]) -> Vec<f64> {
     let scale = chain.scale();
     let root = scale.stiffness.sqrt();
-    let mut factors = Vec::with_capacity(6 + chain.coordinate_count());
-    factors.extend([root; 3]);
-    factors.extend([root * scale.length; 3]);
+    let mut scales = Vec::with_capacity(6 + chain.coordinate_count());
+    scales.extend([root; 3]);
+    scales.extend([root * scale.length; 3]);
     let springs: Vec<f64> = {
         let mut stiffness = vec![0.0; chain.coordinate_count()];
         for block in chain.springs() {
@@ -46,7 +46,7 @@ pub fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
         }
         stiffness
     };
-    factors.extend(
+    scales.extend(
         chain
             .coordinates()
             .iter()
@@ -57,7 +57,7 @@ pub fn balance(chain: &Chain, posture: &[f64]) -> Vec<f64> {
                 (Role::Passive, MotionKind::Revolute) => 1.0 / (root * scale.length),
             }),
     );
-    factors
+    scales
 }
 
 /// Largest step that keeps rotations of joints below half a radian and slides below half the
@@ -81,7 +81,7 @@ pub(crate) fn step_limit(chain: &Chain, step: impl Iterator<Item = f64>) -> f64 
 /// as that large where a residual is stated relative to them.
 pub(crate) const LEAST_LOAD: f64 = 1e-9;
 
-/// Unit of balanced residuals: square root of the energy of a deflection by the natural length.
+/// Unit of scaled residuals: square root of the energy of a deflection by the natural length.
 pub(crate) fn natural(chain: &Chain) -> f64 {
     chain.scale().stiffness.sqrt() * chain.scale().length
 }

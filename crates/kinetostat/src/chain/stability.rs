@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::chain::divergence::diverging_motions;
 use crate::chain::material::{MaterialUnits, material_springs, without_geometric};
-use crate::chain::passive::{balanced_jacobian, names_in, passive_null_space};
+use crate::chain::passive::{names_in, passive_null_space, scaled_jacobian};
 use crate::chain::sweep::solve::EndMotions;
 use crate::chain::sweep::stages::Sweep;
 use crate::chain::system::System;
@@ -122,11 +122,11 @@ impl ShapeStability {
 pub(crate) fn shape_stability(
     chain: &Chain,
     system: &System,
-    factors: &[f64],
+    scales: &[f64],
     conservative: bool,
 ) -> ShapeStability {
-    let held = balanced_jacobian(system, factors);
-    stability_within(chain, system, factors, &held, conservative)
+    let held = scaled_jacobian(system, scales);
+    stability_within(chain, system, scales, &held, conservative)
 }
 
 /// The same by sweeps along a long chain without redundant passive joints; `None` where they cannot. They
@@ -134,16 +134,16 @@ pub(crate) fn shape_stability(
 pub(crate) fn swept_stability(
     system: &System,
     sweep: &Sweep,
-    factors: &[f64],
+    scales: &[f64],
 ) -> Option<ShapeStability> {
-    let range = column_space(&balanced_jacobian(system, factors));
-    swept_stability_within(sweep, factors, &EndMotions::held(range))
+    let range = column_space(&scaled_jacobian(system, scales));
+    swept_stability_within(sweep, scales, &EndMotions::held(range))
 }
 
 /// The same while some motions of the end are held.
 pub(crate) fn swept_stability_within(
     sweep: &Sweep,
-    factors: &[f64],
+    scales: &[f64],
     ends: &EndMotions,
 ) -> Option<ShapeStability> {
     let shape = crate::chain::sweep::solve::shape(sweep, ends)?;
@@ -151,7 +151,7 @@ pub(crate) fn swept_stability_within(
     if !numbers.into_iter().all(|x| x.is_finite()) {
         return None;
     }
-    let own = shape.mode.iter().zip(&factors[6..]);
+    let own = shape.mode.iter().zip(&scales[6..]);
     Some(ShapeStability {
         stable: shape.share_to_buckling < 1.0,
         inertia: shape.inertia,
@@ -174,13 +174,13 @@ fn largest_one(mut motion: Vec<f64>) -> Vec<f64> {
     motion
 }
 
-/// Stability while some motions are held: `jacobian` maps the balanced coordinates to them, one row
+/// Stability while some motions are held: `jacobian` maps the scaled coordinates to them, one row
 /// per held motion. The whole end held gives `shape_stability`. `conservative`: the loads have a
 /// potential.
 pub fn stability_within(
     chain: &Chain,
     system: &System,
-    factors: &[f64],
+    scales: &[f64],
     jacobian: &DMatrix<f64>,
     conservative: bool,
 ) -> ShapeStability {
@@ -188,11 +188,11 @@ pub fn stability_within(
     let range = column_space(jacobian);
     let rank = range.ncols();
     let mut hessian = DMatrix::from_fn(n, n, |i, j| {
-        0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * factors[6 + i] * factors[6 + j]
+        0.5 * (system.hessian[(i, j)] + system.hessian[(j, i)]) * scales[6 + i] * scales[6 + j]
     });
     // The springs' geometric stiffness is the load's doing; what is left of them is positive definite.
-    let springs = material_springs(system, factors);
-    without_geometric(system, factors, &mut hessian);
+    let springs = material_springs(system, scales);
+    without_geometric(system, scales, &mut hessian);
     let rows = if rank == jacobian.nrows() {
         jacobian.clone()
     } else {
@@ -229,7 +229,7 @@ pub fn stability_within(
     if !conservative && share_to_buckling.is_some_and(|mu| mu >= 1.0 && mu.is_finite()) {
         let turning = DMatrix::from_fn(n, n, |i, j| {
             0.5 * (system.hessian[(i, j)] - system.hessian[(j, i)])
-                * (factors[6 + i] * factors[6 + j])
+                * (scales[6 + i] * scales[6 + j])
         });
         let turning = motions.transpose() * turning * &motions;
         unstable_modes = diverging_motions(&(b - a - turning), 0.0, true);
@@ -237,7 +237,7 @@ pub fn stability_within(
     }
     let mode = mode.map_or_else(Vec::new, |v| {
         let motion = &motions * v;
-        largest_one((0..n).map(|i| motion[i] * factors[6 + i]).collect())
+        largest_one((0..n).map(|i| motion[i] * scales[6 + i]).collect())
     });
     ShapeStability {
         stable,
@@ -250,7 +250,7 @@ pub fn stability_within(
 }
 
 /// Orthonormal motions of passive joints alone that move nothing that is held and that the loads
-/// neither hold nor push (the spin of a strut, a hinge at a loaded tip), n x k, balanced: those
+/// neither hold nor push (the spin of a strut, a hinge at a loaded tip), n x k, scaled: those
 /// passive null motions `v` for which `N^T H v = 0` with all null motions `N`. Others of the same
 /// joints may be held or pushed and stay in the verdict. `rows` are independent rows of `jacobian`.
 pub(crate) fn neutral_motions(

@@ -15,8 +15,8 @@ use nalgebra::{DMatrix, Matrix6};
 pub(crate) use crate::chain::directions::{Direction, DirectionKind, directions};
 use crate::chain::directions::{Share, free_by_joints, largest, shares};
 use crate::chain::graded::Graded;
-use crate::chain::passive::{balanced_jacobian, names_in, passive_null_space};
-use crate::chain::scaling::balance;
+use crate::chain::passive::{names_in, passive_null_space, scaled_jacobian};
+use crate::chain::scaling::scales_of;
 use crate::chain::sweep::stages::Sweep;
 use crate::chain::system::System;
 use crate::error::Result;
@@ -112,8 +112,8 @@ pub fn unloaded_stiffness(
     chain.check(coordinates, commands)?;
     let place = chain.place();
     crate::model::limits::check_pose(&place, "the pose of the base", base)?;
-    let factors = balance(chain, coordinates);
-    let mut system = System::of_chain(chain, base, coordinates, commands, &factors, None);
+    let scales = scales_of(chain, coordinates);
+    let mut system = System::of_chain(chain, base, coordinates, commands, &scales, None);
     loop {
         system.evaluate(
             chain,
@@ -126,9 +126,9 @@ pub fn unloaded_stiffness(
             0.0,
         );
         let Some(sweep) = &system.sweep else {
-            return Ok(chain_stiffness(chain, &system, &factors, None));
+            return Ok(chain_stiffness(chain, &system, &scales, None));
         };
-        if let Some(stiffness) = swept_stiffness(chain, &system, sweep, &factors, None) {
+        if let Some(stiffness) = swept_stiffness(chain, &system, sweep, &scales, None) {
             return Ok(stiffness);
         }
         system.make_dense();
@@ -140,12 +140,12 @@ pub fn unloaded_stiffness(
 pub fn chain_stiffness(
     chain: &Chain,
     system: &System,
-    factors: &[f64],
+    scales: &[f64],
     solved: Option<DMatrix<f64>>,
 ) -> ChainStiffness {
-    let jacobian = balanced_jacobian(system, factors);
+    let jacobian = scaled_jacobian(system, scales);
     let redundant = passive_null_space(chain, &jacobian);
-    if let Some(end) = Graded::of(chain, system, factors, &jacobian) {
+    if let Some(end) = Graded::of(chain, system, scales, &jacobian) {
         let list = end.directions(chain);
         return described(chain, &jacobian, &redundant, &end.answer, list);
     }
@@ -153,27 +153,27 @@ pub fn chain_stiffness(
         Some(solution) if column_space(&jacobian).ncols() == 6 => {
             (DMatrix::identity(6, 6), solution)
         }
-        _ => evenly_stiff_motions(chain, system, factors, &jacobian),
+        _ => evenly_stiff_motions(chain, system, scales, &jacobian),
     };
-    let list = directions(chain.scale(), &balanced_stiffness(factors, &answer), &range);
+    let list = directions(chain.scale(), &scaled_stiffness(scales, &answer), &range);
     described(chain, &jacobian, &redundant, &answer, list)
 }
 
-fn balanced_stiffness(factors: &[f64], answer: &DMatrix<f64>) -> Matrix6<f64> {
-    Matrix6::from_fn(|i, j| answer[(i, j)] / (factors[i] * factors[j]))
+fn scaled_stiffness(scales: &[f64], answer: &DMatrix<f64>) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| answer[(i, j)] / (scales[i] * scales[j]))
 }
 
-/// What the end can do (orthonormal, balanced, 6 x r), and wrench and coordinates per unit motion of
+/// What the end can do (orthonormal, scaled, 6 x r), and wrench and coordinates per unit motion of
 /// it, (6 + n) x 6.
 pub(crate) fn motions_of_end(
     chain: &Chain,
     system: &System,
-    factors: &[f64],
+    scales: &[f64],
     jacobian: &DMatrix<f64>,
 ) -> (DMatrix<f64>, DMatrix<f64>) {
-    match Graded::of(chain, system, factors, jacobian) {
+    match Graded::of(chain, system, scales, jacobian) {
         Some(end) => (end.range, end.answer),
-        None => evenly_stiff_motions(chain, system, factors, jacobian),
+        None => evenly_stiff_motions(chain, system, scales, jacobian),
     }
 }
 
@@ -182,11 +182,11 @@ pub(crate) fn motions_of_end(
 fn evenly_stiff_motions(
     chain: &Chain,
     system: &System,
-    factors: &[f64],
+    scales: &[f64],
     jacobian: &DMatrix<f64>,
 ) -> (DMatrix<f64>, DMatrix<f64>) {
     let range = column_space(jacobian);
-    let answer = unit_motions(system, factors, jacobian, &range);
+    let answer = unit_motions(system, scales, jacobian, &range);
     if range.ncols() < 2 {
         return (range, answer);
     }
@@ -203,12 +203,12 @@ fn evenly_stiff_motions(
         return (range, answer);
     }
     let free = |range: &DMatrix<f64>, answer: &DMatrix<f64>| {
-        let list = directions(chain.scale(), &balanced_stiffness(factors, answer), range);
+        let list = directions(chain.scale(), &scaled_stiffness(scales, answer), range);
         let free = list.iter().filter(|d| d.kind == DirectionKind::Free);
         free.count()
     };
     let others = range.clone().remove_column(weakest);
-    let without = unit_motions(system, factors, jacobian, &others);
+    let without = unit_motions(system, scales, jacobian, &others);
     if free(&others, &without) < free(&range, &answer) {
         (others, without)
     } else {
@@ -225,17 +225,17 @@ pub fn swept_stiffness(
     chain: &Chain,
     system: &System,
     sweep: &Sweep,
-    factors: &[f64],
+    scales: &[f64],
     solved: Option<&DMatrix<f64>>,
 ) -> Option<ChainStiffness> {
-    let jacobian = balanced_jacobian(system, factors);
+    let jacobian = scaled_jacobian(system, scales);
     let redundant = passive_null_space(chain, &jacobian);
     if redundant.ncols() > 0 {
         return None;
     }
     let turned = sweep.by_spring_roots(&jacobian);
     if Graded::uneven(&turned) {
-        let end = Graded::swept(sweep, factors, &turned)?;
+        let end = Graded::swept(sweep, scales, &turned)?;
         let list = end.directions(chain);
         return Some(described(chain, &jacobian, &redundant, &end.answer, list));
     }
@@ -243,13 +243,13 @@ pub fn swept_stiffness(
     let answer = match solved {
         Some(solved) => solved.clone(),
         None => {
-            let balanced = crate::chain::sweep::solve::unit_motions(sweep, &range)?;
-            DMatrix::from_fn(factors.len(), 6, |i, j| {
-                balanced[(i, j)] * factors[i] * factors[j]
+            let scaled = crate::chain::sweep::solve::unit_motions(sweep, &range)?;
+            DMatrix::from_fn(scales.len(), 6, |i, j| {
+                scaled[(i, j)] * scales[i] * scales[j]
             })
         }
     };
-    let list = directions(chain.scale(), &balanced_stiffness(factors, &answer), &range);
+    let list = directions(chain.scale(), &scaled_stiffness(scales, &answer), &range);
     Some(described(chain, &jacobian, &redundant, &answer, list))
 }
 
@@ -296,7 +296,7 @@ fn described(
 /// can make: the bordered system with its first rows restricted to the Jacobian's range.
 fn unit_motions(
     system: &System,
-    factors: &[f64],
+    scales: &[f64],
     jacobian: &DMatrix<f64>,
     range: &DMatrix<f64>,
 ) -> DMatrix<f64> {
@@ -313,7 +313,7 @@ fn unit_motions(
         row *= *unit;
     }
     let torques = DMatrix::from_fn(n, n, |i, j| {
-        bordered[(6 + i, 6 + j)] * factors[6 + i] * factors[6 + j]
+        bordered[(6 + i, 6 + j)] * scales[6 + i] * scales[6 + j]
     });
     let size = match torques.amax() {
         most if most > 0.0 => most,
@@ -335,11 +335,11 @@ fn unit_motions(
     }
     let wrench = range * b.rows(0, r);
     DMatrix::from_fn(6 + n, 6, |i, j| {
-        let balanced = if i < 6 {
+        let scaled = if i < 6 {
             wrench[(i, j)]
         } else {
             b[(r + i - 6, j)]
         };
-        balanced * factors[i] * factors[j]
+        scaled * scales[i] * scales[j]
     })
 }

@@ -1,5 +1,5 @@
 //! Matrices and residuals of a chain at one state, dense or in stages, and the units in which they
-//! are balanced.
+//! are scaled.
 
 use nalgebra::{DMatrix, Matrix6, Matrix6xX};
 
@@ -70,21 +70,18 @@ impl System {
     }
 
     /// A chain on a base that does not move: with sweeps where it is long enough and a sequence of
-    /// stages. `factors` are those of [`balance`]; `method` overrides the choice, for comparisons.
+    /// stages. `scales` are those of [`scales_of`]; `method` overrides the choice, for comparisons.
     pub fn of_chain(
         chain: &Chain,
         base: &Pose,
         posture: &[f64],
         commands: &[f64],
-        factors: &[f64],
+        scales: &[f64],
         method: Option<ChainMethod>,
     ) -> Self {
-        let long = chain.coordinate_count() >= SWEEP_FROM || disparate(factors, chain);
+        let long = chain.coordinate_count() >= SWEEP_FROM || disparate(scales, chain);
         let wanted = method.map_or(long, |method| method == ChainMethod::Sweep);
-        let Some(sweep) = wanted
-            .then(|| Sweep::new(chain, posture, factors))
-            .flatten()
-        else {
+        let Some(sweep) = wanted.then(|| Sweep::new(chain, posture, scales)).flatten() else {
             return Self::new(chain, base, posture, commands, false);
         };
         let kinematics = Kinematics::new(chain, base, posture, commands);
@@ -250,10 +247,10 @@ impl System {
     }
 
     /// Sum of the squares of all unbalanced torques and the largest torque on either side, both in
-    /// balanced units.
-    pub fn unbalanced_torques(&self, factors: &[f64]) -> (f64, f64) {
+    /// scaled units.
+    pub fn unbalanced_torques(&self, scales: &[f64]) -> (f64, f64) {
         let (mut squares, mut largest) = (0.0, 0.0_f64);
-        for (i, s) in factors[6..].iter().enumerate() {
+        for (i, s) in scales[6..].iter().enumerate() {
             squares += (self.unbalanced(i) * s).powi(2);
             largest = largest
                 .max((self.torque[i] * s).abs())
@@ -268,16 +265,16 @@ impl System {
     }
 }
 
-/// The part of the unbalanced torques (balanced, root of the sum of squares) that the rounding of the
+/// The part of the unbalanced torques (scaled, root of the sum of squares) that the rounding of the
 /// coordinates explains where one spring is very much stiffer than another: torques are no better known
 /// than that. A spring is strained by the coordinates of its own block only (a link that bows is strained
 /// by its rotations, and turned back by its axial force). Zero for all other chains, so that their
 /// equilibria are as exact as the settings ask for.
-pub(crate) fn rounding(chain: &Chain, system: &System, factors: &[f64]) -> f64 {
-    if !disparate(factors, chain) {
+pub(crate) fn rounding(chain: &Chain, system: &System, scales: &[f64]) -> f64 {
+    if !disparate(scales, chain) {
         return 0.0;
     }
-    let explained = system.spring_turnover.iter().zip(&factors[6..]);
+    let explained = system.spring_turnover.iter().zip(&scales[6..]);
     let explained = explained.enumerate().map(|(i, (turnover, factor))| {
         let most = 4.0 * f64::EPSILON * turnover;
         (system.unbalanced(i).abs().min(most) * factor).powi(2)

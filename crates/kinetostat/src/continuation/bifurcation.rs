@@ -113,7 +113,7 @@ fn classified<S: CurveSystem>(
     let accuracy = if refined.is_some() { 1e-10 } else { 1e-6 };
     let only_located = refined.is_none();
     let z = refined.unwrap_or_else(|| guess.clone());
-    let (_, balance, matrix) = system.linearised_densely(&z);
+    let (_, norms, matrix) = system.linearised_densely(&z);
     let found = match system.family().cloned() {
         Some(family) => system.null_directions(&family.beside(&matrix)),
         None => system.null_directions(&matrix),
@@ -134,7 +134,7 @@ fn classified<S: CurveSystem>(
     let corrected = Corrected {
         z,
         matrix: whole,
-        balance,
+        norms,
         iterations: 0,
     };
     let mode = largest_one(system.motion(&crossing.mode));

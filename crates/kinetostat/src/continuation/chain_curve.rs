@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::found_by::FoundBy;
-use crate::chain::residual::Balance;
+use crate::chain::residual::ResidualNorms;
 use crate::chain::stability::ShapeStability;
 use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::curve_matrix::CurveMatrix;
@@ -60,19 +60,22 @@ impl CurveSystem for ChainSystem<'_, '_> {
         self.dense = dense;
     }
 
-    fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance) {
+    fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms) {
         self.evaluate(z)
     }
 
-    fn converged(&self, balance: &Balance) -> bool {
-        self.converged(balance)
+    fn converged(&self, norms: &ResidualNorms) -> bool {
+        self.converged(norms)
     }
 
-    fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, CurveMatrix) {
+    fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms, CurveMatrix) {
         self.linearised(z)
     }
 
-    fn linearised_densely(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DMatrix<f64>) {
+    fn linearised_densely(
+        &mut self,
+        z: &DVector<f64>,
+    ) -> (DVector<f64>, ResidualNorms, DMatrix<f64>) {
         self.linearised_densely(z)
     }
 
@@ -151,13 +154,13 @@ impl CurveSystem for ChainSystem<'_, '_> {
     }
 
     fn not_converged(&mut self, z: &DVector<f64>, iterations: usize) -> Error {
-        let (_, balance) = self.evaluate(z);
+        let (_, norms) = self.evaluate(z);
         let chain = self.problem.chain;
         Error::NotConverged {
             place: chain.place(),
             iterations,
-            residual_position_m: balance.closure * chain.scale().length,
-            residual_torque: balance.torque / balance.loads.max(1e-9),
+            residual_position_m: norms.closure * chain.scale().length,
+            residual_torque: norms.torque / norms.loads.max(1e-9),
             load_factor: 0.0,
             last: self.coordinates(z),
             limit: None,

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::chain::equilibrium::{disparate, rounding};
 use crate::chain::material::{MaterialUnits, material_springs};
-use crate::chain::residual::Balance;
+use crate::chain::residual::ResidualNorms;
 use crate::chain::sweep::stages::{ChainMethod, turned_rows};
 use crate::continuation::chain_system::ChainSystem;
 use crate::continuation::curve_matrix::CurveMatrix;
@@ -38,8 +38,8 @@ impl ChainSystem<'_, '_> {
         answer
     }
 
-    /// Evaluates the system at a state; returns the residual of equilibrium, balanced, and its measure.
-    pub fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance) {
+    /// Evaluates the system at a state; returns the residual of equilibrium, scaled, and its measure.
+    pub fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms) {
         self.choose();
         let p = self.problem;
         let value = self.value(z);
@@ -69,16 +69,16 @@ impl ChainSystem<'_, '_> {
         for i in 0..6 {
             loads = larger(loads, (wrench.0[i] / (self.scaling[i] * self.unit)).abs());
         }
-        let balance = Balance {
+        let norms = ResidualNorms {
             closure: (self.frame.transpose() * &scaled).norm(),
             torque: residual.rows(r, m - r).norm(),
             loads,
             rounding: rounding(p.chain, &self.equations, &self.scaling) / self.unit,
         };
-        (residual, balance)
+        (residual, norms)
     }
 
-    pub fn converged(&self, b: &Balance) -> bool {
+    pub fn converged(&self, b: &ResidualNorms) -> bool {
         b.torque.is_finite()
             && b.closure <= self.settings.closure
             && b.exceeding() <= self.settings.torque * b.loads + 1e-14
@@ -112,15 +112,15 @@ impl ChainSystem<'_, '_> {
         self.equations.hessian[(i, j)] * self.scaling[6 + i] * self.scaling[6 + j]
     }
 
-    pub(super) fn balanced_jacobian(&self) -> DMatrix<f64> {
-        crate::chain::passive::balanced_jacobian(&self.equations, &self.scaling)
+    pub(super) fn scaled_jacobian(&self) -> DMatrix<f64> {
+        crate::chain::passive::scaled_jacobian(&self.equations, &self.scaling)
     }
 
-    /// Columns of the passive joints in `[R^T J; H]`, balanced.
+    /// Columns of the passive joints in `[R^T J; H]`, scaled.
     pub(super) fn passive_columns(&self) -> DMatrix<f64> {
         let passive = self.problem.chain.indices_of(Role::Passive);
         let (n, r) = (self.coordinates_count(), self.reactions());
-        let rows = self.range.transpose() * self.balanced_jacobian();
+        let rows = self.range.transpose() * self.scaled_jacobian();
         DMatrix::from_fn(r + n, passive.len(), |i, j| {
             if i < r {
                 rows[(i, passive[j])]
@@ -130,10 +130,10 @@ impl ChainSystem<'_, '_> {
         })
     }
 
-    /// Change of the closure with the coordinates, balanced, r x n. Where some rotations are free,
+    /// Change of the closure with the coordinates, scaled, r x n. Where some rotations are free,
     /// the rotation vector of the residual does not change by the motion alone.
     fn closure_rows(&self) -> DMatrix<f64> {
-        let mut jacobian = self.balanced_jacobian();
+        let mut jacobian = self.scaled_jacobian();
         let own = rotation_rate(&self.turned);
         let turned = own * jacobian.fixed_rows::<3>(3);
         jacobian.fixed_rows_mut::<3>(3).copy_from(&turned);
@@ -169,18 +169,18 @@ impl ChainSystem<'_, '_> {
         a
     }
 
-    /// Motions of the end that reactions hold, balanced, r x n.
+    /// Motions of the end that reactions hold, scaled, r x n.
     pub fn reaction_rows(&self) -> DMatrix<f64> {
-        self.range.transpose() * self.balanced_jacobian()
+        self.range.transpose() * self.scaled_jacobian()
     }
 
-    /// Hessian of all loads, balanced, n x n; symmetric only where the loads allow it.
+    /// Hessian of all loads, scaled, n x n; symmetric only where the loads allow it.
     pub fn load_hessian(&self) -> DMatrix<f64> {
         let n = self.coordinates_count();
         DMatrix::from_fn(n, n, |i, j| self.hessian(i, j))
     }
 
-    /// Tangent of the springs, balanced, n x n.
+    /// Tangent of the springs, scaled, n x n.
     pub fn spring_tangent(&self) -> DMatrix<f64> {
         let n = self.coordinates_count();
         DMatrix::from_fn(n, n, |i, j| {
@@ -188,7 +188,7 @@ impl ChainSystem<'_, '_> {
         })
     }
 
-    /// `H - K`, symmetric part, balanced, n x n.
+    /// `H - K`, symmetric part, scaled, n x n.
     pub fn curvature(&self) -> DMatrix<f64> {
         let n = self.coordinates_count();
         let k = &self.equations.spring_tangent;
@@ -272,30 +272,30 @@ impl ChainSystem<'_, '_> {
     }
 
     /// `[dG/du dG/dlambda]` at a state, with the residual there.
-    pub fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, CurveMatrix) {
-        let (residual, balance, gradient) = self.gradient(z);
+    pub fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms, CurveMatrix) {
+        let (residual, norms, gradient) = self.gradient(z);
         if let Some(sweep) = &self.equations.sweep {
             let turned = turned_rows(&rotation_rate(&self.turned));
             if let Some(swept) = CurveSweep::new(sweep, &self.range, &turned, gradient) {
-                return (residual, balance, CurveMatrix::Swept(Box::new(swept)));
+                return (residual, norms, CurveMatrix::Swept(Box::new(swept)));
             }
-            let (residual, balance, matrix) = self.linearised_densely(z);
+            let (residual, norms, matrix) = self.linearised_densely(z);
             let matrix = self.whole(matrix);
-            return (residual, balance, matrix);
+            return (residual, norms, matrix);
         }
         let matrix = self.with_gradient(&gradient);
         let matrix = self.whole(matrix);
-        (residual, balance, matrix)
+        (residual, norms, matrix)
     }
 
     /// The derivative as a dense matrix, with the residual of equilibrium.
     pub fn linearised_densely(
         &mut self,
         z: &DVector<f64>,
-    ) -> (DVector<f64>, Balance, DMatrix<f64>) {
-        let (residual, balance, gradient) = self.densely(|own| own.gradient(z));
+    ) -> (DVector<f64>, ResidualNorms, DMatrix<f64>) {
+        let (residual, norms, gradient) = self.densely(|own| own.gradient(z));
         let matrix = self.with_gradient(&gradient);
-        (residual, balance, matrix)
+        (residual, norms, matrix)
     }
 
     /// `[dG/du dG/dlambda]` where the (dense) system was evaluated.
@@ -308,7 +308,7 @@ impl ChainSystem<'_, '_> {
     }
 
     /// `dG/dlambda` at a state, with the residual there; evaluates the system.
-    pub fn gradient(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DVector<f64>) {
+    pub fn gradient(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms, DVector<f64>) {
         let m = self.count();
         let r = self.reactions();
         let mut gradient = DVector::zeros(m);
@@ -322,7 +322,7 @@ impl ChainSystem<'_, '_> {
             }
             _ => None,
         };
-        let (residual, balance) = self.evaluate(z);
+        let (residual, norms) = self.evaluate(z);
         match (self.parameter, ahead) {
             (Some(Parameter::Displacement(twist)), _) => {
                 // A finite turn about a fixed axis keeps its axis; the end's origin moves straight.
@@ -344,6 +344,6 @@ impl ChainSystem<'_, '_> {
             }
             (None, _) => {}
         }
-        (residual, balance, gradient)
+        (residual, norms, gradient)
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::problem::ChainProblem;
-use crate::chain::residual::Balance;
+use crate::chain::residual::ResidualNorms;
 use crate::chain::stability::{ShapeStability, stability_within, swept_stability_within};
 use crate::chain::sweep::solve::EndMotions;
 use crate::continuation::chain_system::ChainSystem;
@@ -24,23 +24,23 @@ pub(crate) fn stability_as_prescribed(
 ) -> Option<ShapeStability> {
     let mut system = ChainSystem::new(problem, None, settings).ok()?.by_sweeps();
     let z = system.state(&found.coordinates, &found.wrench, 0.0);
-    let (_, balance, matrix) = system.linearised(&z);
+    let (_, norms, matrix) = system.linearised(&z);
     let iterations = found.residual.iterations;
     let state = Corrected {
         z,
         matrix,
-        balance,
+        norms,
         iterations,
     };
     Some(system.stability(&state, false))
 }
 
 impl ChainSystem<'_, '_> {
-    /// Rows (balanced) of the motions that are held: with the parameter's direction held as well,
+    /// Rows (scaled) of the motions that are held: with the parameter's direction held as well,
     /// or left to a dead load.
     fn held_rows(&self, matrix: &CurveMatrix, motion: bool) -> DMatrix<f64> {
         let (r, n) = (self.reactions(), self.coordinates_count());
-        let rows = self.range.transpose() * self.balanced_jacobian();
+        let rows = self.range.transpose() * self.scaled_jacobian();
         let gradient = matrix.gradient();
         match self.parameter {
             Some(Parameter::Displacement(_)) if !motion => {
@@ -59,7 +59,7 @@ impl ChainSystem<'_, '_> {
         }
     }
 
-    /// Motions of the end that are held, balanced, 6 x k; `None` where the load that grows acts
+    /// Motions of the end that are held, scaled, 6 x k; `None` where the load that grows acts
     /// elsewhere too and what it does is held.
     fn held_motions(&self, matrix: &CurveMatrix, motion: bool) -> Option<DMatrix<f64>> {
         let r = self.reactions();
@@ -85,7 +85,7 @@ impl ChainSystem<'_, '_> {
     pub fn stability(&mut self, c: &Corrected, motion: bool) -> ShapeStability {
         if let Some(sweep) = &self.equations.sweep {
             let swept = self.held_motions(&c.matrix, motion).and_then(|held| {
-                let moved = column_space(&self.balanced_jacobian());
+                let moved = column_space(&self.scaled_jacobian());
                 let ends = EndMotions::held_in(moved, &held);
                 swept_stability_within(sweep, &self.scaling, &ends)
             });
@@ -169,11 +169,11 @@ impl ChainSystem<'_, '_> {
 
     /// Everything that is known about a state, which was evaluated last.
     pub fn equilibrium(&mut self, c: &Corrected) -> Equilibrium {
-        let raw = Balance {
-            closure: c.balance.closure * self.unit,
-            torque: c.balance.torque * self.unit,
-            loads: c.balance.loads * self.unit,
-            rounding: c.balance.rounding * self.unit,
+        let raw = ResidualNorms {
+            closure: c.norms.closure * self.unit,
+            torque: c.norms.torque * self.unit,
+            loads: c.norms.loads * self.unit,
+            rounding: c.norms.rounding * self.unit,
         };
         let swept = self
             .equations
@@ -199,7 +199,7 @@ impl ChainSystem<'_, '_> {
         );
         if let Some(family) = &self.family {
             // A family may go on while the whole end is held.
-            let rows = self.balanced_jacobian();
+            let rows = self.scaled_jacobian();
             let (r, n) = (self.reactions(), self.coordinates_count());
             if (&rows * family.motions.rows(r, n)).amax() < 1e-6 * rows.amax() {
                 let rank = column_space(&rows).ncols();

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
-use crate::chain::equilibrium::{System, balance};
+use crate::chain::equilibrium::{System, scales_of};
 use crate::chain::potential::is_conservative;
 use crate::chain::problem::{ChainProblem, Prescribed, check_numbers, check_problem};
 use crate::chain::scaling::{natural, nudged};
@@ -17,7 +17,7 @@ use crate::number::larger;
 use crate::settings::Settings;
 use crate::spatial::{Wrench, turn_matrix};
 
-/// Largest part of `v` (in the given balance) that lies in directions that are prescribed
+/// Largest part of `v` (in the given scaling) that lies in directions that are prescribed
 /// otherwise.
 fn misplaced(v: &Vector6<f64>, turn: &Matrix6<f64>, wrong: impl Fn(usize) -> bool) -> bool {
     let local = turn.transpose() * v;
@@ -34,7 +34,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
         check_problem(problem)?;
         let chain = problem.chain;
         settings.check(&chain.place())?;
-        let factors = balance(chain, &problem.posture);
+        let scales = scales_of(chain, &problem.posture);
         let mut equations = System::new(
             chain,
             &problem.base,
@@ -86,7 +86,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
             problem,
             parameter,
             settings: *settings,
-            scaling: factors,
+            scaling: scales,
             equations,
             other: None,
             dense: false,
@@ -115,8 +115,8 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
         }
         let p = self.problem;
         let (posture, commands) = (&p.posture, &p.commands);
-        let factors = &self.scaling;
-        let mut swept = System::of_chain(p.chain, &p.base, posture, commands, factors, None);
+        let scales = &self.scaling;
+        let mut swept = System::of_chain(p.chain, &p.base, posture, commands, scales, None);
         if swept.method() == ChainMethod::Sweep {
             swept.pattern.0.clone_from(&self.equations.pattern.0);
             self.other = Some(Box::new(swept));
@@ -142,7 +142,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
                 .update(chain, &problem.base, &x, &problem.commands);
             self.equations.jacobian = self.equations.kinematics.jacobian(chain.tip());
             all.columns_mut(k * n, n)
-                .copy_from(&(frame.transpose() * self.balanced_jacobian()));
+                .copy_from(&(frame.transpose() * self.scaled_jacobian()));
         }
         self.range = &frame * column_space(&all);
         self.frame = frame;
@@ -184,12 +184,12 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
         self.sigma = 1.0;
         let z = self.state(coordinates, wrench, value);
         self.evaluate(&z);
-        let balanced = |v: &Vector6<f64>, power: i32| {
+        let scaled = |v: &Vector6<f64>, power: i32| {
             DVector::from_fn(6, |i, _| v[i] * self.scaling[i].powi(power) / self.unit)
         };
         let size = match self.parameter {
             Some(Parameter::Displacement(twist)) => {
-                let moved = balanced(&twist.0, 1);
+                let moved = scaled(&twist.0, 1);
                 let within = self.range.transpose() * &moved;
                 if within.norm() < (1.0 - 1e-9) * moved.norm() {
                     return Err(Error::model(
@@ -205,7 +205,7 @@ impl<'p, 'a> ChainSystem<'p, 'a> {
                     let chain = self.problem.chain;
                     load.add_wrenches(chain, &self.equations.kinematics, 1.0, &mut wrenches);
                 }
-                let sizes = wrenches.iter().map(|(_, w)| balanced(&w.0, -1).norm());
+                let sizes = wrenches.iter().map(|(_, w)| scaled(&w.0, -1).norm());
                 sizes.fold(0.0, larger)
             }
             None => 1.0,

@@ -34,7 +34,7 @@ pub(crate) struct ChainSystem<'p, 'a> {
     pub(super) other: Option<Box<System>>,
     /// Dense matrices are wanted, whatever the chain.
     pub dense: bool,
-    /// Orthonormal directions of the reactions, balanced base axes, 6 x r.
+    /// Orthonormal directions of the reactions, scaled base axes, 6 x r.
     pub(super) range: DMatrix<f64>,
     /// Directions in which the pose is prescribed, base axes, 6 x k: those that the chain cannot
     /// move in have no reaction here, but must be where they are prescribed all the same.
@@ -44,7 +44,7 @@ pub(crate) struct ChainSystem<'p, 'a> {
     pub(super) grown: Vector6<f64>,
     /// Passive motions that change nothing.
     pub(super) neutral: usize,
-    /// Parameter per balanced unit.
+    /// Parameter per scaled unit.
     pub sigma: f64,
     /// Square root of the natural energy.
     pub(super) unit: f64,
@@ -143,8 +143,8 @@ impl ChainSystem<'_, '_> {
 
     /// Wrench on the end (base axes) of a state.
     pub fn wrench(&self, z: &DVector<f64>) -> Wrench {
-        let balanced = &self.range * z.rows(0, self.reactions());
-        let reaction = Vector6::from_fn(|i, _| balanced[i] * self.scaling[i] * self.unit);
+        let scaled = &self.range * z.rows(0, self.reactions());
+        let reaction = Vector6::from_fn(|i, _| scaled[i] * self.scaling[i] * self.unit);
         Wrench(reaction + self.given + self.grown * self.value(z))
     }
 
@@ -158,7 +158,7 @@ impl ChainSystem<'_, '_> {
         conjugate * self.sigma / (self.unit * self.unit)
     }
 
-    /// Change of the conjugate per balanced unknown, by `dG/dlambda`.
+    /// Change of the conjugate per scaled unknown, by `dG/dlambda`.
     pub fn conjugate_row(&self, gradient: &DVector<f64>) -> DVector<f64> {
         let m = self.count();
         let sign = match self.parameter {

@@ -12,7 +12,7 @@ impl ChainSystem<'_, '_> {
         let mut z = z.clone();
         let mut last = f64::INFINITY;
         for iteration in 0..=most {
-            let (residual, balance, matrix) = self.linearised(&z);
+            let (residual, norms, matrix) = self.linearised(&z);
             let (normal, beside) = match row {
                 Row::Plane(normal, offset) => ((*normal).clone(), normal.dot(&z) - offset),
                 Row::Parameter(value) => {
@@ -26,12 +26,12 @@ impl ChainSystem<'_, '_> {
                     (normal / size, (self.conjugate(&z) - value) / size)
                 }
             };
-            let fine = self.converged(&balance) && beside.abs() <= 1e-11 * (1.0 + z.norm());
+            let fine = self.converged(&norms) && beside.abs() <= 1e-11 * (1.0 + z.norm());
             if fine && (last < 1e-8 || iteration == most) {
                 return Some(Corrected {
                     z,
                     matrix,
-                    balance,
+                    norms,
                     iterations: iteration,
                 });
             }
@@ -52,7 +52,7 @@ impl ChainSystem<'_, '_> {
                 return fine.then_some(Corrected {
                     z,
                     matrix,
-                    balance,
+                    norms,
                     iterations: iteration,
                 });
             }

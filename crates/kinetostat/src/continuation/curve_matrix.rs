@@ -11,7 +11,7 @@ use crate::continuation::dense_matrix::{Whole, bordered};
 use crate::continuation::family::Family;
 use crate::continuation::tangent::Tangent;
 
-/// `[dG/du dG/dlambda]`, m x (m + 1), balanced.
+/// `[dG/du dG/dlambda]`, m x (m + 1), scaled.
 pub(crate) enum CurveMatrix {
     /// All of it.
     Dense(Whole),

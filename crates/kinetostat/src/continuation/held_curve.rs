@@ -70,20 +70,20 @@ impl Posture {
                 moved(&from, &Twist(motion.0 * next))
             };
             match solver.solve(1.0, 0) {
-                Ok((iterations, balance)) => {
+                Ok((iterations, norms)) => {
                     spent += iterations;
                     share = next;
                     if share == 1.0 {
-                        let residual = balance.residual(spent);
+                        let residual = norms.residual(spent);
                         return conclude(&mut solver, residual);
                     }
                 }
-                Err((iterations, balance)) => {
+                Err((iterations, norms)) => {
                     spent += iterations;
                     solver.state = kept;
                     step *= 0.5;
                     if step < 1.0 / 1024.0 {
-                        return Err(solver.not_converged(spent, share, &balance));
+                        return Err(solver.not_converged(spent, share, &norms));
                     }
                 }
             }
@@ -249,20 +249,20 @@ impl Posture {
             solver.guide.goals[0] = place(&solver.state.platforms[tool]) + go;
             solver.state.platforms[tool].translation.vector += direction * go;
             match solver.solve(1.0, 0) {
-                Ok((iterations, balance)) => {
+                Ok((iterations, norms)) => {
                     spent += iterations;
                     if last {
-                        let residual = balance.residual(spent);
+                        let residual = norms.residual(spent);
                         return conclude(&mut solver, residual);
                     }
                 }
-                Err((iterations, balance)) => {
+                Err((iterations, norms)) => {
                     spent += iterations;
                     (solver.state, solver.wrench) = kept;
                     step = 0.5 * go;
                     if step.abs() <= least {
                         let share = 1.0 - left.abs() / (1024.0 * least).max(1e-300);
-                        return Err(solver.not_converged(spent, share, &balance));
+                        return Err(solver.not_converged(spent, share, &norms));
                     }
                 }
             }
@@ -331,11 +331,11 @@ impl Drive {
 /// rigid or free among the others has no share in it.
 fn stiffness_with_others_free(k: &Matrix6<f64>, direction: &Vector3<f64>, length: f64) -> f64 {
     let unit = |i: usize| if i < 3 { 1.0 } else { length };
-    let balanced = DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (unit(i) * unit(j)));
+    let scaled = DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (unit(i) * unit(j)));
     let d = DMatrix::from_fn(6, 1, |i, _| if i < 3 { direction[i] } else { 0.0 });
     let others = complement(&d);
-    let (inverse, _) = pseudo_inverse(&(others.transpose() * &balanced * &others));
-    let coupling = d.transpose() * &balanced * &others;
-    let back = others.transpose() * &balanced * &d;
-    (d.transpose() * &balanced * &d - coupling * inverse * back)[(0, 0)]
+    let (inverse, _) = pseudo_inverse(&(others.transpose() * &scaled * &others));
+    let coupling = d.transpose() * &scaled * &others;
+    let back = others.transpose() * &scaled * &d;
+    (d.transpose() * &scaled * &d - coupling * inverse * back)[(0, 0)]
 }

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector6};
 
 use crate::chain::found_by::FoundBy;
-use crate::chain::residual::Balance;
+use crate::chain::residual::ResidualNorms;
 use crate::continuation::curve::CurvePoint;
 use crate::continuation::curve_matrix::CurveMatrix;
 use crate::continuation::dense_matrix::Whole;
@@ -55,7 +55,7 @@ const LARGEST_TURN: f64 = 3.0;
 
 /// Residual below which a machine with its tool held counts as in equilibrium; equations are in units in which each
 /// one's largest derivative is one.
-const BALANCED: f64 = 1e-9;
+const CONVERGED: f64 = 1e-9;
 
 /// An equilibrium with its tool held at a state.
 struct Held {
@@ -66,13 +66,13 @@ struct Held {
 /// See above.
 pub(crate) struct MachineSystem<'q, 'p> {
     conditions: &'q ToolConditions<'p>,
-    /// Motions of the tool, balanced, orthonormal; the driven one last.
+    /// Motions of the tool, scaled, orthonormal; the driven one last.
     motions: DMatrix<f64>,
     /// Metres per unit of a motion.
     length: f64,
     /// Load factor per unit.
     load: f64,
-    /// Equations by combinations of the balance in the motions, each in its unit.
+    /// Equations by combinations of the equilibrium of the tool in the motions, each in its unit.
     rows: DMatrix<f64>,
     /// Where the curve starts.
     first: DVector<f64>,
@@ -179,7 +179,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         if i < self.load_at() { i } else { i + 1 }
     }
 
-    /// Motions (m, balanced) of a direction of states, and its change of the load factor.
+    /// Motions (m, scaled) of a direction of states, and its change of the load factor.
     fn physical(&self, z: &DVector<f64>) -> (DVector<f64>, f64) {
         let n = self.motions.ncols();
         let q = DVector::from_fn(n, |i, _| z[self.motion_at(i)] * self.length);
@@ -188,7 +188,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
 
     fn state(&self, e: &MechanismEquilibrium, factor: f64) -> DVector<f64> {
         let path = self.conditions;
-        let motion = path.balanced(&path.motion(&e.tool));
+        let motion = path.scaled(&path.motion(&e.tool));
         let q = self.motions.transpose() * motion;
         let mut z = DVector::zeros(q.len() + 1);
         for i in 0..q.len() {
@@ -220,7 +220,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
         let possible = &own * own.transpose();
         let by_turn = twist_of_logarithm(&path.motion(&e.tool));
         let stiff = path.posture.mechanism.scale().stiffness;
-        let k = v.transpose() * path.balanced_stiffness(e) * by_turn * v;
+        let k = v.transpose() * path.scaled_stiffness(e) * by_turn * v;
         let n = v.ncols();
         let rigid = DMatrix::identity(n, n) - &possible;
         let push = v.transpose() * path.unbalanced(&path.pattern.0);
@@ -245,20 +245,20 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
     }
 
     /// Residual at an equilibrium with its tool held, under a load factor.
-    fn residual(&self, e: &MechanismEquilibrium, factor: f64) -> (DVector<f64>, Balance) {
+    fn residual(&self, e: &MechanismEquilibrium, factor: f64) -> (DVector<f64>, ResidualNorms) {
         let path = self.conditions;
         let over = e.wrench.0 - path.dead.0 - path.pattern.0 * factor;
         let own = self.motions.transpose() * path.possible(e, &self.motions);
         let over = self.motions.transpose() * path.unbalanced(&over);
         let over = &own * (own.transpose() * over);
         let residual = &self.rows * over;
-        let balance = Balance {
+        let norms = ResidualNorms {
             closure: e.residual.closure_m / path.length,
             torque: residual.norm(),
             loads: 1.0,
             rounding: 0.0,
         };
-        (residual, balance)
+        (residual, norms)
     }
 
     /// The machine with its tool held where a state has it; from what was found last.
@@ -275,7 +275,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
             guide.hands = guide.hands.insert_columns(held, n, 0.0);
             for i in 0..n {
                 let v = Vector6::from_fn(|k, _| self.motions[(k, i)]);
-                let row = path.balanced(&v);
+                let row = path.scaled(&v);
                 let size = row.norm();
                 guide.rows.set_row(held + i, &(row / size).transpose());
                 guide.hands.set_column(held + i, &(row / size));
@@ -319,7 +319,7 @@ impl<'q, 'p> MachineSystem<'q, 'p> {
             (Row::Plane(normal, _), _) => {
                 let own = DVector::from_fn(q.len(), |i, _| normal[self.motion_at(i)]);
                 let along = &self.motions * &own;
-                let along = path.balanced(&Vector6::from_fn(|i, _| along[i]));
+                let along = path.scaled(&Vector6::from_fn(|i, _| along[i]));
                 match own.norm() > 1e-12 {
                     true => (path.guide(Some((&along, own.dot(&q)))), factor),
                     false => (path.guide(None), factor),
@@ -398,40 +398,43 @@ impl CurveSystem for MachineSystem<'_, '_> {
         condensed_modes(found)
     }
 
-    fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance) {
+    fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms) {
         let (_, factor) = self.physical(z);
         match self.hold(z).cloned() {
             Some(e) => self.residual(&e, factor),
             None => {
                 let nothing = DVector::from_element(self.count(), f64::NAN);
-                let balance = Balance {
+                let norms = ResidualNorms {
                     closure: f64::NAN,
                     torque: f64::NAN,
                     loads: 1.0,
                     rounding: 0.0,
                 };
-                (nothing, balance)
+                (nothing, norms)
             }
         }
     }
 
-    fn converged(&self, balance: &Balance) -> bool {
-        balance.torque <= BALANCED
+    fn converged(&self, norms: &ResidualNorms) -> bool {
+        norms.torque <= CONVERGED
     }
 
-    fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, CurveMatrix) {
-        let (residual, balance, matrix) = self.linearised_densely(z);
-        (residual, balance, self.whole(matrix))
+    fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms, CurveMatrix) {
+        let (residual, norms, matrix) = self.linearised_densely(z);
+        (residual, norms, self.whole(matrix))
     }
 
-    fn linearised_densely(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DMatrix<f64>) {
-        let (residual, balance) = self.evaluate(z);
+    fn linearised_densely(
+        &mut self,
+        z: &DVector<f64>,
+    ) -> (DVector<f64>, ResidualNorms, DMatrix<f64>) {
+        let (residual, norms) = self.evaluate(z);
         let n = self.count();
         let matrix = match self.here.z == *z {
             true => self.matrix(&self.here.equilibrium),
             false => DMatrix::from_element(n, n + 1, f64::NAN),
         };
-        (residual, balance, matrix)
+        (residual, norms, matrix)
     }
 
     fn gradient(&mut self, z: &DVector<f64>) -> DVector<f64> {
@@ -454,7 +457,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
         let (equilibrium, factor) = self.settle(z, row).ok()?;
         let z = self.state(&equilibrium, factor);
         let iterations = equilibrium.residual.iterations;
-        let (_, balance) = self.residual(&equilibrium, factor);
+        let (_, norms) = self.residual(&equilibrium, factor);
         let matrix = self.whole(self.matrix(&equilibrium));
         self.near = (equilibrium.state.clone(), equilibrium.wrench, factor);
         self.here = Held {
@@ -464,7 +467,7 @@ impl CurveSystem for MachineSystem<'_, '_> {
         matrix.is_finite().then_some(Corrected {
             z,
             matrix,
-            balance,
+            norms,
             iterations,
         })
     }

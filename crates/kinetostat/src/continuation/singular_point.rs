@@ -21,7 +21,7 @@ pub(crate) fn start_direction<S: CurveSystem>(system: &mut S, z: &DVector<f64>) 
     }
 }
 
-/// Step of the differences of `G_z` in balanced units.
+/// Step of the differences of `G_z` in scaled units.
 const DIFFERENCE: f64 = 1e-5;
 
 /// Derivative of `G_z(z) ` along `p`, by central differences.
@@ -45,7 +45,7 @@ pub(crate) fn refine<S: CurveSystem>(system: &mut S, guess: &DVector<f64>) -> Op
     let size = 2 * m + 2;
     let mut last = f64::INFINITY;
     for _ in 0..12 {
-        let (residual, balance, g) = system.linearised_densely(&z);
+        let (residual, norms, g) = system.linearised_densely(&z);
         let mut extended = DVector::zeros(size);
         extended
             .rows_mut(0, m)
@@ -54,7 +54,7 @@ pub(crate) fn refine<S: CurveSystem>(system: &mut S, guess: &DVector<f64>) -> Op
             .rows_mut(m, m + 1)
             .copy_from(&(g.transpose() * &psi));
         extended[size - 1] = psi.norm_squared() - 1.0;
-        if last < 1e-9 && system.converged(&balance) {
+        if last < 1e-9 && system.converged(&norms) {
             return Some(z);
         }
         if !g.iter().all(|v| v.is_finite()) {
@@ -84,8 +84,8 @@ pub(crate) fn refine<S: CurveSystem>(system: &mut S, guess: &DVector<f64>) -> Op
         psi += step.rows(m + 1, m);
         beta += step[size - 1];
     }
-    let (_, balance) = system.evaluate(&z);
-    (last < 1e-8 && system.converged(&balance)).then_some(z)
+    let (_, norms) = system.evaluate(&z);
+    (last < 1e-8 && system.converged(&norms)).then_some(z)
 }
 
 /// Directions of the two branches through a simple bifurcation: roots of `a11 x^2 + 2 a12 x y + a22

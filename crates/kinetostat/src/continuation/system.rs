@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::chain::residual::Balance;
+use crate::chain::residual::ResidualNorms;
 use crate::continuation::curve::{Branch, BranchEnd, CurvePoint, Special};
 use crate::continuation::curve_equilibrium::CurveEquilibrium;
 use crate::continuation::curve_matrix::CurveMatrix;
@@ -49,7 +49,7 @@ pub(crate) struct Corrected {
     pub z: DVector<f64>,
     /// Of the curve at that state.
     pub matrix: CurveMatrix,
-    pub balance: Balance,
+    pub norms: ResidualNorms,
     pub iterations: usize,
 }
 
@@ -101,13 +101,16 @@ pub(crate) trait CurveSystem {
     }
 
     /// Evaluates the system at a state; returns the residual and its measure.
-    fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance);
+    fn evaluate(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms);
     /// Whether a residual is small enough.
-    fn converged(&self, balance: &Balance) -> bool;
+    fn converged(&self, norms: &ResidualNorms) -> bool;
     /// Residual, its measure and `[dG/du dG/dlambda]` at a state.
-    fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, CurveMatrix);
+    fn linearised(&mut self, z: &DVector<f64>) -> (DVector<f64>, ResidualNorms, CurveMatrix);
     /// The same with a dense matrix.
-    fn linearised_densely(&mut self, z: &DVector<f64>) -> (DVector<f64>, Balance, DMatrix<f64>);
+    fn linearised_densely(
+        &mut self,
+        z: &DVector<f64>,
+    ) -> (DVector<f64>, ResidualNorms, DMatrix<f64>);
     /// `dG/dlambda` at a state.
     fn gradient(&mut self, z: &DVector<f64>) -> DVector<f64>;
     /// `[dG/du dG/dlambda]` at the state that was evaluated last (densely), with its units.

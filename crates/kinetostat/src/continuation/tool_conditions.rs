@@ -1,6 +1,6 @@
 //! What holds the tool of a machine and what acts on it, and its motions in numbers.
 //!
-//! The tool's motions are those in which it is free, and the driven one; balanced: rotations times the natural length.
+//! The tool's motions are those in which it is free, and the driven one; scaled: rotations times the natural length.
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
@@ -22,9 +22,9 @@ pub(crate) struct ToolConditions<'p> {
     pub(crate) dead: Wrench,
     /// The displacement is the parameter, not the factor.
     pub(crate) by_motion: bool,
-    /// Motions of the tool: those that are free, and the driven one, balanced, orthonormal.
+    /// Motions of the tool: those that are free, and the driven one, scaled, orthonormal.
     pub(crate) motions: DMatrix<f64>,
-    /// Those that are free, balanced.
+    /// Those that are free, scaled.
     pub(crate) free: DMatrix<f64>,
     /// Directions in which the tool is held, base axes, columns.
     pub(crate) held: DMatrix<f64>,
@@ -84,10 +84,10 @@ impl<'p> ToolConditions<'p> {
         let mut motions = free.clone();
         if by_motion {
             let d = pattern.0.normalize();
-            let balanced = Vector6::from_fn(|i, _| if i < 3 { d[i] } else { d[i] * length });
+            let scaled = Vector6::from_fn(|i, _| if i < 3 { d[i] } else { d[i] * length });
             let last = motions.ncols();
             motions = motions.insert_column(last, 0.0);
-            motions.set_column(last, &balanced.normalize());
+            motions.set_column(last, &scaled.normalize());
             // What is held is held across that direction.
             let along = held.transpose() * d;
             let across = &held * complement(&DMatrix::from_columns(&[along]));
@@ -121,7 +121,7 @@ impl<'p> ToolConditions<'p> {
         Ok(path)
     }
 
-    /// The same question with the tool driven along one of its free motions (balanced, unit length)
+    /// The same question with the tool driven along one of its free motions (scaled, unit length)
     /// besides: the load along it that this takes is the conjugate. That load is square to all other
     /// motions, rotations at the natural length.
     pub(crate) fn driven(&self, motion: &Vector6<f64>, settings: CurveSettings) -> Self {
@@ -129,7 +129,7 @@ impl<'p> ToolConditions<'p> {
         Self {
             posture: self.posture,
             settings,
-            pattern: Wrench(self.balanced(motion)),
+            pattern: Wrench(self.scaled(motion)),
             dead: self.dead,
             by_motion: true,
             motions: self.free.clone(),
@@ -147,11 +147,11 @@ impl<'p> ToolConditions<'p> {
 
     /// The part of a motion (m, rad) in which the tool is free.
     pub(crate) fn freely(&self, motion: &Vector6<f64>) -> Vector6<f64> {
-        let part = &self.free * (self.free.transpose() * self.balanced(motion));
+        let part = &self.free * (self.free.transpose() * self.scaled(motion));
         Vector6::from_fn(|i, _| part[i] / self.unit(i))
     }
 
-    pub(crate) fn balanced(&self, motion: &Vector6<f64>) -> Vector6<f64> {
+    pub(crate) fn scaled(&self, motion: &Vector6<f64>) -> Vector6<f64> {
         Vector6::from_fn(|i, _| motion[i] * self.unit(i))
     }
 

@@ -37,7 +37,7 @@ impl ToolConditions<'_> {
             .iter()
             .chain(&y)
             .fold(0.0_f64, |most, t| larger(most, t.abs()));
-        let off = self.balanced(&pose_residual(&a.tool, &b.tool).0);
+        let off = self.scaled(&pose_residual(&a.tool, &b.tool).0);
         let costly = self.without(a, &DMatrix::identity(6, 6), DirectionKind::Free);
         (costly.transpose() * off).norm() < 1e-6 * self.length
             && (x.iter().zip(&y)).all(|(x, y)| (x - y).abs() <= 1e-5 * most + 1e-9)
@@ -58,9 +58,9 @@ impl ToolConditions<'_> {
             solver.solve_robustly()?
         } else {
             match solver.solve(1.0, 0) {
-                Ok((iterations, balance)) => balance.residual(iterations),
-                Err((iterations, balance)) => {
-                    return Err(solver.not_converged(iterations, 0.0, &balance));
+                Ok((iterations, norms)) => norms.residual(iterations),
+                Err((iterations, norms)) => {
+                    return Err(solver.not_converged(iterations, 0.0, &norms));
                 }
             }
         };

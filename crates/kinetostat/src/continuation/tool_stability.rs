@@ -102,7 +102,7 @@ impl CurveEquilibrium for MechanismEquilibrium {
 }
 
 impl ToolConditions<'_> {
-    /// Free motions of the tool that the machine at rest can make, balanced, orthonormal.
+    /// Free motions of the tool that the machine at rest can make, scaled, orthonormal.
     pub(crate) fn free_motions(&self) -> DMatrix<f64> {
         match self.posture.wrench_at(&self.posture.target) {
             Ok(e) => self.possible(&e, &self.free),
@@ -110,7 +110,7 @@ impl ToolConditions<'_> {
         }
     }
 
-    /// Those of some motions (balanced) that the machine can make.
+    /// Those of some motions (scaled) that the machine can make.
     pub(crate) fn possible(
         &self,
         e: &MechanismEquilibrium,
@@ -119,7 +119,7 @@ impl ToolConditions<'_> {
         self.without(e, motions, DirectionKind::Rigid)
     }
 
-    /// Those of some motions (balanced) across all directions of a kind.
+    /// Those of some motions (scaled) across all directions of a kind.
     pub(crate) fn without(
         &self,
         e: &MechanismEquilibrium,
@@ -129,12 +129,12 @@ impl ToolConditions<'_> {
         without(&e.directions, kind, self.length, motions)
     }
 
-    pub(crate) fn balanced_stiffness(&self, e: &MechanismEquilibrium) -> DMatrix<f64> {
+    pub(crate) fn scaled_stiffness(&self, e: &MechanismEquilibrium) -> DMatrix<f64> {
         let k = &e.stiffness.matrix;
         DMatrix::from_fn(6, 6, |i, j| k[(i, j)] / (self.unit(i) * self.unit(j)))
     }
 
-    /// Whether the tool keeps its place in some motions (balanced) under dead wrenches.
+    /// Whether the tool keeps its place in some motions (scaled) under dead wrenches.
     pub(crate) fn holds(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> Holding {
         let possible = self.possible(e, motions);
         if possible.ncols() == 0 {
@@ -161,7 +161,7 @@ impl ToolConditions<'_> {
         let below = below.iter().filter(|(value, _)| *value < 0.0).count();
         let unstable = match below > 0 && !self.conservative(e, motions) {
             true => {
-                let k = possible.transpose() * self.balanced_stiffness(e) * &possible;
+                let k = possible.transpose() * self.scaled_stiffness(e) * &possible;
                 diverging_motions(&k, 1e-9 * k.amax(), e.moves_with_its_tool())
             }
             false => below,
@@ -173,7 +173,7 @@ impl ToolConditions<'_> {
         }
     }
 
-    /// Whether all loads have a potential, with what is dead of the wrench on the tool in some motions (balanced).
+    /// Whether all loads have a potential, with what is dead of the wrench on the tool in some motions (scaled).
     pub(crate) fn conservative(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> bool {
         let unit = Vector6::from_fn(|i, _| self.unit(i));
         let dead = motions * (motions.transpose() * e.wrench.0.component_div(&unit));

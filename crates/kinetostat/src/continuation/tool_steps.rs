@@ -27,7 +27,7 @@ pub(crate) struct ToolPoint {
     pub dead: bool,
     /// The equilibrium.
     pub equilibrium: MechanismEquilibrium,
-    /// Motion of the tool (balanced: m and rad times the natural length) and of the load factor per
+    /// Motion of the tool (scaled: m and rad times the natural length) and of the load factor per
     /// step along the path.
     tangent: (Vector6<f64>, f64),
     factor: f64,
@@ -77,7 +77,7 @@ impl ToolConditions<'_> {
     ) -> (Vector6<f64>, f64) {
         let possible = self.possible(e, &self.motions);
         let n = possible.ncols();
-        let k = possible.transpose() * self.balanced_stiffness(e) * &possible;
+        let k = possible.transpose() * self.scaled_stiffness(e) * &possible;
         let load = DVector::from_fn(6, |i, _| self.pattern.0[i] / self.unit(i));
         let load = possible.transpose() * load;
         // One unit for all points, or the tangent's sense would be lost where the stiffness is.
@@ -122,7 +122,7 @@ impl ToolConditions<'_> {
         (motion, next[n] * unit / size)
     }
 
-    /// The equilibrium a step `by` (m, balanced) along the path from a point.
+    /// The equilibrium a step `by` (m, scaled) along the path from a point.
     pub(crate) fn step(&self, from: &ToolPoint, by: f64) -> Option<ToolPoint> {
         let (along, rate) = &from.tangent;
         let mut state = from.equilibrium.state.clone();

@@ -5,7 +5,7 @@ use crate::chain::equilibrium::Equilibrium;
 use crate::chain::found_by::FoundBy;
 use crate::chain::newton::{Attempt, Way};
 use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
-use crate::chain::residual::Balance;
+use crate::chain::residual::ResidualNorms;
 use crate::chain::scaling::{FAR, LEAST_LOAD, SHORT_STEP, aside, gone, natural, nudged};
 use crate::chain::sweep::stages::ChainMethod;
 use crate::continuation::chain_stability::stability_as_prescribed;
@@ -56,7 +56,7 @@ pub fn solve_along(
         let mut x: Vec<f64> = nudged(chain, &problem.posture, nudge);
         let mut wrench = Wrench::zero();
         match attempt.newton(&mut x, &mut wrench, 1.0, settings.picard_steps) {
-            Ok((iterations, balance)) => Some((x, wrench, iterations, balance)),
+            Ok((iterations, norms)) => Some((x, wrench, iterations, norms)),
             Err((iterations, _)) => {
                 spent += iterations;
                 None
@@ -65,18 +65,18 @@ pub fn solve_along(
     };
     // As given; then slightly out of line, because a straight or flat posture has no linear answer.
     for nudge in [0.0, 1e-3, 3e-2] {
-        let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) else {
+        let Some((x, wrench, iterations, norms)) = direct(&mut attempt, nudge) else {
             continue;
         };
-        let mut found = attempt.finish(x, wrench, iterations, &balance);
+        let mut found = attempt.finish(x, wrench, iterations, &norms);
         if nudge != 0.0 {
             found.0.found_by = FoundBy::OutOfLine;
         }
         return Ok(led_by_growing_load(problem, settings, method, &found.0).unwrap_or(found));
     }
     let mut failure = match grow_load(&mut attempt, false, 1.0) {
-        Ok((x, wrench, iterations, balance)) => {
-            let found = attempt.finish(x, wrench, iterations, &balance);
+        Ok((x, wrench, iterations, norms)) => {
+            let found = attempt.finish(x, wrench, iterations, &norms);
             return Ok(found_by(found, FoundBy::GrowingLoad));
         }
         Err(failure) => failure,
@@ -84,8 +84,8 @@ pub fn solve_along(
     // On a straight path to a bent shape the chain is pressed and buckles; on a screw it is pulled.
     if problem.end.prescribed == [Prescribed::Pose; 6] {
         match grow_load(&mut attempt, true, 1.0) {
-            Ok((x, wrench, iterations, balance)) => {
-                let found = attempt.finish(x, wrench, iterations, &balance);
+            Ok((x, wrench, iterations, norms)) => {
+                let found = attempt.finish(x, wrench, iterations, &norms);
                 return Ok(found_by(found, FoundBy::GrowingLoad));
             }
             Err(other) => {
@@ -101,8 +101,8 @@ pub fn solve_along(
     }
     // The path from rest may end at a fold although equilibria exist elsewhere.
     for nudge in [0.3, 0.8, 1.5, 2.5] {
-        if let Some((x, wrench, iterations, balance)) = direct(&mut attempt, nudge) {
-            let found = attempt.finish(x, wrench, iterations, &balance);
+        if let Some((x, wrench, iterations, norms)) = direct(&mut attempt, nudge) {
+            let found = attempt.finish(x, wrench, iterations, &norms);
             return Ok(found_by(found, FoundBy::OtherStart));
         }
     }
@@ -112,9 +112,9 @@ pub fn solve_along(
     Err(Error::NotConverged {
         place: chain.place(),
         iterations: spent + failure.iterations,
-        residual_position_m: failure.balance.closure / chain.scale().stiffness.sqrt(),
-        residual_torque: failure.balance.torque
-            / failure.balance.loads.max(LEAST_LOAD * natural(chain)),
+        residual_position_m: failure.norms.closure / chain.scale().stiffness.sqrt(),
+        residual_torque: failure.norms.torque
+            / failure.norms.loads.max(LEAST_LOAD * natural(chain)),
         load_factor: failure.share,
         last: failure.last,
         limit: None,
@@ -134,7 +134,7 @@ struct Failure {
     /// Coordinates of that equilibrium.
     last: Vec<f64>,
     /// Its residual at the full load.
-    balance: Balance,
+    norms: ResidualNorms,
     iterations: usize,
 }
 
@@ -151,9 +151,9 @@ fn led_by_growing_load(
         return None;
     }
     let mut attempt = Attempt::new(problem, settings, method);
-    let (x, wrench, iterations, balance) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
+    let (x, wrench, iterations, norms) = grow_load(&mut attempt, false, SHORT_STEP).ok()?;
     let spent = found.residual.iterations + iterations;
-    let grown = attempt.finish(x, wrench, spent, &balance);
+    let grown = attempt.finish(x, wrench, spent, &norms);
     let grown = found_by(grown, FoundBy::GrowingLoad);
     stays(problem, settings, &grown.0).then_some(grown)
 }
@@ -177,7 +177,7 @@ fn grow_load(
     attempt: &mut Attempt<'_, '_>,
     on_screw: bool,
     longest: f64,
-) -> std::result::Result<(Vec<f64>, Wrench, usize, Balance), Failure> {
+) -> std::result::Result<(Vec<f64>, Wrench, usize, ResidualNorms), Failure> {
     let problem = attempt.problem;
     let mut x = nudged(problem.chain, &problem.posture, aside(longest));
     let mut wrench = Wrench::zero();
@@ -188,7 +188,7 @@ fn grow_load(
         Way::Straight(pose_residual(&problem.end.pose, &start))
     };
     let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
-    let mut last = Balance {
+    let mut last = ResidualNorms {
         closure: 0.0,
         torque: 0.0,
         loads: 1.0,
@@ -198,9 +198,9 @@ fn grow_load(
         let next = (share + step).min(1.0);
         let (mut trial, mut trial_wrench) = (x.clone(), wrench);
         match attempt.newton(&mut trial, &mut trial_wrench, next, 0) {
-            Ok((spent, balance)) => {
+            Ok((spent, norms)) => {
                 iterations += spent;
-                (x, wrench, share, last) = (trial, trial_wrench, next, balance);
+                (x, wrench, share, last) = (trial, trial_wrench, next, norms);
                 step = (1.5 * step).min(longest);
             }
             Err((spent, _)) => {
@@ -208,11 +208,11 @@ fn grow_load(
                 step *= 0.5;
                 if step < attempt.settings.smallest_load_step.max(1e-9) {
                     let (closure, residual) = attempt.evaluate(&x, &wrench, 1.0);
-                    let balance = attempt.measure(&attempt.end_rows(&closure, &residual), &wrench);
+                    let norms = attempt.measure(&attempt.end_rows(&closure, &residual), &wrench);
                     return Err(Failure {
                         share,
                         last: x,
-                        balance,
+                        norms,
                         iterations,
                     });
                 }

@@ -94,9 +94,9 @@ pub(crate) struct Known {
     pub may_flutter: bool,
     /// Number of unstable modes under the conditions as prescribed.
     unstable: usize,
-    /// Least singular value of the conditions' derivative, balanced.
+    /// Least singular value of the conditions' derivative, scaled.
     least: f64,
-    /// Share of the loads that is not balanced: of very stiff springs, what rounding allows.
+    /// Share of the loads that is not in equilibrium: of very stiff springs, what rounding allows.
     residual: f64,
 }
 
@@ -164,8 +164,8 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
         let chain = self.system.problem.chain;
         let mut z = self.system.state(x, &self.system.problem.end.wrench, 0.0);
         for _ in 0..12 {
-            let (residual, balance) = self.system.evaluate(&z);
-            if r == 0 || balance.closure < 1e-3 {
+            let (residual, norms) = self.system.evaluate(&z);
+            if r == 0 || norms.closure < 1e-3 {
                 break;
             }
             let rows = self.system.matrix().view((0, r), (r, m - r)).into_owned();
@@ -196,16 +196,16 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
         let chain = self.system.problem.chain;
         let ones = vec![1.0; m];
         let mut z = start.clone();
-        let (mut residual, mut balance) = self.system.evaluate(&z);
+        let (mut residual, mut norms) = self.system.evaluate(&z);
         let mut small = false;
         for iteration in 0..self.system.settings.iterations.max(1) {
-            if small && self.system.converged(&balance) {
+            if small && self.system.converged(&norms) {
                 let mut matrix = DMatrix::zeros(m, m + 1);
                 matrix.columns_mut(0, m).copy_from(&self.system.matrix());
                 return Some(Corrected {
                     z,
                     matrix: self.system.whole(matrix),
-                    balance,
+                    norms,
                     iterations: iteration,
                 });
             }
@@ -249,8 +249,8 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
             }
             // Where no length lowers it, the best one still leads out of a bad place.
             z = self.system.strained(&z, &z + &whole * best.1);
-            (residual, balance) = self.system.evaluate(&z);
-            small = whole.norm() * best.1 < 1e-7 * (1.0 + z.norm()) || balance.torque < 1e-14;
+            (residual, norms) = self.system.evaluate(&z);
+            small = whole.norm() * best.1 < 1e-7 * (1.0 + z.norm()) || norms.torque < 1e-14;
         }
         None
     }
@@ -262,7 +262,7 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
         z: &DVector<f64>,
         step: &DVector<f64>,
     ) -> f64 {
-        let turns = self.balanced_turns();
+        let turns = self.scaled_turns();
         known
             .iter()
             .map(|k| {
@@ -275,7 +275,7 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
     }
 
     /// Full turns of the unknowns.
-    fn balanced_turns(&self) -> Vec<f64> {
+    fn scaled_turns(&self) -> Vec<f64> {
         let mut all = vec![0.0; self.system.count() + 1];
         for (i, turn) in self.turns.iter().enumerate() {
             all[self.system.reactions() + i] = turn / self.system.unit_of_coordinate(i);
@@ -310,7 +310,7 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
     /// Without full turns of passive joints, and with those that turn for nothing where the posture has them.
     fn normalised(&mut self, mut c: Corrected) -> SearchOutcome<Candidate> {
         let offset = self.system.reactions();
-        let turns = self.balanced_turns();
+        let turns = self.scaled_turns();
         // Full turns of passive joints out.
         let bounds = self.bounds.low.iter().zip(&self.bounds.high);
         let middle: Vec<f64> = bounds
@@ -330,18 +330,18 @@ impl<'p, 'a, 'b> ChainSearch<'p, 'a, 'b> {
         let mut rested = c.z.clone();
         let idle = self.idle(&mut rested);
         // A motion that changes nothing at first may change a lot further on.
-        c.balance = self.system.evaluate(&rested).1;
-        if self.system.converged(&c.balance) {
+        c.norms = self.system.evaluate(&rested).1;
+        if self.system.converged(&c.norms) {
             c.z = rested;
         } else {
-            c.balance = self.system.evaluate(&c.z).1;
+            c.norms = self.system.evaluate(&c.z).1;
         }
         if !self.bounds.hold(&self.system.coordinates(&c.z)) {
             return SearchOutcome::Outside;
         }
         SearchOutcome::Equilibrium(Candidate {
             energy: self.system.equations.energy,
-            residual: c.balance.torque / c.balance.loads.max(f64::MIN_POSITIVE),
+            residual: c.norms.torque / c.norms.loads.max(f64::MIN_POSITIVE),
             stability: self.system.stability(&c, false),
             idle,
             c,
@@ -413,7 +413,7 @@ impl Searched for ChainSearch<'_, '_, '_> {
             // fold), except where neither is known better.
             (1e-11 / k.least).clamp(1e-10, 1e-4)
         };
-        let d = wrapped(&candidate.c.z, &k.z, &self.balanced_turns());
+        let d = wrapped(&candidate.c.z, &k.z, &self.scaled_turns());
         let alike = (k.equilibrium.energy - energy).abs()
             <= (1e-8 + LEFT_OPEN * (k.residual + candidate.residual))
                 * (energy.abs() + k.equilibrium.energy.abs())

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use crate::chain::passive::balanced_jacobian;
+use crate::chain::passive::scaled_jacobian;
 use crate::chain::stability::share_to_buckling;
 use crate::continuation::chain_system::ChainSystem;
 use crate::linalg::complement::complement;
@@ -27,7 +27,7 @@ pub enum StabilityOf {
 
 /// The tangent among the motions that nothing holds: springs, loads that stay, and loads that grow, apart.
 pub(crate) struct Tangent {
-    /// `N`, balanced coordinates.
+    /// `N`, scaled coordinates.
     null: DMatrix<f64>,
     /// `N^T K N`.
     springs: DMatrix<f64>,
@@ -57,7 +57,7 @@ impl Tangent {
         let rows = match of {
             StabilityOf::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
             StabilityOf::Shape => {
-                crate::chain::passive::balanced_jacobian(&system.equations, &system.scaling)
+                crate::chain::passive::scaled_jacobian(&system.equations, &system.scaling)
             }
         };
         let null = free_motions(system, &rows);
@@ -150,7 +150,7 @@ pub(crate) fn linear_prediction(
     let at_rest = system.curvature();
     let rows = match of {
         StabilityOf::ShapeAndEnd => matrix.view((0, r), (r, n)).into_owned(),
-        StabilityOf::Shape => balanced_jacobian(&system.equations, &system.scaling),
+        StabilityOf::Shape => scaled_jacobian(&system.equations, &system.scaling),
     };
     // Reactions per unit factor; the posture stays.
     let ones = vec![1.0; m];

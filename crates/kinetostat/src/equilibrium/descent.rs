@@ -32,7 +32,7 @@ impl ToolConditions<'_> {
                 break;
             }
             let residual = self.unheld(&here, &motions);
-            let k = motions.transpose() * self.balanced_stiffness(&here) * &motions;
+            let k = motions.transpose() * self.scaled_stiffness(&here) * &motions;
             let own = ((&k + k.transpose()) * 0.5).symmetric_eigen();
             let most = own.eigenvalues.amax();
             if most == 0.0 || residual.norm() <= 1e-6 * most * size {
@@ -67,7 +67,7 @@ impl ToolConditions<'_> {
         if motions.is_empty() {
             return Vec::new();
         }
-        let k = motions.transpose() * self.balanced_stiffness(e) * &motions;
+        let k = motions.transpose() * self.scaled_stiffness(e) * &motions;
         let own = ((&k + k.transpose()) * 0.5).symmetric_eigen();
         let modes = own.eigenvalues.iter().zip(own.eigenvectors.column_iter());
         let push = 2e-3 * self.posture.mechanism.size();
@@ -84,7 +84,7 @@ impl ToolConditions<'_> {
         start: MechanismEquilibrium,
         motion: &Vector6<f64>,
     ) -> Option<MechanismEquilibrium> {
-        let motion = self.balanced(motion);
+        let motion = self.scaled(motion);
         let count = (motion.norm() / (FIRST * self.posture.mechanism.size())).ceil();
         let mut here = start;
         for _ in 0..count as usize {
@@ -99,18 +99,18 @@ impl ToolConditions<'_> {
         Some(here)
     }
 
-    /// Free motions of the tool (balanced, orthonormal) that the machine can make at a cost.
+    /// Free motions of the tool (scaled, orthonormal) that the machine can make at a cost.
     fn movable(&self, e: &MechanismEquilibrium) -> DMatrix<f64> {
         let possible = self.possible(e, &self.free);
         self.without(e, &possible, DirectionKind::Free)
     }
 
-    /// What holds the tool along motions besides the dead wrench, balanced.
+    /// What holds the tool along motions besides the dead wrench, scaled.
     fn unheld(&self, e: &MechanismEquilibrium, motions: &DMatrix<f64>) -> DVector<f64> {
         motions.transpose() * self.unbalanced(&(e.wrench.0 - self.dead.0))
     }
 
-    /// The machine with its tool moved by parts of some motions (balanced), and held in these alone.
+    /// The machine with its tool moved by parts of some motions (scaled), and held in these alone.
     fn held_beside(
         &self,
         here: &MechanismEquilibrium,
@@ -123,7 +123,7 @@ impl ToolConditions<'_> {
         let tool = self.posture.mechanism.tool();
         state.platforms[tool] = moved(&here.tool, &Twist(motion));
         let columns = motions.column_iter().map(|column| {
-            let column = self.balanced(&Vector6::from_fn(|i, _| column[i]));
+            let column = self.scaled(&Vector6::from_fn(|i, _| column[i]));
             DVector::from_column_slice(column.as_slice())
         });
         let columns: Vec<_> = columns.collect();
@@ -143,9 +143,7 @@ impl ToolConditions<'_> {
         };
         let (next, _) = self.settle(state, here.wrench, guide, false).ok()?;
         // Not another one of the shapes at the same place.
-        let went = self
-            .balanced(&pose_residual(&next.tool, &here.tool).0)
-            .norm();
+        let went = self.scaled(&pose_residual(&next.tool, &here.tool).0).norm();
         (went <= 3.0 * parts.norm()).then_some(next)
     }
 

@@ -134,9 +134,9 @@ impl Posture {
     ) -> Option<(PlatformSolver<'_>, Residual)> {
         let mut solver = self.solver(state, Unknowns::Pose);
         solver.wrench = *wrench;
-        let (iterations, balance) = solver.solve(1.0, 0).ok()?;
+        let (iterations, norms) = solver.solve(1.0, 0).ok()?;
         solver.found_by = found_by;
-        Some((solver, balance.residual(iterations)))
+        Some((solver, norms.residual(iterations)))
     }
 
     /// State at the whole load, if the branch from rest reaches it without a limit; the first limit
@@ -189,8 +189,8 @@ impl Posture {
             .map(|d| DVector::from_fn(6, |i, _| d.twist.0[i] * unit(i)))
             .collect();
         let basis = DMatrix::from_columns(&columns).qr().q();
-        let balanced = DVector::from_fn(6, |i, _| push.0[i] / unit(i));
-        let along = &basis * (basis.transpose() * balanced);
+        let scaled = DVector::from_fn(6, |i, _| push.0[i] / unit(i));
+        let along = &basis * (basis.transpose() * scaled);
         if along.norm() > 1e-9 * size {
             let motion = along.normalize();
             return vec![Twist(Vector6::from_fn(|i, _| motion[i] / unit(i)))];
@@ -205,7 +205,7 @@ impl Posture {
             return FollowedTo::Lost(false);
         };
         let path = free.driven(
-            &free.balanced(&motion.0).normalize(),
+            &free.scaled(&motion.0).normalize(),
             CurveSettings::within(0.0, 1.0),
         );
         let Ok(start) = path.first(0.0) else {

@@ -133,8 +133,8 @@ impl<'p> MachineSearch<'p> {
             let tip = unloaded_tip(&limb.actual, &Pose::identity(), joints, commands);
             state.platforms[tool] = tip * limb.platform_from_tip.inverse();
             let mut solver = posture.solver(state, Unknowns::Held);
-            let (iterations, balance) = solver.solve(1.0, 0).ok()?;
-            let held = conclude(&mut solver, balance.residual(iterations)).ok()?;
+            let (iterations, norms) = solver.solve(1.0, 0).ok()?;
+            let held = conclude(&mut solver, norms.residual(iterations)).ok()?;
             return path.descend(held);
         }
         state.platforms[tool] = pose;
@@ -189,7 +189,7 @@ impl<'p> MachineSearch<'p> {
                 let Some(equilibrium) = path.rest(state, &path.dead) else {
                     continue;
                 };
-                let apart = path.balanced(&pose_residual(&equilibrium.tool, &there).0);
+                let apart = path.scaled(&pose_residual(&equilibrium.tool, &there).0);
                 list.push(SearchOutcome::Equilibrium(Candidate {
                     on_curve: (apart.norm() < 1e-3 * path.length).then_some(i),
                     equilibrium,
@@ -283,7 +283,7 @@ impl Searched for MachineSearch<'_> {
     }
 }
 
-/// The k-th of evenly spread motions of some directions (balanced): Kronecker's sequence. Distances
+/// The k-th of evenly spread motions of some directions (scaled): Kronecker's sequence. Distances
 /// are shares of the machine's size, angles of half a turn.
 fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_>) -> Vector6<f64> {
     let roots = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0_f64];
@@ -298,7 +298,7 @@ fn spread(free: &DMatrix<f64>, k: usize, path: &ToolConditions<'_>) -> Vector6<f
 impl ToolConditions<'_> {
     /// With its stability and energy.
     fn described(&self, e: MechanismEquilibrium) -> Known {
-        let k = self.balanced_stiffness(&e);
+        let k = self.scaled_stiffness(&e);
         let possible = self.possible(&e, &self.free);
         let possible = self.without(&e, &possible, DirectionKind::Free);
         let k = possible.transpose() * (&k + k.transpose()) * &possible * 0.5;

@@ -25,7 +25,7 @@ pub struct CurveTangent {
 
 /// What the equations are to first order at one state.
 pub struct CurveState {
-    /// What is missing for an equilibrium, balanced.
+    /// What is missing for an equilibrium, scaled.
     pub residual: DVector<f64>,
     matrix: CurveMatrix,
 }

@@ -40,7 +40,7 @@ struct EliminationStep {
 /// A factorised system.
 pub struct BlockFactors {
     units: Vec<f64>,
-    /// Balanced.
+    /// Scaled.
     matrix: Sparse,
     steps: Vec<EliminationStep>,
 }
@@ -299,7 +299,7 @@ impl BlockFactors {
         *b = x;
     }
 
-    /// Balanced, without refinement.
+    /// Scaled, without refinement.
     fn once(&self, b: &DMatrix<f64>) -> DMatrix<f64> {
         let mut work = b.clone();
         let mut x = DMatrix::zeros(b.nrows(), b.ncols());

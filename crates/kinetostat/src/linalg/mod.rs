@@ -1,6 +1,6 @@
 //! Linear algebra that the mechanics rests on: it knows matrices and nothing of robots.
 //!
-//! Takes balanced matrices (every unknown in a unit that makes it comparable), gives solutions of least norm, ranks,
+//! Takes scaled matrices (every unknown in a unit that makes it comparable), gives solutions of least norm, ranks,
 //! ranges, inertia: a singular matrix is a result here, never an exception.
 //!
 //! ```text

@@ -7,10 +7,10 @@ use nalgebra::{DMatrix, Dyn, LU};
 use crate::linalg::singular_values::{SingularValues, range};
 
 /// Pivots or singular values below this share of the largest count as zero. Regular machines stay
-/// above 1e-8 in balanced units (flat postures to 1 um included); rounding stays below 1e-13.
+/// above 1e-8 in scaled units (flat postures to 1 um included); rounding stays below 1e-13.
 pub(crate) const RANK_TOLERANCE: f64 = 1e-11;
 
-/// A factorised square system `A x = b`, balanced by `scale` on both sides.
+/// A factorised square system `A x = b`, scaled by `scale` on both sides.
 pub struct Saddle {
     row_scale: Vec<f64>,
     column_scale: Vec<f64>,
@@ -86,7 +86,7 @@ impl Saddle {
     }
 }
 
-/// Moore-Penrose inverse and rank of a balanced matrix.
+/// Moore-Penrose inverse and rank of a scaled matrix.
 pub fn pseudo_inverse(a: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
     if a.iter().any(|x| !x.is_finite()) {
         return (DMatrix::from_element(a.ncols(), a.nrows(), f64::NAN), 0);
@@ -98,7 +98,7 @@ pub fn pseudo_inverse(a: &DMatrix<f64>) -> (DMatrix<f64>, usize) {
     (own.pseudo_inverse(RANK_TOLERANCE), own.rank(RANK_TOLERANCE))
 }
 
-/// True if the (fewer) rows of a wide balanced matrix are certainly independent: a cheap test by
+/// True if the (fewer) rows of a wide scaled matrix are certainly independent: a cheap test by
 /// its Gram matrix, whose pivots are squares of the matrix's own.
 pub(crate) fn rows_certainly_independent(a: &DMatrix<f64>) -> bool {
     if a.nrows() > a.ncols() {
@@ -111,7 +111,7 @@ pub(crate) fn rows_certainly_independent(a: &DMatrix<f64>) -> bool {
     })
 }
 
-/// Orthonormal bases of the column space and rank of a balanced matrix, by its singular values.
+/// Orthonormal bases of the column space and rank of a scaled matrix, by its singular values.
 pub fn column_space(a: &DMatrix<f64>) -> DMatrix<f64> {
     if a.is_empty() {
         return DMatrix::zeros(a.nrows(), 0);
@@ -135,7 +135,7 @@ pub struct Inertia {
     pub zero: usize,
 }
 
-/// Inertia of a balanced symmetric matrix, from its Bunch-Kaufman factors (Sylvester's law).
+/// Inertia of a scaled symmetric matrix, from its Bunch-Kaufman factors (Sylvester's law).
 pub fn inertia(a: DMatrix<f64>) -> Inertia {
     let n = a.nrows();
     let mut count = Inertia::default();

@@ -28,7 +28,7 @@ pub struct Overconstraint {
     pub stresses: Vec<SelfStress>,
 }
 
-/// One set of wrenches in balance with itself.
+/// One set of wrenches in equilibrium with itself.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SelfStress {
@@ -62,7 +62,7 @@ impl SelfStress {
 pub(crate) struct Constraints {
     /// Orthonormal wrenches per limb in units of the natural length, 6 x k.
     pub wrenches: Vec<DMatrix<f64>>,
-    /// Rows x 6P, balanced.
+    /// Rows x 6P, scaled.
     pub rows: DMatrix<f64>,
 }
 

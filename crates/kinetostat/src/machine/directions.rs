@@ -18,7 +18,7 @@ use crate::spatial::shift_matrix;
 
 /// Principal directions of the stiffness of a machine's only moving platform; motions that a limb (its own
 /// stiffness and the arm to its tip) cannot follow are rigid.
-pub(crate) fn balanced_directions<'a>(
+pub(crate) fn scaled_directions<'a>(
     matrix: &Matrix6<f64>,
     graded: Option<&GradedPlatforms>,
     scale: Scale,
@@ -26,7 +26,7 @@ pub(crate) fn balanced_directions<'a>(
 ) -> Vec<Direction> {
     let root = scale.stiffness.sqrt();
     let factor = |i: usize| if i < 3 { root } else { root * scale.length };
-    let balance = |k: &Matrix6<f64>| Matrix6::from_fn(|i, j| k[(i, j)] / (factor(i) * factor(j)));
+    let scaled = |k: &Matrix6<f64>| Matrix6::from_fn(|i, j| k[(i, j)] / (factor(i) * factor(j)));
     let mut blocked: Vec<DVector<f64>> = Vec::new();
     for (limb, arm, own) in limbs {
         let shift = shift_matrix(&arm).transpose();
@@ -35,7 +35,7 @@ pub(crate) fn balanced_directions<'a>(
             .iter()
             .filter(|d| d.kind == DirectionKind::Rigid)
         {
-            // The limb's balanced normal, as a wrench on the platform, in the platform's balance.
+            // The limb's scaled normal, as a wrench on the platform, in the platform's scaling.
             let t = direction.twist.0;
             let square = own.length * own.length;
             let wrench = Vector6::from_fn(|k, _| if k < 3 { t[k] } else { t[k] * square });
@@ -51,7 +51,7 @@ pub(crate) fn balanced_directions<'a>(
     along_all_axes(
         match graded {
             Some(graded) => graded.directions(&range),
-            None => directions(scale, &balance(matrix), &range),
+            None => directions(scale, &scaled(matrix), &range),
         },
         scale,
     )
@@ -101,7 +101,7 @@ fn along_axes(list: &mut [Direction], kind: DirectionKind, scale: Scale) {
 }
 
 /// Motions of the platforms that limbs which cannot move that way allow: an orthonormal basis of
-/// the null space of `rigid`, balanced. `None`: all of them.
+/// the null space of `rigid`, scaled. `None`: all of them.
 fn possible_motions(rigid: &DMatrix<f64>, units: &[f64]) -> Option<DMatrix<f64>> {
     if rigid.nrows() == 0 {
         return None;
@@ -140,11 +140,11 @@ pub(crate) fn others_hold(
     if let Some(answer) = others_certainly_hold(tangent, rigid, platform, scale, held) {
         return answer;
     }
-    let balanced = balanced_tangent(tangent, rigid, platform, scale, held);
-    if balanced.is_empty() {
+    let scaled = scaled_tangent(tangent, rigid, platform, scale, held);
+    if scaled.is_empty() {
         return true;
     }
-    let eigenvalues = (0.5 * (&balanced + balanced.transpose())).symmetric_eigenvalues();
+    let eigenvalues = (0.5 * (&scaled + scaled.transpose())).symmetric_eigenvalues();
     eigenvalues.min() >= -ZERO_STIFFNESS * eigenvalues.amax()
 }
 
@@ -159,18 +159,18 @@ pub(crate) fn none_diverges(
     held: bool,
     whole: bool,
 ) -> bool {
-    let mut balanced = balanced_tangent(tangent, rigid, platform, scale, held);
+    let mut scaled = scaled_tangent(tangent, rigid, platform, scale, held);
     // Of the limbs of a single platform the directions say which motions are impossible.
-    if balanced.nrows() == 6 && tangent.rows == 6 {
+    if scaled.nrows() == 6 && tangent.rows == 6 {
         let all = DMatrix::identity(6, 6);
         let possible = without(directions, DirectionKind::Rigid, scale.length, &all);
-        balanced = possible.transpose() * balanced * possible;
+        scaled = possible.transpose() * scaled * possible;
     }
-    let zero = ZERO_STIFFNESS * balanced.amax();
-    diverging_motions(&balanced, zero, whole) == 0
+    let zero = ZERO_STIFFNESS * scaled.amax();
+    diverging_motions(&scaled, zero, whole) == 0
 }
 
-/// Those of some motions (balanced, orthonormal, by a natural length) across all directions of a kind.
+/// Those of some motions (scaled, orthonormal, by a natural length) across all directions of a kind.
 pub(crate) fn without(
     directions: &[Direction],
     kind: DirectionKind,
@@ -181,9 +181,9 @@ pub(crate) fn without(
         .iter()
         .filter(|d| d.kind == kind)
         .map(|d| {
-            let balanced =
+            let scaled =
                 DVector::from_fn(6, |i, _| d.twist.0[i] * if i < 3 { 1.0 } else { length });
-            motions.transpose() * balanced
+            motions.transpose() * scaled
         })
         .filter(|part| part.norm() > 1e-6)
         .collect();
@@ -193,9 +193,9 @@ pub(crate) fn without(
     motions * complement(&independent_columns(&DMatrix::from_columns(&taken)))
 }
 
-/// Tangent of the platforms, balanced, in the motions that no row of `rigid` forbids; with `held`, without those of
+/// Tangent of the platforms, scaled, in the motions that no row of `rigid` forbids; with `held`, without those of
 /// the tool.
-fn balanced_tangent(
+fn scaled_tangent(
     tangent: &Sparse,
     rigid: &RigidRows,
     platform: usize,
@@ -207,12 +207,12 @@ fn balanced_tangent(
     let kept: Vec<usize> = (0..size).filter(|i| !held || i / 6 != platform).collect();
     let units = motion_units(size, scale);
     let units: Vec<f64> = kept.iter().map(|&i| units[i]).collect();
-    let balanced = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
+    let scaled = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
         tangent[(kept[a], kept[b])] * (units[a] * units[b])
     });
     match possible_motions(&rigid.select_columns(&kept), &units) {
-        Some(possible) => possible.transpose() * balanced * possible,
-        None => balanced,
+        Some(possible) => possible.transpose() * scaled * possible,
+        None => scaled,
     }
 }
 
@@ -257,7 +257,7 @@ const SKEW: f64 = 1e-11;
 struct Condensed {
     /// What it cannot move along contributes nothing.
     matrix: Matrix6<f64>,
-    /// Motions that it can make: orthonormal basis, 6 x r, balanced.
+    /// Motions that it can make: orthonormal basis, 6 x r, scaled.
     range: DMatrix<f64>,
 }
 
@@ -284,8 +284,8 @@ pub(crate) fn condensed_directions(
     } else {
         let root = scale.stiffness.sqrt();
         let factor = |i: usize| if i < 3 { root } else { root * scale.length };
-        let balanced = Matrix6::from_fn(|i, j| found.matrix[(i, j)] / (factor(i) * factor(j)));
-        (found.matrix, directions(scale, &balanced, &found.range))
+        let scaled = Matrix6::from_fn(|i, j| found.matrix[(i, j)] / (factor(i) * factor(j)));
+        (found.matrix, directions(scale, &scaled, &found.range))
     };
     (matrix, along_all_axes(list, scale))
 }
@@ -358,7 +358,7 @@ fn condensed_sparse(
     Some(answer)
 }
 
-/// Within the possible motions `Z`, balanced: `[Z^T K Z, -S^T; S, 0] [z; f] = [0; 1]` with `S` the
+/// Within the possible motions `Z`, scaled: `[Z^T K Z, -S^T; S, 0] [z; f] = [0; 1]` with `S` the
 /// part of `Z` that is the platform's own, in a basis of what it can do.
 fn among(
     tangent: &DMatrix<f64>,
@@ -366,7 +366,7 @@ fn among(
     own: &[usize],
     units: &[f64],
 ) -> Condensed {
-    let balanced = DMatrix::from_fn(tangent.nrows(), tangent.ncols(), |i, j| {
+    let scaled = DMatrix::from_fn(tangent.nrows(), tangent.ncols(), |i, j| {
         tangent[(i, j)] * units[i] * units[j]
     });
     let part = possible.select_rows(own);
@@ -385,7 +385,7 @@ fn among(
     let reduced = range.transpose() * part;
     let mut a = DMatrix::zeros(z + r, z + r);
     a.view_mut((0, 0), (z, z))
-        .copy_from(&(possible.transpose() * balanced * possible));
+        .copy_from(&(possible.transpose() * scaled * possible));
     a.view_mut((0, z), (z, r)).copy_from(&-reduced.transpose());
     a.view_mut((z, 0), (r, z)).copy_from(&reduced);
     let mut b = DMatrix::zeros(z + r, r);

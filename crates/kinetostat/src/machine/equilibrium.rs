@@ -18,7 +18,7 @@ use crate::chain::stiffness::ChainStiffness;
 use crate::error::{Error, Result};
 use crate::linalg::sparse::Sparse;
 use crate::machine::directions::{
-    balanced_directions, condensed_directions, none_diverges, others_hold,
+    condensed_directions, none_diverges, others_hold, scaled_directions,
 };
 use crate::machine::graded::GradedPlatforms;
 use crate::machine::platform_system::RigidRows;
@@ -329,7 +329,7 @@ impl ToolStiffness {
                     * description.platform_from_tip.translation.vector;
                 (limb, arm, description.actual.scale())
             });
-            let directions = balanced_directions(&matrix, graded.as_ref(), scale, own);
+            let directions = scaled_directions(&matrix, graded.as_ref(), scale, own);
             (matrix, directions)
         };
         Self {

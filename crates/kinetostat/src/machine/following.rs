@@ -17,7 +17,7 @@ use crate::machine::posture::Posture;
 use crate::machine::singular::lost_motion::{LostMotionSearch, solve};
 use crate::model::mechanism::Mechanism;
 
-/// Motions of unit length that move less than this (balanced) do not move.
+/// Motions of unit length that move less than this (scaled) do not move.
 const NOTHING: f64 = 1e-9;
 /// The same where freedoms are counted, beside a posture that may be singular.
 const COUNTED: f64 = 1e-6;

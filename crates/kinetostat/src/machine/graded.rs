@@ -21,7 +21,7 @@ use crate::model::chain::Scale;
 /// Stiffnesses of limbs that differ by more are kept apart when limbs are added.
 const UNEVEN: f64 = 1e6;
 
-/// Stiffness of all moving platforms, balanced.
+/// Stiffness of all moving platforms, scaled.
 pub(crate) struct GradedPlatforms {
     scale: Scale,
     /// Signs and rows over the motions of all moving platforms.
@@ -103,7 +103,7 @@ impl GradedPlatforms {
         Parts { back, inner }
     }
 
-    /// Principal directions of the tool of a machine without other platforms, within a balanced range.
+    /// Principal directions of the tool of a machine without other platforms, within a scaled range.
     pub fn directions(&self, range: &DMatrix<f64>) -> Vec<Direction> {
         let Parts { back, inner } = self.among(range);
         principal(self.scale, &back, &inner, range)

@@ -81,7 +81,7 @@ impl Network {
                 .iter()
                 .filter(|d| d.kind == DirectionKind::Rigid)
                 .map(|d| {
-                    // The balanced normal, as a wrench.
+                    // The scaled normal, as a wrench.
                     let t = d.twist.0;
                     let w = |j: usize| if j < 3 { t[j] } else { t[j] * length * length };
                     let wrench = DVector::from_fn(6, |j, _| w(j));

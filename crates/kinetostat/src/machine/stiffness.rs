@@ -6,7 +6,7 @@ use crate::chain::compliance::{CartesianCompliance, stiffness_against_force};
 use crate::chain::directions::{Direction, DirectionKind};
 use crate::chain::stiffness::ChainStiffness;
 use crate::error::Result;
-use crate::machine::directions::{balanced_directions, condensed_directions};
+use crate::machine::directions::{condensed_directions, scaled_directions};
 use crate::machine::graded::GradedPlatforms;
 use crate::machine::network::Network;
 use crate::machine::posture::Posture;
@@ -61,7 +61,7 @@ impl Posture {
                 .map(|limb| self.target.rotation * limb.platform_from_tip.translation.vector);
             let own = network.limbs.iter().zip(arms).zip(scales);
             let own = own.map(|((k, arm), scale)| (k, arm, scale));
-            let directions = balanced_directions(&total, graded.as_ref(), scale, own);
+            let directions = scaled_directions(&total, graded.as_ref(), scale, own);
             (total, directions)
         };
         let answer = UnloadedStiffness {

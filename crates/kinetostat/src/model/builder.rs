@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, Unit, Vector3};
 
 use crate::error::{Error, Place, Result};
 use crate::model::chain::{Actuator, Body, Chain, Coordinate, Drive, Element, Motion, Role, Scale};
-use crate::model::springs::block::{Segment, SpringBlock, SpringLaw, balanced};
+use crate::model::springs::block::{Segment, SpringBlock, SpringLaw, scaled};
 use crate::model::springs::parallelogram::ParallelogramLaw;
 use crate::number::short;
 use crate::spatial::{MotionKind, Pose};
@@ -72,7 +72,7 @@ pub struct ChainBuilder {
     mistake: Option<String>,
 }
 
-/// Smallest eigenvalue of a balanced stiffness matrix that is told from rounding.
+/// Smallest eigenvalue of a scaled stiffness matrix that is told from rounding.
 const SINGULAR: f64 = 1e-12;
 
 impl Chain {
@@ -524,8 +524,8 @@ impl ChainBuilder {
                 "spring '{name}': its stiffness holds a number that is not finite, or beyond 1e60"
             ));
         }
-        let balanced = balanced(&k);
-        if (&balanced - balanced.transpose()).amax() > 1e-9 {
+        let scaled = scaled(&k);
+        if (&scaled - scaled.transpose()).amax() > 1e-9 {
             return Some(format!(
                 "spring '{name}': its stiffness matrix is not symmetric"
             ));
@@ -541,7 +541,7 @@ impl ChainBuilder {
         // keep an eigenvalue iteration busy for ever.
         if let Some((i, j)) = (0..k.nrows())
             .flat_map(|i| (0..i).map(move |j| (i, j)))
-            .find(|&(i, j)| balanced[(i, j)].abs() > 1.0 + SINGULAR)
+            .find(|&(i, j)| scaled[(i, j)].abs() > 1.0 + SINGULAR)
         {
             return Some(format!(
                 "spring '{name}': its stiffness matrix is not positive definite: entry ({}, {}) is too large for its diagonal",
@@ -549,7 +549,7 @@ impl ChainBuilder {
                 j + 1
             ));
         }
-        let least = balanced.symmetric_eigenvalues().min();
+        let least = scaled.symmetric_eigenvalues().min();
         if least < -SINGULAR {
             return Some(format!(
                 "spring '{name}': its stiffness matrix is not positive definite (smallest balanced eigenvalue {})",

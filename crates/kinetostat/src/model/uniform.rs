@@ -70,8 +70,8 @@ pub(crate) fn compliance_per_length(
     }
     let mut per_length = middle / length;
     per_length -= bending_part(&per_length) * (length * length / 12.0);
-    let balanced = Matrix6::from_fn(|i, j| per_length[(i, j)] * length / (size(i) * size(j)));
-    if balanced.symmetric_eigenvalues().min() < -BEAM {
+    let scaled = Matrix6::from_fn(|i, j| per_length[(i, j)] * length / (size(i) * size(j)));
+    if scaled.symmetric_eigenvalues().min() < -BEAM {
         return Err(no_beam(
             "its tip moves less under a force than its bending alone would make it",
         ));

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::chain::compliance::CartesianCompliance;
 use crate::chain::directions::scaled_twist;
-use crate::chain::equilibrium::{Equilibrium, System, balance};
+use crate::chain::equilibrium::{Equilibrium, System, scales_of};
 use crate::chain::problem::ChainProblem;
 use crate::error::Result;
 use crate::linalg::complement::complement;
@@ -13,7 +13,7 @@ use crate::model::chain::{Chain, Role, Scale};
 use crate::reference::conditions::{Applied, Inapplicable};
 use crate::spatial::{Pose, Wrench};
 
-/// Jacobians, springs and Hessians of a chain at one state, balanced.
+/// Jacobians, springs and Hessians of a chain at one state, scaled.
 #[derive(Clone, Debug)]
 pub struct ChainBlocks {
     /// `J_q`, 6 x n_q.
@@ -29,7 +29,7 @@ pub struct ChainBlocks {
     /// `K_theta - H_thetatheta`.
     pub(crate) held: DMatrix<f64>,
     /// Units of wrench (6), passive joints and springs.
-    pub(crate) factors: [Vec<f64>; 3],
+    pub(crate) scales: [Vec<f64>; 3],
     pub(crate) joints: Vec<String>,
     scale: Scale,
     pub(crate) loaded: bool,
@@ -65,7 +65,7 @@ impl ChainBlocks {
         Ok(Self::new(
             chain,
             &system,
-            &balance(chain, coordinates),
+            &scales_of(chain, coordinates),
             false,
         ))
     }
@@ -81,27 +81,27 @@ impl ChainBlocks {
         chain.check(posture, commands)?;
         let mut system = System::new(chain, base, posture, commands, false);
         system.evaluate_problem(problem, x, &equilibrium.wrench, 1.0);
-        Ok(Self::new(chain, &system, &balance(chain, posture), true))
+        Ok(Self::new(chain, &system, &scales_of(chain, posture), true))
     }
 
-    fn new(chain: &Chain, system: &System, factors: &[f64], loaded: bool) -> Self {
+    fn new(chain: &Chain, system: &System, scales: &[f64], loaded: bool) -> Self {
         let (q, theta) = (
             chain.indices_of(Role::Passive),
             chain.indices_of(Role::Spring),
         );
         let columns = |of: &[usize]| {
             DMatrix::from_fn(6, of.len(), |i, j| {
-                system.jacobian[(i, of[j])] * factors[i] * factors[6 + of[j]]
+                system.jacobian[(i, of[j])] * scales[i] * scales[6 + of[j]]
             })
         };
         let block = |rows: &[usize], columns: &[usize]| {
             DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
                 let at = (rows[i], columns[j]);
                 let k = system.spring_tangent[at];
-                (system.hessian[at] - k) * factors[6 + at.0] * factors[6 + at.1]
+                (system.hessian[at] - k) * scales[6 + at.0] * scales[6 + at.1]
             })
         };
-        let units = |of: &[usize]| of.iter().map(|&i| factors[6 + i]).collect();
+        let units = |of: &[usize]| of.iter().map(|&i| scales[6 + i]).collect();
         let name = |&i: &usize| chain.coordinates()[i].name.clone();
         Self {
             j_q: columns(&q),
@@ -110,7 +110,7 @@ impl ChainBlocks {
             h_qt: block(&q, &theta),
             h_tq: block(&theta, &q),
             held: -block(&theta, &theta),
-            factors: [factors[..6].to_vec(), units(&q), units(&theta)],
+            scales: [scales[..6].to_vec(), units(&q), units(&theta)],
             joints: q.iter().map(name).collect(),
             scale: chain.scale(),
             loaded,
@@ -135,16 +135,16 @@ impl ChainBlocks {
         regular_inverse(&compliance).ok_or_else(|| Inapplicable::SpringsDoNotReach(rank()))
     }
 
-    /// Balanced rows x 6 to N, m, rad.
-    pub(crate) fn physical(&self, unit: usize, balanced: &DMatrix<f64>) -> DMatrix<f64> {
-        let [wrench, ..] = &self.factors;
-        let rows = &self.factors[unit];
-        DMatrix::from_fn(rows.len(), 6, |i, j| balanced[(i, j)] * rows[i] * wrench[j])
+    /// Scaled rows x 6 to N, m, rad.
+    pub(crate) fn physical(&self, unit: usize, scaled: &DMatrix<f64>) -> DMatrix<f64> {
+        let [wrench, ..] = &self.scales;
+        let rows = &self.scales[unit];
+        DMatrix::from_fn(rows.len(), 6, |i, j| scaled[(i, j)] * rows[i] * wrench[j])
     }
 
-    pub(crate) fn physical_stiffness(&self, balanced: &DMatrix<f64>) -> Matrix6<f64> {
-        // Balanced wrench per balanced twist: both units are those of the wrench.
-        let k = self.physical(0, balanced);
+    pub(crate) fn physical_stiffness(&self, scaled: &DMatrix<f64>) -> Matrix6<f64> {
+        // Scaled wrench per scaled twist: both units are those of the wrench.
+        let k = self.physical(0, scaled);
         Matrix6::from_fn(|i, j| k[(i, j)])
     }
 
@@ -178,7 +178,7 @@ impl ChainBlocks {
                 .map(|c| scaled_twist(self.scale, &motion(c.as_view())))
                 .collect()
         };
-        let [units, ..] = &self.factors;
+        let [units, ..] = &self.scales;
         CartesianCompliance {
             springs: Matrix6::from_fn(|i, j| springs[(i, j)] / (units[i] * units[j])),
             free: twists(&free),
@@ -188,7 +188,7 @@ impl ChainBlocks {
     }
 }
 
-/// Inverse of a balanced matrix, `None` if it is singular.
+/// Inverse of a scaled matrix, `None` if it is singular.
 pub(crate) fn regular_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     if matrix.nrows() == 0 {
         return Some(matrix.clone());

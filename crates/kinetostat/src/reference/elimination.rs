@@ -145,7 +145,7 @@ impl ChainBlocks {
         for &i in order {
             let column = Vector6::from_fn(|row, _| self.j_q[(row, i)]);
             let step = eliminated(&k, &column);
-            let unit = self.factors[1][i];
+            let unit = self.scales[1][i];
             pivots.push(step.pivot / (unit * unit));
             let rounding = RANK_TOLERANCE * most * column.norm_squared();
             if step.already_free || step.pivot.abs() <= rounding {
@@ -154,9 +154,9 @@ impl ChainBlocks {
                 k = step.matrix;
             }
         }
-        let balanced = DMatrix::from_fn(6, 6, |i, j| k[(i, j)]);
+        let scaled = DMatrix::from_fn(6, 6, |i, j| k[(i, j)]);
         Ok(Recursion {
-            matrix: self.physical_stiffness(&balanced),
+            matrix: self.physical_stiffness(&scaled),
             pivots,
             skipped,
         })

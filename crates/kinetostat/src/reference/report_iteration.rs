@@ -236,7 +236,8 @@ fn iterate(
             outcome = IterationOutcome::Diverged;
             break;
         }
-        if last <= settings.tolerance && nearly_balanced(&mut system, &z, settings.tolerance) {
+        if last <= settings.tolerance && nearly_in_equilibrium(&mut system, &z, settings.tolerance)
+        {
             outcome = IterationOutcome::Settled;
             break;
         }
@@ -295,10 +296,14 @@ fn step(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>, exact: bool) -> Opti
 
 /// Torques and closure are as small as a change of the coordinates by `tolerance` makes them: tells
 /// an equilibrium from a place where the iteration merely stands still.
-fn nearly_balanced(system: &mut ChainSystem<'_, '_>, z: &DVector<f64>, tolerance: f64) -> bool {
-    let (_, balance) = system.evaluate(z);
-    balance.closure <= 1e2 * tolerance.max(1e-14)
-        && balance.torque <= 1e3 * tolerance.max(1e-14) * balance.loads.max(1e-9)
+fn nearly_in_equilibrium(
+    system: &mut ChainSystem<'_, '_>,
+    z: &DVector<f64>,
+    tolerance: f64,
+) -> bool {
+    let (_, norms) = system.evaluate(z);
+    norms.closure <= 1e2 * tolerance.max(1e-14)
+        && norms.torque <= 1e3 * tolerance.max(1e-14) * norms.loads.max(1e-9)
 }
 
 /// Exact Newton from a state, with what is known about the equilibrium and the rate there.

@@ -17,9 +17,8 @@ pub fn antisymmetric_error(k: &Matrix6<f64>, moment: &Vector3<f64>, length: f64)
         .fixed_view_mut::<3, 3>(3, 3)
         .copy_from(&-hat(moment));
     let unit = |i: usize| if i < 3 { 1.0 } else { 1.0 / length };
-    let balanced = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] * unit(i) * unit(j));
-    balanced(&(k - k.transpose() - expected)).largest_entry()
-        / balanced(k).largest_entry().max(1e-300)
+    let scaled = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] * unit(i) * unit(j));
+    scaled(&(k - k.transpose() - expected)).largest_entry() / scaled(k).largest_entry().max(1e-300)
 }
 
 #[track_caller]
@@ -175,7 +174,7 @@ pub fn assert_chain_equilibrium(problem: &ChainProblem<'_>, e: &Equilibrium) {
     assert_stability_is_consistent(&e.stability);
 }
 
-/// Closure, balance of every platform about its own origin, torques of every limb, energy, tangent
+/// Closure, equilibrium of every platform about its own origin, torques of every limb, energy, tangent
 /// and verdicts of a mechanism's equilibrium.
 #[track_caller]
 pub fn assert_equilibrium(posture: &Posture, e: &MechanismEquilibrium) {

@@ -81,7 +81,7 @@ pub fn block_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
 
 /// As [`block_error`], but each block is judged against the geometric mean of the diagonal blocks:
 /// for matrices in which a block may vanish.
-pub fn balanced_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
+pub fn scaled_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
     let size = |r: usize| b.fixed_view::<3, 3>(r, r).largest_entry().max(1e-300);
     let mut worst = Worst::new();
     for r in [0, 3] {
@@ -95,7 +95,7 @@ pub fn balanced_error(a: &Matrix6<f64>, b: &Matrix6<f64>) -> f64 {
 
 #[track_caller]
 pub fn same_stiffness(what: &str, a: &Matrix6<f64>, b: &Matrix6<f64>, tolerance: f64) {
-    let e = balanced_error(a, b);
+    let e = scaled_error(a, b);
     assert!(
         e <= tolerance,
         "{what}: relative difference {e:.2e} > {tolerance:.1e}\n{a:.6e}{b:.6e}"
@@ -104,16 +104,16 @@ pub fn same_stiffness(what: &str, a: &Matrix6<f64>, b: &Matrix6<f64>, tolerance:
 
 /// Rank by singular values of a matrix whose rotations are measured at `length`.
 pub fn rank(k: &Matrix6<f64>, length: f64) -> usize {
-    let balanced = DMatrix::from_fn(6, 6, |i, j| {
+    let scaled = DMatrix::from_fn(6, 6, |i, j| {
         let unit = |i: usize| if i < 3 { 1.0 } else { length };
         k[(i, j)] / (unit(i) * unit(j))
     });
     // Eigenvalues of [0 A; A^T 0] are the singular values and their opposites.
     let mut twice = DMatrix::zeros(12, 12);
-    twice.view_mut((0, 6), (6, 6)).copy_from(&balanced);
+    twice.view_mut((0, 6), (6, 6)).copy_from(&scaled);
     twice
         .view_mut((6, 0), (6, 6))
-        .copy_from(&balanced.transpose());
+        .copy_from(&scaled.transpose());
     let values = twice.symmetric_eigenvalues();
     let most = values.max();
     values.iter().filter(|x| **x > 1e-9 * most).count()

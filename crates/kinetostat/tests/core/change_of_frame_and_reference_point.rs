@@ -2,8 +2,8 @@
 //! of the force [errata of R 5.28].
 
 use crate::common::{
-    Orthoglide, Recipe, Rng, assert_chain_equilibrium, assert_equilibrium, balanced_error, cases,
-    orthoglide_point, random_chain, same_stiffness,
+    Orthoglide, Recipe, Rng, assert_chain_equilibrium, assert_equilibrium, cases, orthoglide_point,
+    random_chain, same_stiffness, scaled_error,
 };
 use kinetostat::{
     CartesianStiffness, ChainProblem, EndCondition, Load, Pose, Settings, Twist, Wrench,
@@ -54,7 +54,7 @@ pub fn turned(seed: u64) -> Option<Turned> {
     assert_chain_equilibrium(&other, &o);
     Some(Turned {
         wrench: (e.wrench.rotated(&turn).0 - o.wrench.0).norm() / e.wrench.0.norm(),
-        stiffness: balanced_error(
+        stiffness: scaled_error(
             &o.stiffness.cartesian.matrix,
             &e.stiffness.cartesian.rotated(&turn).matrix,
         ),
@@ -97,7 +97,7 @@ pub fn extended(seed: u64) -> Extended {
     let arm = target.rotation * pose.translation.vector;
     let off = |wrench: &Wrench| {
         let shifted = a.stiffness.cartesian.shifted(&-arm, wrench);
-        balanced_error(&b.stiffness.cartesian.matrix, &shifted.matrix)
+        scaled_error(&b.stiffness.cartesian.matrix, &shifted.matrix)
     };
     Extended {
         wrench: (a.wrench.shifted(&arm).0 - b.wrench.0).norm() / a.wrench.0.norm(),
@@ -219,7 +219,7 @@ pub fn reordered() -> Reordered {
             assert_equilibrium(&q, &o);
             let residual = kinetostat::spatial::pose_residual(&e.tool, &o.tool);
             tool.add(residual.0.norm());
-            let k = balanced_error(&e.stiffness.matrix, &o.stiffness.matrix);
+            let k = scaled_error(&e.stiffness.matrix, &o.stiffness.matrix);
             stiffness.add(k);
             for (k, &i) in order.iter().enumerate() {
                 let d = (e.limbs[i].wrench.0 - o.limbs[k].wrench.0).norm();

@@ -2,8 +2,8 @@
 //! gives; a chain cut at a node into two limbs over a free platform is the chain.
 
 use crate::common::{
-    Orthoglide, Recipe, Rng, arm, assert_equilibrium, balanced_error, cases, orthoglide_point,
-    random_chain, same_stiffness,
+    Orthoglide, Recipe, Rng, arm, assert_equilibrium, cases, orthoglide_point, random_chain,
+    same_stiffness, scaled_error,
 };
 use crate::oracle::Flat;
 use kinetostat::{
@@ -51,7 +51,7 @@ pub fn apart(label: &str, posture: &Posture, wrench: &Wrench) -> Apart {
         tool: pose_residual(&e.tool, &flat.platforms[tool]).0.norm(),
         wrench: wrenches.of(flat.wrenches.len()),
         coordinates: coordinates.value(),
-        stiffness: balanced_error(&e.stiffness.matrix, &flat.stiffness()),
+        stiffness: scaled_error(&e.stiffness.matrix, &flat.stiffness()),
     }
 }
 
@@ -307,7 +307,7 @@ proptest! {
         assert_equilibrium(&parts, &b);
         let residual = pose_residual(&a.tool, &b.tool);
         prop_assert!(residual.0.norm() < 1e-10, "{residual:?}");
-        let error = balanced_error(&b.stiffness.matrix, &a.stiffness.matrix);
+        let error = scaled_error(&b.stiffness.matrix, &a.stiffness.matrix);
         prop_assert!(error < 1e-8, "stiffness {error:e}");
         let (stored, again) = (a.limbs[0].energy, b.limbs.iter().map(|l| l.energy).sum::<f64>());
         prop_assert!((stored - again).abs() < 1e-8 * stored);
@@ -339,7 +339,7 @@ proptest! {
         assert_equilibrium(&parts, &b);
         let d = (a.wrench.0 - b.wrench.0).norm() / a.wrench.0.norm();
         prop_assert!(d < 1e-7, "wrench {d:e}");
-        let error = balanced_error(&b.stiffness.matrix, &a.stiffness.matrix);
+        let error = scaled_error(&b.stiffness.matrix, &a.stiffness.matrix);
         prop_assert!(error < 1e-7, "stiffness {error:e}");
     }
 }

@@ -9,7 +9,7 @@
 //! (theory note, section 1). Everything on the Euler side is computed here by differences.
 
 use crate::common::{RandomChain, Recipe, Rng, random_chain};
-use crate::oracle::{balanced_solve, springs};
+use crate::oracle::{scaled_solve, springs};
 use kinetostat::{
     ChainProblem, EndCondition, Equilibrium, Pose, Settings, Twist, Wrench, model::Kinematics,
     solve_chain, spatial::moved,
@@ -149,7 +149,7 @@ fn compare(r: &RandomChain, problem: &ChainProblem<'_>, e: &Equilibrium) -> Comp
     bordered
         .view_mut((6, 6), (n, n))
         .copy_from(&(&h_euler - &k));
-    let solved = balanced_solve(&bordered, &DMatrix::identity(6 + n, 6));
+    let solved = scaled_solve(&bordered, &DMatrix::identity(6 + n, 6));
     let k_euler: Matrix6<f64> = solved.fixed_view::<6, 6>(0, 0).into_owned();
 
     // K_Euler from the wrenches that hold neighbouring poses.

@@ -1,7 +1,7 @@
 //! Graphs: several platforms, limbs between moving platforms, closed sub-loops, rigid bars.
 
-use crate::common::{Rng, assert_equilibrium, balanced_error};
-use crate::oracle::{Flat, Frames, balanced_solve, springs};
+use crate::common::{Rng, assert_equilibrium, scaled_error};
+use crate::oracle::{Flat, Frames, scaled_solve, springs};
 use crate::platforms::{anchors, lattice, leg};
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, DirectionKind, Directions, Limb, Mechanism, MotionKind,
@@ -65,7 +65,7 @@ pub fn flat_stiffness(posture: &Posture) -> Matrix6<f64> {
         a.column_mut(tool + k).fill(0.0);
         a[(tool + k, tool + k)] = 1.0;
     }
-    balanced_solve(&a, &b)
+    scaled_solve(&a, &b)
         .fixed_view::<6, 6>(tool, 0)
         .into_owned()
 }
@@ -229,7 +229,7 @@ pub fn hybrids_apart() -> [f64; 3] {
             let posture = machine.posture(&target).unwrap();
             let unloaded = posture.stiffness().unwrap();
             let flat = flat_stiffness(&posture);
-            worst[0].add(balanced_error(&unloaded.cartesian.matrix, &flat));
+            worst[0].add(scaled_error(&unloaded.cartesian.matrix, &flat));
             let wrench = rng.wrench(200.0, 30.0);
             let e = posture.deflected_by(&wrench).unwrap();
             assert_equilibrium(&posture, &e);
@@ -308,7 +308,7 @@ pub fn rigid_limbs_apart() -> [f64; 2] {
         let home = machine.platforms()[machine.tool()].home;
         let posture = machine.posture(&home).unwrap();
         let k = posture.stiffness().unwrap().cartesian.matrix;
-        worst.add(balanced_error(&k, &flat_stiffness(&posture)));
+        worst.add(scaled_error(&k, &flat_stiffness(&posture)));
         let target = moved(&home, &Twist::new(rng.vector(2e-3), rng.vector(5e-3)));
         let e = posture.wrench_at(&target).unwrap();
         assert_equilibrium(&posture, &e);
@@ -319,7 +319,7 @@ pub fn rigid_limbs_apart() -> [f64; 2] {
         flat.solve(true);
         let off = (e.wrench.0 - flat.load).norm() / flat.load.norm();
         assert!(off < 1e-8, "{name}: {off:e}");
-        let off = balanced_error(&e.stiffness.matrix, &flat.stiffness());
+        let off = scaled_error(&e.stiffness.matrix, &flat.stiffness());
         loaded.add(off);
         assert!(off < 1e-8, "{name}: {off:e}");
         let d = posture.deflected_by(&rng.wrench(100.0, 20.0)).unwrap();
@@ -528,7 +528,7 @@ fn a_double_pantograph_enlarges_four_times() {
         assert!((found[1] - first[1] - z / 4.0).abs() < 1e-11, "{found:?}");
         let k = posture.stiffness().unwrap();
         let flat = flat_stiffness(&posture);
-        let off = balanced_error(&k.cartesian.matrix, &flat);
+        let off = scaled_error(&k.cartesian.matrix, &flat);
         assert!(off < 1e-9, "{off:e}");
         let e = posture
             .deflected_by(&Wrench::new(vector![20.0, 5.0, -30.0], Vector3::zeros()))
@@ -730,7 +730,7 @@ pub fn lattice_apart(rigid: bool) -> [f64; 2] {
     dense.solve(false);
     let apart = pose_residual(&e.tool, &dense.platforms[machine.tool()]).0;
     [
-        balanced_error(&k.cartesian.matrix, &flat),
+        scaled_error(&k.cartesian.matrix, &flat),
         apart.norm() / e.displacement.0.norm(),
     ]
 }
@@ -809,7 +809,7 @@ pub fn tower_of(floors: usize) -> [f64; 4] {
             compliance += t * single * t.transpose();
         }
         let found = k.cartesian.matrix.try_inverse().unwrap();
-        let off = balanced_error(&found, &compliance);
+        let off = scaled_error(&found, &compliance);
         let [a, b, c] = [unloaded, loaded, searched].map(|t| t.as_secs_f64());
         [a, b, c, off]
     }

@@ -1,7 +1,7 @@
 //! Serial-parallel hybrids with everything at once: errors of every limb, preload, rigid limbs,
 //! gravity and a load, against one dense flattened system.
 
-use crate::common::{Rng, assert_equilibrium, balanced_error};
+use crate::common::{Rng, assert_equilibrium, scaled_error};
 use crate::graphs::{arm_on_a_parallel_base, arm_with_parallel_wrist, double_pantograph, limb};
 use crate::oracle::Flat;
 use crate::platforms::leg;
@@ -148,7 +148,7 @@ pub fn hybrids_apart(machine: &Mechanism) -> [f64; 3] {
     [
         tool.norm() / e.displacement.0.norm(),
         largest(wrenches),
-        balanced_error(&e.stiffness.matrix, &flat.stiffness()),
+        scaled_error(&e.stiffness.matrix, &flat.stiffness()),
     ]
 }
 

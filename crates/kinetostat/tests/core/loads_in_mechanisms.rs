@@ -2,7 +2,7 @@
 //! (so the reaction on a moving base and its derivative are right), the wrench that holds a tool is
 //! the derivative of the energy, and links that bow do so in closed loops.
 
-use crate::common::{Rng, balanced_error, block_error, cases};
+use crate::common::{Rng, block_error, cases, scaled_error};
 use kinetostat::{
     ActuatorSpec, Anchor, BeamSection, Chain, ChainBuilder, ChainProblem, EndCondition, Error,
     LengthLaw, Limb, LinkSpec, Load, Mechanism, MechanismEquilibrium, MotionKind, Platform, Pose,
@@ -160,7 +160,7 @@ fn compare(label: &str, machine: &Mechanism, chain: &Chain, loads: &[Load], wren
         .collect();
     same("torques", &torques, &alone.spring_torques, 1e-10);
     let k = alone.stiffness.cartesian.matrix;
-    let off = balanced_error(&e.stiffness.matrix, &k);
+    let off = scaled_error(&e.stiffness.matrix, &k);
     assert!(off < 1e-9, "{label}: stiffness {off:e}");
     assert_eq!(e.conservative, is_conservative(&problem), "{label}");
     problem.end = EndCondition::pose(alone.tip);
@@ -366,7 +366,7 @@ fn links_bow_in_closed_loops() {
             let off = (gradient[i] - pull.0[i]).abs() / unit(i);
             assert!(off < 1e-6 * size, "{segments}: {i} {off:e}");
         }
-        let off = balanced_error(&e.stiffness.matrix, &stiffness);
+        let off = scaled_error(&e.stiffness.matrix, &stiffness);
         assert!(off < 1e-6, "{segments}: stiffness {off:e}");
     }
 }

@@ -1,6 +1,6 @@
 //! Wrenches on any platform, springs and compensators between limbs.
 
-use crate::common::{Rng, assert_equilibrium, balanced_error};
+use crate::common::{Rng, assert_equilibrium, scaled_error};
 use crate::graphs::{arm_with_parallel_wrist, limb, turns};
 use crate::oracle::Flat;
 use kinetostat::{
@@ -191,7 +191,7 @@ pub fn loaded_apart() -> [f64; 2] {
     flat.solve(false);
     let apart = pose_residual(&e.tool, &flat.platforms[machine.tool()]).0;
     worst[0].add(apart.norm() / e.displacement.0.norm());
-    worst[1].add(balanced_error(&e.stiffness.matrix, &flat.stiffness()));
+    worst[1].add(scaled_error(&e.stiffness.matrix, &flat.stiffness()));
     worst.map(|w| w.value())
 }
 
@@ -269,7 +269,7 @@ pub fn spring_and_limb_apart() -> [f64; 2] {
     assert!((a.3 - b.3).abs() < 1e-9 * a.3.abs(), "{} {}", a.3, b.3);
     let apart = pose_residual(&a.0, &b.0).0.norm() / a.1.0.norm();
     let matrices: [Matrix6<f64>; 2] = [a.2, b.2];
-    [apart, balanced_error(&matrices[0], &matrices[1])]
+    [apart, scaled_error(&matrices[0], &matrices[1])]
 }
 
 #[test]

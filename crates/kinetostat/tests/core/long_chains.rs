@@ -128,7 +128,7 @@ fn oracle_share(problem: &ChainProblem<'_>, e: &Equilibrium) -> f64 {
         .max()
 }
 
-fn balanced(m: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
+fn scaled(m: &Matrix6<f64>, length: f64) -> Matrix6<f64> {
     let unit = |i: usize| if i < 3 { 1.0 } else { 1.0 / length };
     Matrix6::from_fn(|i, j| m[(i, j)] * unit(i) * unit(j))
 }
@@ -161,8 +161,8 @@ fn equilibria_of_long_chains_hold_before_the_oracle() {
         let expected = chain_stiffness(&r.chain, &frames, &k, &all);
         let length = r.chain.scale().length;
         let (found, expected) = (
-            balanced(&e.stiffness.cartesian.matrix, length),
-            balanced(&expected, length),
+            scaled(&e.stiffness.cartesian.matrix, length),
+            scaled(&expected, length),
         );
         let off = (found - expected).largest_entry();
         assert!(
@@ -213,7 +213,7 @@ fn stiffness_of_long_chains_is_the_derivative_of_the_wrench() {
             let column = k.column(direction);
             for i in 0..6 {
                 let arm = if i < 3 { 1.0 } else { length };
-                let size = balanced(&k, length).largest_entry()
+                let size = scaled(&k, length).largest_entry()
                     * arm
                     * if direction < 3 { 1.0 } else { length };
                 assert!(

@@ -1,6 +1,6 @@
 //! Parallel machines against closed forms, and what their errors of manufacture do.
 
-use crate::common::{Orthoglide, Rng, assert_equilibrium, balanced_error, orthoglide_point};
+use crate::common::{Orthoglide, Rng, assert_equilibrium, orthoglide_point, scaled_error};
 use crate::graphs::limb;
 use kinetostat::{
     ActuatorSpec, BeamSection, Chain, DirectionKind, Directions, Limb, Mechanism, MotionKind,
@@ -71,7 +71,7 @@ pub fn internal_wrenches() -> [f64; 2] {
     assert_eq!(over.degree, 3);
     for stress in &over.stresses {
         assert!(stress.description(&posture).contains("moment about"));
-        // In balance on the platform.
+        // In equilibrium on the platform.
         let sum = stress
             .wrenches
             .iter()
@@ -302,7 +302,7 @@ pub fn hexapod_apart() -> f64 {
             assert!((command - way.norm()).abs() < 1e-12);
         }
         let k = posture.stiffness().unwrap().cartesian.matrix;
-        worst.add(balanced_error(&k, &by_legs(3e7, &ends, &target)));
+        worst.add(scaled_error(&k, &by_legs(3e7, &ends, &target)));
         assert_eq!(posture.overconstraint().degree, 0);
         assert_eq!(posture.redundancy(), 0);
     }
@@ -344,7 +344,7 @@ pub fn cubic_hexapod_apart() -> f64 {
     for (i, share) in [(3, 0.5), (4, 0.5), (5, 2.0)] {
         expected[(i, i)] = share * k * a * a;
     }
-    balanced_error(&found.cartesian.matrix, &expected)
+    scaled_error(&found.cartesian.matrix, &expected)
 }
 
 /// A Delta: driven arms are platforms, each with two rigid rods to the tool.

@@ -7,9 +7,9 @@
 //! `N / L` terms of bars) and wrenches on turned ends. The lumped link has one bar in the middle and
 //! ends that do not turn against each other, so its sum over one limb is not that over two bars.
 
-use crate::common::balanced_error;
+use crate::common::scaled_error;
 use crate::graphs::limb;
-use crate::oracle::{Frames, balanced_solve, springs};
+use crate::oracle::{Frames, scaled_solve, springs};
 use kinetostat::{
     Chain, Mechanism, MotionKind, Platform, Pose, Posture, Twist, Wrench, spatial::moved,
 };
@@ -89,7 +89,7 @@ pub fn parallelogram_apart() -> [f64; 2] {
         let (ka, kb) = (a.stiffness().unwrap(), b.stiffness().unwrap());
         assert_eq!(ka.rank(), 5);
         assert_eq!(kb.rank(), 5);
-        worst.add(balanced_error(&kb.cartesian.matrix, &ka.cartesian.matrix));
+        worst.add(scaled_error(&kb.cartesian.matrix, &ka.cartesian.matrix));
         let pose = moved(&far, &aside(q));
         let (x, y) = (a.wrench_at(&pose).unwrap(), b.wrench_at(&pose).unwrap());
         let d = (x.wrench.0 - y.wrench.0).norm() / x.wrench.0.norm();
@@ -117,7 +117,7 @@ fn third_order_energy(posture: &Posture, t: &Vector6<f64>) -> f64 {
                 .copy_from(&-springs(chain, x, x).1);
             let mut b = DMatrix::zeros(6 + n, 1);
             b.fixed_view_mut::<6, 1>(0, 0).copy_from(t);
-            let answer = balanced_solve(&a, &b);
+            let answer = scaled_solve(&a, &b);
             let force = Wrench(answer.fixed_view::<6, 1>(0, 0).into_owned());
             let y = answer.rows(6, n).into_owned();
             let bent = frames.hessian(&[(tip, force)]);
@@ -141,7 +141,7 @@ fn predicted(a: &Posture, b: &Posture, t: &Vector6<f64>) -> Vector6<f64> {
     })
 }
 
-fn balanced(wrench: &Vector6<f64>) -> f64 {
+fn scaled(wrench: &Vector6<f64>) -> f64 {
     let units = |k: usize| if k < 3 { 1.0 } else { 1.0 / LENGTH };
     (0..6)
         .map(|k| (wrench[k] * units(k)).powi(2))
@@ -167,8 +167,8 @@ pub fn left_out() -> [f64; 3] {
         let mut last = 0.0;
         for share in [0.1, 0.05, 0.025] {
             let found = difference(&(t * share));
-            let size = balanced(&found);
-            let left = balanced(&(found - foreseen * (share * share))) / size;
+            let size = scaled(&found);
+            let left = scaled(&(found - foreseen * (share * share))) / size;
             if let Some((size_before, left_before)) = before {
                 last = (size_before / size).log2();
                 // What is left is of the next order, or the one after where signs do not matter.

@@ -123,7 +123,7 @@ fn natural_length(machine: &Mechanism) -> f64 {
     limbs.map(|l| l.actual.scale().length).sum::<f64>() / machine.limbs().len() as f64
 }
 
-/// Irregular motions of the tool in the plane, balanced, of size one.
+/// Irregular motions of the tool in the plane, scaled, of size one.
 fn ways(length: f64) -> Vec<Vector6<f64>> {
     let mut rng = Rng(5);
     let mut some = || {
@@ -234,9 +234,9 @@ fn a_stage_of_a_stack_near_its_singular_posture_is_told() {
                     least(&posture)
                 );
                 // And nowhere much nearer, on any way of the tool.
-                let balanced =
+                let scaled =
                     Vector6::from_fn(|i, _| found.way.0[i] * if i < 3 { 1.0 } else { length });
-                let far = found.distance_m * balanced.norm();
+                let far = found.distance_m * scaled.norm();
                 assert!(!crossed(&machine, &stages, 0.85 * far), "{far}");
             }
         }

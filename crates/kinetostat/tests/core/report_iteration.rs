@@ -377,9 +377,9 @@ fn oracle_rate(problem: &ChainProblem<'_>, e: &Equilibrium) -> f64 {
         .collect();
     assert_eq!(null.len(), n - 6);
     let null = DMatrix::from_columns(&null);
-    let balanced = |m: &DMatrix<f64>| DMatrix::from_fn(n, n, |a, b| m[(a, b)] * unit[a] * unit[b]);
-    let below = null.transpose() * balanced(&k) * &null;
-    let above = null.transpose() * balanced(&h) * &null;
+    let scaled = |m: &DMatrix<f64>| DMatrix::from_fn(n, n, |a, b| m[(a, b)] * unit[a] * unit[b]);
+    let below = null.transpose() * scaled(&k) * &null;
+    let above = null.transpose() * scaled(&h) * &null;
     let m = below.lu().solve(&above).unwrap();
     // With an end: at equal absolute values the iteration may go on for ever.
     let schur = nalgebra::linalg::Schur::try_new(m, f64::EPSILON, 10_000);

@@ -15,9 +15,9 @@ use kinetostat_testing::LargestEntry;
 use nalgebra::{DMatrix, Matrix6, Vector3, vector};
 use proptest::prelude::*;
 
-/// Null space of the Jacobian from the eigenvectors of `J^T J`, balanced by the springs' size.
+/// Null space of the Jacobian from the eigenvectors of `J^T J`, scaled by the springs' size.
 struct Brute {
-    /// Eigenvalues of `N^T (H - K) N`, balanced.
+    /// Eigenvalues of `N^T (H - K) N`, scaled.
     criterion: Vec<f64>,
     /// Eigenvalues of the pencil, if `N^T K N` is definite.
     shares_to_buckling: Option<Vec<f64>>,
@@ -41,8 +41,8 @@ fn brute(problem: &ChainProblem<'_>, e: &Equilibrium) -> Brute {
             }
         })
         .collect();
-    let balanced = |m: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| m[(i, j)] * unit[i] * unit[j]);
-    let (h, k) = (balanced(&h), balanced(&k));
+    let scaled = |m: &DMatrix<f64>| DMatrix::from_fn(n, n, |i, j| m[(i, j)] * unit[i] * unit[j]);
+    let (h, k) = (scaled(&h), scaled(&k));
     let j = frames.jacobian(frames.tip());
     let row = |i: usize| if i < 3 { 1.0 } else { scale.length };
     let j = DMatrix::from_fn(6, n, |i, c| j[(i, c)] * row(i) * unit[c]);

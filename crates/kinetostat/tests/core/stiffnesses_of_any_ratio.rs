@@ -264,9 +264,8 @@ fn principal_directions_are_those_of_the_loaded_matrix() {
                 let matrix = found.stiffness.symmetric();
                 let length = found.length;
                 let unit = |i: usize| if i < 3 { 1.0 } else { length };
-                let balanced = Matrix6::from_fn(|i, j| matrix[(i, j)] / (unit(i) * unit(j)));
-                let mut asked: Vec<f64> =
-                    balanced.symmetric_eigenvalues().iter().copied().collect();
+                let scaled = Matrix6::from_fn(|i, j| matrix[(i, j)] / (unit(i) * unit(j)));
+                let mut asked: Vec<f64> = scaled.symmetric_eigenvalues().iter().copied().collect();
                 asked.sort_by(f64::total_cmp);
                 let mut values: Vec<f64> = found
                     .directions
@@ -277,7 +276,7 @@ fn principal_directions_are_those_of_the_loaded_matrix() {
                 assert_eq!(values.len(), 6, "{case}");
                 for (value, asked) in values.iter().zip(&asked) {
                     let error = (value - asked).abs();
-                    let held = 1e-13 * balanced.largest_entry() + 1e-9 * asked.abs();
+                    let held = 1e-13 * scaled.largest_entry() + 1e-9 * asked.abs();
                     assert!(error <= held, "{case}: {values:?} {asked}");
                 }
                 negative += usize::from(asked[0] < 0.0);

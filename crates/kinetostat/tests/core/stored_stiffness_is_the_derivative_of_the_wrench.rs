@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::common::{Recipe, Rng, assert_chain_equilibrium, balanced_error, cases, random_chain};
+use crate::common::{Recipe, Rng, assert_chain_equilibrium, cases, random_chain, scaled_error};
 use crate::oracle::{self, Frames};
 use kinetostat::{
     ChainProblem, EndCondition, Equilibrium, Load, NodeLoad, Settings, Twist, Wrench,
@@ -101,10 +101,10 @@ pub fn loaded_stiffness_error(seed: u64) -> Option<StiffnessError> {
             let mut near = problem.clone();
             // Start where the neighbours are, so that no other branch is found.
             near.posture.clone_from(&e.coordinates);
-            balanced_error(&k, &differences(&near, &e, 1e-4))
+            scaled_error(&k, &differences(&near, &e, 1e-4))
         });
     Some(StiffnessError {
-        bordered: balanced_error(&k, &own),
+        bordered: scaled_error(&k, &own),
         resolved,
     })
 }
@@ -145,7 +145,7 @@ proptest! {
             };
             k.set_column(column, &((8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * unit[column])));
         }
-        let error = balanced_error(&c, &k);
+        let error = scaled_error(&c, &k);
         prop_assert!(error < 1e-6, "compliance: {error:e}");
     }
 }
@@ -206,7 +206,7 @@ proptest! {
         let mut near = problem.clone();
         near.posture.clone_from(&e.coordinates);
         let d = differences(&near, &e, 1e-4);
-        let error = balanced_error(&e.stiffness.cartesian.matrix, &d);
+        let error = scaled_error(&e.stiffness.cartesian.matrix, &d);
         prop_assert!(error < 1e-6, "differences: {error:e}");
     }
 }

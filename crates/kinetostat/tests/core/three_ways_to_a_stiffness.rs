@@ -2,7 +2,7 @@
 //! says when it does not apply; what a passive joint does to a link [R Tables 3.1-3.3].
 
 use crate::beam_tables_3_2_and_3_3::{expand, section};
-use crate::common::{Recipe, Rng, balanced_error, cases, close, golden, random_chain};
+use crate::common::{Recipe, Rng, cases, close, golden, random_chain, scaled_error};
 use kinetostat::{
     BeamSection, Chain, DirectionKind, EndCondition, Load, MotionKind, Pose, Settings, Twist,
     Wrench,
@@ -96,9 +96,9 @@ proptest! {
                 return Ok(());
             }
         };
-        let error = balanced_error(&closed.cartesian, &k.cartesian.matrix);
+        let error = scaled_error(&closed.cartesian, &k.cartesian.matrix);
         prop_assert!(error < 1e-8, "4.28: {error:e}");
-        let block = balanced_error(&blocks.block_inverse().unwrap(), &k.cartesian.matrix);
+        let block = scaled_error(&blocks.block_inverse().unwrap(), &k.cartesian.matrix);
         prop_assert!(block < 1e-8, "4.27: {block:e}");
         let q = (&closed.passive - &k.passive).largest_entry() / k.passive.largest_entry().max(1e-12);
         prop_assert!(k.passive.is_empty() || q < 1e-8, "4.29: {q:e}");
@@ -137,9 +137,9 @@ fn the_closed_form_says_why_it_does_not_apply() {
         assert_eq!(recursion.skipped, [["a", "b"][order[1]]]);
         let once = beam_with(|b| b.passive("a", MotionKind::Revolute, Vector3::z(), 0.0));
         let expected = blocks(&once).closed_form().unwrap();
-        assert!(balanced_error(&recursion.matrix, &expected) < 1e-12);
+        assert!(scaled_error(&recursion.matrix, &expected) < 1e-12);
         let inverse = blocks(&twice).block_inverse().unwrap();
-        assert!(balanced_error(&inverse, &expected) < 1e-10);
+        assert!(scaled_error(&inverse, &expected) < 1e-10);
     }
     assert_eq!(
         blocks(&twice).recursion(&[0, 0]),
@@ -165,7 +165,7 @@ fn the_closed_form_says_why_it_does_not_apply() {
     // The bordered system answers, and so does the block inverse: 3 rigid, 1 free, 1 finite... .
     let k = unloaded_stiffness(&planar, &base, &[0.0, 0.0], &[]).unwrap();
     let inverse = blocks(&planar).block_inverse().unwrap();
-    assert!(balanced_error(&inverse, &k.cartesian.matrix) < 1e-10);
+    assert!(scaled_error(&inverse, &k.cartesian.matrix) < 1e-10);
 }
 
 #[test]
@@ -269,7 +269,7 @@ fn compliance_exists_where_the_stiffness_is_infinite() {
         let blocks = ChainBlocks::unloaded(&r.chain, &r.base, &r.posture, &r.commands).unwrap();
         let c = blocks.compliance();
         let k = k.cartesian.matrix;
-        assert!(balanced_error(&(k * c.springs * k), &k) < 1e-9);
+        assert!(scaled_error(&(k * c.springs * k), &k) < 1e-9);
         for free in &c.free {
             assert!((k * free.0).largest_entry() < 1e-8 * k.largest_entry());
         }
@@ -318,7 +318,7 @@ fn five_joints_leave_a_leg_its_traction_only() {
         expected[(i, i)] = share * k0[(i, i)];
     }
     assert!(
-        balanced_error(
+        scaled_error(
             &(spherical + Matrix6::identity()),
             &(expected + Matrix6::identity())
         ) < 1e-13

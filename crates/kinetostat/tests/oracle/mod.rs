@@ -204,7 +204,7 @@ pub fn springs(chain: &Chain, x: &[f64], posture: &[f64]) -> (DVector<f64>, DMat
     (torque, k, energy)
 }
 
-/// `K_C` of a chain from the bordered system at a given state, dense, unscaled rows balanced.
+/// `K_C` of a chain from the bordered system at a given state, dense, rows scaled.
 pub fn chain_stiffness(
     chain: &Chain,
     frames: &Frames,
@@ -220,12 +220,12 @@ pub fn chain_stiffness(
     a.view_mut((6, 6), (n, n)).copy_from(&(h - k));
     let mut b = DMatrix::zeros(6 + n, 6);
     b.view_mut((0, 0), (6, 6)).fill_with_identity();
-    let x = balanced_solve(&a, &b);
+    let x = scaled_solve(&a, &b);
     x.fixed_view::<6, 6>(0, 0).into_owned()
 }
 
 /// Solves `A X = B` after equilibrating rows and columns, with full pivoting.
-pub fn balanced_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn scaled_solve(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let n = a.nrows();
     let (mut row, mut column) = (vec![1.0_f64; n], vec![1.0_f64; n]);
     let mut s = a.clone();
@@ -314,7 +314,7 @@ impl<'m> Flat<'m> {
         6 * (self.platforms.len() - 1) + self.coordinates.iter().map(|x| 6 + x.len()).sum::<usize>()
     }
 
-    /// Rows: balance of every moving platform, then closure and torques of every limb.
+    /// Rows: equilibrium of every moving platform, then closure and torques of every limb.
     pub fn residual(&self) -> DVector<f64> {
         let m = self.mechanism;
         let gravity = m.gravity();
@@ -473,7 +473,7 @@ impl<'m> Flat<'m> {
                 }
             }
             let b = DMatrix::from_column_slice(r.len(), 1, (-&r).as_slice());
-            let mut step = balanced_solve(&a, &b).column(0).into_owned();
+            let mut step = scaled_solve(&a, &b).column(0).into_owned();
             let mut load = Vector6::zeros();
             if hold_tool {
                 for k in 0..6 {
@@ -509,7 +509,7 @@ impl<'m> Flat<'m> {
             a.column_mut(tool + k).fill(0.0);
             a[(tool + k, tool + k)] = 1.0;
         }
-        balanced_solve(&a, &b)
+        scaled_solve(&a, &b)
             .fixed_view::<6, 6>(tool, 0)
             .into_owned()
     }

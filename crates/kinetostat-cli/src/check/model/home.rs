@@ -120,7 +120,7 @@ pub(crate) fn at_home(
     Ok((home, assumptions))
 }
 
-/// A set of wrenches in balance: `leg x with a moment about x, against leg z with a moment about x`.
+/// A set of wrenches in equilibrium: `leg x with a moment about x, against leg z with a moment about x`.
 fn self_stress_text(words: &str) -> String {
     let limbs = words.split("; ").map(|part| match part.split_once(": ") {
         Some((limb, wrench)) => {

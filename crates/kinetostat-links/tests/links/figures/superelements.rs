@@ -382,10 +382,10 @@ fn an_averaged_interface_averages_compliances() {
         // Uneven ones: softer in every direction.
         let less = with(&uneven, Tie::Rigid, end) - with(&uneven, Tie::Averaged, end);
         let unit = with(&uneven, Tie::Rigid, end).diagonal().map(f64::sqrt);
-        let balanced = Matrix6::from_fn(|i, j| less[(i, j)] / unit[i] / unit[j]);
-        let least = balanced.symmetric_eigenvalues().min();
+        let scaled = Matrix6::from_fn(|i, j| less[(i, j)] / unit[i] / unit[j]);
+        let least = scaled.symmetric_eigenvalues().min();
         assert!(least > -1e-9, "{least}");
-        assert!(balanced.symmetric_eigenvalues().max() > 0.1);
+        assert!(scaled.symmetric_eigenvalues().max() > 0.1);
     }
     // Two nodes have no average rotation about their line.
     let pairs = "1,1,1,1,1\n1,2,1,2,1\n1,3,1,3,1\n2,1,2,1,1\n2,2,2,2,1\n2,3,2,3,1\n";

@@ -11,7 +11,7 @@ pub struct EndSpring {
     pub least: f64,
     /// Pivots below this share of what they come from are lost (of forms that are not symmetric).
     pub pivot: f64,
-    /// A residual larger than this share of what is balanced shows that a pivot was too small.
+    /// A residual larger than this share of what is scaled shows that a pivot was too small.
     pub lost: f64,
 }
 

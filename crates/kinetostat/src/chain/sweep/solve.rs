@@ -12,7 +12,7 @@ use crate::linalg::complement::complement;
 use crate::linalg::saddle::{Inertia, RANK_TOLERANCE, Saddle, column_space};
 use crate::number::larger;
 
-/// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, balanced;
+/// Six conditions on motion `t` and wrench `F` of the end, `motion t + wrench F = right`, scaled;
 /// every row with an entry of the size one.
 #[derive(Clone, Copy)]
 pub struct EndRows {
@@ -158,7 +158,7 @@ impl<S: Deref<Target = Sweep>> Bordered<S> {
     }
 }
 
-/// Wrench and coordinates per unit motion of the tip, (6 + n) x 6, balanced, over the motions in
+/// Wrench and coordinates per unit motion of the tip, (6 + n) x 6, scaled, over the motions in
 /// `range` that the chain can make.
 pub(crate) fn unit_motions(sweep: &Sweep, range: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     END_SPRINGS
@@ -199,7 +199,7 @@ pub(crate) fn unit_motions_of<S: Deref<Target = Sweep>>(
     Some(answer)
 }
 
-/// What the end of a chain can do, balanced, orthonormal columns.
+/// What the end of a chain can do, scaled, orthonormal columns.
 pub struct EndMotions {
     /// The motions that the chain can make.
     range: DMatrix<f64>,
@@ -240,7 +240,7 @@ struct Shifted<'s> {
     sweep: &'s Sweep,
     factored: Factored,
     ends: &'s EndMotions,
-    /// The matrix above, `F` over the range, balanced by `units`.
+    /// The matrix above, `F` over the range, scaled by `units`.
     end: LU<f64, Dyn, Dyn>,
     /// Units of `F` and `u` by the spring at the end: of the size of what the chain answers, in every
     /// direction, however many springs it has.
@@ -337,7 +337,7 @@ impl<'s> Shifted<'s> {
     }
 }
 
-/// What [`crate::chain::stability::ShapeStability`] says, in balanced coordinates.
+/// What [`crate::chain::stability::ShapeStability`] says, in scaled coordinates.
 pub struct SweptStability {
     pub inertia: Inertia,
     /// Largest eigenvalue of the pencil.

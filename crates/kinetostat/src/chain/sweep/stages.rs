@@ -23,8 +23,8 @@
 //! (symmetric) `G` is replaced by its symmetric part and `A` by one half below and minus one half
 //! above the diagonal. [`crate::chain::sweep::factor`] eliminates coordinates in the same walk.
 //!
-//! Everything here is balanced: wrenches and coordinates in the units of
-//! [`crate::chain::equilibrium::balance`].
+//! Everything here is scaled: wrenches and coordinates in the units of
+//! [`crate::chain::equilibrium::scales_of`].
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3, Vector6};
 
@@ -127,7 +127,7 @@ pub struct Sweep {
     before: Vec<usize>,
     /// Stage of every spring block.
     stage_of: Vec<usize>,
-    factors: Vec<f64>,
+    scales: Vec<f64>,
     /// `s`, six numbers per coordinate.
     pub twists: Vec<f64>,
     /// `K`, a block per stage.
@@ -205,7 +205,7 @@ fn stages(chain: &Chain) -> Option<(Vec<Stage>, Vec<usize>, Vec<usize>)> {
 
 impl Sweep {
     /// `None` for a chain that is no sequence of stages, or has no springs.
-    pub fn new(chain: &Chain, posture: &[f64], factors: &[f64]) -> Option<Self> {
+    pub fn new(chain: &Chain, posture: &[f64], scales: &[f64]) -> Option<Self> {
         let (stages, before, stage_of) = stages(chain)?;
         if chain.springs().is_empty() {
             return None;
@@ -215,18 +215,18 @@ impl Sweep {
         let mut compliance = vec![0.0; blocks];
         for (block, &stage) in chain.springs().iter().zip(&stage_of) {
             let k = block.stiffness_at(posture);
-            let unit = |i: usize| factors[6 + block.first + i];
-            let balanced = DMatrix::from_fn(block.len(), block.len(), |i, j| {
+            let unit = |i: usize| scales[6 + block.first + i];
+            let scaled = DMatrix::from_fn(block.len(), block.len(), |i, j| {
                 k[(i, j)] * unit(i) * unit(j)
             });
-            let inverse = balanced.cholesky()?.inverse();
+            let inverse = scaled.cholesky()?.inverse();
             let at = stages[stage].block;
             compliance[at..at + inverse.len()].copy_from_slice(inverse.as_slice());
         }
         Some(Self {
             before,
             stage_of,
-            factors: factors.to_vec(),
+            scales: scales.to_vec(),
             twists: vec![0.0; 6 * chain.coordinate_count()],
             springs: vec![0.0; blocks],
             material: vec![0.0; blocks],
@@ -250,7 +250,7 @@ impl Sweep {
         self.springs.fill(0.0);
         for (k, &stage) in self.stage_of.iter().enumerate() {
             let Stage { first, len, block } = self.stages[stage];
-            let unit = &self.factors[6 + first..];
+            let unit = &self.scales[6 + first..];
             let own = &mut self.springs[block..block + len * len];
             add(k, &mut |i, j, value| {
                 own[j * len + i] += value * unit[i] * unit[j]
@@ -264,7 +264,7 @@ impl Sweep {
         for (first, geometric) in parts {
             if let Ok(at) = self.stages.binary_search_by_key(first, |s| s.first) {
                 let Stage { len, block, .. } = self.stages[at];
-                let unit = &self.factors[6 + first..];
+                let unit = &self.scales[6 + first..];
                 for j in 0..len {
                     for i in 0..len {
                         self.material[block + j * len + i] -= geometric[(i, j)] * unit[i] * unit[j];
@@ -284,7 +284,7 @@ impl Sweep {
         tangents: &[NodeTangent],
         torque: &mut [f64],
     ) {
-        let unit = Vector6::from_column_slice(&self.factors[..6]);
+        let unit = Vector6::from_column_slice(&self.scales[..6]);
         let per_unit = |m: &Matrix6<f64>| Matrix6::from_fn(|i, j| m[(i, j)] / (unit[i] * unit[j]));
         let tip = kinematics.node_position(self.before.len() - 1);
         self.between.fill(0);
@@ -321,7 +321,7 @@ impl Sweep {
             for own in stage.first..stage.first + stage.len {
                 let column = jacobian.column(own);
                 torque[own] = column.dot(&sum);
-                let factor = self.factors[6 + own];
+                let factor = self.scales[6 + own];
                 for k in 0..6 {
                     self.twists[6 * own + k] = column[k] * unit[k] * factor;
                 }
@@ -343,7 +343,7 @@ impl Sweep {
         if sum == Vector6::zeros() {
             return None;
         }
-        let (along, about) = (self.factors[0], self.factors[3]);
+        let (along, about) = (self.scales[0], self.scales[3]);
         let f = hat(&Wrench(sum).force()) / (along * about);
         let m = hat(&Wrench(sum).moment()) / (about * about);
         let mut a = Matrix6::zeros();
@@ -465,7 +465,7 @@ impl Sweep {
         t
     }
 
-    /// `J T`: the (balanced) Jacobian of the tip in coordinates in which every block of the springs' own
+    /// `J T`: the (scaled) Jacobian of the tip in coordinates in which every block of the springs' own
     /// stiffness is the unit matrix, as far as they are positive definite.
     pub fn by_spring_roots(&self, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
         let mut turned = jacobian.clone();

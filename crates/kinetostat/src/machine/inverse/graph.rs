@@ -318,19 +318,19 @@ impl<'m> GraphSearch<'m> {
                 let matrix = (gram + Matrix6::identity() * (damping * size))
                     .cholesky()
                     .map_or_else(Matrix6::identity, |c| c.inverse());
-                let balanced =
+                let scaled =
                     |t: Matrix6<f64>| Matrix6::from_fn(|a, b| t[(a, b)] * units[a] / units[b]);
                 let arm =
                     at.platforms[limb.to].rotation * limb.platform_from_tip.translation.vector;
                 let by_from = if limb.from == 0 {
                     Matrix6::zeros()
                 } else {
-                    balanced(-all.fixed_columns::<6>(n + r).into_owned())
+                    scaled(-all.fixed_columns::<6>(n + r).into_owned())
                 };
                 Linked {
                     jacobian,
                     matrix,
-                    by_to: balanced(shift_matrix(&arm)),
+                    by_to: scaled(shift_matrix(&arm)),
                     by_from,
                     closure,
                     pull,
@@ -386,7 +386,7 @@ impl<'m> GraphSearch<'m> {
         })
     }
 
-    /// Motions of all platforms (balanced; base and tool do not move, or the tool by `tool_motion`
+    /// Motions of all platforms (scaled; base and tool do not move, or the tool by `tool_motion`
     /// with all closures at zero) and of all weighted joints.
     fn solve(&self, own: &Factorised<'_>, tool_motion: Option<&Vector6<f64>>) -> Option<Moves> {
         let m = self.mechanism;

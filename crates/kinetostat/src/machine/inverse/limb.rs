@@ -106,7 +106,7 @@ pub(crate) fn command_rates(chain: &Chain, base: &Pose, posture: &LimbPosture) -
 }
 
 /// Motions that the unloaded limb can make at a posture: orthogonal projector on the twists that it
-/// cannot make, 6 x 6, in balanced units (rotations times the natural length).
+/// cannot make, 6 x 6, in scaled units (rotations times the natural length).
 pub(crate) fn blocked_motions(chain: &Chain, base: &Pose, posture: &LimbPosture) -> DMatrix<f64> {
     let search = JointSearch::new(chain, base, &Pose::identity());
     let kinematics = Kinematics::new(chain, base, &posture.coordinates, &posture.commands);
@@ -134,7 +134,7 @@ impl<'a> JointSearch<'a> {
         }
     }
 
-    /// Balance of the six components of a pose residual.
+    /// Scales of the six components of a pose residual.
     fn weights(&self) -> [f64; 6] {
         let l = self.length;
         [1.0, 1.0, 1.0, l, l, l]

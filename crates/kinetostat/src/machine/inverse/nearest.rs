@@ -52,13 +52,13 @@ impl Mechanism {
                 let arm = pose.rotation * limb.platform_from_tip.translation.vector;
                 let by_tip = DMatrix::from_fn(6, 6, |a, b| blocked[(a, b)] * unit(b));
                 let by_tool = by_tip * shift_matrix(&arm);
-                let balanced = Vector6::from_fn(|k, _| residual.0[k] * unit(k));
+                let scaled = Vector6::from_fn(|k, _| residual.0[k] * unit(k));
                 for a in 0..6 {
                     for b in 0..6 {
                         let turned = if b < 3 { 1.0 } else { 1.0 / length };
                         rows[(6 * i + a, b)] = by_tool[(a, b)] * turned;
                     }
-                    residuals[6 * i + a] = balanced[a];
+                    residuals[6 * i + a] = scaled[a];
                 }
             }
             if all_reach {

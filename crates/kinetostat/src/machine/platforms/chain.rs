@@ -1,6 +1,6 @@
 //! The Newton step of a machine that is one chain from the base to its tool.
 //!
-//! Its tip is not held while the limb is linearised: the balance of the tool, and what guides it, are
+//! Its tip is not held while the limb is linearised: the equilibrium of the tool, and what guides it, are
 //! six conditions on the wrench and the motion of the tip. So no stiffness of the tip is formed, in
 //! which a link that bends easily would drown beside its own axial stiffness.
 
@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::chain::sweep::solve::EndRows;
 use crate::linalg::complement::complement;
-use crate::machine::platforms::parts::{PlatformStep, Tangents, ToolBalance, Unknowns};
+use crate::machine::platforms::parts::{EquilibriumRows, PlatformStep, Tangents, Unknowns};
 use crate::machine::platforms::solver::PlatformSolver;
 use crate::model::chain::{Coordinate, Role};
 use crate::spatial::{Twist, Wrench, hat, rotational, shift_matrix};
@@ -37,9 +37,9 @@ impl PlatformSolver<'_> {
         }
     }
 
-    /// Balance and conditions at the present state, balanced.
-    fn tool_balance(&self) -> (ToolBalance, EndRows) {
-        let factors = &self.factors[0];
+    /// Equilibrium of the tool and its conditions at the present state, scaled.
+    fn equilibrium_rows(&self) -> (EquilibriumRows, EndRows) {
+        let scales = &self.scales[0];
         let arm = self.arm(0, &self.state);
         let f = self.state.wrenches[0].force();
         let mut by_tool = rotational(&(hat(&f) * hat(&arm)));
@@ -49,7 +49,7 @@ impl PlatformSolver<'_> {
         let back = shift_matrix(&-arm);
         let (wrench, motion) = (t.transpose(), by_tool * back);
         let k = self.guided();
-        let unit = |i: usize| factors[i];
+        let unit = |i: usize| scales[i];
         let hands = DMatrix::from_fn(6, k, |i, j| self.guide.hands[(i, j)] / unit(i));
         let mut across = match k {
             0 => DMatrix::identity(6, 6),
@@ -83,13 +83,13 @@ impl PlatformSolver<'_> {
                 rows.motion.row_mut(i).scale_mut(sizes[i]);
             }
         }
-        let balance = ToolBalance {
+        let equilibrium = EquilibriumRows {
             across,
             wrench,
             motion,
             sizes,
         };
-        (balance, rows)
+        (equilibrium, rows)
     }
 
     /// See [`Self::newton`].
@@ -100,37 +100,37 @@ impl PlatformSolver<'_> {
     ) -> Option<(PlatformStep, Vec<DVector<f64>>)> {
         let mut new = None;
         if let Tangents::New { with_hessian } = tangents {
-            let (balance, rows) = self.tool_balance();
-            self.balance = Some(balance);
+            let (equilibrium, rows) = self.equilibrium_rows();
+            self.equilibrium = Some(equilibrium);
             new = Some((with_hessian, rows));
         }
         let (tool, k) = (self.mechanism.tool(), self.guided());
         let pose = &self.state.platforms[tool];
-        let balance = self.balance.as_ref()?;
+        let equilibrium = self.equilibrium.as_ref()?;
         let missing = match k {
             0 => DVector::zeros(0),
             _ => self.guide.residual(pose),
         };
-        let own = &balance.across * unbalanced[tool].0;
+        let own = &equilibrium.across * unbalanced[tool].0;
         let right = Vector6::from_fn(|i, _| {
             let given = if i < 6 - k {
                 own[i]
             } else {
                 missing[i - (6 - k)]
             };
-            given * balance.sizes[i]
+            given * equilibrium.sizes[i]
         });
         if let Some((with_hessian, rows)) = new {
             let linear = &mut self.linear[0];
-            if !linear.linearise_loaded(with_hessian, rows, &right, &self.factors[0]) {
+            if !linear.linearise_loaded(with_hessian, rows, &right, &self.scales[0]) {
                 linear.system.make_dense();
                 self.evaluate_limb(0);
                 let linear = &mut self.linear[0];
-                linear.linearise_loaded(with_hessian, rows, &right, &self.factors[0]);
+                linear.linearise_loaded(with_hessian, rows, &right, &self.scales[0]);
             }
         }
-        let balance = self.balance.as_ref()?;
-        let change = self.linear[0].loaded(&right, &self.factors[0])?;
+        let equilibrium = self.equilibrium.as_ref()?;
+        let change = self.linear[0].loaded(&right, &self.scales[0])?;
         if change.iter().any(|x| !x.is_finite()) {
             return None;
         }
@@ -141,9 +141,9 @@ impl PlatformSolver<'_> {
         let arm = self.arm(0, &self.state);
         let mut push = Wrench::zero();
         if k > 0 {
-            // What the hands do besides: the balance once more.
-            let left = balance.wrench * wrench + balance.motion * tip - unbalanced[tool].0;
-            let unit = |i: usize| self.factors[0][i];
+            // What the hands do besides: the equilibrium of the tool once more.
+            let left = equilibrium.wrench * wrench + equilibrium.motion * tip - unbalanced[tool].0;
+            let unit = |i: usize| self.scales[0][i];
             let hands = DMatrix::from_fn(6, k, |i, j| self.guide.hands[(i, j)] / unit(i));
             let left = DVector::from_fn(6, |i, _| left[i] / unit(i));
             let qr = hands.qr();

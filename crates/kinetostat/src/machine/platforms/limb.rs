@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, Vector6};
 
 use crate::chain::equilibrium::System;
-use crate::chain::passive::balanced_jacobian;
+use crate::chain::passive::scaled_jacobian;
 use crate::chain::sweep::end_spring::{END_SPRINGS, STEP_SPRINGS};
 use crate::chain::sweep::solve::{Bordered, EndRows, unit_motions_of};
 use crate::chain::sweep::stages::{Form, Sweep};
@@ -23,13 +23,13 @@ enum Tangent {
 
 /// What is given at the tip.
 enum Tip {
-    /// The motions that it can make, orthonormal, balanced.
+    /// The motions that it can make, orthonormal, scaled.
     Held(DMatrix<f64>),
     /// Six conditions on its motion and its wrench, see [`EndRows`].
     Loaded,
 }
 
-/// A limb linearised about a state: balanced system solved for closure, motions of its end, of its
+/// A limb linearised about a state: scaled system solved for closure, motions of its end, of its
 /// commands and of its base.
 pub(crate) struct Linear {
     /// (6 + n) x (1 + 6 + r \[+ 6\]): wrench and coordinates; without the columns of the commands
@@ -46,13 +46,13 @@ pub(crate) struct Linear {
 }
 
 /// Orthonormal basis of the wrenches that a limb carries rigidly, see [`Linear::rigid`].
-fn rigid_wrenches(system: &System, factors: &[f64]) -> DMatrix<f64> {
-    let jacobian = balanced_jacobian(system, factors);
+fn rigid_wrenches(system: &System, scales: &[f64]) -> DMatrix<f64> {
+    let jacobian = scaled_jacobian(system, scales);
     if rows_certainly_independent(&jacobian) {
         return DMatrix::zeros(6, 0);
     }
     let mut blocked = complement(&column_space(&jacobian));
-    for (mut row, factor) in blocked.row_iter_mut().zip(factors) {
+    for (mut row, factor) in blocked.row_iter_mut().zip(scales) {
         row *= *factor;
     }
     blocked
@@ -81,41 +81,41 @@ impl Linear {
 
     /// Linearises with the loads' Hessian or without; `false` where a sweep lost a pivot: then the
     /// system must be made dense and evaluated again.
-    pub fn linearise(&mut self, with_hessian: bool, factors: &[f64]) -> bool {
+    pub fn linearise(&mut self, with_hessian: bool, scales: &[f64]) -> bool {
         if let Some(sweep) = &self.system.sweep {
             let form = match with_hessian {
                 true => Form::Exact,
                 false => Form::Lagged,
             };
-            let range = column_space(&balanced_jacobian(&self.system, factors));
+            let range = column_space(&scaled_jacobian(&self.system, scales));
             let swept = END_SPRINGS.into_iter().find_map(|spring| {
                 let rows = EndRows::held(&range);
                 let bordered = Bordered::new(sweep.clone(), form, rows, spring)?;
                 let units = unit_motions_of(&bordered, &range)?;
                 let own =
-                    self.swept_residual(&bordered, &self.free_closure(&range, factors), factors)?;
+                    self.swept_residual(&bordered, &self.free_closure(&range, scales), scales)?;
                 Some((bordered, own, units))
             });
             let Some((bordered, own, units)) = swept else {
                 return false;
             };
-            let mut solution = DMatrix::zeros(factors.len(), 7);
-            for (i, factor) in factors.iter().enumerate() {
+            let mut solution = DMatrix::zeros(scales.len(), 7);
+            for (i, factor) in scales.iter().enumerate() {
                 solution[(i, 0)] = own[i];
                 for k in 0..6 {
-                    solution[(i, 1 + k)] = units[(i, k)] * factor * factors[k];
+                    solution[(i, 1 + k)] = units[(i, k)] * factor * scales[k];
                 }
             }
             self.solution = solution;
             self.tangent = Some((Tangent::Swept(Box::new(bordered)), Tip::Held(range)));
         } else {
-            self.linearise_densely(with_hessian, factors);
+            self.linearise_densely(with_hessian, scales);
         }
-        self.rigid = rigid_wrenches(&self.system, factors);
+        self.rigid = rigid_wrenches(&self.system, scales);
         true
     }
 
-    fn linearise_densely(&mut self, with_hessian: bool, factors: &[f64]) {
+    fn linearise_densely(&mut self, with_hessian: bool, scales: &[f64]) {
         let system = &self.system;
         let n = system.spring_torque.len();
         let extra = system.kinematics.velocity_count() - n;
@@ -134,7 +134,7 @@ impl Linear {
                 }
             }
         }
-        let saddle = Saddle::new(system.bordered(with_hessian), factors, factors);
+        let saddle = Saddle::new(system.bordered(with_hessian), scales, scales);
         saddle.solve(&mut b);
         // The whole tip is held.
         let all = DMatrix::identity(6, 6);
@@ -142,7 +142,7 @@ impl Linear {
         self.solution = b;
     }
 
-    /// As [`Self::linearise`], while six conditions (balanced) say what the tip does: no solution for
+    /// As [`Self::linearise`], while six conditions (scaled) say what the tip does: no solution for
     /// motions of the tip, which may be worlds stiffer in one direction than in another. `right` is what
     /// these conditions are off by now.
     pub fn linearise_loaded(
@@ -150,7 +150,7 @@ impl Linear {
         with_hessian: bool,
         rows: EndRows,
         right: &Vector6<f64>,
-        factors: &[f64],
+        scales: &[f64],
     ) -> bool {
         let tangent = if let Some(sweep) = &self.system.sweep {
             let form = match with_hessian {
@@ -159,7 +159,7 @@ impl Linear {
             };
             let swept = STEP_SPRINGS.into_iter().find_map(|spring| {
                 let bordered = Bordered::new(sweep.clone(), form, rows, spring)?;
-                self.swept_residual(&bordered, right, factors)?;
+                self.swept_residual(&bordered, right, scales)?;
                 Some(bordered)
             });
             let Some(bordered) = swept else {
@@ -168,32 +168,32 @@ impl Linear {
             Tangent::Swept(Box::new(bordered))
         } else {
             let mut a = self.system.bordered(with_hessian);
-            let jacobian = balanced_jacobian(&self.system, factors);
+            let jacobian = scaled_jacobian(&self.system, scales);
             let moved = rows.motion * jacobian;
             for k in 0..6 {
                 for j in 0..6 {
-                    a[(k, j)] = rows.wrench[(k, j)] / factors[j];
+                    a[(k, j)] = rows.wrench[(k, j)] / scales[j];
                 }
                 for j in 0..moved.ncols() {
-                    a[(k, 6 + j)] = moved[(k, j)] / factors[6 + j];
+                    a[(k, 6 + j)] = moved[(k, j)] / scales[6 + j];
                 }
             }
-            let mut units = factors.to_vec();
+            let mut units = scales.to_vec();
             units[..6].fill(1.0);
-            Tangent::Dense(Saddle::new(a, &units, factors))
+            Tangent::Dense(Saddle::new(a, &units, scales))
         };
         self.tangent = Some((tangent, Tip::Loaded));
         true
     }
 
     /// Change of wrench and coordinates that removes the residual, with the right-hand sides of
-    /// the conditions at the tip (balanced), 6 + n. `None` if the tangent does not serve.
-    pub fn loaded(&self, right: &Vector6<f64>, factors: &[f64]) -> Option<DMatrix<f64>> {
+    /// the conditions at the tip (scaled), 6 + n. `None` if the tangent does not serve.
+    pub fn loaded(&self, right: &Vector6<f64>, scales: &[f64]) -> Option<DMatrix<f64>> {
         let (tangent, _) = self.tangent.as_ref()?;
         let own = match tangent {
-            Tangent::Swept(bordered) => self.swept_residual(bordered, right, factors)?,
+            Tangent::Swept(bordered) => self.swept_residual(bordered, right, scales)?,
             Tangent::Dense(saddle) => {
-                let mut b = DMatrix::zeros(factors.len(), 1);
+                let mut b = DMatrix::zeros(scales.len(), 1);
                 self.right_hand_side(&mut b);
                 b.rows_mut(0, 6).copy_from(right);
                 saddle.solve(&mut b);
@@ -204,35 +204,35 @@ impl Linear {
     }
 
     /// Residual of the tip's closure in the motions that it can make, scaled.
-    fn free_closure(&self, range: &DMatrix<f64>, factors: &[f64]) -> Vector6<f64> {
-        let closure = Vector6::from_fn(|k, _| self.closure.0[k] * factors[k]);
+    fn free_closure(&self, range: &DMatrix<f64>, scales: &[f64]) -> Vector6<f64> {
+        let closure = Vector6::from_fn(|k, _| self.closure.0[k] * scales[k]);
         let moved = range.transpose() * closure;
         Vector6::from_fn(|k, _| if k < moved.len() { moved[k] } else { 0.0 })
     }
 
     /// Wrench and coordinates that remove the residual, by sweeps, 6 + n; `right` of the
-    /// conditions at the tip, balanced.
+    /// conditions at the tip, scaled.
     fn swept_residual(
         &self,
         bordered: &Bordered<Box<Sweep>>,
         right: &Vector6<f64>,
-        factors: &[f64],
+        scales: &[f64],
     ) -> Option<Vec<f64>> {
-        let torque: Vec<f64> = (factors[6..].iter().enumerate())
+        let torque: Vec<f64> = (scales[6..].iter().enumerate())
             .map(|(i, factor)| -self.system.unbalanced(i) * factor)
             .collect();
         let (wrench, x) = bordered.solve(&torque, right)?;
-        let balanced = wrench.iter().chain(&x).zip(factors);
-        Some(balanced.map(|(value, factor)| value * factor).collect())
+        let scaled = wrench.iter().chain(&x).zip(scales);
+        Some(scaled.map(|(value, factor)| value * factor).collect())
     }
 
     /// Wrench and coordinates that remove the residual, by the tangent as it is; `None` if it
     /// cannot.
-    pub fn residual(&self, factors: &[f64]) -> Option<DMatrix<f64>> {
+    pub fn residual(&self, scales: &[f64]) -> Option<DMatrix<f64>> {
         match self.tangent.as_ref()? {
             (Tangent::Swept(bordered), Tip::Held(range)) => {
                 let own =
-                    self.swept_residual(bordered, &self.free_closure(range, factors), factors)?;
+                    self.swept_residual(bordered, &self.free_closure(range, scales), scales)?;
                 Some(DMatrix::from_column_slice(own.len(), 1, &own))
             }
             (Tangent::Dense(saddle), Tip::Held(_)) => {

@@ -7,7 +7,7 @@ use crate::chain::scaling::{aside, step_limit};
 use crate::error::{Error, Result};
 use crate::machine::inverse::limb::LimbPosture;
 use crate::machine::platforms::parts::{PlatformStep, Tangents, Unknowns};
-use crate::machine::platforms::solver::{MechanismBalance, PlatformSolver};
+use crate::machine::platforms::solver::{MechanismResiduals, PlatformSolver};
 use crate::machine::state::MechanismState;
 use crate::spatial::{MotionKind, Pose, Twist, Wrench, moved};
 
@@ -36,7 +36,7 @@ impl PlatformSolver<'_> {
         &mut self,
         share: f64,
         mut picard: usize,
-    ) -> std::result::Result<(usize, MechanismBalance), (usize, MechanismBalance)> {
+    ) -> std::result::Result<(usize, MechanismResiduals), (usize, MechanismResiduals)> {
         self.share = share;
         self.rate = None;
         let mut before: Option<f64> = None;
@@ -123,7 +123,7 @@ impl PlatformSolver<'_> {
         trial: &Trial,
         start: &Iterate,
         steps: &[DVector<f64>],
-        next: &MechanismBalance,
+        next: &MechanismResiduals,
         missing: &[Wrench],
     ) -> Rating {
         let length = trial.length;
@@ -157,9 +157,9 @@ impl PlatformSolver<'_> {
         Rating::Shorter(wanted.max(0.1 * length).min(half))
     }
 
-    /// Size of a correction of all limbs' wrenches and coordinates, balanced.
+    /// Size of a correction of all limbs' wrenches and coordinates, scaled.
     fn correction(&self, steps: &[DVector<f64>]) -> f64 {
-        let own = steps.iter().zip(&self.factors);
+        let own = steps.iter().zip(&self.scales);
         let squares = own
             .flat_map(|(step, units)| step.iter().zip(units))
             .map(|(change, unit)| (change / unit).powi(2));
@@ -265,10 +265,10 @@ impl PlatformSolver<'_> {
             self.settings.picard_steps
         };
         match self.solve(1.0, picard) {
-            Ok((iterations, balance)) => Ok(self.residual(&balance, iterations)),
-            Err((_, balance)) => {
+            Ok((iterations, norms)) => Ok(self.residual(&norms, iterations)),
+            Err((_, norms)) => {
                 self.state = start;
-                self.grow_load(&balance, 1.0)
+                self.grow_load(&norms, 1.0)
             }
         }
     }
@@ -277,7 +277,7 @@ impl PlatformSolver<'_> {
     /// one step.
     pub fn grow_load(
         &mut self,
-        first: &MechanismBalance,
+        first: &MechanismResiduals,
         longest: f64,
     ) -> Result<crate::chain::residual::Residual> {
         let aside = aside(longest);
@@ -297,10 +297,10 @@ impl PlatformSolver<'_> {
             let kept = self.state.clone();
             let next = (share + step).min(1.0);
             match self.solve(next, 0) {
-                Ok((spent, balance)) => {
+                Ok((spent, norms)) => {
                     iterations += spent;
                     share = next;
-                    last = balance;
+                    last = norms;
                     step = (1.5 * step).min(longest);
                 }
                 Err((spent, _)) => {
@@ -322,12 +322,12 @@ impl PlatformSolver<'_> {
 
     fn residual(
         &self,
-        balance: &MechanismBalance,
+        norms: &MechanismResiduals,
         iterations: usize,
     ) -> crate::chain::residual::Residual {
         crate::chain::residual::Residual {
             rate: self.rate,
-            ..balance.residual(iterations)
+            ..norms.residual(iterations)
         }
     }
 
@@ -335,9 +335,9 @@ impl PlatformSolver<'_> {
         &self,
         iterations: usize,
         share: f64,
-        balance: &MechanismBalance,
+        norms: &MechanismResiduals,
     ) -> Error {
-        let residual = balance.residual(iterations);
+        let residual = norms.residual(iterations);
         Error::NotConverged {
             place: self.mechanism.place(),
             iterations,

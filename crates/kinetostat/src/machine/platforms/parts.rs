@@ -85,14 +85,14 @@ pub(crate) struct PlatformStep {
     pub push: Wrench,
 }
 
-/// Balance of the tool, `T^T dF + A dt - hands * dh = unbalanced`, over wrench and motion of the tip, with
+/// Equilibrium of the tool, `T^T dF + A dt - hands * dh = unbalanced`, over wrench and motion of the tip, with
 /// the unknown hands taken out, and the conditions of the guide.
-pub(crate) struct ToolBalance {
-    /// The first rows: combinations of the balance across the hands, (6 - k) x 6.
+pub(crate) struct EquilibriumRows {
+    /// The first rows: combinations of the equilibrium across the hands, (6 - k) x 6.
     pub across: DMatrix<f64>,
-    /// Wrench (natural units) and motion in the balance.
+    /// Wrench (natural units) and motion in the equilibrium.
     pub wrench: Matrix6<f64>,
     pub motion: Matrix6<f64>,
-    /// Of every row, so that its largest balanced entry is one.
+    /// Of every row, so that its largest scaled entry is one.
     pub sizes: Vector6<f64>,
 }

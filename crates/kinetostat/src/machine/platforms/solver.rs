@@ -14,10 +14,10 @@
 
 use nalgebra::{DMatrix, Vector3, Vector6};
 
-use crate::chain::equilibrium::{System, balance, rounding};
+use crate::chain::equilibrium::{System, rounding, scales_of};
 use crate::chain::found_by::FoundBy;
-use crate::chain::passive::balanced_jacobian;
-use crate::chain::residual::Balance;
+use crate::chain::passive::scaled_jacobian;
+use crate::chain::residual::ResidualNorms;
 use crate::chain::scaling::LEAST_LOAD;
 use crate::chain::stability::{ShapeStability, shape_stability};
 use crate::chain::stiffness::{ChainStiffness, chain_stiffness, motions_of_end};
@@ -26,7 +26,7 @@ use crate::linalg::sparse::Sparse;
 use crate::machine::inverse::graph::{GraphPosture, graph_inverse, graph_rates};
 use crate::machine::inverse::limb::{LimbPosture, command_rates, inverse_kinematics};
 use crate::machine::platforms::limb::Linear;
-use crate::machine::platforms::parts::{Guide, ToolBalance, Unknowns};
+use crate::machine::platforms::parts::{EquilibriumRows, Guide, Unknowns};
 use crate::machine::state::MechanismState;
 use crate::model::chain::{Chain, Scale};
 use crate::model::loads::load::Load;
@@ -54,12 +54,12 @@ pub(crate) struct PlatformSolver<'m> {
     /// Motion of the commands per motion of the nominal target at its origin, per limb, r x 6.
     pub rates: Vec<DMatrix<f64>>,
     pub state: MechanismState,
-    pub factors: Vec<Vec<f64>>,
+    pub scales: Vec<Vec<f64>>,
     /// What acts on every limb between its ends: gravity and its loads.
     pub loads: Vec<Vec<Load>>,
     pub linear: Vec<Linear>,
     /// Of a machine that is one chain: the unbalanced wrench of its tool, as it was linearised.
-    pub balance: Option<ToolBalance>,
+    pub equilibrium: Option<EquilibriumRows>,
     /// Closure at the start, kept while the load grows.
     pub offsets: Vec<Twist>,
     /// Limbs from the base outwards, where every moving platform has a single limb to it; else none.
@@ -75,9 +75,9 @@ pub(crate) struct PlatformSolver<'m> {
     pub stiffness: f64,
 }
 
-/// Largest residuals of all limbs and platforms, balanced.
+/// Largest residuals of all limbs and platforms, scaled.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct MechanismBalance {
+pub(crate) struct MechanismResiduals {
     pub merit: f64,
     pub closure_m: f64,
     pub torque: f64,
@@ -90,7 +90,7 @@ pub(crate) struct MechanismBalance {
     pub exceeding: f64,
 }
 
-impl MechanismBalance {
+impl MechanismResiduals {
     /// Closure in metres and unbalanced share.
     pub fn residual(&self, iterations: usize) -> crate::chain::residual::Residual {
         crate::chain::residual::Residual {
@@ -112,23 +112,23 @@ impl<'m> PlatformSolver<'m> {
         unknowns: Unknowns,
     ) -> Self {
         let limbs = &mechanism.limbs();
-        let factors: Vec<Vec<f64>> = limbs
+        let scales: Vec<Vec<f64>> = limbs
             .iter()
             .zip(&posture)
-            .map(|(l, p)| balance(&l.actual, &p.coordinates))
+            .map(|(l, p)| scales_of(&l.actual, &p.coordinates))
             .collect();
         let linear = limbs
             .iter()
             .zip(&posture)
-            .zip(&factors)
-            .map(|((l, p), factors)| {
+            .zip(&scales)
+            .map(|((l, p), scales)| {
                 let base = &state.platforms[l.from];
                 // What follows from commands and from a moving base is asked of dense matrices.
                 let dense = matches!(unknowns, Unknowns::Target(_)) || l.from != 0;
                 let (x, commands) = (&p.coordinates, &p.commands);
                 Linear::new(match dense {
                     true => System::new(&l.actual, base, x, commands, l.from != 0),
-                    false => System::of_chain(&l.actual, base, x, commands, factors, None),
+                    false => System::of_chain(&l.actual, base, x, commands, scales, None),
                 })
             })
             .collect();
@@ -146,10 +146,10 @@ impl<'m> PlatformSolver<'m> {
             guide: Guide::none(),
             rates: Vec::new(),
             state,
-            factors,
+            scales,
             loads,
             linear,
-            balance: None,
+            equilibrium: None,
             offsets: vec![Twist::zero(); limbs.len()],
             tree: tree(mechanism),
             leads: false,
@@ -209,8 +209,8 @@ impl<'m> PlatformSolver<'m> {
         }
     }
 
-    /// Evaluates every limb and the balance of every platform at the present state.
-    pub fn evaluate(&mut self) -> (MechanismBalance, Vec<Wrench>) {
+    /// Evaluates every limb and the equilibrium of every platform at the present state.
+    pub fn evaluate(&mut self) -> (MechanismResiduals, Vec<Wrench>) {
         let m = self.mechanism;
         self.evaluate_limbs();
         let (mut merit, mut closure_m, mut torque, mut loads, mut forces) =
@@ -264,7 +264,7 @@ impl<'m> PlatformSolver<'m> {
                 &linear.system,
                 &linear.closure,
                 f,
-                &self.factors[i],
+                &self.scales[i],
             );
             merit += b.closure.powi(2) + b.torque.powi(2);
             closure_m = larger(closure_m, b.closure / limb.actual.scale().stiffness.sqrt());
@@ -293,7 +293,7 @@ impl<'m> PlatformSolver<'m> {
                 merit += size(w).powi(2);
             }
         }
-        let balance = MechanismBalance {
+        let norms = MechanismResiduals {
             merit,
             closure_m,
             torque,
@@ -303,10 +303,10 @@ impl<'m> PlatformSolver<'m> {
             least: LEAST_LOAD * root * self.length,
             exceeding,
         };
-        (balance, unbalanced)
+        (norms, unbalanced)
     }
 
-    pub fn converged(&self, b: &MechanismBalance) -> bool {
+    pub fn converged(&self, b: &MechanismResiduals) -> bool {
         let unit = self.stiffness.sqrt() * self.length;
         b.torque.is_finite()
             && b.closure_m <= self.settings.closure * self.length
@@ -352,16 +352,16 @@ impl<'m> PlatformSolver<'m> {
         self.share = 1.0;
         let (_, unbalanced) = self.evaluate();
         self.linearise(true);
-        for (linear, (limb, factors)) in self
+        for (linear, (limb, scales)) in self
             .linear
             .iter_mut()
-            .zip(self.mechanism.limbs().iter().zip(&self.factors))
+            .zip(self.mechanism.limbs().iter().zip(&self.scales))
         {
             // A limb that cannot move in all directions has no regular system: its end apart from them.
             let swept = linear.system.sweep.is_some();
             if limb.from == 0 && !swept && linear.rigid.ncols() > 0 {
-                let jacobian = balanced_jacobian(&linear.system, factors);
-                let (_, answer) = motions_of_end(&limb.actual, &linear.system, factors, &jacobian);
+                let jacobian = scaled_jacobian(&linear.system, scales);
+                let (_, answer) = motions_of_end(&limb.actual, &linear.system, scales, &jacobian);
                 linear.solution.columns_mut(1, 6).copy_from(&answer);
             }
         }
@@ -393,7 +393,7 @@ impl<'m> PlatformSolver<'m> {
         let units = self.linear[limb].solution.columns(1, 6).into_owned();
         let system = &self.linear[limb].system;
         let conservative = self.mechanism.loads_conservative(limb);
-        let found = system.swept_verdicts(chain, &self.factors[limb], Some(&units));
+        let found = system.swept_verdicts(chain, &self.scales[limb], Some(&units));
         if let Some(found) = found.filter(|(_, s)| conservative || s.stable) {
             return found;
         }
@@ -402,10 +402,10 @@ impl<'m> PlatformSolver<'m> {
             self.linear[limb].system.make_dense();
             self.evaluate_limb(limb);
         }
-        let (system, factors) = (&self.linear[limb].system, &self.factors[limb]);
+        let (system, scales) = (&self.linear[limb].system, &self.scales[limb]);
         let units = (!swept).then_some(units);
-        let stiffness = chain_stiffness(chain, system, factors, units);
-        let stability = shape_stability(chain, system, factors, conservative);
+        let stiffness = chain_stiffness(chain, system, scales, units);
+        let stability = shape_stability(chain, system, scales, conservative);
         (stiffness, stability)
     }
 }
@@ -456,18 +456,18 @@ fn measure(
     system: &System,
     closure: &Twist,
     wrench: &Wrench,
-    factors: &[f64],
-) -> Balance {
-    let (torque, mut loads) = system.unbalanced_torques(factors);
+    scales: &[f64],
+) -> ResidualNorms {
+    let (torque, mut loads) = system.unbalanced_torques(scales);
     let mut closure_squared = 0.0;
     for k in 0..6 {
-        closure_squared += (closure.0[k] * factors[k]).powi(2);
-        loads = larger(loads, (wrench.0[k] / factors[k]).abs());
+        closure_squared += (closure.0[k] * scales[k]).powi(2);
+        loads = larger(loads, (wrench.0[k] / scales[k]).abs());
     }
-    Balance {
+    ResidualNorms {
         closure: closure_squared.sqrt(),
         torque: torque.sqrt(),
         loads,
-        rounding: rounding(chain, system, factors),
+        rounding: rounding(chain, system, scales),
     }
 }

@@ -14,7 +14,7 @@ use crate::machine::state::MechanismState;
 use crate::model::chain::Scale;
 use crate::spatial::{Directions, Twist, Wrench, hat, rotational, shift_matrix};
 
-/// Conditions on the motions of the platforms besides their balance.
+/// Conditions on the motions of the platforms besides their equilibrium.
 struct Conditions {
     /// Rows by which their units are chosen.
     sizes: RigidRows,
@@ -35,10 +35,10 @@ impl PlatformSolver<'_> {
     /// Solves every limb's bordered system for closure, end, command and base motions.
     pub fn linearise(&mut self, with_hessian: bool) {
         for i in 0..self.linear.len() {
-            if !self.linear[i].linearise(with_hessian, &self.factors[i]) {
+            if !self.linear[i].linearise(with_hessian, &self.scales[i]) {
                 self.linear[i].system.make_dense();
                 self.evaluate_limb(i);
-                self.linear[i].linearise(with_hessian, &self.factors[i]);
+                self.linear[i].linearise(with_hessian, &self.scales[i]);
             }
         }
     }
@@ -47,9 +47,9 @@ impl PlatformSolver<'_> {
     pub fn renew_residuals(&mut self) -> bool {
         self.linear
             .iter_mut()
-            .zip(&self.factors)
-            .all(|(linear, factors)| {
-                let Some(own) = linear.residual(factors) else {
+            .zip(&self.scales)
+            .all(|(linear, scales)| {
+                let Some(own) = linear.residual(scales) else {
                     return false;
                 };
                 linear.solution.column_mut(0).copy_from(&own.column(0));

@@ -69,7 +69,7 @@ impl Axes {
     }
 }
 
-/// Joints of a limb in the order of [`limb_motions`], moved by balanced amounts.
+/// Joints of a limb in the order of [`limb_motions`], moved by scaled amounts.
 fn step_joints(chain: &Chain, joints: &mut LimbPosture, by: &[f64], length: f64) {
     let unit = |kind: MotionKind| match kind {
         MotionKind::Prismatic => 1.0,
@@ -131,7 +131,7 @@ impl<'p> LostMotionSearch<'p> {
         6 * (self.at.mechanism.tool() - 1)
     }
 
-    fn balanced(&self, twist: &Twist) -> DVector<f64> {
+    fn scaled(&self, twist: &Twist) -> DVector<f64> {
         DVector::from_fn(6, |i, _| twist.0[i] * if i < 3 { 1.0 } else { self.length })
     }
 
@@ -165,7 +165,7 @@ impl<'p> LostMotionSearch<'p> {
                 &joints.commands,
             );
             let held: Pose = self.at.platforms[limb.to] * limb.platform_from_tip;
-            let residual = self.balanced(&pose_residual(&held, &tip));
+            let residual = self.scaled(&pose_residual(&held, &tip));
             residuals.rows_mut(6 * i, 6).copy_from(&residual);
         }
         rows.rows_mut(6 * m.limbs().len(), self.idle.nrows())
@@ -177,7 +177,7 @@ impl<'p> LostMotionSearch<'p> {
         Axes::of(limb_motions(&self.at, limb, true, self.length))
     }
 
-    /// Change of the joint axes with every joint of the limb, per balanced amount.
+    /// Change of the joint axes with every joint of the limb, per scaled amount.
     fn changes(&self, limb: usize) -> Vec<DMatrix<f64>> {
         let step = 1e-5 * self.length;
         let chain = &self.at.mechanism.limbs()[limb].nominal;
@@ -241,7 +241,7 @@ impl<'p> LostMotionSearch<'p> {
             .copy_from(&-value);
         let (particular, free) = solve(&rows, &wanted)?;
         let tool = self.tool();
-        let left = self.balanced(&self.gone()) + particular.rows(tool, 6);
+        let left = self.scaled(&self.gone()) + particular.rows(tool, 6);
         let moves = free.rows(tool, 6).into_owned();
         if moves.is_empty() {
             return Some([particular, DVector::zeros(self.count)]);
@@ -268,7 +268,7 @@ impl<'p> LostMotionSearch<'p> {
     }
 
     /// Newton from the start with a limb's singular value `which` of `rank`; true if it ends at a
-    /// singular posture, no farther than `most` (balanced).
+    /// singular posture, no farther than `most` (scaled).
     fn run(&mut self, limb: usize, which: usize, rank: usize, most: f64) -> Option<bool> {
         self.at = self.start.clone();
         let mut axes = self.axes(limb)?;
@@ -301,7 +301,7 @@ impl<'p> LostMotionSearch<'p> {
             // the first.
             let short = |part: &DVector<f64>| part * (0.3 * self.length / part.amax()).min(1.0);
             self.go(&(short(&parts[0]) + short(&parts[1])));
-            if self.balanced(&self.gone()).norm() > most {
+            if self.scaled(&self.gone()).norm() > most {
                 return Some(false);
             }
             axes = self.axes(limb)?;
@@ -324,7 +324,7 @@ pub(crate) fn solve(
 }
 
 impl Posture {
-    /// For every limb the nearest posture at most `within_m` away (balanced) where it loses a motion
+    /// For every limb the nearest posture at most `within_m` away (scaled) where it loses a motion
     /// that its joints have in general.
     pub(crate) fn lost_motions(&self, within_m: f64) -> Vec<LostMotion> {
         let mut search = LostMotionSearch::new(self);
@@ -459,7 +459,7 @@ impl Posture {
     }
 }
 
-/// Least motion of the tool (balanced) that brings `value` to zero, first order: `moves` of the tool
+/// Least motion of the tool (scaled) that brings `value` to zero, first order: `moves` of the tool
 /// and `change` of the values, both per free motion.
 fn first_order(
     moves: &DMatrix<f64>,

@@ -97,7 +97,7 @@ fn mainly(motion: &Twist) -> Twist {
 /// Postures beside one, along motions of its joints: of machines whose tool cannot move straight on.
 struct Beside<'p> {
     start: LostMotionSearch<'p>,
-    /// Free motions of all joints and platforms, and what they do to the tool, balanced.
+    /// Free motions of all joints and platforms, and what they do to the tool, scaled.
     free: DMatrix<f64>,
     moves: SingularValues,
 }
@@ -119,16 +119,16 @@ impl<'p> Beside<'p> {
     fn at(&self, twist: &Vector6<f64>) -> Option<Posture> {
         let mut search = self.start.again();
         let length = search.length;
-        let balanced =
+        let scaled =
             |t: &Vector6<f64>| DVector::from_fn(6, |i, _| t[i] * if i < 3 { 1.0 } else { length });
-        let wanted = balanced(twist);
+        let wanted = scaled(twist);
         let small = 1e-6 * self.moves.largest();
         search.go(&(&self.free * self.moves.shortest(&wanted, small)));
         for _ in 0..CLOSING_STEPS {
             let (closure, residuals) = search.closure();
             if largest(&residuals) <= 1e-12 * length {
                 let gone = pose_residual(&search.at.target, &self.start.at.target);
-                let off = (balanced(&gone.0) - &wanted).norm();
+                let off = (scaled(&gone.0) - &wanted).norm();
                 return (off <= 0.5 * wanted.norm()).then_some(search.at);
             }
             let (closing, _) = solve(&closure, &residuals)?;

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector3, Vector6, vector};
 
 use kinetostat::internal::{
     Bordered, ChainCurve, ChainMethod, CurveState, END_SPRINGS, EndMotions, EndRows, Form,
-    SWEEP_FROM, System, balance, balanced_jacobian, chain_stiffness, column_space, shape,
+    SWEEP_FROM, System, chain_stiffness, column_space, scaled_jacobian, scales_of, shape,
     solve_along, stability_within, swept_stiffness,
 };
 use kinetostat::{
@@ -112,7 +112,7 @@ fn loads(rng: &mut Rng, chain: &Chain, moments: bool) -> Vec<Load> {
 fn two(rng: &mut Rng, chain: &Chain, loads: &[Load], size: f64) -> (System, System, Vec<f64>) {
     let (posture, commands) = (chain.home_coordinates(), chain.home_commands());
     let base = Pose::new(vector![0.1, -0.2, 0.3], vector![0.4, -0.3, 0.2]);
-    let factors = balance(chain, &posture);
+    let scales = scales_of(chain, &posture);
     let x: Vec<f64> = chain
         .coordinates()
         .iter()
@@ -124,7 +124,7 @@ fn two(rng: &mut Rng, chain: &Chain, loads: &[Load], size: f64) -> (System, Syst
         .collect();
     let wrench = rng.wrench(400.0, 60.0);
     let mut systems = [ChainMethod::Dense, ChainMethod::Sweep]
-        .map(|method| System::of_chain(chain, &base, &posture, &commands, &factors, Some(method)));
+        .map(|method| System::of_chain(chain, &base, &posture, &commands, &scales, Some(method)));
     for (system, method) in systems
         .iter_mut()
         .zip([ChainMethod::Dense, ChainMethod::Sweep])
@@ -133,13 +133,13 @@ fn two(rng: &mut Rng, chain: &Chain, loads: &[Load], size: f64) -> (System, Syst
         system.evaluate(chain, &base, &posture, &commands, loads, &x, &wrench, 1.0);
     }
     let [dense, swept] = systems;
-    (dense, swept, factors)
+    (dense, swept, scales)
 }
 
-/// `H - K` balanced in one form, dense.
-fn reference(system: &System, factors: &[f64], form: Form) -> DMatrix<f64> {
+/// `H - K` scaled in one form, dense.
+fn reference(system: &System, scales: &[f64], form: Form) -> DMatrix<f64> {
     let n = system.spring_torque.len();
-    let f = |i: usize| factors[6 + i];
+    let f = |i: usize| scales[6 + i];
     let mut geometric = DMatrix::zeros(n, n);
     for (first, change) in &system.spring_geometric {
         for i in 0..6 {
@@ -177,7 +177,7 @@ fn products_torques_and_energy_are_those_of_dense_matrices() {
     for case in 0..40 {
         let chain = random(&mut rng, 3 + case % 5, case % 4, 1.0);
         let loads = loads(&mut rng, &chain, case % 2 == 0);
-        let (dense, swept, factors) = two(&mut rng, &chain, &loads, 1.0);
+        let (dense, swept, scales) = two(&mut rng, &chain, &loads, 1.0);
         let n = chain.coordinate_count();
         for i in 0..n {
             let size = dense.torque[i].abs().max(1.0);
@@ -188,7 +188,7 @@ fn products_torques_and_energy_are_those_of_dense_matrices() {
         let sweep = swept.sweep.as_ref().expect("stages");
         assert!(sweep.serial);
         for form in FORMS {
-            let matrix = reference(&dense, &factors, form);
+            let matrix = reference(&dense, &scales, form);
             let x: Vec<f64> = (0..n).map(|_| rng.next()).collect();
             let expected = &matrix * DVector::from_column_slice(&x);
             let mut found = vec![0.0; n];
@@ -210,7 +210,7 @@ fn the_product_is_the_derivative_of_the_residual() {
         let chain = random(&mut rng, 4, case % 4, 1.0);
         let loads = loads(&mut rng, &chain, true);
         let (posture, commands) = (chain.home_coordinates(), chain.home_commands());
-        let factors = balance(&chain, &posture);
+        let scales = scales_of(&chain, &posture);
         let n = chain.coordinate_count();
         let wrench = rng.wrench(400.0, 60.0);
         let mut system = System::of_chain(
@@ -218,19 +218,19 @@ fn the_product_is_the_derivative_of_the_residual() {
             &base,
             &posture,
             &commands,
-            &factors,
+            &scales,
             Some(ChainMethod::Sweep),
         );
         let mut residual = |x: &[f64]| {
             system.evaluate(&chain, &base, &posture, &commands, &loads, x, &wrench, 1.0);
-            let balanced = (0..n).map(|i| system.unbalanced(i) * factors[6 + i]);
-            DVector::from_iterator(n, balanced)
+            let scaled = (0..n).map(|i| system.unbalanced(i) * scales[6 + i]);
+            DVector::from_iterator(n, scaled)
         };
         let x: Vec<f64> = (0..n).map(|_| 1e-3 * rng.next()).collect();
         let along: Vec<f64> = (0..n).map(|_| rng.next()).collect();
         let at = |step: f64| -> Vec<f64> {
             (0..n)
-                .map(|i| x[i] + step * along[i] * factors[6 + i])
+                .map(|i| x[i] + step * along[i] * scales[6 + i])
                 .collect()
         };
         let step = 2e-3;
@@ -256,10 +256,10 @@ fn bordered_systems_are_solved_as_by_dense_matrices() {
     for case in 0..40 {
         let chain = random(&mut rng, 3 + case % 6, case % 5, 1.0);
         let loads = loads(&mut rng, &chain, case % 2 == 0);
-        let (dense, swept, factors) = two(&mut rng, &chain, &loads, 1.0);
+        let (dense, swept, scales) = two(&mut rng, &chain, &loads, 1.0);
         let sweep = swept.sweep.as_ref().expect("stages");
         let n = chain.coordinate_count();
-        let jacobian = balanced_jacobian(&dense, &factors);
+        let jacobian = scaled_jacobian(&dense, &scales);
         for form in FORMS {
             // Some directions held, the others under a given wrench.
             let held: Vec<bool> = (0..6).map(|k| case < 10 || (k + case) % 3 > 0).collect();
@@ -270,7 +270,7 @@ fn bordered_systems_are_solved_as_by_dense_matrices() {
             let mut a = DMatrix::zeros(6 + n, 6 + n);
             a.view_mut((6, 0), (n, 6)).copy_from(&jacobian.transpose());
             a.view_mut((6, 6), (n, n))
-                .copy_from(&reference(&dense, &factors, form));
+                .copy_from(&reference(&dense, &scales, form));
             for k in 0..6 {
                 if held[k] {
                     rows.motion[(k, k)] = 1.0;
@@ -312,11 +312,11 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
     for (x, y) in a.coordinates.iter().zip(&b.coordinates) {
         close(*x, *y, most(&a.coordinates), "coordinate");
     }
-    let balanced = |e: &Equilibrium| {
+    let scaled = |e: &Equilibrium| {
         let m = e.stiffness.cartesian.matrix;
         nalgebra::Matrix6::from_fn(|i, j| m[(i, j)] / (unit(i) * unit(j)))
     };
-    let (ka, kb) = (balanced(a), balanced(b));
+    let (ka, kb) = (scaled(a), scaled(b));
     for (x, y) in ka.iter().zip(kb.iter()) {
         close(*x, *y, ka.largest_entry(), "stiffness");
     }
@@ -343,8 +343,8 @@ fn assert_same(a: &Equilibrium, b: &Equilibrium, chain: &Chain, case: &str) {
 }
 
 /// Cosine of the angle between two modes in the given units.
-fn alignment(a: &[f64], b: &[f64], factors: &[f64]) -> f64 {
-    let v = |m: &[f64]| DVector::from_fn(m.len(), |i, _| m[i] / factors[6 + i]);
+fn alignment(a: &[f64], b: &[f64], scales: &[f64]) -> f64 {
+    let v = |m: &[f64]| DVector::from_fn(m.len(), |i, _| m[i] / scales[6 + i]);
     v(a).normalize().dot(&v(b).normalize()).abs()
 }
 
@@ -382,8 +382,8 @@ fn equilibria_and_verdicts_are_those_of_the_dense_path() {
         };
         assert_eq!(method, ChainMethod::Sweep, "{case}");
         assert_same(&dense, &swept, &chain, &format!("case {case}"));
-        let factors = balance(&chain, &problem.posture);
-        let cosine = alignment(&dense.stability.mode, &swept.stability.mode, &factors);
+        let scales = scales_of(&chain, &problem.posture);
+        let cosine = alignment(&dense.stability.mode, &swept.stability.mode, &scales);
         assert!(cosine > 1.0 - 1e-6, "{case}: mode {cosine}");
         if passive > 0 { held += 1 } else { free += 1 }
     }
@@ -448,8 +448,8 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
     for case in 0..40 {
         let chain = random(&mut rng, 3 + case % 4, case % 3, 1.0);
         let loads = loads(&mut rng, &chain, true);
-        let (dense, swept, factors) = two(&mut rng, &chain, &loads, 12.0);
-        let jacobian = balanced_jacobian(&dense, &factors);
+        let (dense, swept, scales) = two(&mut rng, &chain, &loads, 12.0);
+        let jacobian = scaled_jacobian(&dense, &scales);
         let sweep = swept.sweep.as_ref().expect("stages");
         let range = column_space(&jacobian);
         // The whole end held, some directions of it, nothing.
@@ -459,7 +459,7 @@ fn an_unstable_inertia_is_counted_whatever_the_shape() {
             let expected = stability_within(
                 &chain,
                 &dense,
-                &factors,
+                &scales,
                 &(held.transpose() * &jacobian),
                 true,
             );
@@ -689,21 +689,21 @@ fn uneven_stiffnesses_are_alike_by_sweeps_and_dense() {
             let builder = Chain::builder("rod").link_with("rod", &link);
             let chain = builder.build().expect("chain");
             let posture = chain.home_coordinates();
-            let factors = balance(&chain, &posture);
+            let scales = scales_of(&chain, &posture);
             let force = Wrench::new(Vector3::from(push), Vector3::zeros());
             let problem = ChainProblem::new(&chain, EndCondition::wrench(force));
             let here = solve_chain(&problem, &Settings::default()).expect("equilibrium");
             let [dense, swept] = [ChainMethod::Dense, ChainMethod::Sweep].map(|method| {
                 let mut system =
-                    System::of_chain(&chain, &problem.base, &posture, &[], &factors, Some(method));
+                    System::of_chain(&chain, &problem.base, &posture, &[], &scales, Some(method));
                 system.evaluate_problem(&problem, &here.coordinates, &here.wrench, 1.0);
                 system
             });
             let case = format!("{segments} {axial:e} {push:?}");
             let sweep = swept.sweep.as_ref().expect("stages");
-            let by_sweep = swept_stiffness(&chain, &swept, sweep, &factors, None);
+            let by_sweep = swept_stiffness(&chain, &swept, sweep, &scales, None);
             let (a, b) = (
-                chain_stiffness(&chain, &dense, &factors, None),
+                chain_stiffness(&chain, &dense, &scales, None),
                 by_sweep.expect(&case),
             );
             assert_eq!(

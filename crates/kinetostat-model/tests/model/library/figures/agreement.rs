@@ -69,10 +69,10 @@ fn compare(model: &Model, posture: &Posture) -> Apart {
     let oracle = machine.structure.condense(machine.tool);
     let found = posture.stiffness().expect("a stiffness");
     let unit = |i: usize| if i < 3 { 1.0 } else { 1.0 / oracle.length };
-    let balanced = DMatrix::from_fn(6, 6, |i, j| {
+    let scaled = DMatrix::from_fn(6, 6, |i, j| {
         found.cartesian.matrix[(i, j)] * unit(i) * unit(j)
     });
-    let own = oracle.reach.transpose() * balanced * &oracle.reach;
+    let own = oracle.reach.transpose() * scaled * &oracle.reach;
 
     let eigen = oracle.stiffness.clone().symmetric_eigen();
     let finite: Vec<usize> = (0..eigen.eigenvalues.len())
