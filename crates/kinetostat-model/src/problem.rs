@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
-/// A step on the way from the root of a document to a value.
+/// A step on the path from the root of a document to a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PathStep {
     Key(String),
     Index(usize),
 }
 
-/// The way from the root of a document to a value; resolved to a line only where a message needs it.
+/// The path from the root of a document to a value; resolved to a line only where a message needs it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct KeyPath(pub(crate) Vec<PathStep>);
 
@@ -113,7 +113,7 @@ pub struct Problem {
     pub line: Option<usize>,
     /// Column in characters, from 1.
     pub column: Option<usize>,
-    /// Way to the value: `chain.leg.elements[3].length_mm` (counted from 1).
+    /// Path to the value: `chain.leg.elements[3].length_mm` (counted from 1).
     pub path: String,
     plain: String,
     styled: String,
@@ -126,7 +126,7 @@ impl Problem {
         if styled { &self.styled } else { &self.plain }
     }
 
-    /// A problem that another reader found in `text`, at the bytes of `span`; `path` is its way to
+    /// A problem that another reader found in `text`, at the bytes of `span`; `path` is its path to
     /// the value in words.
     #[must_use]
     pub fn found(

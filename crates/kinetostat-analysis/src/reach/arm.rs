@@ -145,7 +145,7 @@ fn product(m: &Mechanism, limb: &Limb, commands: &[f64], coordinates: &[f64], wh
 /// Starts of the search.
 const STARTS: usize = 16;
 
-/// Most elements that one search walks over: an arm of six joints needs far less, a chain of ninety
+/// Most elements that one search visits: an arm of six joints needs far less, a chain of ninety
 /// is not searched from all starts.
 const MOST_STEPS: usize = 25_000_000;
 

@@ -88,7 +88,7 @@ mod tests {
     /// Every option of every command that takes numbers, with the words that lead to it.
     fn options_of_numbers(
         command: &clap::Command,
-        way: &[String],
+        path: &[String],
         found: &mut Vec<(Vec<String>, String, usize)>,
     ) {
         let numbers = [
@@ -100,13 +100,13 @@ mod tests {
             if numbers.contains(&argument.get_value_parser().type_id()) {
                 let name = argument.get_long().expect("numbers are options");
                 let count = argument.get_num_args().expect("built").min_values();
-                found.push((way.to_vec(), format!("--{name}"), count));
+                found.push((path.to_vec(), format!("--{name}"), count));
             }
         }
         for inner in command.get_subcommands() {
-            let mut way = way.to_vec();
-            way.push(inner.get_name().to_owned());
-            options_of_numbers(inner, &way, found);
+            let mut path = path.to_vec();
+            path.push(inner.get_name().to_owned());
+            options_of_numbers(inner, &path, found);
         }
     }
 
@@ -118,18 +118,18 @@ mod tests {
         options_of_numbers(&command, &["kinetostat".to_owned()], &mut options);
         assert!(options.len() >= 50, "{}", options.len());
         let number = ValueParser::from(number).type_id();
-        let real = |(way, name, _): &&(Vec<String>, String, usize)| {
+        let real = |(path, name, _): &&(Vec<String>, String, usize)| {
             let mut of = &command;
-            for word in &way[1..] {
+            for word in &path[1..] {
                 of = of.find_subcommand(word).expect("a command");
             }
             let mut all = of.get_arguments();
             let own = all.find(|a| a.get_long().is_some_and(|long| name[2..] == *long));
             own.is_some_and(|a| a.get_value_parser().type_id() == number)
         };
-        for (way, name, count) in options.iter().filter(real) {
+        for (path, name, count) in options.iter().filter(real) {
             for written in ["-5e-12", "-1.5E+3", "-2e3", "-.5", "-0", "-1e-320", "-7.25"] {
-                let mut words = way.clone();
+                let mut words = path.clone();
                 words.push(name.clone());
                 words.extend(std::iter::repeat_n(written.to_owned(), *count));
                 let words = plain_numbers(words.into_iter().map(OsString::from));
@@ -141,7 +141,7 @@ mod tests {
                             error.kind(),
                             Kind::MissingRequiredArgument | Kind::ArgumentConflict
                         ),
-                        "{name} {written} of {way:?}: {error}"
+                        "{name} {written} of {path:?}: {error}"
                     );
                 }
             }
@@ -169,16 +169,16 @@ mod tests {
         let mut options = Vec::new();
         options_of_numbers(&command, &["kinetostat".to_owned()], &mut options);
         assert!(options.len() >= 60, "{}", options.len());
-        for (way, name, count) in &options {
+        for (path, name, count) in &options {
             let refused = |values: &[&str]| {
-                let mut words = way.clone();
+                let mut words = path.clone();
                 words.push(name.clone());
                 words.extend(values.iter().map(|&value| value.to_owned()));
                 let words = plain_numbers(words.into_iter().map(OsString::from));
                 let error = Cli::try_parse_from(words).expect_err("a wrong value");
                 let said = error.to_string();
                 let first = said.lines().next().unwrap_or_default();
-                assert!(first.contains(name), "{way:?} {name} {values:?}: {said}");
+                assert!(first.contains(name), "{path:?} {name} {values:?}: {said}");
             };
             for wrong in [
                 "text", "nan", "inf", "1e400", "-1e400", "1,5", "0x10", "5mm", "",

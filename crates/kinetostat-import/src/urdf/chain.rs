@@ -1,4 +1,4 @@
-//! A way as the elements of a chain, with the masses that hang on it.
+//! A path as the elements of a chain, with the masses that hang on it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::log::At;
 use crate::stiffness::Stiffnesses;
 use crate::urdf::close::product;
-use crate::urdf::graph::Way;
+use crate::urdf::graph::LinkPath;
 use crate::urdf::robot::{Origin, Robot};
 use crate::urdf::tree::{Follow, Tree, TreeStep};
 
@@ -155,16 +155,16 @@ impl Plan<'_> {
         }
     }
 
-    /// The chain of a way. Links whose mass has been placed are marked in `placed`.
-    pub(crate) fn chain(&self, way: &Way, placed: &mut [bool]) -> Written {
+    /// The chain of a path. Links whose mass has been placed are marked in `placed`.
+    pub(crate) fn chain(&self, path: &LinkPath, placed: &mut [bool]) -> Written {
         let mut out = Written::default();
         for reserved in ["start", "end"] {
             out.names.insert(reserved.into());
         }
         out.body_names.insert("tip".into());
-        let mut here = way.from;
+        let mut here = path.from;
         self.masses(here, &mut out, placed);
-        for step in &way.steps {
+        for step in &path.steps {
             match step {
                 TreeStep::Offset {
                     joint,
@@ -285,7 +285,7 @@ impl Plan<'_> {
             return;
         };
         if let Some((name, scale, shift)) = out.defined.get(&variable).cloned() {
-            // On the way to a side branch a joint may be walked backward.
+            // On the path to a side branch a joint may be passed backward.
             if *joint != name && !out.coupled.contains(joint) {
                 out.coupled.push(joint.clone());
             }

@@ -1,4 +1,4 @@
-//! From the tree and its closing joints to platforms and ways between them: what does not lie
+//! From the tree and its closing joints to platforms and paths between them: what does not lie
 //! between base and tip is cut away, links that are fixed to each other are one.
 
 use std::collections::{BTreeMap, VecDeque};
@@ -9,9 +9,9 @@ use crate::urdf::tree::{Follow, Tree, TreeStep};
 
 use kinetostat::MotionKind;
 
-/// A way between two platforms.
+/// A path between two platforms.
 #[derive(Clone, Debug)]
-pub(crate) struct Way {
+pub(crate) struct LinkPath {
     /// Links that stand for the platforms.
     pub(crate) from: usize,
     pub(crate) to: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Way {
 pub(crate) struct Graph {
     /// Links that stand for moving platforms; the tip is the last one.
     pub(crate) platforms: Vec<usize>,
-    pub(crate) ways: Vec<Way>,
+    pub(crate) paths: Vec<LinkPath>,
 }
 
 /// A joint between two groups of links that are fixed to each other.
@@ -80,7 +80,7 @@ pub(crate) fn closing_steps(constraint: &Constraint, first_variable: usize) -> V
     steps
 }
 
-/// Platforms and ways, or `None` with errors in the log. `closings` are the constraints' links and
+/// Platforms and paths, or `None` with errors in the log. `closings` are the constraints' links and
 /// steps.
 pub(crate) fn graph(
     robot: &Robot,
@@ -100,7 +100,7 @@ pub(crate) fn graph(
                 steps: tree.joint_steps(robot, i),
             });
         } else if matches!(joint.kind, JointType::Several(_)) {
-            // Groups of both sides are one unless it lies on the way: looked at below.
+            // Groups of both sides are one unless it lies on a path: looked at below.
             continue;
         }
     }
@@ -137,7 +137,7 @@ pub(crate) fn graph(
         [group[base], group[tip]],
     );
     several_freedoms(robot, tree, &kept, &edges, [base, tip], log)?;
-    Some(ways(robot, tree, &group, &edges, &kept, [base, tip]))
+    Some(paths(robot, tree, &group, &edges, &kept, [base, tip]))
 }
 
 /// Links that are fixed to each other have the same number.
@@ -191,7 +191,7 @@ fn prune(edges: &[Edge], groups: usize, keep: [usize; 2]) -> Vec<bool> {
     kept
 }
 
-/// Joints of several freedoms stand still beside the way; on it they are refused.
+/// Joints of several freedoms stand still beside the path; on it they are refused.
 fn several_freedoms(
     robot: &Robot,
     tree: &Tree,
@@ -208,7 +208,7 @@ fn several_freedoms(
         let JointType::Several(word) = joint.kind else {
             continue;
         };
-        // It lies on the way where links that are used are on both sides of it.
+        // It lies on the path where links that are used are on both sides of it.
         let below = |mut link: usize| {
             while let Some(above) = tree.above[link] {
                 if above == i {
@@ -236,7 +236,7 @@ fn several_freedoms(
     (!log.any_errors()).then_some(())
 }
 
-fn ways(
+fn paths(
     robot: &Robot,
     tree: &Tree,
     group: &[usize],
@@ -290,7 +290,7 @@ fn ways(
                 if stands.contains_key(&g) {
                     break g;
                 }
-                // A way that would come back to where it started ends half way.
+                // A path that would come back to where it started ends half way.
                 let next = around(g).iter().copied().find(|i| !used[*i]);
                 let back = next.is_some_and(|i| {
                     let far = if edges[i].ends[0] == g { 1 } else { 0 };
@@ -310,7 +310,7 @@ fn ways(
                 order.push(end);
                 open.push_back(end);
             }
-            found.push(Way {
+            found.push(LinkPath {
                 from: stands[&start],
                 to,
                 steps,
@@ -325,6 +325,6 @@ fn ways(
     platforms.push(tip);
     Graph {
         platforms,
-        ways: found,
+        paths: found,
     }
 }

@@ -11,7 +11,7 @@ use crate::log::{At, Log, refusal, some_names};
 use crate::stiffness::{self, JointStiffness, Stiffnesses};
 use crate::urdf::chain::{Plan, Variable, Written, unique};
 use crate::urdf::close::frames;
-use crate::urdf::graph::{Graph, Way, graph};
+use crate::urdf::graph::{Graph, LinkPath, graph};
 use crate::urdf::loops::{self, Loops};
 use crate::urdf::options::UrdfOptions;
 use crate::urdf::remarks::{
@@ -80,8 +80,8 @@ pub fn import_urdf(urdf: &str, file: &str, options: &UrdfOptions) -> Result<Impo
     let mut placed: Vec<bool> = (0..robot.links.len())
         .map(|l| home.is_fixed(&robot, l))
         .collect();
-    let ways = home.graph.ways.iter();
-    let chains: Vec<Written> = ways.map(|way| plan.chain(way, &mut placed)).collect();
+    let paths = home.graph.paths.iter();
+    let chains: Vec<Written> = paths.map(|path| plan.chain(path, &mut placed)).collect();
     remark(&plan, &home, &chains, &placed, &mut log)?;
     let lists = Lists::of(&chains);
     if !lists.rigid_drives.is_empty() {
@@ -205,10 +205,10 @@ fn remark(
         .collect();
     inertial::look(robot, &moving, reach, log);
     standing(robot, &home.tree, &home.variables, &home.values, log);
-    let between = |w: &Way| w.from != home.base || w.to != home.tip;
-    if graph.ways.len() == 1 {
+    let between = |w: &LinkPath| w.from != home.base || w.to != home.tip;
+    if graph.paths.len() == 1 {
         singular(plan, graph, &home.frames, reach, log);
-    } else if graph.ways.iter().any(between) {
+    } else if graph.paths.iter().any(between) {
         several_platforms(robot, graph, log);
     }
     if !home.is_fixed(robot, home.tree.root) {
@@ -239,11 +239,11 @@ fn model_text(
     let one = chains.len() == 1;
     let mut limb_names = BTreeSet::new();
     let limbs = graph
-        .ways
+        .paths
         .iter()
         .zip(chains)
-        .map(|(way, chain)| {
-            let (from, to) = (named[&way.from].clone(), named[&way.to].clone());
+        .map(|(path, chain)| {
+            let (from, to) = (named[&path.from].clone(), named[&path.to].clone());
             let name = match one {
                 true => "arm".to_owned(),
                 false => unique(&mut limb_names, &format!("{from} to {to}"), "limb"),

@@ -47,8 +47,8 @@ pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
     let mut known: BTreeMap<usize, (f64, usize)> = BTreeMap::from([(base, (0.0, 0))]);
     for _ in &graph.platforms {
         let before = known.clone();
-        for way in &graph.ways {
-            for (from, to, backward) in [(way.from, way.to, false), (way.to, way.from, true)] {
+        for path in &graph.paths {
+            for (from, to, backward) in [(path.from, path.to, false), (path.to, path.from, true)] {
                 let Some(&(mut sum, mut joints)) = before.get(&from) else {
                     continue;
                 };
@@ -63,9 +63,9 @@ pub(crate) fn reach(graph: &Graph, base: usize) -> f64 {
                     _ => {}
                 };
                 if backward {
-                    way.steps.iter().rev().for_each(&mut step);
+                    path.steps.iter().rev().for_each(&mut step);
                 } else {
-                    way.steps.iter().for_each(&mut step);
+                    path.steps.iter().for_each(&mut step);
                 }
                 if known.get(&to).is_none_or(|(other, _)| sum > *other) {
                     known.insert(to, (sum, joints));
@@ -91,7 +91,7 @@ pub(crate) fn in_metres(robot: &Robot, reach: f64, log: &mut Log) {
     }
 }
 
-/// Joints beside the way that carry mass and stand still.
+/// Joints beside the path that carry mass and stand still.
 pub(crate) fn standing(
     robot: &Robot,
     tree: &Tree,
@@ -116,10 +116,10 @@ pub(crate) fn standing(
 
 /// Whether the arm at home has lost a direction.
 pub(crate) fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f64, log: &mut Log) {
-    let Some(way) = graph.ways.first() else {
+    let Some(path) = graph.paths.first() else {
         return;
     };
-    let mut moving: Vec<usize> = way.steps.iter().filter_map(TreeStep::variable).collect();
+    let mut moving: Vec<usize> = path.steps.iter().filter_map(TreeStep::variable).collect();
     moving.sort_unstable();
     moving.dedup();
     if moving.len() < 6 || reach < 1e-3 {
@@ -130,8 +130,8 @@ pub(crate) fn singular(plan: &Plan<'_>, graph: &Graph, frames: &[Pose], reach: f
     for (column, &v) in moving.iter().enumerate() {
         let mut values = plan.home.to_vec();
         values[v] += step;
-        let ahead = product(&way.steps, frames[way.from], &values);
-        let change = pose_residual(&ahead, &frames[way.to]).0 / step;
+        let ahead = product(&path.steps, frames[path.from], &values);
+        let change = pose_residual(&ahead, &frames[path.to]).0 / step;
         for i in 0..6 {
             let unit = if i < 3 { reach } else { 1.0 };
             jacobian[(i, column)] = change[i] / unit;

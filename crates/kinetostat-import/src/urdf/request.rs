@@ -192,7 +192,7 @@ pub(crate) fn closings(robot: &Robot, log: &mut Log) -> Vec<([usize; 2], Vec<Tre
 
 /// Marks what lies between base and tip.
 pub(crate) fn used(graph: &Graph, variables: &mut [Variable]) {
-    for step in graph.ways.iter().flat_map(|w| &w.steps) {
+    for step in graph.paths.iter().flat_map(|w| &w.steps) {
         if let Some(v) = step.variable() {
             variables[v].moves = true;
         }

@@ -27,7 +27,7 @@ impl Follow {
     };
 }
 
-/// One factor on a way from link to link.
+/// One factor on a path from link to link.
 #[derive(Clone, Debug)]
 pub(crate) enum TreeStep {
     /// Offset of the joint of this name, or its inverse.
@@ -276,16 +276,16 @@ fn depths(
     let count = robot.links.len();
     let mut depth = vec![0; count];
     for link in 0..count {
-        let mut way = vec![link];
+        let mut path = vec![link];
         let mut at = link;
         while let Some(joint) = above[at] {
             at = ends[joint].0;
-            way.push(at);
-            if way.len() > count + 1 {
+            path.push(at);
+            if path.len() > count + 1 {
                 // Where it goes twice through the same link, the circle is closed.
-                let start = way.iter().position(|l| *l == at).unwrap_or(0);
+                let start = path.iter().position(|l| *l == at).unwrap_or(0);
                 let mut circle: Vec<&str> = Vec::new();
-                for l in &way[start..] {
+                for l in &path[start..] {
                     circle.push(&robot.links[*l].name);
                     if circle.len() > 1 && *l == at {
                         break;
@@ -301,7 +301,7 @@ fn depths(
                 return None;
             }
         }
-        depth[link] = way.len() - 1;
+        depth[link] = path.len() - 1;
     }
     Some(depth)
 }

@@ -86,10 +86,10 @@ fn take_out<'t>(tree: &mut DeTable<'t>, finding: &'t Finding) -> Option<KeyPath>
     Some(KeyPath(inner.to_vec()))
 }
 
-/// The table at the end of a way.
-fn table_at<'a, 't>(tree: &'a mut DeTable<'t>, way: &[PathStep]) -> Option<&'a mut DeTable<'t>> {
+/// The table at the end of a path.
+fn table_at<'a, 't>(tree: &'a mut DeTable<'t>, path: &[PathStep]) -> Option<&'a mut DeTable<'t>> {
     let mut table = tree;
-    let mut steps = way.iter().peekable();
+    let mut steps = path.iter().peekable();
     while let Some(step) = steps.next() {
         let PathStep::Key(key) = step else {
             return None;

@@ -1,4 +1,4 @@
-//! Every number of a tree of tables and lists, with its key and its place: one walk for documents, which have no text,
+//! Every number of a tree of tables and lists, with its key and its place: one traversal for documents, which have no text,
 //! and for texts, whose numbers know where they stand.
 
 use serde_json::Value;
@@ -55,7 +55,7 @@ impl Tree for Spanned<DeValue<'_>> {
 pub(crate) struct Number<'t, T> {
     /// Its key, or that of the list in which it stands.
     pub(crate) key: &'t str,
-    /// The way to it from the root.
+    /// The path to it from the root.
     pub(crate) place: KeyPath,
     /// The value that holds it.
     pub(crate) node: &'t T,

@@ -132,14 +132,14 @@ fn a_move_passes_planes_where_its_points_say_so() {
                 let nearest = least(planes.iter().map(|p| (p - place).abs()));
                 assert!(nearest < 1e-9, "line {} axis {axis}", motion.line);
             }
-            // As many as a fine walk along the move counts.
+            // As many as fine steps along the move counts.
             let side = |share: f64| planes.partition_point(|p| *p < motion.point(share)[axis]);
-            let walked: usize = (0..20_000)
+            let counted: usize = (0..20_000)
                 .map(|k| (f64::from(k) / 20_000.0, f64::from(k + 1) / 20_000.0))
                 .map(|(a, b)| side(a).abs_diff(side(b)))
                 .sum();
-            assert_eq!(shares.len(), walked, "line {} axis {axis}", motion.line);
-            crossed += walked;
+            assert_eq!(shares.len(), counted, "line {} axis {axis}", motion.line);
+            crossed += counted;
         }
     }
     assert!(crossed > 150, "{crossed}");

@@ -112,8 +112,8 @@ impl Configuration {
             .iter()
             .map(|(name, convention)| {
                 let bars = Bars::new(self.at, *convention)?;
-                let ways = [self.range.0, self.range.1].map(|to| bars.first_limit(to));
-                let [outside, inside] = ways;
+                let limits = [self.range.0, self.range.1].map(|to| bars.first_limit(to));
+                let [outside, inside] = limits;
                 Ok((*name, [outside?, inside?]))
             })
             .collect::<Result<_, Cause>>()?;

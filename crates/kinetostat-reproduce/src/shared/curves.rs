@@ -30,7 +30,7 @@ pub(crate) fn lines(curves: &Curves<'_>, drawn: &Drawn<'_>) -> Vec<PlotLine> {
     for branch in &curves.branches {
         let origin = branch.origin.and_then(|k| curves.specials.get(k));
         let fork = origin.and_then(|s| {
-            let away = |p: &CurvePoint| way(p, &s.point);
+            let away = |p: &CurvePoint| distance(p, &s.point);
             let of = |k: usize| away(&branch.points[k]);
             (0..branch.points.len()).min_by(|a, b| of(*a).total_cmp(&of(*b)))
         });
@@ -87,7 +87,7 @@ fn pieces<'p>(
 }
 
 /// A distance of two states, for comparisons only.
-fn way(a: &CurvePoint, b: &CurvePoint) -> f64 {
+fn distance(a: &CurvePoint, b: &CurvePoint) -> f64 {
     let square: f64 = a
         .equilibrium
         .coordinates
@@ -124,11 +124,11 @@ fn between(
     one: &CurvePoint,
     other: &CurvePoint,
 ) -> (f64, f64) {
-    let direct = way(one, other);
+    let direct = distance(one, other);
     let nearest = curves
         .specials
         .iter()
-        .map(|s| (way(one, &s.point) + way(&s.point, other), s))
+        .map(|s| (distance(one, &s.point) + distance(&s.point, other), s))
         .filter(|(around, _)| *around < 1.5 * direct)
         .min_by(|a, b| a.0.total_cmp(&b.0));
     match nearest {

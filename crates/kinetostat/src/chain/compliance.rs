@@ -110,8 +110,8 @@ impl CartesianCompliance {
     pub fn twist_under(&self, wrench: &Wrench) -> Option<Twist> {
         let push = wrench.force().norm() + wrench.moment().norm() / self.length;
         let held = self.free.iter().all(|free| {
-            let way = free.linear().norm() + free.angular().norm() * self.length;
-            free.dot(wrench).abs() <= 1e-9 * way * push
+            let size = free.linear().norm() + free.angular().norm() * self.length;
+            free.dot(wrench).abs() <= 1e-9 * size * push
         });
         held.then(|| Twist(self.springs * wrench.0))
     }

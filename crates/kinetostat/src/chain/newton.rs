@@ -23,7 +23,7 @@ enum Tangent<'s> {
 }
 
 /// How the end comes to its prescribed pose; at the whole load it does not matter.
-pub(crate) enum Way {
+pub(crate) enum EndPath {
     /// The closure at the start shrinks evenly.
     Straight(Twist),
     /// On the screw that leads there from a pose.
@@ -38,8 +38,8 @@ pub(crate) struct Attempt<'p, 'a> {
     system: System,
     /// Stages that are not needed at the moment.
     spare: Option<Box<Sweep>>,
-    /// How the end is led to its prescribed pose while the load grows.
-    pub way: Way,
+    /// How the end moves to its prescribed pose while the load grows.
+    pub path: EndPath,
     /// Rotation residual of the end (vector, rad).
     turned: Vector3<f64>,
     /// Norms of the last two corrections, scaled, the last one first.
@@ -62,7 +62,7 @@ impl<'p, 'a> Attempt<'p, 'a> {
             system,
             scales,
             spare: None,
-            way: Way::Straight(Twist::zero()),
+            path: EndPath::Straight(Twist::zero()),
             turned: Vector3::zeros(),
             corrections: [0.0; 2],
         }
@@ -84,10 +84,12 @@ impl<'p, 'a> Attempt<'p, 'a> {
         self.evaluate_system(x, wrench, share);
         let p = self.problem;
         let tip = self.system.kinematics.tip_pose();
-        let (target, offset) = match &self.way {
-            Way::Screw(from) if share < 1.0 => (on_screw(from, &p.end.pose, share), Twist::zero()),
-            Way::Screw(_) => (p.end.pose, Twist::zero()),
-            Way::Straight(offset) => (p.end.pose, Twist(offset.0 * (1.0 - share))),
+        let (target, offset) = match &self.path {
+            EndPath::Screw(from) if share < 1.0 => {
+                (on_screw(from, &p.end.pose, share), Twist::zero())
+            }
+            EndPath::Screw(_) => (p.end.pose, Twist::zero()),
+            EndPath::Straight(offset) => (p.end.pose, Twist(offset.0 * (1.0 - share))),
         };
         let residual = pose_residual(&target, &tip);
         self.turned = residual.angular();

@@ -3,7 +3,7 @@
 use crate::chain::directions::DirectionKind;
 use crate::chain::equilibrium::Equilibrium;
 use crate::chain::found_by::FoundBy;
-use crate::chain::newton::{Attempt, Way};
+use crate::chain::newton::{Attempt, EndPath};
 use crate::chain::problem::{ChainProblem, Prescribed, check_problem};
 use crate::chain::residual::ResidualNorms;
 use crate::chain::scaling::{FAR, LEAST_LOAD, SHORT_STEP, aside, gone, natural, nudged};
@@ -72,7 +72,7 @@ pub fn solve_along(
         if nudge != 0.0 {
             found.0.found_by = FoundBy::OutOfLine;
         }
-        return Ok(led_by_growing_load(problem, settings, method, &found.0).unwrap_or(found));
+        return Ok(by_growing_load(problem, settings, method, &found.0).unwrap_or(found));
     }
     let mut failure = match grow_load(&mut attempt, false, 1.0) {
         Ok((x, wrench, iterations, norms)) => {
@@ -140,7 +140,7 @@ struct Failure {
 
 /// The shape that stays and to which the growing load leads, where one step found another that does not and is
 /// far: it may have passed the former. A straight column, pressed, stays straight.
-fn led_by_growing_load(
+fn by_growing_load(
     problem: &ChainProblem<'_>,
     settings: &Settings,
     method: Option<ChainMethod>,
@@ -182,10 +182,10 @@ fn grow_load(
     let mut x = nudged(problem.chain, &problem.posture, aside(longest));
     let mut wrench = Wrench::zero();
     let start = Kinematics::new(problem.chain, &problem.base, &x, &problem.commands).tip_pose();
-    attempt.way = if on_screw {
-        Way::Screw(start)
+    attempt.path = if on_screw {
+        EndPath::Screw(start)
     } else {
-        Way::Straight(pose_residual(&problem.end.pose, &start))
+        EndPath::Straight(pose_residual(&problem.end.pose, &start))
     };
     let (mut share, mut step, mut iterations) = (0.0_f64, longest.min(0.125), 0);
     let mut last = ResidualNorms {

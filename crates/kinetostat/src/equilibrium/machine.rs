@@ -75,7 +75,7 @@ impl Posture {
     ) -> Result<MechanismEquilibrium> {
         let (mut solver, residual) = self.settled(wrench, start)?;
         let found = conclude(&mut solver, residual)?;
-        Ok(self.led_by_growing_load(wrench, &found).unwrap_or(found))
+        Ok(self.by_growing_load(wrench, &found).unwrap_or(found))
     }
 
     /// Only where the platforms and limbs come to rest: [`Self::deflected_from`] without stiffness
@@ -89,15 +89,12 @@ impl Posture {
             return Ok(solver.state);
         }
         let found = conclude(&mut solver, residual)?;
-        Ok(self
-            .led_by_growing_load(wrench, &found)
-            .unwrap_or(found)
-            .state)
+        Ok(self.by_growing_load(wrench, &found).unwrap_or(found).state)
     }
 
     /// The stable equilibrium to which the growing load leads, where one step found another that does not stay and
     /// which lies far: it may have passed the former.
-    fn led_by_growing_load(
+    fn by_growing_load(
         &self,
         wrench: &Wrench,
         found: &MechanismEquilibrium,

@@ -176,7 +176,7 @@ impl Mechanism {
     ) -> Result<Posture> {
         self.check_following(position, wanted)?;
         let start = self.posture_from_joints(near.target(), near.limbs().to_vec())?;
-        match walk(&start, position, wanted) {
+        match by_continuation(&start, position, wanted) {
             Some((found, left)) if left <= 1e-10 * self.scale().length => {
                 self.taken(found, left, position)
             }
@@ -246,13 +246,13 @@ impl Mechanism {
         let start = self.posture_from_joints(start.target(), start.limbs().to_vec())?;
         let reached = 1e-10 * length;
         let mut best: Option<(Posture, f64)> = None;
-        // Straight there in small steps; and where a singular start hides the way, from beside it.
-        let first = walk(&start, position, wanted);
+        // Straight there in small steps; and where a singular start hides the path, from beside it.
+        let first = by_continuation(&start, position, wanted);
         let beside = (0..6).filter_map(|round| {
             let mut search = LostMotionSearch::new(&start);
             search.beside(0.1 * (1 + round) as f64, round)?;
             let beside = search.at;
-            walk(&beside, position, wanted)
+            by_continuation(&beside, position, wanted)
         });
         for (found, left) in first.into_iter().chain(beside) {
             if best.as_ref().is_none_or(|(_, least)| left < *least) {
@@ -309,16 +309,16 @@ impl Mechanism {
     }
 }
 
-/// Steps of the position along the straight way; where it ends, and the distance left.
-fn walk(
+/// Steps of the position along the straight path; where it ends, and the distance left.
+fn by_continuation(
     start: &Posture,
     position: &Vector3<f64>,
     wanted: &UnitQuaternion<f64>,
 ) -> Option<(Posture, f64)> {
     let length = start.mechanism.scale().length;
     let from = start.target.translation.vector;
-    let way = position - from;
-    let steps = (way.norm() / (STRIDE * length)).ceil().clamp(1.0, 1e4);
+    let path = position - from;
+    let steps = (path.norm() / (STRIDE * length)).ceil().clamp(1.0, 1e4);
     let (mut at, mut share, mut step) = (start.clone(), 0.0_f64, 1.0 / steps);
     let mut answer = None;
     while share < 1.0 {
@@ -326,7 +326,7 @@ fn walk(
         let place = if next == 1.0 {
             *position
         } else {
-            from + way * next
+            from + path * next
         };
         let mut search = LostMotionSearch::new(&at);
         let left = search.follow(&place, wanted);
@@ -346,7 +346,7 @@ fn walk(
         }
     }
     if answer.is_none() {
-        // No way at all.
+        // No path at all.
         let mut search = LostMotionSearch::new(&at);
         let left = search.follow(position, wanted)?;
         return Some((search.at, left));

@@ -357,7 +357,7 @@ impl Mechanism {
         }
     }
 
-    /// Size, m: the length of the way from the base to the tool through the limbs, or of the longest
+    /// Size, m: the length of the path from the base to the tool through the limbs, or of the longest
     /// limb where that is longer.
     #[must_use]
     pub fn size(&self) -> f64 {
@@ -366,24 +366,24 @@ impl Mechanism {
             .iter()
             .map(|l| l.nominal.scale().length)
             .collect();
-        // Lengths of the shortest ways to all platforms.
-        let mut ways = vec![f64::INFINITY; self.platforms().len()];
-        ways[0] = 0.0;
+        // Lengths of the shortest paths to all platforms.
+        let mut distances = vec![f64::INFINITY; self.platforms().len()];
+        distances[0] = 0.0;
         let mut shorter = true;
         while shorter {
             shorter = false;
             for (limb, length) in self.limbs().iter().zip(&lengths) {
                 for (to, from) in [(limb.to, limb.from), (limb.from, limb.to)] {
-                    if ways[from] + length < ways[to] {
-                        ways[to] = ways[from] + length;
+                    if distances[from] + length < distances[to] {
+                        distances[to] = distances[from] + length;
                         shorter = true;
                     }
                 }
             }
         }
         let longest = lengths.iter().copied().fold(0.0, larger);
-        match ways[self.tool()].is_finite() {
-            true => larger(longest, ways[self.tool()]),
+        match distances[self.tool()].is_finite() {
+            true => larger(longest, distances[self.tool()]),
             false => longest,
         }
     }

@@ -535,9 +535,9 @@ pub fn truss_apart() -> [f64; 2] {
     let machine = truss(b, h, k);
     let home = machine.platforms()[machine.tool()].home;
     let posture = machine.posture(&home).unwrap();
-    let way: Vec<f64> = (0..=44).map(|i| -0.005 * f64::from(i)).collect();
+    let displacements: Vec<f64> = (0..=44).map(|i| -0.005 * f64::from(i)).collect();
     let up = Twist::new(Vector3::z(), Vector3::zeros());
-    let curve = posture.held_along(&up, &way, None).unwrap();
+    let curve = posture.held_along(&up, &displacements, None).unwrap();
     assert!(curve.ended.is_none());
     let free = (b * b + h * h).sqrt();
     let mut worst = Worst::new();
@@ -566,9 +566,9 @@ fn a_pushed_truss_swerves_before_it_snaps_where_that_costs_less() {
     let machine = truss(b, h, k);
     let home = machine.platforms()[machine.tool()].home;
     let posture = machine.posture(&home).unwrap();
-    let way: Vec<f64> = (0..=90).map(|i| -0.002 * f64::from(i)).collect();
+    let displacements: Vec<f64> = (0..=90).map(|i| -0.002 * f64::from(i)).collect();
     let curve = posture
-        .pushed_along(&Vector3::z(), &way, &Wrench::zero(), None)
+        .pushed_along(&Vector3::z(), &displacements, &Wrench::zero(), None)
         .unwrap();
     // By symmetry it goes straight down until it snaps; the force by hand.
     let free = (b * b + h * h).sqrt();
@@ -593,7 +593,7 @@ fn a_pushed_truss_swerves_before_it_snaps_where_that_costs_less() {
     // And a weight across moves it aside while the pin goes down.
     let aside = Wrench::new(vector![500.0, 0.0, 0.0], Vector3::zeros());
     let curve = posture
-        .pushed_along(&Vector3::z(), &way[..20], &aside, None)
+        .pushed_along(&Vector3::z(), &displacements[..20], &aside, None)
         .unwrap();
     for point in &curve.points {
         assert_equilibrium(&posture, &point.equilibrium);

@@ -13,7 +13,7 @@
 //!
 //! `p_k` leads from the tip's place to the node, `P_k = [1, -hat(p_k); 0, 1]`, `T_k` is the tangent of
 //! a load at the node. So with `t_i = sum_{j <= i} s_j x_j`, the motion of what lies beyond
-//! coordinate `i`, the product with a vector `x` is a walk out and a walk back:
+//! coordinate `i`, the product with a vector `x` is a pass out and a pass back:
 //!
 //! ```text
 //! t_i = t_(i-1) + s_i x_i,    y_(i-1) = y_i + g_(i-1) t_(i-1),    row i: s_i^T (y_i + A_i t_i) - (K x)_i
@@ -21,7 +21,7 @@
 //!
 //! with `g` the share of the nodes between two coordinates in `G`. In exponential coordinates
 //! (symmetric) `G` is replaced by its symmetric part and `A` by one half below and minus one half
-//! above the diagonal. [`crate::chain::sweep::factor`] eliminates coordinates in the same walk.
+//! above the diagonal. [`crate::chain::sweep::factor`] eliminates coordinates in the same pass.
 //!
 //! Everything here is scaled: wrenches and coordinates in the units of
 //! [`crate::chain::equilibrium::scales_of`].

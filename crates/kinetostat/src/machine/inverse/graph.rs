@@ -49,7 +49,7 @@ pub(crate) fn graph_inverse(
         if let Ok(found) = search.close(at) {
             return search.settled(found, true);
         }
-        if let Ok(found) = search.walk(start.clone(), target) {
+        if let Ok(found) = search.by_continuation(start.clone(), target) {
             return search.settled(found, true);
         }
     }
@@ -63,7 +63,7 @@ pub(crate) fn graph_inverse(
             .map_err(|_| search.unreachable(target, target))?;
         return search.settled(found, false);
     }
-    match search.walk(home, target) {
+    match search.by_continuation(home, target) {
         Ok(found) => search.settled(found, true),
         Err(reached) => Err(search.unreachable(target, &reached)),
     }
@@ -226,11 +226,15 @@ impl<'m> GraphSearch<'m> {
         }
     }
 
-    /// Follows the straight way to the target; `Err` holds the last pose of the tool reached.
-    fn walk(&self, from: GraphPosture, target: &Pose) -> std::result::Result<GraphPosture, Pose> {
+    /// Follows the straight path to the target; `Err` holds the last pose of the tool reached.
+    fn by_continuation(
+        &self,
+        from: GraphPosture,
+        target: &Pose,
+    ) -> std::result::Result<GraphPosture, Pose> {
         let tool = self.mechanism.tool();
         let start = from.platforms[tool];
-        let way = pose_residual(target, &start);
+        let motion = pose_residual(target, &start);
         let (mut at, mut share, mut step) = (from, 0.0_f64, 0.125_f64);
         while share < 1.0 {
             let next = (share + step).min(1.0);
@@ -238,7 +242,7 @@ impl<'m> GraphSearch<'m> {
             trial.platforms[tool] = if next == 1.0 {
                 *target
             } else {
-                moved(&start, &Twist(way.0 * next))
+                moved(&start, &Twist(motion.0 * next))
             };
             match self.close(trial) {
                 Ok(found) => {
@@ -298,7 +302,7 @@ impl<'m> GraphSearch<'m> {
                     let there = &home.limbs[i];
                     let passive = self.passive[i].len();
                     for (j, weight) in weights.iter().enumerate() {
-                        let way = match self.passive[i].get(j) {
+                        let distance = match self.passive[i].get(j) {
                             Some(&c) => {
                                 let d = there.coordinates[c] - joints.coordinates[c];
                                 match kinds[j] {
@@ -308,7 +312,7 @@ impl<'m> GraphSearch<'m> {
                             }
                             None => there.commands[j - passive] - joints.commands[j - passive],
                         };
-                        pull[j] = way * weight;
+                        pull[j] = distance * weight;
                     }
                     closure -= &jacobian * &pull;
                 }

@@ -48,8 +48,8 @@ pub fn inverse_kinematics(
         Ok(found) => return Ok(found),
         Err(failed) => failed,
     };
-    // From elsewhere: along the way from home, then from irregular postures around it.
-    if let Ok(found) = search.walk(&home) {
+    // From elsewhere: along the path from home, then from irregular postures around it.
+    if let Ok(found) = search.by_continuation(&home) {
         return Ok(found);
     }
     for attempt in 1..=12_u32 {
@@ -233,12 +233,15 @@ impl<'a> JointSearch<'a> {
         Err((residual.norm(), kinematics.tip_pose()))
     }
 
-    /// Follows the straight way from home to the target in small steps.
-    fn walk(&mut self, home: &LimbPosture) -> std::result::Result<LimbPosture, (f64, Pose)> {
+    /// Follows the straight path from home to the target in small steps.
+    fn by_continuation(
+        &mut self,
+        home: &LimbPosture,
+    ) -> std::result::Result<LimbPosture, (f64, Pose)> {
         let goal = self.target;
         let start =
             Kinematics::new(self.chain, self.base, &home.coordinates, &home.commands).tip_pose();
-        let way = pose_residual(&goal, &start);
+        let motion = pose_residual(&goal, &start);
         let mut at = home.clone();
         let steps = 16;
         for k in 1..=steps {
@@ -246,7 +249,7 @@ impl<'a> JointSearch<'a> {
             self.target = if k == steps {
                 goal
             } else {
-                crate::spatial::moved(&start, &crate::spatial::Twist(way.0 * share))
+                crate::spatial::moved(&start, &crate::spatial::Twist(motion.0 * share))
             };
             let found = self.run(at);
             match found {

@@ -64,7 +64,7 @@ pub(crate) struct PlatformSolver<'m> {
     pub offsets: Vec<Twist>,
     /// Limbs from the base outwards, where every moving platform has a single limb to it; else none.
     tree: Vec<usize>,
-    /// The tool is led to its place while the load grows, its limb after it.
+    /// The tool is moved to its place while the load grows, its limb after it.
     pub leads: bool,
     pub share: f64,
     /// How the state was found.

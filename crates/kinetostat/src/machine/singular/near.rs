@@ -70,14 +70,14 @@ impl NearSingularity {
         if self.distance_m == 0.0 {
             return format!("singular posture: {what}");
         }
-        let way = motion_description(&mainly(&self.way));
+        let motion_there = motion_description(&mainly(&self.way));
         let how = if self.followed {
             "found by following that way"
         } else {
             "a first-order estimate"
         };
         format!(
-            "a singular posture is {} away ({how}) if the tool {way}; there {what}",
+            "a singular posture is {} away ({how}) if the tool {motion_there}; there {what}",
             number::length(self.distance_m * 1e3, 5, number::Rounding::Nearest)
         )
     }
@@ -201,7 +201,7 @@ impl Posture {
         let length = self.mechanism.scale().length;
         // Not only what actuators drive: at a singular posture they drive less.
         let basis = self.mobility();
-        let ways: Vec<Vector6<f64>> = basis
+        let directions: Vec<Vector6<f64>> = basis
             .column_iter()
             .map(|c| Vector6::from_fn(|i, _| if i < 3 { c[i] } else { c[i] / length }))
             .collect();
@@ -212,10 +212,14 @@ impl Posture {
             Some(there.locked())
         };
         // A tool that turns as it moves leaves the straight way on both sides.
-        let leaves = |way: &Vector6<f64>| {
-            straight(&(way * step)).is_none() && straight(&(way * -step)).is_none()
+        let leaves = |direction: &Vector6<f64>| {
+            straight(&(direction * step)).is_none() && straight(&(direction * -step)).is_none()
         };
-        let beside = ways.iter().any(leaves).then(|| Beside::of(self)).flatten();
+        let beside = directions
+            .iter()
+            .any(leaves)
+            .then(|| Beside::of(self))
+            .flatten();
         let at = |twist: &Vector6<f64>| match &beside {
             Some(beside) => Some(beside.at(twist)?.locked()),
             None => straight(twist),
@@ -225,22 +229,22 @@ impl Posture {
         let mut rank = here.rank();
         for k in 0..3_usize {
             let mut twist = Vector6::zeros();
-            for (j, way) in ways.iter().enumerate() {
+            for (j, direction) in directions.iter().enumerate() {
                 let share = ((k * 5 + j + 1) as f64 * 0.618_034).fract() - 0.5;
-                twist += way * (0.06 * length * share);
+                twist += direction * (0.06 * length * share);
             }
             rank = rank.max(at(&twist).map_or(0, |other| other.rank()));
         }
         let last = rank.checked_sub(1)?;
-        let around: Vec<[Option<Measure>; 2]> = ways
+        let around: Vec<[Option<Measure>; 2]> = directions
             .iter()
-            .map(|way| [at(&(way * step)), at(&(way * -step))])
+            .map(|direction| [at(&(direction * step)), at(&(direction * -step))])
             .collect();
         // Where the machine has fewer motions, those that it has elsewhere are lost.
         let valued = |m: &Measure| m.values.get(last).copied().unwrap_or(0.0);
         let most = here.values.first().copied().unwrap_or(0.0);
         let value = valued(&here);
-        let mut slope = DVector::zeros(ways.len());
+        let mut slope = DVector::zeros(directions.len());
         for (k, pair) in around.iter().enumerate() {
             let one = |m: &Option<Measure>| m.as_ref().map(valued);
             slope[k] = match (one(&pair[0]), one(&pair[1])) {
@@ -255,15 +259,15 @@ impl Posture {
         if first > within_m || first.is_nan() {
             return None;
         }
-        let mut way = Vector6::zeros();
+        let mut descent = Vector6::zeros();
         if !singular {
-            for (k, w) in ways.iter().enumerate() {
-                way -= w * (slope[k] / slope.norm());
+            for (k, w) in directions.iter().enumerate() {
+                descent -= w * (slope[k] / slope.norm());
             }
         }
         let found = (!singular)
             .then(|| {
-                let along = |s: f64| Some(at(&(way * s))?.values[last].powi(2));
+                let along = |s: f64| Some(at(&(descent * s))?.values[last].powi(2));
                 follow(value * value, first, &along)
             })
             .flatten();
@@ -278,9 +282,9 @@ impl Posture {
             kind: SingularityKind::Gained,
             limb: None,
             share: if singular { 0.0 } else { value / most },
-            distance_m: found.unwrap_or(first) * longest_part(&way, length),
+            distance_m: found.unwrap_or(first) * longest_part(&descent, length),
             followed: singular || found.is_some(),
-            way: Twist(normal(&way, length)),
+            way: Twist(normal(&descent, length)),
             motion: Twist(normal(motion, length)),
         })
     }
